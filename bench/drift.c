@@ -1,22 +1,22 @@
-/* How far the first integrals of an orbit drift in ten thousand loops: the symplectic methods beside Runge-Kutta's,
- * on the same equations and at the same number of evaluations. Double precision, without compensated sums: what the
- * methods do, no more.
+/* How far the first integrals of an orbit drift in ten thousand loops. Compares the symplectic methods with
+ * Runge-Kutta's on the same equations, at the same number of evaluations. Double precision. Sums are not compensated,
+ * so that only the methods themselves are compared.
  *
- * Two pairs of equations, E and L being constants of both. In Mino time, w = 1/r and u = cos theta, each a motion of
- * its own:
+ * There are two systems of equations; E and L are constants in both. The first is in Mino time, with w = 1/r and u =
+ * cos theta, which move independently of each other:
  *   w'^2 = W(w) = E^2 - m + 2m w + (a^2 (E^2 - m) - L^2 - Q) w^2 + 2K w^3 - a^2 Q w^4,  K = Q + (L - aE)^2,
- *   u'^2 = U(u) = Q + (a^2 (E^2 - m) - L^2 - Q) u^2 - a^2 (E^2 - m) u^4,                m = 1 for matter, 0 for
- *     light.
- * And Hamilton's equations in Cartesian Kerr-Schild coordinates, of r (p.p - E^2 - f (E + l.p)^2 + m)/2: the
- * Hamiltonian of rays_kerr_schild.comp, which says more, with a mass.
+ *   u'^2 = U(u) = Q + (a^2 (E^2 - m) - L^2 - Q) u^2 - a^2 (E^2 - m) u^4,
+ * with m = 1 for matter and 0 for light. The second is Hamilton's equations in Cartesian Kerr-Schild coordinates, of r
+ * (p.p - E^2 - f (E + l.p)^2 + m)/2. This is the Hamiltonian of rays_kerr_schild.comp, which explains it, with a mass
+ * added.
  *
- * Judged by: the invariant p.p + m from place and momentum, of which E^2 = 1 or m = 1 is the unit, and Carter's
- * constant.
+ * Two errors are measured from position and momentum: that of the invariant p.p + m, in units of E^2 = 1 or m = 1, and
+ * that of Carter's constant.
  *
- * Two orbits. Matter: a = 0.9, p = 8, e = 0.5, inclined by 60 degrees. Light: outside the horizon it has no stable
- * bound orbit, and errors of the unstable ones grow by e^(2 pi) a turn whatever the method; below 1 - (1 -
- * a^2)^(1/3), under the inner horizon, it has, and all equations above are regular there: one about r = 0.3 that
- * swings through the plane. */
+ * There are two orbits. Matter: a = 0.9, p = 8, e = 0.5, inclined by 60 degrees. Light: outside the horizon light has
+ * no stable bound orbit, and errors of unstable orbits grow by e^(2 pi) a turn with every method. Below r = 1 - (1 -
+ * a^2)^(1/3), inside the inner horizon, it has stable ones, and all equations above are regular there. The orbit used
+ * is at about r = 0.3 and swings through the plane. */
 #include "physics/orbit/timelike.h"
 #include "physics/spacetime/hole.h"
 
@@ -33,8 +33,9 @@ enum { MARKS = sizeof marks / sizeof *marks };
 struct orbit {
     const char *name;
     double a, mass2, energy, momentum, carter, k;
-    double r;             /* the start: pericentre, in the plane */
-    double mino, regular; /* a loop, from pericentre to pericentre, in Mino time and in s, d(affine) = r ds */
+    double r;             /* at the start: pericentre, in the equatorial plane */
+    double mino, regular; /* length of a loop, from pericentre to pericentre: in Mino time, and in s with d(affine) =
+                           * r ds */
 };
 
 /* The numbers of a state: w, u, w', u'; or x, p and, for Tao's method, their copies. */
@@ -109,7 +110,7 @@ static void flow_mino(const struct orbit *o, const double *y, double *d)
     pull(o, y, d + 2);
 }
 
-/* What p.p + m is off by, and Q. */
+/* The error of p.p + m, and Q. */
 static void integrals_mino(const struct orbit *o, const double *y, double *invariant, double *carter)
 {
     double w = y[0], u = y[1], r = 1 / w, a = o->a, second = power2(o) - o->momentum * o->momentum;
@@ -150,10 +151,10 @@ static void flow_at(const struct orbit *o, const double *x, const double *p, dou
 
 static void flow_kerr_schild(const struct orbit *o, const double *y, double *d) { flow_at(o, y, y + 3, d, d + 3); }
 
-/* M. Tao 2016, Phys. Rev. E 94, 043303: two copies of the phase space, each moved by the other's half, bound by a
- * rotation. Neighbouring halves of the first kind are one. Of omega = 0.1, 0.15, 0.2, 0.3, 0.5, 1, 3 and 10 this is
- * the best for matter: less binds too weakly, and the copies part within a hundred loops; more costs accuracy. For
- * light below the inner horizon none is enough. */
+/* M. Tao 2016, Phys. Rev. E 94, 043303: two copies of the phase space. Each is moved by the forces at the other, and a
+ * rotation binds them. Adjacent sub-steps of the first kind are merged. Of omega = 0.1, 0.15, 0.2, 0.3, 0.5, 1, 3 and
+ * 10 this is the best for matter: with less, the binding is too weak and the copies part within a hundred loops; more
+ * costs accuracy. For light inside the inner horizon no value is large enough. */
 #define OMEGA 0.3
 
 static void move(const struct orbit *o, double *x, double *p, double *other_x, double *other_p, double h)
@@ -213,7 +214,7 @@ static void rk_4_kerr_schild(const struct orbit *o, struct state *s, double h)
 
 static const struct method {
     const char *name, *equations;
-    int evaluations; /* of forces, a step */
+    int evaluations; /* evaluations of the forces in a step */
     void (*step)(const struct orbit *, struct state *, double h);
     bool kerr_schild;
 } methods[] = {
@@ -225,8 +226,8 @@ static const struct method {
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
-/* In the plane at the start radius, radially at rest, downwards in theta. In Kerr-Schild coordinates p_r = (2rE -
- * aL)/Delta. */
+/* The start: in the plane at the pericentre, with no radial velocity, downwards in theta. In Kerr-Schild coordinates
+ * p_r = (2rE - aL)/Delta. */
 static struct state start(const struct orbit *o, bool kerr_schild)
 {
     struct state s = { { 1 / o->r, 0, 0, sqrt(o->carter) } };
@@ -243,8 +244,8 @@ static struct state start(const struct orbit *o, bool kerr_schild)
     return s;
 }
 
-/* The lengths of a loop, by order 6 in fine steps: Mino time from pericentre to pericentre, and the mean of ds =
- * Sigma/r dtau over many, between which the latitude differs. */
+/* Measures the length of a loop by an order-6 method in fine steps: the Mino time from pericentre to pericentre, and
+ * the mean of ds = Sigma/r dtau over many loops, because the latitude differs between loops. */
 static void measure_loop(struct orbit *o)
 {
     enum { FINE = 4096, MANY = 64 };
@@ -280,7 +281,7 @@ static struct orbit matter(void)
                             .r = 1 / k.w_high };
 }
 
-/* The circle at r (Bardeen 1973, eqs. 48 and 49), with less Q, which lets it swing in radius. */
+/* Starts from the spherical orbit at r (Bardeen 1973, eqs. 48 and 49) and lowers Q, so that r oscillates. */
 static struct orbit light(void)
 {
     double a = 0.9, r = 0.3, low = 0.05, high = r;
@@ -296,8 +297,8 @@ static struct orbit light(void)
     return o;
 }
 
-/* One row: the largest of both errors until each mark. lost: the loop in which the invariant is off by its unit; 0:
- * none. */
+/* One row: the largest value of both errors up to each mark. lost: the loop in which the error of the invariant reached
+ * its unit; 0: none did. */
 static void measure(const struct orbit *o, const struct method *m, int steps, cJSON *row)
 {
     void (*integrals)(const struct orbit *, const double *, double *, double *) =
@@ -325,7 +326,7 @@ static void measure(const struct orbit *o, const struct method *m, int steps, cJ
 
 int main(void)
 {
-    static const int budgets[] = { 704, 2816 }; /* evaluations a loop */
+    static const int budgets[] = { 704, 2816 }; /* evaluations in a loop */
     struct orbit orbits[2] = { matter(), light() };
     cJSON *root = cJSON_CreateObject(), *list = cJSON_AddArrayToObject(root, "loops"), *rows;
     for (int k = 0; k < MARKS; k++)

@@ -1,7 +1,8 @@
-/* What encoding a live frame costs: real pictures, with and without dither, as files and live frames of kerrd, and
- * through libdeflate and ISA-L at each level after each filter of PNG. Times are of the calling thread's processor, so
- * that what else runs counts little; the least of --repeat. With --threads N what files and live frames take on 1 to N
- * threads instead, by the clock on the wall. Prints one line of JSON; encode.py makes the table. */
+/* Cost of encoding a live frame. Real pictures, with and without dither, are encoded as kerrd encodes files and live
+ * frames, and also through libdeflate and ISA-L at each level after each filter of PNG. Times are processor times of
+ * the calling thread, so that other programs matter little; the least of --repeat counts. With --threads N it measures
+ * instead the wall time of files and live frames on 1 to N threads. Prints one line of JSON; encode.py makes the
+ * table. */
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "image/jpeg.h"
@@ -64,7 +65,7 @@ static int predict(int filter, int left, int up, int corner)
     }
 }
 
-/* Inlined for each filter; the first pixel of a row and the first row have zeros beside them. */
+/* Inlined for each filter. The pixel left of a row's first one, and the row above the first, count as zeros. */
 static inline __attribute__((always_inline)) void filter_rows(struct job *job, int filter)
 {
     size_t stride = 3 * (size_t)job->width;
@@ -80,7 +81,7 @@ static inline __attribute__((always_inline)) void filter_rows(struct job *job, i
     }
 }
 
-__attribute__((noinline)) static size_t by_filter(struct job *job) /* one code for all who call it */
+__attribute__((noinline)) static size_t by_filter(struct job *job) /* one copy of the code for all callers */
 {
     switch (job->filter) {
     case 0: filter_rows(job, 0); break;
@@ -171,7 +172,7 @@ static void row(cJSON *rows, struct job *job, size_t (*work)(struct job *), cons
 
 static void measure(struct job *job, cJSON *rows, int repeat)
 {
-    job->filter = 1; /* as kd_png_encode chooses it at level 1 */
+    job->filter = 1; /* kd_png_encode chooses this filter at level 1 */
     job->level = 1;
     row(rows, job, by_png, "file", repeat);
     for (enum kd_deflate_engine e = 0; e < KD_DEFLATE_COUNT; e++) {
@@ -221,7 +222,7 @@ static void one_picture(const char *name, bool dither, const struct kd_frame *fr
     free(job.packed);
 }
 
-/* The least time on the wall. */
+/* Measures the least wall time. */
 static void timed(cJSON *rows, struct job *job, size_t (*work)(struct job *), const char *name, int repeat)
 {
     double best = INFINITY;
@@ -242,7 +243,7 @@ static void timed(cJSON *rows, struct job *job, size_t (*work)(struct job *), co
     cJSON_AddItemToArray(rows, r);
 }
 
-/* Files at both levels that kerrd writes, and what live views get. */
+/* Measures files at both levels that kerrd writes, and the encodings of live views. */
 static void on_threads(const struct kd_frame *frame, int repeat, cJSON *rows)
 {
     struct job job = { .width = frame->width,

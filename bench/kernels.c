@@ -1,9 +1,10 @@
-/* The kernels of scenes, one by one: each variant that the presets' pictures ask for is made once more.
+/* The kernels of scenes, one by one: each variant that the presets' pictures need is compiled once more.
  *
- * Without --on: on the same device, then dispatched with no workgroups, so that a driver that compiles late (lavapipe)
- * compiles it: the processor's time of both, without Mesa's files of kernels. With --on DEVICE: as a pipeline of that
- * device, which need not be there (RADV with RADV_FORCE_FAMILY): a line "kernel N" on standard error is followed by
- * what the driver says of it. Prints one line of JSON. kernels.py runs it and reads both. */
+ * Without --on: compiles each kernel on the same device, and then dispatches it with no workgroups, because some
+ * drivers (lavapipe) compile only then. Measures the processor time of both, with Mesa's disk cache disabled. With --on
+ * DEVICE: makes a pipeline of each kernel for that device, which need not be present (RADV with RADV_FORCE_FAMILY). A
+ * line "kernel N" on standard error is followed by the driver's statistics of it. Prints one line of JSON. kernels.py
+ * runs this program and reads both. */
 #include "render/device/internal.h"
 #include "render/render.h"
 
@@ -27,7 +28,7 @@ struct options {
 static struct variant variants[MOST];
 static size_t n_variants;
 
-/* What all threads of this process have had of the processor, so that other processes do not count. */
+/* Processor time of all threads of this process, so that other processes do not count. */
 static double processor_ms(void)
 {
     struct timespec t;
@@ -48,7 +49,7 @@ static void add(const struct kd_kernel_entry *entry, const char *scene)
     cJSON_AddItemToArray(variants[i].scenes, cJSON_CreateString(scene));
 }
 
-/* Renders a preset, of which nothing is computed, and notes the kernels that it took. */
+/* Renders a preset without computing anything, and notes the kernels that it used. */
 static enum kd_status visit(struct kd_renderer *renderer, const struct options *o, const char *name,
                             struct kd_error *error)
 {
@@ -145,7 +146,7 @@ done:
 static enum kd_status make_all(const struct options *o, cJSON *root, struct kd_error *error)
 {
     struct kd_vk *vk;
-    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); /* read as a device is made */
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); /* read when a device is made */
     enum kd_status status = kd_vk_create(
         &(struct kd_vk_params) {
             .device = o->on ? o->on : o->device, .cache_dir = "", .compiles_only = !o->on, .pipelines_only = o->on },

@@ -1,10 +1,11 @@
-/* Line profiles by one thread, in its own time: what the table of a spin and an inclination costs, what the sum
- * does, and how far off the profile is. One line of JSON a pair.
+/* Line profiles by one thread, in processor time of its own: the cost of the table of a spin and an inclination, the
+ * cost of the sum, and the error of the profile. Prints one line of JSON for each spin and inclination.
  *
- *     kd_bench_line [TOLERANCE [REPEAT [DIRECTIONS]]]      0.003, 7, 0: the true error by so many directions of
- *                                                          tests/oracle/line_triangles.h, 0: it is not looked at
+ *     kd_bench_line [TOLERANCE [REPEAT [DIRECTIONS]]]      defaults: 0.003, 7, 0
  *
- * 500 bins from 0 to 1.7, r^-3 from the ISCO to 400 M; the least of REPEAT runs. No device. */
+ * DIRECTIONS: number of directions of tests/oracle/line_triangles.h, which computes the true error; 0: not computed.
+ * The profile has 500 bins from 0 to 1.7, and r^-3 from the ISCO to 400 M. The least time of REPEAT runs counts. Uses
+ * no device. */
 #include "physics/disk/line_profile.h"
 #include "physics/spacetime/hole.h"
 

@@ -1,10 +1,10 @@
-/* The step of the orbit integrator on the device against the same step on the processor, one by one and eight
- * abreast: whether a kernel for lists of orbits would pay.
+/* The step of the orbit integrator on the device, compared with the same step on the processor, one orbit at a time and
+ * eight side by side. Shows whether a kernel for lists of orbits would pay.
  *
  *     LP_NUM_THREADS=1 taskset -c 0 kd_bench_orbits [ORBITS [STEPS]]
  *
- * All follow the same orbits by the same number of steps. The device's sums are not compensated, and it looks at the
- * energy only, not at Q, the rest mass and periastra. */
+ * All follow the same orbits by the same number of steps. The device's sums are not compensated. The device checks only
+ * the energy, and not Q, the rest mass and periastra. */
 #include "physics/orbit/orbit_lanes.h"
 #include "physics/spacetime/hole.h"
 #include "vk/vk.h"
@@ -83,7 +83,7 @@ static double on_device(struct orbit *orbits, uint32_t n, uint32_t steps)
         exit(1);
     }
     struct orbit *map = kd_vk_buffer_map(buffer);
-    for (int round = 0; round < 2; round++) { /* the first compiles */
+    for (int round = 0; round < 2; round++) { /* the first round compiles */
         push[1] = round ? steps : 1;
         for (uint32_t i = 0; i < n; i++)
             map[i] = orbits[i];

@@ -1,6 +1,6 @@
-/* What the particles of a disk cost a frame: from their numbers to the density on the grid, for 1e3 to 1e7 of them.
- * A small picture with its lens map reused; times of the device pass and of the whole frame, in ms. Prints one line
- * of JSON: all runs. */
+/* Cost of a disk's particles in a frame: from their numbers to the density on the grid, for 1e3 to 1e7 of them. The
+ * picture is small and reuses its lens map. Times of the device's pass and of the whole frame, in ms. Prints all runs
+ * in one line of JSON. */
 #include "render/emit/particles.h"
 #include "render/render.h"
 
@@ -59,7 +59,7 @@ static enum kd_status measure(struct kd_renderer *renderer, double epicycles, in
     for (int k = 0; k <= repeat && !status; k++) {
         scene.top.time = 37.7 * k;
         status = one_frame(renderer, &scene, device, total, &grid, error);
-        if (!k) { /* compiles the kernels and traces */
+        if (!k) { /* the first run compiles the kernels and traces the rays */
             cJSON_DeleteItemFromArray(device, 0);
             cJSON_DeleteItemFromArray(total, 0);
         }

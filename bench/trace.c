@@ -1,9 +1,9 @@
-/* Rays per second of the lens-map kernels against their error, on the device at hand.
+/* Rays per second of the lens-map kernels and their error, on the device at hand.
  *
- * One image for every method: a = 0.9, i = 70 degrees, +-12 M, observer at infinity. Errors are those of
- * a sample of rays against the Kerr-Schild oracle of tests/oracle. Times are those of the device's trace pass, and of
- * listed rays (delays) the host's clock. With one lavapipe thread
- * (LP_NUM_THREADS=1 taskset -c 0) the figure is that of one core. */
+ * Every method computes the same image: a = 0.9, i = 70 degrees, +-12 M, observer at infinity. Errors are those of a
+ * sample of rays, measured against the Kerr-Schild oracle of tests/oracle. Times are those of the device's trace pass,
+ * and for listed rays (delays) wall times of the host. With one lavapipe thread (LP_NUM_THREADS=1 taskset -c 0) the
+ * figure is that of one core. */
 #include "base/clock.h"
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
@@ -149,7 +149,7 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
         const double began = kd_clock_ms();
         double *out_ms = &ms[k < 0 ? 0 : k];
         status = kd_render_lens(renderer, &scene, &plan, planes, out_ms, error);
-        if (plan.path == KD_LENS_LISTED) /* of which the host does a part, and the copy of the map is counted too */
+        if (plan.path == KD_LENS_LISTED) /* the host does a part of these, and copying the map counts too */
             *out_ms = kd_clock_ms() - began;
     }
     if (!status) {

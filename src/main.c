@@ -1,4 +1,4 @@
-/* main: finds the subcommand and runs it. */
+/* main finds the subcommand and runs it. */
 #include "base/spelling.h"
 #include "cli/cli.h"
 
@@ -14,7 +14,7 @@ const char *argp_program_version = "kerrd " KD_VERSION;
 
 struct choice {
     const struct kd_command *command;
-    int index; /* of its name in argv */
+    int index; /* index of the subcommand's name in argv */
     bool help; /* `kerrd help COMMAND` */
 };
 
@@ -50,7 +50,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         }
         choice->command = find(text, state);
         choice->index = state->next - 1;
-        state->next = state->argc; /* the rest belongs to the command */
+        state->next = state->argc; /* the remaining arguments belong to the subcommand */
         return 0;
     case ARGP_KEY_NO_ARGS: argp_error(state, "a command is missing"); return 0;
     }
@@ -62,7 +62,7 @@ static const struct argp_option options[] = {
     { 0 },
 };
 
-/* Makes the text of --help with the list of commands; names longer than the column are not aligned. */
+/* Makes the text of --help with the list of commands. Names that are longer than the column are not aligned. */
 static const char *help_text(void)
 {
     static char text[4000];
@@ -77,8 +77,8 @@ static const char *help_text(void)
 }
 
 /* Opens /dev/null for each standard stream that the parent has closed. Otherwise a client's socket or a file could get
- * that number, and messages would be written into it. Reading or writing fails on the replacement, as on a closed
- * stream. */
+ * the stream's number, and messages would be written into it. The replacement is opened so that reading or writing
+ * fails, as on a closed stream. */
 static void hold_standard_streams(void)
 {
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
@@ -97,14 +97,15 @@ int main(int argc, char **argv)
 
     hold_standard_streams();
     argp_err_exit_status = KD_EXIT_USAGE;
-    /* a reader's disconnection must not end the server; other commands: kd_cli_stdout_failed */
+    /* A client that disconnects must not end the server. Other commands notice a closed pipe by
+     * kd_cli_stdout_failed. */
     signal(SIGPIPE, SIG_IGN);
-    /* a file larger than `ulimit -f` becomes a write error, after which the partial file is removed */
+    /* If a file would exceed `ulimit -f`, this makes it a write error, after which the partial file is removed. */
     signal(SIGXFSZ, SIG_IGN);
     atexit(kd_cli_close_stdout);
     if (argc < 1)
         return KD_EXIT_USAGE;
-    argv[0] = zero; /* messages then show the bare name of the program */
+    argv[0] = zero; /* messages then show the program's name without its folder */
     argp_parse(&argp, argc, argv, ARGP_IN_ORDER, NULL, &choice);
     snprintf(name, sizeof name, "kerrd %s", choice.command->name);
     argv[choice.index] = name;

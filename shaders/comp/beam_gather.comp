@@ -1,7 +1,7 @@
-/* Kernel: converts rows of light to rows of cells (render/plan/beam.h). An invocation makes one cell of one row: the
- * mean of the adjacent pixels of the row, weighted by a quadratic B-spline of the cells' width; or the pixel itself
- * if a cell is a pixel. Light that is NaN, or 10^30 and more, counts as 0, because it would spread over the whole
- * picture. */
+/* Kernel: converts rows of light to rows of cells (render/plan/beam.h). An invocation makes one cell of one row. Its
+ * light is the mean of the adjacent pixels of the row, weighted by a quadratic B-spline of the cells' width; or, if a
+ * cell is a pixel, the pixel itself. Light that is NaN, or 10^30 and more, counts as 0, because it would spread over
+ * the whole picture. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -35,7 +35,7 @@ void main()
     int from = row + (COARSE ? max(cell * (i - 2), 0) : i), to = row + (COARSE ? min(cell * (i + 1), width) : i + 1);
     float middle = COARSE ? float(i) - 0.5 : 0.0;
     vec3 sum = vec3(0);
-    /* Three times four floats are four pixels. */
+    /* Three vectors of four floats are four pixels. */
     for (int four = from / 4; 4 * four < to; four++) {
         vec4 a = four_floats(3 * four), b = four_floats(3 * four + 1), c = four_floats(3 * four + 2);
         vec3 light[4] = { a.xyz, vec3(a.w, b.xy), vec3(b.zw, c.x), c.yzw };

@@ -1,5 +1,5 @@
-/* Kernel: converts rows of pixels to rows of cells, or back, by quadratic B-splines (render/plan/beam.h). An
- * invocation makes one cell of a slice of rows from `count` cells above and below it. There is no light beyond the
+/* Kernel: converts rows of pixels to rows of cells, or back, by quadratic B-splines (render/plan/beam.h). An invocation
+ * makes one cell of a slice of rows from `count` cells of its column, above and below it. There is no light beyond the
  * ends. */
 #version 450
 #extension GL_GOOGLE_include_directive : require

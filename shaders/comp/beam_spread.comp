@@ -1,5 +1,5 @@
 /* Kernel: converts rows of cells back to rows of light, the inverse of beam_gather.comp. An invocation makes four
- * pixels of a band, three times four floats. */
+ * pixels of a band, which are three vectors of four floats. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -21,8 +21,8 @@ vec3 cell(int i) { return lines[i].rgb; }
 #endif
 layout(set = 0, binding = 1) writeonly buffer Light { vec4 light[]; };
 
-/* Light of the band's pixel n. The quotient as a float is wrong by at most one (post.comp). n beyond the band's end
- * means its last pixel. */
+/* Light of the band's pixel n. If n is beyond the band's end, it stands for the last pixel. The quotient as a float is
+ * wrong by at most one (post.comp). */
 vec3 pixel(int n)
 {
     int width = int(push.pixels_x);

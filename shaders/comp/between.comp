@@ -1,16 +1,17 @@
 /* Kernel: makes the lens map of a square grid of rays on listed pixels, by interpolation in the map of the picture's
- * grid, which has one ray in the middle of each pixel. It saves rays, since no light is traced, and gives the source
- * across the pixel, as the ray bundle of James, von Tunzelmann, Franklin & Thorne 2015 (Class. Quantum Grav. 32,
- * 065001, appendix A.2) does to first order.
+ * grid, which has one ray in the middle of each pixel. It saves the tracing of rays, and gives the source across the
+ * pixel, as the ray bundle of James, von Tunzelmann, Franklin & Thorne 2015 (Class. Quantum Grav. 32, 065001, appendix
+ * A.2) does to first order.
  *
  * One biquadratic polynomial through a pixel and its eight neighbours interpolates w and each other quantity of a
  * crossing; for directions in the sky it interpolates the unit vector. At (x, y) sides of a pixel from the middle its
  * error is x(x^2 - 1)/6 of the third difference along x, at most 1/17 of it, and likewise along y.
  *
- * MARK: instead writes for each listed pixel whether interpolation is accurate, 1 or 0, in its word after the list.
- * All nine rays must have crossings of the same orders and the same fate. In the metric of the source the second
- * differences must be less than BENT of the first, and for crossings the third ones less than TWISTED: the error is
- * then below 0.004 of a pixel. It is 0 at the edges of the picture, and of the band in the buffer. */
+ * MARK: instead writes for each listed pixel whether interpolation is accurate, 1 or 0, in its word after the list. All
+ * nine rays must have crossings of the same orders and the same fate. In the metric of the source the second
+ * differences must be less than BENT of the first. For crossings the third differences must be less than TWISTED of the
+ * first: the error is then below 0.004 of a pixel. The word is 0 at the edges of the picture, and of the band in the
+ * buffer. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -42,7 +43,7 @@ vec3 turned(vec3 d, bool angle)
     return d;
 }
 
-/* Values of the ray at a place of the map: for crossings w and a second quantity; for the sky a unit vector. */
+/* Values of the ray at a place of the map. For a crossing: w and a second quantity. For the sky: a unit vector. */
 vec3 crossing(uint n, uint quantity, uint at)
 {
     return vec3(lens[at + n * push.map_stride], lens[at + (kd_plane(quantity) + n) * push.map_stride], 0.0);
@@ -90,9 +91,10 @@ bool straight(kd_biquadratic p, vec3 m)
     return dot(a, a) + dot(b, b) + dot(c, c) < BENT * BENT * (dot(i, i) + dot(j, j)); /* false for NaN */
 }
 
-/* Whether the error of the polynomial of crossing n, the third difference along x and y, is small relative to its
- * slopes. Each of the four rays two pixels away provides it, if it has such a crossing. A map that bends in opposite
- * directions on the two sides of a pixel has no second difference there. */
+/* Whether the error of the polynomial of crossing n is small relative to the polynomial's slopes. The error is the
+ * third difference along x and y. Each of the four rays two pixels away provides one, if that ray has such a crossing.
+ * The second difference alone would not do: it is 0 at a pixel where the map bends in opposite directions on both
+ * sides. */
 bool even(uint n, uint quantity, uint at, kd_biquadratic p, vec3 m, uint x, uint y)
 {
     vec3 own = crossing(n, quantity, at), i = m * p.slope_x, j = m * p.slope_y;
@@ -152,7 +154,7 @@ bool may(uint x, uint y, uint at)
     return yes;
 }
 
-/* An invocation is a pixel; its polynomials serve all of its rays. */
+/* An invocation processes a pixel; the pixel's polynomials serve all of its rays. */
 float along(uint k) { return (float(k) + 0.5) / float(SIDE) - 0.5; }
 
 /* Writes w of crossing n, and a second quantity. */
@@ -195,7 +197,7 @@ void fill(uint at, uint to)
             copy(n, at, to);
             continue;
         }
-        for (int i = 0; i < 4; i++) /* w is written with the others */
+        for (int i = 0; i < 4; i++) /* w is written together with the other quantities */
             if ((QUANTITIES & beside[i]) != 0u &&
                 (i > 0 || (QUANTITIES & (KD_LENS_PHI | KD_LENS_DELAY | KD_LENS_SLOPE)) == 0u))
                 interpolate(n, beside[i], at, to);

@@ -1,12 +1,12 @@
 /* Kernel: sums the light that a lens removes from its place (shared/bloom.glsl) over blocks of BLOCK_X times BLOCK_Y
  * pixels, which are smaller than the cells of the finest grid. An invocation processes four columns of pixels, or one
- * block if that is wider.
+ * block if a block is wider.
  *
- * A block's rows may be in two or more bands: each band adds its rows to the sum of earlier bands, in order, so that
+ * A block's rows may be in two or more bands. Each band adds its rows to the sum of earlier bands, in order, so that
  * the result does not depend on where bands end.
  *
- * This file is compiled to two kernels: KD_TEXELS reads the radiance as texels of four floats, three of which are
- * four pixels; rows must then be multiples of four pixels. */
+ * This file is compiled to two kernels. With KD_TEXELS the radiance is read as texels of four floats, three of which
+ * are four pixels; rows must then be multiples of four pixels. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -49,9 +49,9 @@ quad quad_at(uint x, uint row)
 #endif
 
 const uint WIDE = BLOCK_X > 4 ? BLOCK_X : 4,
-           EACH = BLOCK_X < 4 ? 4 / BLOCK_X : 1; /* columns of an invocation; number of its blocks */
+           EACH = BLOCK_X < 4 ? 4 / BLOCK_X : 1; /* columns of an invocation; number of blocks in these */
 
-/* Sum of earlier bands for block n of an invocation. */
+/* The sum of earlier bands for the invocation's n-th block. */
 vec3 begun(uint at, uint n, uint left) { return BEGUN && n < EACH && n < left ? blocks[at + n].rgb : vec3(0); }
 
 void main()

@@ -1,6 +1,6 @@
-/* Kernel: makes a grid of half as many cells along each side from the next finer one. Weights are 1, 3, 3, 1 over 8:
- * each fine cell gives everything that it has, and a quadratic B-spline of the fine grid becomes one of the coarse
- * grid. */
+/* Kernel: makes a grid of half as many cells along each side from the next finer one. The weights are 1, 3, 3, 1
+ * over 8. Each fine cell gives away all its light, and a quadratic B-spline of the fine grid becomes one of the
+ * coarse grid. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

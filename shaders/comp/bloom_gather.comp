@@ -1,7 +1,7 @@
-/* Kernel: spreads the light of blocks of pixels as a quadratic B-spline on the finest grid. A block contributes to
- * its own cell and the eight round it, weighted by the position of its centre in the cell, so that the spread light
- * moves and widens evenly with it. Contributions beyond the edge are mirrored inside, or go to the opposite edge. An
- * invocation makes two cells along each side, which share what they read. */
+/* Kernel: spreads the light of blocks of pixels as a quadratic B-spline on the finest grid. A block contributes to its
+ * own cell and the eight cells round it, weighted by the position of the block's centre in the cell, so that the spread
+ * light moves and widens evenly with that position. Contributions beyond the edge are mirrored inside, or go to the
+ * opposite edge. An invocation makes two cells along each side, which share what they read. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -24,21 +24,21 @@ vec3 light(int at) { return blocks[at].rgb; }
 #endif
 layout(set = 0, binding = 1) writeonly buffer Cells { vec4 cells[]; };
 
-/* Numbers along an axis: pixels, pixels a block, blocks, cells. */
+/* Numbers along an axis: of pixels, of pixels a block, of blocks, of cells. */
 struct kd_bloom_axis { uint pixels, block, blocks, cells; };
-/* A block, and its weights for two adjacent cells. */
+/* A block, and its weights for two adjacent cells along an axis. */
 struct kd_tap {
     int at;
     float a, b;
 };
 
-/* First of the blocks whose centres are at most 1.5 cells from the centres of cell i or the next one; the others
- * follow it. */
+/* First of the blocks whose centres are at most 1.5 cells from the centres of cell i or of the next cell. The other
+ * such blocks follow it. */
 int first_tap(kd_bloom_axis axis, int i, bool around)
 {
     float step_ = float(axis.cells * axis.block) / float(axis.pixels);
     return int(ceil((float(i) - 1) / step_ - 0.5)) -
-           (around && RAGGED ? 1 : 0); /* the right edge's narrow block is to the left of the left edge */
+           (around && RAGGED ? 1 : 0); /* beyond the left edge the next block is the right edge's narrow one */
 }
 
 /* A block, and its weights by the distance of its centre from that of cell i, in cells. */
@@ -48,8 +48,8 @@ kd_tap tap_of(kd_bloom_axis axis, int within, float at)
     return kd_tap(clamp(within, 0, int(axis.blocks) - 1), scale * bloom_weight(at), scale * bloom_weight(at - 1));
 }
 
-/* Block k, which may be a mirror image beyond an edge. If the last block is narrower than the others, its centre is
- * before its regular place; so is the centre of its mirror image. */
+/* Block k, which may be a mirror image beyond an edge. If the last block is narrower than the others, its centre is not
+ * where that of a full block would be, but before; so is the centre of its mirror image. */
 kd_tap tap(kd_bloom_axis axis, int i, int k)
 {
     int count = int(axis.blocks), behind = k - count, within = k < 0 ? -1 - k : behind < 0 ? k : count - 1 - behind;
@@ -62,7 +62,7 @@ kd_tap tap(kd_bloom_axis axis, int i, int k)
     return tap_of(axis, within, at);
 }
 
-/* Block k in a picture of all directions; beyond an edge it is on the other side. */
+/* Block k in a picture of all directions; beyond an edge it is at the opposite edge. */
 kd_tap tap_around(kd_bloom_axis axis, int i, int k)
 {
     int count = int(axis.blocks), within = bloom_column(k, count, true),

@@ -1,10 +1,10 @@
 /* Kernel: sums the light spread by the cells of one grid and of all coarser ones: this grid's share, and the coarser
  * grid's sum on this one.
  *
- * The coarser sum: by weights 3 and 1 over 4 (G. Chaikin 1974) a quadratic B-spline becomes one of half the spacing,
- * so all grids together are a sum of such splines, whichever grid they are evaluated on. The share is smoothed by 1,
- * 2, 1 over 4 along each side, which is zero at the frequency that a grid aliases: a point of light thus spreads
- * alike wherever it is in its cell. */
+ * By weights 3 and 1 over 4 (G. Chaikin 1974) a quadratic B-spline becomes one of half the spacing. All grids together
+ * are therefore a sum of such splines, whichever grid they are evaluated on. The share is smoothed by 1, 2, 1 over 4
+ * along each side. This is zero at the frequency that a grid aliases, so that a point of light spreads alike wherever
+ * it is in its cell. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -33,7 +33,7 @@ vec3 cell(int at) { return light[at].rgb; }
 #endif
 layout(set = 0, binding = 2) writeonly buffer Fine { vec4 fine[]; };
 
-/* Two cells from four in a row: the middle ones smoothed by 1, 2, 1. */
+/* Smooths four cells in a row by the weights 1, 2, 1: the results for the two middle cells, times 4. */
 struct pair { vec3 a, b; };
 
 pair smoothed(int row, ivec4 x)
@@ -49,7 +49,7 @@ pair finer(int row, ivec3 x)
     return pair(p + 3 * q, 3 * q + r);
 }
 
-/* Two cells along each side share what they read. */
+/* An invocation makes two cells along each side, which share what they read. */
 void main()
 {
     int across = int(push.cells_x), rows = int(push.cells_y), columns = (across + 1) / 2;

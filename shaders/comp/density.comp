@@ -1,4 +1,5 @@
-/* Kernel: converts the weights counted by particles.comp to the density at each node over the expected one. */
+/* Kernel: converts the weights counted by particles.comp to the density at each node, relative to the expected
+ * density. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"

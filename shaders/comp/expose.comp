@@ -1,6 +1,6 @@
-/* Kernel: histogram of the picture's luminance, for auto exposure. Counts are integers, so every run gives the same.
- * In a large picture each `skip`-th pixel is counted; `skip` shares no factor with usual widths, so that all columns
- * are sampled. */
+/* Kernel: histogram of the picture's luminance, for auto exposure. Counts are integers, so every run gives the same
+ * histogram. In a large picture each `skip`-th pixel is counted; `skip` shares no factor with usual widths, so that all
+ * columns are sampled. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"

@@ -1,16 +1,17 @@
-/* Kernel: footprint of each ray, the size of what it stands for, on the disk for each crossing, and in the sky
- * (shared/lens.h).
+/* Kernel: footprint of each ray: the size of the area that the ray stands for, on the disk for each crossing, and in
+ * the sky (shared/lens.h).
  *
  * A step of the camera is a square in the picture. To first order the map takes it to a parallelogram, and a disc of
  * one step's diameter to an ellipse. The footprint is the long axis of that ellipse, the largest singular value of the
  * map's derivative J:
+ *
  *   sigma^2 = (A + B)/2 + sqrt((A - B)^2/4 + C^2),   A = |J_x|^2, B = |J_y|^2, C = J_x.J_y .
  *
  * The derivative comes from differences to neighbouring rays of the same order or fate. Neighbours on both sides give
- * it to second order; so do two on one side, at the edge of the picture or of the buffer; one neighbour gives it to
- * first order. Without a neighbour on either side, the ray is isolated at an edge, and its footprint is
- * KD_FOOTPRINT_EDGE. Half the second difference is included as well, because a map that turns back within a step still
- * has a size. It is of second order, too.
+ * it to second order. So do two neighbours on one side, which are used at the edge of the picture or of the buffer. One
+ * neighbour gives it to first order. Without a neighbour on either side, the ray is isolated at an edge, and its
+ * footprint is KD_FOOTPRINT_EDGE. Half the second difference is included as well, because a map that turns back within
+ * a step still has a size. It is of second order, too.
  *
  * Rays on listed pixels are on a square grid, treated separately for each pixel, or on a lattice (ray/place.glsl). On a
  * lattice J is the least-squares fit to the differences to neighbours in this pixel and adjacent ones, for a step as
@@ -46,7 +47,7 @@ float map_at(uint at) { return lens[at]; }
 const uint FIRST = (QUANTITIES & KD_LENS_FOOTPRINT) != 0u ? KD_LENS_FOOTPRINT : KD_LENS_SKY_FOOTPRINT;
 const bool SHAPED = (QUANTITIES & KD_LENS_SHAPE) != 0u;
 
-/* Where a ray ends: for a crossing (w, phi), for the sky a unit vector. */
+/* The spot where a ray ends: for a crossing (w, phi), for the sky a unit vector. */
 struct kd_spot {
     vec3 at;
     bool there;
@@ -80,7 +81,8 @@ struct kd_change {
     bool there;
 };
 
-/* The change at index `place` of `places` along the axis; step_: distance of neighbours in a plane of the map. */
+/* The change along the axis for the ray at index `place` of `places`; step_: distance of neighbours in a plane of the
+ * map. */
 kd_change change(uint n, kd_spot own, uint at, uint place, uint places, uint step_)
 {
     bool first = place == 0, last = place + 1 == places;
@@ -89,7 +91,7 @@ kd_change change(uint n, kd_spot own, uint at, uint place, uint places, uint ste
     kd_spot near = spot(n, has_o ? at + o * step_ : at, has_o), other = spot(n, has_p ? at + p * step_ : at, has_p);
     vec3 d = apart(n, own, near), e = apart(n, own, other);
     float fo = float(o), fp = float(p), unit = 1.0 / (fo * fp * (fp - fo));
-    if (near.there && other.there) /* by the parabola through all three */
+    if (near.there && other.there) /* derivatives of the parabola through all three */
         return kd_change((fp * fp * d - fo * fo * e) * unit, (fo * e - fp * d) * unit, true);
     if (near.there)
         return kd_change(fo * d, vec3(0.0), true);
@@ -122,15 +124,15 @@ kd_oval on_grid(uint n, uint at, kd_grid grid)
     return KD_NO_OVAL;
 }
 
-/* Sums for the least-squares linear map: of v v^T, of d v^T, and of d.d; and how many neighbours lack what the ray
- * has. */
+/* Sums for the least-squares linear map: of v v^T, of d v^T, and of d.d; and how many neighbours lack a spot where the
+ * ray has one. */
 struct kd_fit {
     float xx, xy, yy;
     vec3 dx, dy;
     float dd, count, lacks;
 };
 
-/* Which of the adjacent pixels are listed too; they are adjacent in the list. */
+/* Whether the left and the right adjacent pixel are listed too; they are then adjacent in the list. */
 struct kd_beside { bool left, right; };
 
 vec2 listed(uint pixel) { return vec2(map_at(push.list + 2 * pixel), map_at(push.list + 2 * pixel + 1)); }
@@ -141,7 +143,7 @@ kd_beside beside(uint pixel)
     return kd_beside(before == own - vec2(1.0, 0.0), after == own + vec2(1.0, 0.0));
 }
 
-/* Adds a neighbour of ray k, at the vector (vx, vy), to the fit; it may be in an adjacent pixel. */
+/* Adds a neighbour of ray k, at the vector (vx, vy), to the fit. The neighbour may be in an adjacent pixel. */
 void count(inout kd_fit fit, uint n, kd_spot own, vec3 m, kd_beside all, uint at, uint k, int vx, int vy)
 {
     int row = int((k * GENERATOR + SHIFT) % max(CRITICAL, 1)), x = int(k) + vx, y = row + vy;
@@ -150,7 +152,7 @@ void count(inout kd_fit fit, uint n, kd_spot own, vec3 m, kd_beside all, uint at
     vec3 d = m * apart(n, own, other), v = vec3(vx, vy, 0.0);
     float there = other.there ? 1.0 : 0.0;
     if (!other.there)
-        d = vec3(0.0); /* it may be NaN */
+        d = vec3(0.0); /* the difference may be NaN */
     fit.xx += there * v.x * v.x;
     fit.xy += there * v.x * v.y;
     fit.yy += there * v.y * v.y;
@@ -185,8 +187,8 @@ kd_oval on_lattice(uint n, uint at)
         o.shape = kd_oval_of(area * (i.x * i.x + j.x * j.x) + left, area * (i.y * i.y + j.y * j.y) + left,
                              area * (i.x * i.y + j.x * j.y))
                       .shape;
-    /* Four rays of a pixel without adjacent pixels are collinear: the change along their line is taken for all
-     * directions. */
+    /* If a pixel has four rays and no adjacent pixels, the rays are collinear: the change along their line is taken for
+     * all directions. */
     if (det < 0.5 * area * area)
         o = kd_oval(fit.lacks > 0.0 || fit.count == 0.0 ? KD_FOOTPRINT_EDGE
                                                         : kd_longest(area * fit.dd / (fit.xx + fit.yy), 0.0, 0.0),
@@ -235,7 +237,7 @@ void main()
     }
     if ((QUANTITIES & KD_LENS_FOOTPRINT) != 0u) {
         uint plane = at + kd_plane(KD_LENS_FOOTPRINT) * push.stride, n = 0;
-        for (; n < ORDERS; n++) { /* crossings are without gaps */
+        for (; n < ORDERS; n++) { /* crossings have no gaps */
             if (map_at(at + n * push.stride) <= 0.0)
                 break;
             kd_oval o = footprint(n, at, grid);

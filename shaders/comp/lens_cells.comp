@@ -1,13 +1,16 @@
-/* Kernel: decides where a lens map is traced ray by ray and where it is interpolated. An invocation is a cell
- * (ray/cells.glsl) of one level, all of whose nodes are traced. If the polynomials through them predict two further
- * rays, the cell is smooth. Otherwise its four quarters become cells of the next level, whose nodes are listed; the
- * rays of a cell of the last level are traced singly. The map is analytic in a cell except where orders or fates
- * change. Nodes show such changes by their states, and by R at the barrier, which vanishes where fates change. The
- * decision depends on the cell's own rays only: a tile has the same cells as its picture.
+/* Kernel: decides where a lens map is traced ray by ray and where it is interpolated. An invocation processes a cell
+ * (ray/cells.glsl) of one level, all of whose nodes are traced. If the polynomials through the nodes predict two
+ * further rays, the cell is smooth. Otherwise its four quarters become cells of the next level, whose nodes are listed;
+ * the rays of a cell of the last level are traced singly.
  *
- * The tolerance is relative, for w, angles and directions alike. Where the map is so steep that the rounding of the
- * camera's directions to 32 bits moves it more, the tolerance is CONDITION times that: the change of ln w, or of the
- * angle, for a direction twice as far from the hole. A stricter one would fail by noise. */
+ * The map is analytic in a cell except where orders or fates change. Such changes show in the states of the nodes, and
+ * in R at the barrier, which vanishes where fates change. The decision depends on the cell's own rays only, so that a
+ * tile has the same cells as its picture.
+ *
+ * The tolerance is relative, for w, angles and directions alike. Where the map is steep, the rounding of the camera's
+ * directions to 32 bits moves the map by more than that, and a strict tolerance would be missed because of noise. The
+ * tolerance is then multiplied by CONDITION times the change of ln w, or of the angle, for a direction twice as far
+ * from the hole. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -26,8 +29,8 @@ layout(set = 0, binding = 2) readonly buffer Nodes { float nodes[]; };
 
 const float CONDITION = 0.3;
 
-/* Start of the lists: of the cells of a level, each list four times as long as that of the level before; and of the
- * places. */
+/* Start of the list of the cells of a level; each list is four times as long as that of the level before. places_of:
+ * start of the list of places. */
 uint queue_of(uint level) { return KD_SAMPLE_QUEUES + blocks() * (((1u << (2u * (level - 1u))) - 1u) / 3u); }
 uint places_of_nodes() { return units_of(2u); }
 uint places_alone() { return places_of_nodes() + push.room; }
@@ -40,7 +43,7 @@ uint take(uint counts, uint n, uint each)
     return first;
 }
 
-/* Whether a cell overlaps the picture, or its requested rows. */
+/* Whether a cell overlaps the picture, or the rows of the picture that are requested. */
 bool is_wanted(uvec2 corner, uint side)
 {
     ivec2 low = place_of(corner), high = low + ivec2(int(side));
@@ -54,15 +57,15 @@ void list_cell(uint level, uvec2 cell)
         words[queue_of(level) + take(KD_SAMPLE_CELLS + 4u * (level - 1u), 1u, KD_GROUP_SIZE)] = cell.x | (cell.y << 16);
 }
 
-/* The two rays that check a cell, next to the middles of two sides, where polynomials have the largest errors. On
- * all levels but the last they are at even places. */
+/* The two rays that check a cell. They are next to the middles of two sides, where polynomials have the largest errors.
+ * On all levels but the last they are at even places. */
 uvec2 check_of(uvec2 corner, uint side, uint i)
 {
     return corner + (i == 0u ? uvec2(side / 8u, side / 2u) : uvec2(side / 2u, side / 8u));
 }
 
-/* New nodes when a cell is divided: among 9 x 9 places there are 16 on the edge, which adjacent cells may list as
- * well, and 38 inside, which only this cell lists; two of those inside were the rays that checked it. */
+/* New nodes when a cell is divided. Among 9 x 9 places there are 16 on the edge, which adjacent cells may list as well,
+ * and 38 inside, which only this cell lists; two of the latter were the rays that checked the cell. */
 uvec2 edge_of_nine(uint k)
 {
     uint along = 2u * (k % 4u) + 1u, far = 8u * (k / 4u & 1u);
@@ -77,7 +80,7 @@ uvec2 within_nine(uint k)
     uint i = k < 31u ? k - 27u : k < 34u ? k - 30u : k - 34u;
     return uvec2(2u * i + 1u, k < 31u ? 2u : k < 34u ? 4u : 6u);
 }
-/* Nodes of a new block: 16 and 9 of 5 x 5. */
+/* Nodes of a new block, among 5 x 5 places: 16 on the edge and 9 inside. */
 uvec2 edge_of_five(uint k)
 {
     uint i = k % 4u, side = k / 4u;
@@ -93,7 +96,7 @@ void make_node(uint node, uint word, uvec2 at)
 }
 
 /* Lists the missing nodes of a cell's four quarters, or of a block, and the two rays that check each quarter or the
- * block. stage: of these rays. */
+ * block. stage: the stage of these rays. */
 void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
 {
     const uint step_ = divided ? side / 8u : side / 4u, within = divided ? 38u : 9u,
@@ -121,8 +124,8 @@ void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
     }
 }
 
-/* Nodes that are compared with a cell's check: along its middle row or its middle column, followed by the checking
- * ray next to the first of them. */
+/* A node of those that are compared with a cell's check. They are along the cell's middle row or middle column, and are
+ * followed by the checking ray next to the first of them. */
 uint node_along(uvec2 corner, uint side, uint axis, uint i)
 {
     uint word = i < 5u       ? index_of_node(corner, side, axis == 0u ? i : 2u, axis == 0u ? 2u : i)
@@ -139,7 +142,7 @@ struct kd_line_told {
 };
 const kd_line_told KD_NOTHING_TOLD = kd_line_told(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
 
-/* Replaces NaN and infinity by a value outside every tolerance. */
+/* Replaces NaN and infinity by a value that is outside every tolerance. */
 float or_far(float x) { return kd_is_finite(x) ? x : 1e18; }
 
 void tell(inout kd_line_told t, vec3 v[6])
@@ -153,7 +156,8 @@ void tell(inout kd_line_told t, vec3 v[6])
     t.bend = max(t.bend, max(max(abs(a - 2.0 * b), abs(b + d)), abs(e - 2.0 * d)));
 }
 
-/* VALUE: for `node`. Both lines and all their nodes share the same code, which a driver then compiles once. */
+/* VALUE: an expression for `node`. Both lines and all their nodes share the same code, which a driver then compiles
+ * once. */
 #define KD_ALONG_BOTH(told, VALUE) \
     [[dont_unroll]] for (uint axis = 0u; axis < 2u; axis++) { \
         vec3 v[6]; \
@@ -166,8 +170,8 @@ void tell(inout kd_line_told t, vec3 v[6])
         tell(told, v); \
     }
 
-/* Largest distance of a step between rays from the direction to the hole, in such steps: rounding moves a ray by a
- * fraction of it. */
+/* Distance of the cell's middle from the direction to the hole, in steps between rays; for a sphere or a dome a radian.
+ * Rounding moves a ray by a fraction of this distance. */
 float steps_to_hole(uvec2 corner, uint side)
 {
     ivec2 middle = place_of(corner + uvec2(side / 2u));
@@ -180,9 +184,9 @@ float steps_to_hole(uvec2 corner, uint side)
     return (cam.sight == KD_SIGHT_PLANE ? length(k.xy) : length(k.yz)) / step_;
 }
 
-/* Whether the function that vanishes where fates change, and is at least `least` at the nodes, is nonzero between
- * them. Between nodes a curve deviates by an eighth of its second difference; the margin is four times that, plus
- * twice the error of the polynomials. */
+/* Whether the function that vanishes where fates change is nonzero between the nodes; `least` is its least value at
+ * them. Between nodes a curve deviates by an eighth of its second difference; the margin is four times that, plus twice
+ * the error of the polynomials. */
 bool curve_is_far(uvec2 corner, uint side, float least)
 {
     kd_line_told t = KD_NOTHING_TOLD;
@@ -190,7 +194,7 @@ bool curve_is_far(uvec2 corner, uint side, float least)
     return least > max(0.5 * t.bend.x, 2.0 * t.off.x);
 }
 
-/* Whether the polynomials predict both rays: w relative to w, an angle, and a slope relative to the steepest. far:
+/* Whether the polynomials predict both rays: w relative to w, an angle, and a slope relative to the steepest one. far:
  * in quarters of the side. */
 bool crossing_is_smooth(uvec2 corner, uint side, uint n, float far)
 {
@@ -213,7 +217,7 @@ bool sky_is_smooth(uvec2 corner, uint side, float far)
     return t.apart <= push.tolerance * max(1.0, steep);
 }
 
-/* Whether all rays of a cell have the same number of crossings and the same fate, and its polynomials predict those
+/* Whether all rays of a cell have the same number of crossings and the same fate, and its polynomials predict the rays
  * between its nodes. */
 bool is_smooth(uvec2 corner, uint side, out float state)
 {
@@ -279,7 +283,7 @@ void main()
     push = push_;
     cam = camera_;
     uint i = gl_GlobalInvocationID.x;
-    if (push.level == 0u && i == 0u) /* workgroups along the other axes */
+    if (push.level == 0u && i == 0u) /* numbers of workgroups along the other axes */
         [[dont_unroll]]
         for (uint k = 0u; k < KD_SAMPLE_COUNTED / 4u; k++) {
             words[4u * k + 1u] = 1u;

@@ -2,10 +2,10 @@
  * crossings and, if the scene requires them, their azimuths, radial slopes, the direction in which a ray escapes and
  * its fate. Planes: shared/lens.h, all except the delay and alpha.
  *
- * The times at which a ray crosses the plane are known (polar.glsl), and where it then is (arc.glsl). The azimuth by
- * which the hole drags it is an integral over each half period, by Gauss-Legendre quadrature. Its nodes are reached
- * from the crossings at both ends, and their distances from there in time are the same for all half periods but the
- * first. The ray escapes when w vanishes, which is known from w and w' at its last crossing. */
+ * The times at which a ray crosses the plane are known (polar.glsl), and from them its radius (arc.glsl). The azimuth
+ * by which the hole drags the ray is an integral over each half period, by Gauss-Legendre quadrature. The quadrature's
+ * nodes are reached from the crossings at both ends. Their distances in time from these crossings are the same for all
+ * half periods but the first. The ray escapes when w vanishes, which is known from w and w' at its last crossing. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -32,22 +32,22 @@ layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 #include "ray/node.glsl"
 
 const uint MORE =
-    12; /* half periods after the last order: beyond them only rays within 1e-13 of the critical curve circle */
+    12; /* half periods after the last order: after them only rays within 1e-13 of the critical curve still circle */
 
 /* A ray between two crossings. */
 struct kd_leg {
     kd_centre last; /* the last crossing, or the start        */
-    kd_centre to;   /* the next crossing of the plane, */
-    kd_state next;  /* if the ray */
-    bool alive;     /* is still outside then */
-    float psi, chi; /* azimuth there without the drag since `last`; the drag up to `last`, */
-    float drag;     /* and since */
-    float tau;      /* time there                                     */
+    kd_centre to;   /* the next crossing of the plane; meaningful only if the ray is still outside then (alive) */
+    kd_state next;  /* state of the ray at the next crossing */
+    bool alive;     /* the ray is still outside at the next crossing */
+    float psi, chi; /* psi: azimuth at the next crossing without drag; chi: drag up to `last` */
+    float drag;     /* drag from `last` to the next crossing */
+    float tau;      /* time of the next crossing */
     float side;     /* 1: the ray leaves the last crossing upwards; -1: downwards */
     bool crossed;   /* `last` is not the start any more */
 };
 
-/* Upper bound of the time to the horizon, or to infinity for a ray that starts outwards: R is above its least value. */
+/* Upper bound of the time to the horizon, or to infinity for a ray that starts outwards, from the least value of R. */
 float time_limit(kd_turning_point b, kd_state start, float e, bool falls)
 {
     float e2 = e * e, least = min(e2, start.dw * start.dw);
@@ -58,22 +58,22 @@ float time_limit(kd_turning_point b, kd_state start, float e, bool falls)
     return start.dw < 0.0 ? 1.01 * start.w / sqrt(max(least, 1e-12 * e2)) : 1e30;
 }
 
-/* The closed form continues beyond the horizon, turns inside and comes back out: a ray that falls must still be
- * falling, and within its largest possible time. A ray that escapes comes back from infinity on the other side,
- * where w < 0. */
+/* The closed form continues beyond the horizon, turns inside and comes back out. So a ray that falls must still be
+ * falling at the crossing, and within its largest possible time. A ray that escapes comes back from infinity on the
+ * other side, where w < 0. */
 bool goes_on(kd_leg leg, bool falls, float limit)
 {
     return leg.tau < limit && (falls ? leg.next.dw > 0.0 : leg.last.dv > 0.0 || leg.next.dw <= 0.0);
 }
 
-/* Whether rounding may have created, or removed, its next crossing. The drag takes half of the kernel's time, so it
- * is only used if something else needs it. */
+/* Whether rounding may have created, or removed, the leg's next crossing. The drag takes half of the kernel's time, so
+ * it is only used if something else needs it. */
 bool is_open(kd_leg leg, kd_polar polar, kd_margins margins)
 {
     return (polar.crosses && kd_crossing_is_open(leg.next.w, margins)) || ((PHI || SKY) && !kd_is_finite(leg.drag));
 }
 
-/* Advances by half a period. nodes, arc, z: for its time. */
+/* Advances by half a period. nodes, arc, z: for the time of half a period. */
 void go_on(inout kd_leg leg, kd_arcs a, kd_drag_terms drag, kd_nodes nodes, kd_arc arc, float z, float psi, float tau,
            float edge, float limit)
 {
@@ -88,9 +88,9 @@ void go_on(inout kd_leg leg, kd_arcs a, kd_drag_terms drag, kd_nodes nodes, kd_a
     leg.alive = leg.alive && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
 }
 
-/* Whether polar.first is a valid time. If A > 0 it is not for Q < 0, and rounding decides where Q nearly vanishes
- * (polar.glsl): the plane is not reached sooner than at the greatest speed, which is s / 2 sqrt(e), because u'^2 = Q
- * + A u^2 - e u^4 is at most s^2/4e. If A < 0 and Q = 0, in the plane, half periods are counted as usual, though
+/* Whether polar.first is a valid time. If A > 0 there is none for Q < 0, and where Q nearly vanishes, rounding decides
+ * (polar.glsl). Then the plane is not reached sooner than at the greatest speed, which is s / 2 sqrt(e), because u'^2 =
+ * Q + A u^2 - e u^4 is at most s^2/4e. If A < 0 and Q = 0, in the plane, half periods are counted as usual, though
  * nothing is crossed. */
 bool first_is_known(kd_geodesic m, kd_polar polar, float u, float ae)
 {
@@ -110,7 +110,7 @@ void keep(uint at, uint n, bool any, kd_leg leg, kd_drag_terms drag)
         lens[at + kd_plane(KD_LENS_SLOPE) * slice.stride] = any ? leg.next.dw : 0.0;
 }
 
-/* Stores where the ray ends; returns whether that is certain. nodes, z: of the leg that it does not complete;
+/* Stores where the ray ends; returns whether that is certain. nodes, z: of the leg that the ray does not complete;
  * before: time from the last crossing to the start, if the leg begins with the start. */
 bool keep_end(uint at, kd_geodesic m, kd_ray ray, kd_arcs a, kd_azimuth azimuth, kd_drag_terms drag, kd_leg leg,
               kd_arc middle, float leg_z, float before, bool decided)
@@ -152,7 +152,7 @@ void main()
     kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
     kd_arcs a = kd_arcs_of(m, ray.e);
-    kd_ray tilted = ray; /* in the plane the azimuth has no start, so a nearby ray is used */
+    kd_ray tilted = ray; /* in the plane the azimuth has no start, so a nearby ray is used instead */
     tilted.p = cam.u == 0.0 && ray.p == 0.0 ? 1e-15 : ray.p;
     kd_azimuth azimuth = kd_azimuth_of(m, tilted, polar, cam.u, cam.s);
     kd_state start;
@@ -181,15 +181,15 @@ void main()
     leg.alive = known && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
     leg.side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     leg.crossed = leg.alive;
-    /* The scale of w far out is E over the larger of E and |(l, p)|, which is at least a.scale / sqrt(3), or 1; and
-     * at most that of the horizon. */
+    /* Far out, the scale of w is E over the larger of E and |(l, p)|; the larger one is at least a.scale / sqrt(3), or
+     * 1. The scale is at most that of the horizon. */
     const kd_margins margins = kd_margins_of(barrier, barrier.noise, max(1.74 * cam.size_e, cam.horizon), edge);
     bool open = !kd_is_decided(barrier, start) || is_open(leg, polar, margins);
     keep(at, 0, leg.alive && polar.crosses, leg, drag);
     uint crossings = leg.alive && polar.crosses ? 1u : 0u;
     const uint legs = SKY && !drag.falls ? ORDERS + MORE : ORDERS;
     uint n = 1;
-    if (!PHI && !SKY) { /* a half period costs as much as storing that there is none */
+    if (!PHI && !SKY) { /* a half period costs as much as storing zeros for a missing crossing */
         for (; n < ORDERS; n++) {
             bool before = leg.alive;
             go_on(leg, a, drag, nh, endh, zh, azimuth.half_, polar.half_, edge, limit);
@@ -198,7 +198,7 @@ void main()
             keep(at, n, leg.alive && polar.crosses, leg, drag);
         }
     }
-    /* These loops test at their ends: lavapipe executes the body of loops that test at their heads once more. */
+    /* These loops test at their ends: if a loop tests at its head, lavapipe executes its body once more than needed. */
     if ((PHI || SKY) && leg.alive && n < legs) {
         do {
             go_on(leg, a, drag, nh, endh, zh, azimuth.half_, polar.half_, edge, limit);

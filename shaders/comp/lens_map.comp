@@ -39,13 +39,14 @@ float kd_boole(uint k) { return k == 0 || k == 4 ? 7.0 : k == 2 ? 12.0 : 32.0; }
 /* A group of four steps in which a ray turns back to the horizon. */
 struct kd_turning {
     kd_state start;
-    float part, drag; /* the steps before the turn, 0 to 4; the group's result by Boole's rule, which is replaced */
+    float part, drag; /* part: the steps before the turn, 0 to 4; drag: the group's result by Boole's rule, which is
+                       * replaced */
     float w;          /* where the ray turns */
     bool any, last;   /* last: the last group of its half period */
 };
 
-/* Frame dragging over that group in two parts: in ingoing coordinates up to the turn and in outgoing ones after it.
- * They are smooth there and have no pole on their part. */
+/* Frame dragging over a group of steps in which the ray turns, in two parts: in ingoing coordinates up to the turn and
+ * in outgoing ones after it. On their part these coordinates are smooth and have no pole. */
 float kd_drag_about_turn(kd_geodesic m, float e, float h, inout kd_turning t)
 {
     kd_state z = t.start;
@@ -103,7 +104,7 @@ void main()
     uint crossings = 0u;
     bool open = !dark && !kd_is_decided(barrier, start);
     const float far = cam.size_e * inversesqrt(max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e));
-    /* rounding error of R; the error of steps shows at each crossing */
+    /* rounding error of R; the error due to the steps is measured at each crossing */
     float lost = kd_start_noise(m, start, rounding);
     const float deepest = INGOING ? max(2.0, 1.1 * cam.w0) : 2.0;
     float h = polar.first * (1.0 / float(STEPS));
@@ -113,7 +114,8 @@ void main()
     for (uint n = 0; n < ORDERS && alive; n++) {
         float low = y.w, high = INGOING && y.dw <= 0.0 ? 0.0 : y.w, sum = 0.0;
         kd_turning turn = kd_turning(y, 0.0, 0.0, 0.0, false, false);
-        if (!INGOING && (PHI || SKY) && way == 0.0) { /* whether the rest is in ingoing or outgoing coordinates */
+        if (!INGOING && (PHI || SKY) && way == 0.0) { /* whether the rest of the ray is in ingoing or outgoing
+                                                       * coordinates */
             returns = y.dw < 0.0 && !kd_escapes(barrier, y);
             way = returns ? -1.0 : kd_direction_of_motion(barrier, y);
             fallen = -way * kd_drag_fall(y.w, cam.spin, cam.root);
@@ -134,7 +136,7 @@ void main()
                     part = float(j) + speed / (speed - y.dw);
                 if (INGOING && y.w > cam.horizon && y.dw < 0.0)
                     y.dw = kd_leaving(m, y.w, ray.e);
-                /* Beyond the horizon the values are meaningless: keep them finite. */
+                /* Beyond the horizon the values are meaningless, but must stay finite. */
                 y.w = clamp(y.w, -2.0, deepest);
                 low = min(low, y.w);
                 /* a ray on its way out may be inside the horizon */
@@ -150,7 +152,8 @@ void main()
                                      : 32.0) *
                            kd_drag(m, y, ray.e, cam.spin, cam.root, way);
             }
-            if ((PHI || SKY) && returns && way < 0.0 && part >= 0.0) { /* the rest is in outgoing coordinates */
+            /* the rest of the ray is in outgoing coordinates */
+            if ((PHI || SKY) && returns && way < 0.0 && part >= 0.0) {
                 way = 1.0;
                 turn = kd_turning(before, part, sum - whole, 0.0, true, i + 4 == STEPS);
             }
@@ -194,7 +197,8 @@ void main()
         open = end.fate == KD_FATE_UNDECIDED;
     }
     float curve = barrier.r;
-    if (INGOING && start.w >= cam.horizon) { /* and if light comes from outside (kd_from_outside) */
+    if (INGOING && start.w >= cam.horizon) { /* the product also vanishes where light starts to come from outside
+                                              * (kd_from_outside) */
         curve *= ray.e + cam.spin * (cam.spin * ray.e - m.momentum) * cam.horizon * cam.horizon;
     }
     kd_finish_ray(open, at, crossings, dark || !kd_escapes(barrier, start), curve);

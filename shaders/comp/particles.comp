@@ -22,7 +22,8 @@ layout(push_constant) uniform Push { KD_PARTICLES_FIELDS_(F, U) } push;
 layout(set = 0, binding = 0) readonly buffer Guides { kd_guide guides[]; };
 layout(set = 0, binding = 1) buffer Grid { uint grid[]; };
 
-/* Cosine and sine of a phase, times an amplitude in [0, 1] that is uniform in the plane of the two. */
+/* Cosine and sine of a phase, times a random amplitude in [0, 1]. The points (amplitude, phase) are uniform in the unit
+ * disc. */
 kd_phasor swing(uint random, uint phase)
 {
     kd_phasor t = kd_cos_sin(float(int(random + phase)) * (KD_PI / 2147483648.0));
@@ -46,8 +47,8 @@ void share_out(float row, uint phi, uint first, uint rows, uint columns_log2)
     atomicAdd(grid[at + (1 << columns_log2)], (upper - upper_right) | upper_right << 16);
 }
 
-/* A particle that has reached the end of the plunge starts again, on another lap and so at another azimuth. Beyond
- * the ends of the curve its grid, as far as it reaches, holds particles of the previous and next laps. */
+/* A particle that has reached the end of the plunge starts again, on another lap and so at another azimuth. The grid
+ * extends beyond the ends of the curve, where it holds particles of the previous and next laps. */
 uint launch(uint random, uint lap) { return kd_hash(random + kd_hash(lap)) + push.turn; }
 
 void plunge(uint random, uint n)

@@ -1,11 +1,12 @@
 /* Kernel: sums the light of a picture for its flux and centroid. Over pixels at x and y steps from the middle, of
  * luminance Y, and with f = 1/|(1, x step, y step)| (1 in the image plane), it computes
+ *
  *   sum of Y f^3, of Y f^4, of Y f^4 x, of Y f^4 y,
  *
- * for the whole picture and for the hot spots' own light; and, if they are kept, the sums of Stokes Q, U and V and
- * of the spots' Q and U, times f^3. f^3 is the solid angle of a pixel relative to the middle one, f times (1, x
- * step, y step) the unit vector towards it. An invocation sums KD_LIGHT_PIXELS pixels with compensation (W. Kahan
- * 1965, CACM 8, 40); the host adds these sums in double. The order is always the same. */
+ * for the whole picture and for the hot spots' own light. If Stokes parameters are kept, it also sums Q, U and V, and
+ * the spots' Q and U, times f^3. f^3 is the solid angle of a pixel relative to the middle one; f times (1, x step, y
+ * step) is the unit vector towards it. An invocation sums KD_LIGHT_PIXELS pixels with compensation (W. Kahan 1965, CACM
+ * 8, 40); the host adds these sums in double. The order is always the same. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -19,7 +20,7 @@ layout(push_constant) uniform Push { KD_LIGHT_FIELDS_(F, U) } push;
 layout(set = 0, binding = 0) readonly buffer Radiance { float radiance[]; };
 layout(set = 0, binding = 1) writeonly buffer Sums { vec4 sums[]; };
 
-/* A compensated sum: the sum so far, and the excess due to its rounding. */
+/* A compensated sum: the sum so far, and the amount by which rounding has made it too large. */
 struct sum4 { precise vec4 value, lost; };
 
 sum4 add(sum4 s, vec4 term)

@@ -49,21 +49,21 @@ layout(set = 0, binding = 2) uniform textureBuffer colours;
 #define LEVELS (WIDE ? 65535 : 255)
 
 /* ACES reference rendering and sRGB output transforms: S. Hill's rational fit, with his matrices into and out of the
- * space in which the curve acts (2016). Numerator and denominator are divided by 0.983729, the former by way of the
- * second matrix. */
+ * space in which the curve acts (2016). Numerator and denominator are divided by 0.983729; for the numerator this
+ * division is part of the second matrix. */
 vec3 aces(vec3 c)
 {
     const float d = 0.983729;
     const mat3 into = mat3(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566, 0.83777);
     const mat3 outof = mat3(1.60475 / d, -0.10208 / d, -0.00327 / d, -0.53108 / d, 1.10813 / d, -0.07276 / d,
                             -0.07367 / d, -0.00605 / d, 1.07602 / d);
-    c = into * min(c, vec3(1e6)); /* the curve squares it */
+    c = into * min(c, vec3(1e6)); /* the curve squares this, so it is limited */
     c = (c * (c + 0.0245786) - 0.000090537) / (c * (c + 0.4329510 / d) + 0.238081 / d);
     return outof * c;
 }
 
 /* Khronos PBR Neutral (E. Chin, 2024): light below 0.8 keeps its colour and, except for an offset of 0.04, its
- * brightness. Above, the largest channel tends to 1, and the colour to white, more slowly the brighter it is. */
+ * brightness. Above 0.8 the largest channel tends to 1, and the colour to white, the more slowly the brighter it is. */
 vec3 neutral(vec3 c)
 {
     const float start = 0.8 - 0.04, desaturation = 0.15, d = 1 - start;
@@ -76,8 +76,9 @@ vec3 neutral(vec3 c)
 }
 
 /* The encoding of c in [0, 1] by IEC 61966-2-1, times LEVELS. Its power 1.055 c^(1/2.4) - 0.055 is a polynomial in s
- * = c^(1/4): the minimax one for c from 0.0031308 to 1 among those that are 1 at 1, accurate to 3.4e-7, plus 2e-7,
- * so that roundoff leaves white at 65535. Its error is below 5.4e-7, a thirtieth of a step of 16 bits. */
+ * = c^(1/4). It is the minimax polynomial for c from 0.0031308 to 1 among those that are 1 at 1, accurate to 3.4e-7.
+ * 2e-7 is added, so that roundoff leaves white at 65535. The total error is below 5.4e-7, a thirtieth of a step of
+ * 16 bits. */
 vec3 srgb(vec3 c)
 {
     const float unit = float(LEVELS);
@@ -93,7 +94,8 @@ vec3 srgb(vec3 c)
 }
 
 #ifdef KD_HEAT
-/* The colour of a luminance in [0, 1], times LEVELS; linear between the entries of the table, which are encoded. */
+/* The colour of a luminance in [0, 1], times LEVELS. It is linear between the entries of the table, which are encoded
+ * as sRGB. */
 vec3 heat(float y)
 {
     float at = clamp(y, 0.0, 1.0) * float(textureSize(colours) - 1);
@@ -105,7 +107,7 @@ vec3 heat(float y)
 /* Place of a pixel in the picture, as floats, which are exact. */
 struct place { float x, y; };
 
-/* The quotient as a float is wrong by at most one: places reach 2^30, rows 2^15. */
+/* The quotient as a float is wrong by at most one, because places are below 2^30 and rows below 2^15. */
 place place_of(uint i)
 {
     int n = int(i), width = int(push.pixels_x), y = int(float(n) * (1 / float(width))), x = n - y * width;
@@ -169,7 +171,7 @@ spread arriving_all(place first, place second, place third, place fourth)
 }
 #endif
 
-/* Rounds to the next level, or dithers by less than half a level; arrives: light that a lens spreads there. */
+/* Rounds to the next level, or dithers by less than half a level. arrives: light that a lens spreads to the pixel. */
 ivec3 pixel(vec3 c, place at, vec3 arrives)
 {
     c *= push.gain;
@@ -183,7 +185,7 @@ ivec3 pixel(vec3 c, place at, vec3 arrives)
     c = srgb(clamp(c, 0.0, 1.0));
 #endif
     float spread = 0.998 * push.dither;
-    /* positive, so truncation rounds down */
+    /* the value is positive, so truncation rounds down */
     return min(ivec3(c + (spread * threshold(at) + (0.5 - 0.5 * spread))), LEVELS);
 }
 
@@ -209,8 +211,9 @@ void main()
 #endif
     ivec3 p[KD_POST_PIXELS] = { pixel(a.xyz, first, to.a), pixel(vec3(a.w, b.xy), second, to.b),
                                 pixel(vec3(b.zw, c.x), third, to.c), pixel(c.yzw, fourth, to.d) };
-    /* After the end a word is 0. It is selected instead of skipped: for lavapipe a selected word is a finished
-     * vector, which it would otherwise pack again for each lane that it stores, a fifth of the kernel's time. */
+    /* After the band's end a word is 0. That 0 is selected; the computation is not skipped. For lavapipe a selected
+     * word is a finished vector, which it would otherwise pack again for each lane that it stores, a fifth of the
+     * kernel's time. */
     bool inside = i < push.pixels;
     uint untold = inside && push.counter > 0u ? without_number(a, b, c, push.pixels - i) : 0u;
     if (untold > 0u)

@@ -1,10 +1,10 @@
-/* Kernel: finds the end points of listed rays by integration in Mino time; in single precision, and converted to double
- * by shaders/to_double.py.
+/* Kernel: finds the end points of listed rays by integration in Mino time. It is written in single precision, and
+ * shaders/to_double.py converts it to double.
  *
  * As in lens_map.comp, each half period is STEPS steps that end on the crossing. Here u is integrated together with w,
- * because the smooth parts of azimuth and delay need it. A second integration of w with half the steps, and the
- * variation of w with its start, give the errors of steps and of rounding. (An embedded pair is cheaper, but a hundred
- * times looser: docs/rays.md.)
+ * because the smooth parts of azimuth and delay need u. A second integration of w with half the steps gives the error
+ * of the steps; the variation of w with its start gives that of rounding. (An embedded pair is cheaper, but its
+ * estimate is a hundred times looser: docs/rays.md.)
  *
  * Azimuth: psi + chi. polar_azimuth.glsl integrates the peak of psi' = L/(1 - u^2) near the axis exactly; the rest is L
  * e / (sqrt(c) (sqrt(y) + sqrt(c))), y = b + e u^2, c = b + e.
@@ -12,12 +12,16 @@
  * Delay: t' = E/w^2 + 2E/w + [E (4 + a^2 - 2a^2 w + a^4 w^2) - a L (1 + a^2 w^2)] / Delta_w + a (L - a E (1 - u^2)),
  * Delta_w = 1 - 2w + a^2 w^2. The first two terms grow without bound towards infinity, on the way in and on the way
  * out; but
+ *
  *   E^2/w^2 = (-w'/w)' + K w - D w^2   and   E/w = -(ln((E + w')/w))' + w^2 (K - D w)/(E + w'),
+ *
  * so that the remaining integrand is smooth, and subtracting r_o + 2 ln r_o for an observer at infinity is exact.
  *
- * It has a pole at the horizon. A ray that falls in therefore uses ingoing time: with D = Delta_w and W as in
+ * t' has a pole at the horizon. A ray that falls in therefore uses ingoing time: with D = Delta_w and W as in
  * radial_step.glsl
+ *
  *   t' = (1 + a^2 w^2) (w'/(w^2 D) + K/(W + w')) + a (L - a E (1 - u^2)),
+ *
  * where the first term is d/dtau of -1/w + ln(w^2/D) + 2 kd_fall and the rest has no pole. A ray that comes from next
  * to the horizon uses outgoing time, with -w' for w'. */
 #version 450
@@ -41,7 +45,8 @@ push;
 layout(set = 0, binding = 0) readonly buffer Rays
 {
     float spin, u, s, horizon, root, w0, epsilon; /* the hole and the observer; unit roundoff */
-    float list[];                                 /* alpha, beta, 1: inwards or -1: outwards */
+    float list[];                                 /* three numbers for each ray: alpha, beta, and the direction (1:
+                                                   * inwards, -1: outwards) */
 }
 cam;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
@@ -81,7 +86,8 @@ kd_rates rates(kd_geodesic m, kd_full p, float b, float way)
     return o;
 }
 
-/* The integrated terms at a point, to be subtracted between the ends; 0 at infinity. */
+/* The terms that are integrated in closed form, at a point: their integral is the difference between both ends. 0 at
+ * infinity. */
 float delay_edge(kd_geodesic m, kd_state y, float way)
 {
     if (!(y.w > 0.0))
@@ -91,17 +97,18 @@ float delay_edge(kd_geodesic m, kd_state y, float way)
     return -y.dw / y.w - 2.0 * kd_log(0.5 * energy_and_fall(m, y.w, y.dw) / y.w);
 }
 
-/* Estimated error of w where the first integral w'^2 = W^2 - D K w^2 is violated: a wrong velocity for the time of a
- * half period. */
+/* Estimated error of w where the first integral w'^2 = W^2 - D K w^2 is violated: that of a wrong velocity over the
+ * time of a half period. */
 float drifted(kd_geodesic m, kd_state y, float time)
 {
     float off = abs(y.dw * y.dw - kd_radial_potential(m, y.w, 1.0, cam.spin, cam.root));
     return time * off / max(abs(y.dw), sqrt(off) + 1e-30);
 }
 
-/* Halving the steps of a method of order p increases the error by 2^p - 1 times the remaining one, 15 or 63. Thirty
- * times the remaining error is thus a bound even if the steps are too coarse for that law. lost_in_a_turn: error of
- * such steps over a half turn, if no crossing shows it. */
+/* For a method of order p, the results with all steps and with half the steps differ by 2^p - 1 times the remaining
+ * error, 15 or 63 times. LEFT times this difference is about thirty times the remaining error, which is a bound even if
+ * the steps are too coarse for that law. lost_in_a_turn: error of steps of length h over a half turn, for rays without
+ * a crossing that shows it. */
 const float LEFT = METHOD == 4 ? 2.0 : 0.5;
 float lost_in_a_turn(float h) { return METHOD == 4 ? 0.1 * h * h * h * h : 0.1 * h * h * h * h * h * h; }
 
@@ -119,7 +126,7 @@ void main()
     ray.dw = cam.list[3 * i + 2] * sqrt(max(kd_radial_potential(m, ray.w, 1.0, cam.spin, cam.root), 0.0));
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
 
-    /* psi without its smooth part; see polar_azimuth.glsl. */
+    /* psi without its smooth part; see polar_azimuth.glsl */
     float dp = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -ray.p : ray.p;
     float root = sqrt(polar.b + m.energy2 * cam.u * cam.u), side = ray.l < 0.0 ? -1.0 : 1.0;
     float peak = side * kd_angle_upper(-dp / root, abs(cam.u) * abs(ray.l) / sqrt(polar.b + m.energy2));
@@ -134,7 +141,7 @@ void main()
         kd_turning_point_of(m, ray, cam.spin, cam.horizon, cam.root,
                             kd_rounding_of_labels(ray, cam.spin, cam.u, cam.s, cam.horizon, cam.epsilon));
     float way = 0.0, started = delay_edge(m, start, 0.0), fallen = 0.0;
-    /* Rounding at the start: of w, and of R, whose root is w'. */
+    /* Rounding errors at the start, in roundoffs. size: of R, whose root is w'; kick: of w and w' together. */
     float size = 1.0 + ray.w * ray.w * (ray.l * ray.l + ray.p * ray.p + 2.0 * abs(m.k) * ray.w);
     float kick = 8.0 + (ray.w > 0.0 ? 2.0 * size / max(abs(ray.dw), sqrt(cam.epsilon * size)) : 0.0);
     kd_path last = kd_path_start(ray, cam.u, cam.s);
@@ -150,7 +157,7 @@ void main()
         ends[o + n] = 0.0;
 
     for (uint n = 0; n < ORDERS && alive; n++) {
-        if (way == 0.0) { /* whether the rest is in ingoing or outgoing coordinates */
+        if (way == 0.0) { /* whether the rest of the ray is in ingoing or outgoing coordinates */
             way = kd_direction_of_motion(barrier, radial(p));
             delay += delay_edge(m, radial(p), 0.0) - started;
             started = delay_edge(m, radial(p), way);
@@ -163,7 +170,8 @@ void main()
         for (; j <= STEPS; j++) {
             p = kd_full_step(m, p, h);
             KD_TRACE_STEP(float(n), h, vec4(0.0, 0.0, p.y.yx), vec4(0.0, 0.0, p.dy.yx), 0.0);
-            p.y.z = clamp(p.y.z, -1e12, 1e12); /* keep it finite; a ray amplified that much is lost anyway */
+            p.y.z = clamp(p.y.z, -1e12, 1e12); /* keep it finite; a ray whose error is amplified that much is lost
+                                                * anyway */
             if (p.y.x < 0.0 || p.y.x >= cam.horizon)
                 break;
             r = rates(m, p, polar.b, way);
@@ -181,15 +189,16 @@ void main()
         tau += h * float(min(j, STEPS));
         float left = h * float(STEPS - min(j, STEPS)), ahead = left * abs(y.dw);
         /* The error of w comes from the steps and from rounding. The steps' error is the difference of the two
-         * integrations, where that is small; but at least the error at the last crossing times the growth of the
+         * integrations, where that is small. But it is at least the error at the last crossing times the growth of the
          * variation since, because two wrong paths may meet by chance. Rounding adds about ten operations of a unit
-         * each, amplified by the variation, as much again in the time of the crossing, and the drift of the first
-         * integral. */
+         * roundoff each, amplified by the variation. It adds as much again through the time of the crossing, and the
+         * drift of the first integral. */
         float parted = abs(p.y.z) + left * abs(p.dy.z);
         float lost = max((LEFT + min(apart / max(abs(w), 1e-30), 2.0)) * apart, lost_before * parted / spread);
         float off = lost + drifted(m, y, h * float(STEPS)) +
                     cam.epsilon * ((4.0 + 0.01 * float(STEPS)) * w + kick * abs(p.y.z) + 8.0 * tau * abs(y.dw));
-        /* So close to the horizon or to infinity a crossing may or may not exist: only certain ones are reported. */
+        /* So close to the horizon or to infinity a crossing may or may not exist: only crossings that certainly exist
+         * are reported. */
         if (min(abs(w), abs(cam.horizon - w)) + ahead < off) {
             error = max(error, 1.0);
             alive = false;

@@ -1,18 +1,18 @@
 /* Kernel: follows listed rays the common way, by Hamilton's equations in ingoing Cartesian Kerr-Schild coordinates, for
  * comparison.
  *
- *   H = (p.p - E^2 - f (E + l.p)^2)/2,  f = 2r^3/(r^4 + a^2 z^2),  l = ((rx + ay)/(r^2 + a^2), (ry - ax)/(r^2 +
- *                                       a^2), z/r)
+ *   H = (p.p - E^2 - f (E + l.p)^2)/2,  f = 2r^3/(r^4 + a^2 z^2),
+ *   l = ((rx + ay)/(r^2 + a^2), (ry - ax)/(r^2 + a^2), z/r)
  *
  * A ray traced backwards is a photon of the mirrored spacetime (t, phi) -> (-t, -phi) that moves away from the
  * observer: it falls through the future horizon, where these coordinates are regular. The independent variable s has
- * d(lambda) = r ds, that is, the Hamiltonian is r H, which has the same null orbits: steps of constant size then shrink
+ * d(lambda) = r ds, that is, the Hamiltonian is r H, which has the same null orbits. Steps of constant size then shrink
  * with r, and stay symplectic.
  *
  * METHOD 0: symplectic Euler, p first, with one fixed-point iteration, as in common web shaders. 1: classical
- * Runge-Kutta of order 4. 2: M. Tao's extended phase space (2016, Phys. Rev. E 94, 043303) with Yoshida's
- * composition of order 6, solution A (1990, Phys. Lett. A 150, 262). Crossings of z = 0 by cubic Hermite
- * interpolation. The start (position and momentum) comes from the host in double. */
+ * Runge-Kutta of order 4. 2: M. Tao's extended phase space (2016, Phys. Rev. E 94, 043303) with Yoshida's composition
+ * of order 6, solution A (1990, Phys. Lett. A 150, 262). Crossings of z = 0 are found by cubic Hermite interpolation.
+ * The start (position and momentum) comes from the host in double. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -33,8 +33,8 @@ rays;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
 #include "ray/trace.glsl"
 
-/* Tao's omega, in units of 1/s. If it is small the copies diverge on long orbits; if it is large it costs accuracy
- * and phase. Among 0.1, 0.5, 2 and 10 the first was the most accurate, by factors of 15 to 10^4 over the half turns
+/* Tao's omega, in units of 1/s. If omega is small the copies diverge on long orbits; if it is large it costs accuracy
+ * and phase. Among 0.1, 0.5, 2 and 10 the value 0.1 was the most accurate, by factors of 15 to 10^4 over the half turns
  * of a ray. */
 #define KD_BIND 0.1
 
@@ -146,8 +146,9 @@ float hermite_slope(float y0, float d0, float y1, float d1, float s)
     return d0 + s * (2.0 * c2 + 3.0 * s * c3);
 }
 
-/* Change of the number of turns about the axis, which atan2 does not give, in a step from x to y: whether the chord
- * crosses the half plane x < 0. Very close to the axis the ray may pass on the other side of it than the chord. */
+/* Change of the number of turns about the axis in a step from x to y, which atan2 does not give: whether the chord
+ * crosses the half plane x < 0. Very close to the axis the ray may pass on the other side of the axis than the
+ * chord. */
 float turned(vec3 x, vec3 y)
 {
     if ((x.y < 0.0) == (y.y < 0.0) || (x.x * y.y - y.x * x.y) / (y.y - x.y) > 0.0)
@@ -175,10 +176,10 @@ void main()
     for (uint n = 0; n < 3 * ORDERS + 4; n++)
         ends[o + n] = 0.0;
 
-    /* lavapipe leaves all loops of an invocation after 65535 rounds, including inner ones, with whatever the
-     * variables then hold: stay below that, and leave a ray that needs more undecided. With the most steps that
-     * src/render/rays/check.c accepts these are 16 half turns (Tao's method) or 60; a ray that passes the hole takes
-     * 8 to 13. */
+    /* lavapipe leaves all loops of an invocation after 65535 rounds, including inner ones, with whatever the variables
+     * then hold. So stay below that, and leave a ray that needs more undecided. With the most steps that
+     * src/render/rays/check.c accepts, these rounds are 16 half turns (Tao's method) or 60; a ray that passes the hole
+     * takes 8 to 13. */
     const uint most = min(60 * STEPS, METHOD == 2 ? 8000 : 64000);
 
     float h = 0.6 * KD_PI / float(STEPS), fate = KD_FATE_UNDECIDED, about = 0.0;
@@ -227,7 +228,7 @@ void main()
         }
         if (r > far && dot(y.a.x, y.a.p) > 0.0) {
             fate = KD_FATE_ESCAPED;
-            if (z1 * y.a.p.z < 0.0 && n < ORDERS) { /* the rest is straight, and crosses the plane once more */
+            if (z1 * y.a.p.z < 0.0 && n < ORDERS) { /* the ray is straight from here, and crosses the plane once more */
                 vec3 hit = y.a.x - y.a.p * (z1 / y.a.p.z);
                 ends[o + 3 * n] = inversesqrt(hit.x * hit.x + hit.y * hit.y);
                 ends[o + 3 * n + 1] = azimuth(vec3(hit.x, hit.y, 0.0), about + turned(y.a.x, hit));
@@ -236,7 +237,7 @@ void main()
         }
     }
     ends[o + 3 * ORDERS + 2] = fate;
-    if (fate == KD_FATE_ESCAPED) { /* the momentum is closer to its limit than the position */
+    if (fate == KD_FATE_ESCAPED) { /* the momentum is closer to its limit at infinity than the position */
         vec3 p = y.a.p;
         ends[o + 3 * ORDERS] = p.z / sqrt(dot(p, p));
         ends[o + 3 * ORDERS + 1] = -kd_atan2(p.y, p.x);

@@ -11,7 +11,7 @@ layout(set = 0, binding = 0) writeonly buffer LensMap { float lens[]; };
 layout(set = 0, binding = 1) readonly buffer Settled
 {
     uint places[];
-}; /* a word a ray; then one plane after the other, as the bits of floats */
+}; /* the index of each ray, one word; then one plane after the other, as the bits of floats */
 
 void main()
 {

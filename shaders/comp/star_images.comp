@@ -1,21 +1,22 @@
-/* Kernel: spreads the images of stars over pixels. For each pair of star_tiles.comp and star_search.comp it finds the
- * places in the ray's cell of the picture, [-1/2, 1/2]^2 steps, that the lens map takes to the star, and spreads the
- * star's magnified light there over the nearest pixels.
+/* Kernel: spreads the images of stars over pixels. Each pair of star_tiles.comp and star_search.comp is a ray and a
+ * star. The kernel finds the places in the ray's cell of the picture, [-1/2, 1/2]^2 steps, that the lens map takes to
+ * the star. It spreads the star's magnified light over the pixels nearest to each place.
  *
  * About its ray the map is taken as quadratic, in the plane of the sky perpendicular to the ray (orthographic
  * projection). Its coefficients come from the eight surrounding rays: the linear ones by least squares, the others by
- * second differences; on the rim, of higher order, from twenty rays; beside rays that do not escape, and at edges, from
- * the rays that exist, to first order. Roots are found by Newton's method, from four starts unless there is clearly
- * only one root, each counted once: up to four where a caustic passes.
+ * second differences. On the rim the map is of higher order, from twenty rays. Beside rays that do not escape, and at
+ * edges, it is of first order, from the rays that exist. Roots are found by Newton's method, from four starts unless
+ * there is clearly only one root. Each root counts once: there are up to four where a caustic passes.
  *
- * A star's flux F in an image is F dOmega/dOmega_s. With the solid angle of a pixel, its mean radiance there is F over
- * the solid angle of the sky that the map takes a pixel to at the star's place, |det J|/cos(angle to the ray), and the
- * pixel's own solid angle cancels. It is spread as in ray/star_light.glsl.
+ * A star's flux F in an image is F dOmega/dOmega_s. Divided by the solid angle of a pixel it is the mean radiance
+ * there, and the pixel's own solid angle cancels: the radiance is F over the solid angle of the sky that the map takes
+ * a pixel to at the star's place, |det J|/cos(angle to the ray). The light is spread as in ray/star_light.glsl.
  *
- * Rays of the rim (ray/rim.glsl) are processed likewise, with their own steps, and the size of these in the picture.
+ * Rays of the rim (ray/rim.glsl) are processed likewise, with their own steps, and the size of these steps in the
+ * picture.
  *
- * Code for several rays or starts is in loops that are not unrolled, and no array has a variable index, because
- * drivers unroll such loops all the same: lavapipe then compiles this in a third of the time. */
+ * Code for several rays or starts is in loops that are not unrolled, and no array has a variable index, because drivers
+ * unroll loops with such an array all the same. lavapipe then compiles this in a third of the time. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -35,7 +36,7 @@ layout(set = 0, binding = 4) readonly buffer Stars { float stars[]; };
 #define KD_STAR_LIGHT_BINDING 6
 #include "ray/star_light.glsl"
 
-#define KD_STAR_THIN 0.02 /* area of a patch over the square of its size */
+#define KD_STAR_THIN 0.02 /* least area of a patch over the square of its size */
 
 /* f(x, y) = c + a x + b y + aa x^2 + ab x y + bb y^2 + aaa x^3 + aab x^2 y + abb x y^2 + bbb y^3, and on the rim +
  * aaab x^3 y + abbb x y^3; in radians. */
@@ -71,8 +72,8 @@ void one_sided(kd_neighbour before, kd_neighbour after, inout vec2 a, inout vec2
 }
 
 /* Next to a caustic a patch is thin: rounding of 32 bits, and terms of third order, are a large part of its width.
- * There it is the least-squares cubic for 7 x 7 rays: by the polynomials 1, u, u^2 - 4, u^3 - 7u, which are
- * orthogonal on -3 ... 3 and have the norms 7, 28, 84, 216. */
+ * There the map is the least-squares cubic for 7 x 7 rays. It is computed by the polynomials 1, u, u^2 - 4, u^3 - 7u,
+ * which are orthogonal on -3 ... 3 and have the norms 7, 28, 84, 216. */
 void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
 {
     float area = o.a.x * o.b.y - o.a.y * o.b.x, size = dot(o.a, o.a) + dot(o.b, o.b);
@@ -109,16 +110,16 @@ void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
     }
 }
 
-/* Ray k of the twelve that 5 x 5 without its corners has beyond 3 x 3: the middles of the left, right, upper and
- * lower sides, then the two beside each of these. */
+/* Ray k of the twelve rays that 5 x 5 rays without the corners have beyond 3 x 3: the middles of the left, right, upper
+ * and lower sides, then the two rays beside each of these. */
 ivec2 outer(int k)
 {
     int side = k < 4 ? k : (k - 4) / 2, far = (side & 1) == 0 ? -2 : 2, near = k < 4 ? 0 : (k & 1) == 0 ? 1 : -1;
     return side < 2 ? ivec2(far, near) : ivec2(near, far);
 }
 
-/* On the rim steps are long, and its numbers have almost no rounding error: all terms of third order, and x^3 y and
- * x y^3, from 20 rays, 5 x 5 without the corners. near: 3 x 3 of them. */
+/* On the rim steps are long, and its numbers have almost no rounding error. The map has all terms of third order, and
+ * x^3 y and x y^3, from 20 rays, which are 5 x 5 without the corners. near: the 3 x 3 rays in the middle. */
 void extend(kd_chart c, uint at, uint x, uint y, vec2 near[9], inout kd_patch o)
 {
     vec2 far[12];
@@ -156,7 +157,7 @@ void extend(kd_chart c, uint at, uint x, uint y, vec2 near[9], inout kd_patch o)
 
 kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
 {
-    vec2 f[9]; /* of 3 x 3 rays, row by row */
+    vec2 f[9]; /* places of 3 x 3 rays, row by row */
     uint there = 0u;
     [[dont_unroll]] for (int k = 0; k < 9; k++) {
         kd_neighbour n = neighbour(c, at, x, y, k % 3 - 1, k / 3 - 1);
@@ -205,7 +206,7 @@ float determinant_of(mat2 j) { return j[0].x * j[1].y - j[1].x * j[0].y; }
 vec2 root(kd_patch m, vec2 q, vec2 p)
 {
     float far = 1.0;
-    [[dont_unroll]] for (int k = 0; k < 6 && far > 1e-4; k++) { /* the next step would be 1e-8 */
+    [[dont_unroll]] for (int k = 0; k < 6 && far > 1e-4; k++) { /* the next step would only be about 1e-8 */
         mat2 j = derivative(m, p);
         float det = determinant_of(j);
         vec2 f = q - value(m, p), step_ = vec2(j[1].y * f.x - j[1].x * f.y, j[0].x * f.y - j[0].y * f.x) / det;
@@ -215,7 +216,7 @@ vec2 root(kd_patch m, vec2 q, vec2 p)
     return far < 1e-3 ? p : vec2(1e9);
 }
 
-/* Whether the map has a unique inverse over a ray's cell: its derivative changes by less than itself. */
+/* Whether the map has a unique inverse over a ray's cell: the map's derivative changes by less than itself. */
 bool is_plain(kd_patch m)
 {
     mat2 j = mat2(m.a, m.b);
@@ -224,13 +225,13 @@ bool is_plain(kd_patch m)
     return 1.2 * (all.x + all.y) * (abs(j[0].x) + abs(j[0].y) + abs(j[1].x) + abs(j[1].y)) < 0.7 * abs(det);
 }
 
-/* Where two cells meet they share the light, with weights that go from 0 to 1 over a fifth of a step: their maps put
- * an image at slightly different places, and no image is lost or counted twice. */
+/* Where two cells meet they share the light, with weights that go from 0 to 1 over a fifth of a step. Their maps put an
+ * image at slightly different places; by sharing, no image is lost or counted twice. */
 float share(float x) { return clamp(3.0 - 5.0 * abs(x), 0.0, 1.0); }
 
-/* A place p in a ray's cell: in the picture, in its steps; squared steps of the picture per squared step of the ray;
- * fraction of the image that comes from this grid, rather than from the rim or another grid; and the energy at
- * infinity of light that is measured as 1. */
+/* A place p in a ray's cell. place: in the picture, in its steps; steps: squared steps of the picture per squared step
+ * of the ray; share: fraction of the image that comes from this grid, rather than from the rim or another grid; energy:
+ * energy at infinity of light that is measured as 1. */
 struct kd_star_pixel {
     vec2 place;
     float steps, share, energy;

@@ -1,15 +1,15 @@
 /* Kernel: lists pairs of a ray and a star that it may see, ray by ray, for the rays that star_tiles.comp left over
  * because the map is not simple there. A ray stands for a cell of the picture one step wide, which the lens map takes
- * to a patch of the sky. This kernel lists the stars in a parallelogram about that patch, by its first derivatives;
- * star_images.comp finds their places.
+ * to a patch of the sky. This kernel lists the stars in a parallelogram about that patch, from the map's first
+ * derivatives; star_images.comp finds the places of their images.
  *
  * Stars are sorted into square cells on the six faces of a cube about the sphere, the brightest of a cell first
- * (shared/faces.h). The search of a cell ends with the first star whose light, at twice the mean magnification of a
- * ray's patch, would brighten the pixel by less than push.least in units of sky.brightness. A patch of more than
+ * (shared/faces.h). The search of a cell ends at the first star that is too faint: with twice the mean magnification of
+ * a ray's patch it would brighten the pixel by less than push.least in units of sky.brightness. A patch of more than
  * KD_STAR_PATCH radians, next to the critical curve, is left out.
  *
- * The parallelogram: with J the map's derivative, |x_i| <= KD_STAR_ROOM for x = (J^T J + e tr(J^T J))^-1 J^T p. e
- * makes room for what the derivative does not describe where J is nearly singular, on the caustic. */
+ * The parallelogram: with J the map's derivative, |x_i| <= KD_STAR_ROOM for x = (J^T J + e tr(J^T J))^-1 J^T p. Where J
+ * is nearly singular, on the caustic, the derivative does not describe the whole patch; e makes room for the rest. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -39,7 +39,7 @@ vec3 slope(vec3 n, uint at, uint x, uint y, ivec2 axis)
     return after ? other - n : n - other;
 }
 
-/* Whether all images there belong to others: the rim, or another of its grids. */
+/* Whether all images there belong to others: the rim, or another grid of the rim. */
 bool is_left_out(uint x, uint y)
 {
     return AT_RIM
@@ -60,12 +60,12 @@ void search(uint at)
     float reach = 0.75 * size;
     bool looks = kd_sky_escapes(at) && size < (RIM != 0u ? KD_STAR_PATCH_RIM : KD_STAR_PATCH) && aa > 0.0 && bb > 0.0 &&
                  !is_left_out(x, y);
-    /* Vectors that give x, so that a star is tested by two products. */
+    /* Vectors whose products with a star are the components of x, so that a star is tested by two products. */
     vec3 to_x = ((bb + more) * a - ab * b) * unit, to_y = ((aa + more) * b - ab * a) * unit;
     float far = 1.3 * reach * reach;
-    /* The rectangle about the parallelogram, to which e adds little unless it is thin; limited by the ray's size: a
-     * step of the direction moves the place on the face by at most 1 + p^2 + q^2 times as much, plus a margin
-     * because that factor grows. */
+    /* The rectangle about the parallelogram, to which e adds little unless the parallelogram is thin. It is limited by
+     * the ray's size: a step of the direction moves the place on the face by at most 1 + p^2 + q^2 times as much, plus
+     * a margin because that factor grows. */
     kd_face face = kd_face_of(n);
     vec2 middle = vec2(face.p, face.q), all = vec2(1.25 * reach * (1.0 + dot(middle, middle)));
     vec2 room =
@@ -73,8 +73,8 @@ void search(uint at)
     room = patch_ < 0.1 * (aa + bb) ? all : min(1.1 * KD_STAR_ROOM * room, all);
     kd_cells cells = kd_cells_of(face.number, middle - room, middle + room);
     kd_star_walk walk = kd_star_walk_from(cells, looks);
-    /* lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop goes from
-     * star to star, and from cell to cell, until one is near, and the outer loop records it. */
+    /* lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop goes from star
+     * to star, and from cell to cell, until a star is near, and the outer loop records this star. */
     for (;;) {
         bool near = false;
         for (;;) {

@@ -1,18 +1,19 @@
 /* Kernel: lists pairs of a ray and a star that it may see, from square tiles of the lens map. Each ray stands for a
  * cell of the picture one step wide; star_images.comp finds the star's image in it.
  *
- * Nine rays of a tile, three by three, give the map over it to second order, from places in the tile to the plane of
- * the sky perpendicular to the middle ray. A tile is simple if all nine escape; if the map's derivative changes by less
- * than KD_STAR_TILE_BENT of itself, so that it has a unique inverse there, which Newton's method finds; and if the
- * corners show that terms of third order are less than KD_STAR_TILE_OFF rays. Other tiles are listed: large ones,
- * KD_STAR_TILE rays a side, as small ones of three rays a side, for the next run of this kernel; the rays of small ones
- * for star_search.comp.
+ * Nine rays of a tile, three by three, give the map over the tile to second order, from places in the tile to the plane
+ * of the sky perpendicular to the middle ray. A tile is simple under three conditions. All nine rays escape. The map's
+ * derivative changes by less than KD_STAR_TILE_BENT of itself, so that the map has a unique inverse there, which
+ * Newton's method finds. The corners show that terms of third order are less than KD_STAR_TILE_OFF rays.
  *
- * Stars are sorted as in faces.h, the brightest of a cell first; a cell's search ends with the star that would brighten
- * a pixel by less than push.least.
+ * Other tiles are listed. A large tile, KD_STAR_TILE rays a side, is listed as small tiles of three rays a side, for
+ * the next run of this kernel. The rays of a small tile are listed for star_search.comp.
  *
- * BRIGHT: the light of stars in simple tiles is spread here, at the places and with the magnification of the tile's
- * map of second order. */
+ * Stars are sorted as in faces.h, the brightest of a cell first. A cell's search ends at the first star that would
+ * brighten a pixel by less than push.least.
+ *
+ * BRIGHT: the light of stars in simple tiles is spread here, at the places and with the magnification of the tile's map
+ * of second order. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -60,8 +61,8 @@ kd_tile tile_about(uint at, bool whole)
     vec3 e1 = normalize(abs(n.z) < 0.9 ? vec3(-n.y, n.x, 0.0) : vec3(0.0, -n.z, n.y)), e2 = cross(n, e1);
     bool escape = whole && kd_sky_escapes(at);
     uint face = kd_face_of(kd_sky_galactic(n)).number;
-    vec2 low = vec2(1e9), high = vec2(-1e9); /* bounds of the places of all nine */
-    /* terms of u v^2 and u^2 v: what the corners have beyond the other terms */
+    vec2 low = vec2(1e9), high = vec2(-1e9); /* bounds of the places of all nine rays */
+    /* terms of u v^2 and u^2 v: the part of the corners that the other terms do not explain */
     vec2 corners = vec2(0.0), sides = vec2(0.0);
     t.a = t.b = t.aa = t.ab = t.bb = vec2(0.0);
     for (int k = 0; k < 9; k++) {
@@ -101,7 +102,7 @@ kd_tile tile_about(uint at, bool whole)
     return t;
 }
 
-/* Converts a place by the linear map to that by the quadratic one. */
+/* Converts a place of the linear map to the corresponding place of the quadratic one. */
 vec2 place_of(kd_tile t, vec2 linear)
 {
     vec2 p = linear;
@@ -122,8 +123,8 @@ float area(kd_tile t, vec2 p)
 
 /* Spreads the light of star k, whose place is this many rays from the middle ray (x, y) of a tile. magnified: its
  * flux over the solid angle of the sky that a pixel is mapped to. Where two tiles meet they share the light, with
- * weights that go from 0 to 1 over a fifth of a step, as for two rays (star_images.comp), because their maps differ
- * slightly. */
+ * weights that go from 0 to 1 over a fifth of a step, because their maps differ slightly; two rays do so in
+ * star_images.comp. */
 void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
 {
     vec2 share = clamp(0.5 + 5.0 * (float(HALF) + 0.5 - abs(place)), 0.0, 1.0);
@@ -136,7 +137,8 @@ void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
                    emission.sky.brightness * magnified * share.x * share.y * colour);
 }
 
-/* Lists the pairs of star k, whose place is this many rays from the middle one; none if it is too faint. */
+/* Lists the pairs of star k, whose place is this many rays from the middle one; lists nothing if the star is too
+ * faint. */
 void note(uint at, vec2 place, uint k, bool bright)
 {
     ivec2 low = max(ivec2(ceil(place - NEAR)), ivec2(-HALF)), high = min(ivec2(floor(place + NEAR)), ivec2(HALF));
@@ -168,8 +170,8 @@ void list(uint first, uint x, uint y)
     }
 }
 
-/* Whether all images that a tile's rays have belong to others: another of the rim's grids, or the rim, if it has
- * those of the tile's corners; its edge is convex. */
+/* Whether all images in a tile belong to others: to another grid of the rim, or to the rim. All of them belong to the
+ * rim if those at the tile's corners do, because the rim's edge is convex. */
 bool is_left_out(uint x, uint y)
 {
     if (AT_RIM)
@@ -191,7 +193,7 @@ void seek(uint x, uint y)
     bool whole = x + TILE <= push.width && y + TILE <= push.end;
     uint at = whole ? first + uint(HALF) * (push.width + 1u) : first;
     kd_tile t = tile_about(at, whole);
-    /* Vectors whose products with a star are u and v; and the largest such value for a star in a cell of the tile,
+    /* Vectors whose products with a star are u and v. most_: the largest such value for a star in a cell of the tile,
      * by the linear map. */
     vec3 to_u = (t.b.y * t.e1 - t.b.x * t.e2) / t.det, to_v = (t.a.x * t.e2 - t.a.y * t.e1) / t.det;
     float most_ = (1.0 + NEAR / float(HALF)) * (1.0 + 0.5 * t.bent) + 0.05;
@@ -199,7 +201,8 @@ void seek(uint x, uint y)
         push.least * float(SIDE * SIDE) /
         (AT_RIM ? 1.2 * kd_steps_of(x + 1u, y + 1u) : 1.0); /* the last of the rim's rays stand for a little less */
     float sharp = 1.0 - t.bent,
-          least = sharp * sharp * unit * abs(t.det) * (1.0 / float(HALF * HALF)); /* at the largest magnification */
+          /* flux of a star that is just visible at the largest magnification */
+        least = sharp * sharp * unit * abs(t.det) * (1.0 / float(HALF * HALF));
     bool left_out = is_left_out(x, y);
     kd_star_walk walk = kd_star_walk_from(t.cells, t.simple && !left_out);
     for (;;) {

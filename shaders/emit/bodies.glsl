@@ -2,9 +2,9 @@
  *
  * A body is a sphere of radius R in its own frame, and space is taken as flat on its scale. The map A of a body
  * converts coordinate differences from its centre to lengths in the orthonormal frame of zero angular momentum there:
- * along r, theta and phi, stretched by the metric. Light arriving from it at one time is a plane wave there, t = n.Y,
- * where n is the direction of propagation. It meets a body of velocity v where, in the body's frame, t' = gamma (t -
- * v.Y),
+ * along r, theta and phi, stretched by the metric. In that frame the light that arrives at one time is a plane wave, t
+ * = n.Y, where n is the direction of propagation. It meets a body of velocity v where, in the body's frame, t' = gamma
+ * (t - v.Y),
  *
  *   b^2 + t'^2 = R^2,   b^2 = Y^2 - t^2.
  *
@@ -12,26 +12,27 @@
  * 1959, Terrell 1959). The cosine of the emission angle in the body's frame is t'/R. Its surface emits as a black body
  * with linear limb darkening:
  *
- *   light = brightness B(g T) (1 - c (1 - cos)) / (1 - c/3),   1/g = -k.U = (u^t E - u^phi L) - u^r p_r - u^theta
- *     p_theta. */
+ *   light = brightness B(g T) (1 - c (1 - cos)) / (1 - c/3),
+ *   1/g = -k.U = (u^t E - u^phi L) - u^r p_r - u^theta p_theta. */
 #ifndef KD_BLOCK_bodies
 /* clang-format off */
 #define KD_BLOCK_bodies(F, U, A) \
-    F(least)                  /* 1/r of the outermost place that a body may be at */ \
-    /* a ball round all of them, M: x and y by mirrored azimuths, 0 at the observer */ \
+    F(least)                  /* 1/r of the outermost place at which a body may be */ \
+    /* a ball round all bodies, M: x and y by mirrored azimuths, 0 at the observer */ \
     F(x) F(y) F(z) F(reach) \
     U(leaves)                   /* leaves of the tree, a power of two */
 /* clang-format on */
 #define KD_TABLES_bodies(T)
 #define KD_TRAIT_LIT 64u /* some bodies reflect light of the disk */
 #define KD_TRAITS_bodies(T) T(VISIBLE) T(AZIMUTH) T(LIT)
-/* A tree of balls in heap order: nodes from 1 on, with x, y, z and radius, two below each; the last `leaves` belong
- * to the bodies. The bodies follow, KD_BODY_WORDS each: three rows of the map A, each with its value at the centre;
- * velocity and gamma; the velocity relative to which coordinates rotate, R, limb darkening and brightness; factors
- * of E, L, p_r and p_theta in 1/g; temperature over the disk's largest, and index of the body in the list; and the
- * disk's light that it reflects (src/render/emit/bodies_illumination.c): its sum, and its moments along r, theta and
- * phi; those along rr, thetatheta and phiphi, and its temperature over the disk's largest; those along rtheta, rphi and
- * thetaphi. */
+/* A tree of balls in heap order: nodes from 1 on, with x, y, z and radius, and two children each; the last `leaves`
+ * nodes belong to the bodies. The bodies follow, KD_BODY_WORDS each:
+ * three rows of the map A, each with its value at the centre;
+ * velocity and gamma; the velocity relative to which coordinates rotate, R, limb darkening and brightness;
+ * factors of E, L, p_r and p_theta in 1/g; temperature over the disk's largest, and index of the body in the list;
+ * and the disk's light that the body reflects (src/render/emit/bodies_illumination.c): its sum, and its moments along
+ * r, theta and phi; the moments along rr, thetatheta and phiphi, and the light's temperature over the disk's largest;
+ * the moments along rtheta, rphi and thetaphi. */
 #define KD_BODY_WORDS 40
 #define KD_BUFFERS_bodies(B) B(3, stored, bodies)
 #define KD_PASS_bodies(P)
@@ -71,7 +72,7 @@ vec3 kd_bodies_reflected(kd_met met)
     vec4 p = vec4(s * cos(met.phi), -s * sin(met.phi), met.u, met.w);
     vec3 y =
         vec3(dot(kd_body_row(met.body, 0u), p), dot(kd_body_row(met.body, 1u), p), dot(kd_body_row(met.body, 2u), p));
-    /* The normal in the body's frame, where light left at t' = R cos. */
+    /* The normal in the body's frame; light left the surface at t' = R cos. */
     vec4 v = kd_body_row(met.body, 3u), own = kd_body_row(met.body, 4u);
     y /= max(met.w, 1e-12);
     float t = (met.cosine * own.y / v.w + dot(v.xyz, y)) / (1.0 + v.z * own.x);

@@ -1,8 +1,8 @@
 /* Colours of black bodies, from tables that do not depend on the scene.
  *
- * Nodes are at T = 2^k (1 + m/KD_COLOUR_NODES), which are the floats whose low bits are zero: the bits of a
- * temperature are its place in the table. A row holds red and blue of linear sRGB of luminance 1, and their
- * differences to the next node; green follows from the luminance, 0.2126 r + 0.7152 g + 0.0722 b = 1. */
+ * Nodes are at T = 2^k (1 + m/KD_COLOUR_NODES), which are the floats whose low bits are zero: the upper bits of a
+ * temperature are its place in the table. A row holds red and blue of linear sRGB of luminance 1, and their differences
+ * to the next node; green follows from the luminance, 0.2126 r + 0.7152 g + 0.0722 b = 1. */
 #ifndef KD_BLOCK_colour
 #define KD_BLOCK_colour(F, U, A)
 #define KD_COLOUR_NODES 64 /* nodes an octave */
@@ -14,8 +14,8 @@
 #define KD_COLOUR_ROWS (KD_COLOUR_OCTAVES * KD_COLOUR_NODES)
 #define KD_TABLES_colour(T) \
     T(colour, KD_COLOUR_ROWS)   /* red, blue, and their differences to the next row */ \
-    T(luminous, KD_COLOUR_ROWS) /* log2 of the fraction of the radiance that the eye perceives, and its difference to \
-                                   the next row */
+    T(luminous, KD_COLOUR_ROWS) /* log2 of the fraction of the radiance that the eye perceives, and the difference to \
+                                 * the next row */
 #endif
 
 #ifdef KD_EMIT_CODE

@@ -1,25 +1,25 @@
 /* Debris that tides have torn off bodies as an emitter: a density on the plane of the disk (src/scene/dynamic_bodies.h,
  * src/playground/show.h).
  *
- * A column with S bodies' worth per M^2 is a black body of one temperature with an optical depth D S. It is seen with
- * its local mean velocity (v_r, v_phi) relative to the observer of zero angular momentum there (Bardeen, Press &
- * Teukolsky 1972). In the equatorial plane, with A = (r^2 + a^2)^2 - a^2 Delta, lapse^2 is r^2 Delta/A, g_rr =
+ * A column that holds the matter of S bodies per M^2 is a black body of one temperature with an optical depth D S. It
+ * is seen with its local mean velocity (v_r, v_phi) relative to the observer of zero angular momentum there (Bardeen,
+ * Press & Teukolsky 1972). In the equatorial plane, with A = (r^2 + a^2)^2 - a^2 Delta, lapse^2 is r^2 Delta/A, g_rr =
  * r^2/Delta, g_phiphi = A/r^2, the dragging 2ar/A, and
  *
- *   1/g = gamma ((E - dragging L)/lapse - v_r p_r/sqrt(g_rr) - v_phi L/sqrt(g_phiphi)),   light = (1 - exp(-D S))
- *     B(g T). */
+ *   1/g = gamma ((E - dragging L)/lapse - v_r p_r/sqrt(g_rr) - v_phi L/sqrt(g_phiphi)),
+ *   light = (1 - exp(-D S)) B(g T). */
 #ifndef KD_BLOCK_debris
 /* clang-format off */
 #define KD_BLOCK_debris(F, U, A) \
     U(turn) U(rows) U(columns)      /* nodes of a whole turn; rows of nodes; nodes a row */ \
-    F(first_row) F(first_column) F(rows_octave) /* rows in which r doubles, counted from r = 1 */ \
-    F(depth)                    /* D, over the area of a node at r = 1 */ \
-    F(temperature)              /* over the disk's largest */
+    F(first_row) F(first_column) F(rows_octave) /* first node; rows in which r doubles, counted from r = 1 */ \
+    F(depth)                    /* D, divided by the area of a node at r = 1 */ \
+    F(temperature)              /* temperature, relative to the disk's largest */
 /* clang-format on */
 #define KD_TABLES_debris(T)
 #define KD_TRAITS_debris(T) T(VISIBLE)
 #define KD_BUFFERS_debris(B) \
-    B(4, floats, debris) /* three numbers a node: bodies' worth, and its products with v_r and v_phi */
+    B(4, floats, debris) /* three numbers a node: matter, in bodies, and its products with v_r and v_phi */
 #define KD_PASS_debris(P)
 #endif
 

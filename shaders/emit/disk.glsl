@@ -1,7 +1,7 @@
 /* The smooth thin disk as an emitter.
  *
- * An element at radius r emits as a black body of temperature T(r). By Liouville I_nu/nu^3 is constant along the
- * ray, so it is seen as a black body of g T, with bolometric intensity g^4 F / pi. Radiance is in units of the
+ * An element at radius r emits as a black body of temperature T(r). By Liouville I_nu/nu^3 is constant along the ray,
+ * so the element is seen as a black body of g T, with bolometric intensity g^4 F / pi. Radiance is in units of the
  * largest surface brightness at g = 1. */
 #ifndef KD_BLOCK_disk
 #define KD_DISK_TABLE 1024
@@ -11,7 +11,7 @@
     F(fade)                /* reciprocal width of the outer fade, 1/M */ \
     F(opacity) \
     F(peak)                /* largest effective temperature times the hardening, K */ \
-    F(luminous)            /* log2 of the fraction that the eye perceives of a black body of that temperature */
+    F(luminous)            /* log2 of the fraction that the eye perceives of a black body's light at that temperature */
 /* clang-format on */
 #define KD_TABLES_disk(T) \
     T(disk, KD_DISK_TABLE)  /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its difference to the \
@@ -53,8 +53,8 @@ kd_gas kd_disk_gas(kd_sample s, uint traits)
     /* The outer fade: 1 inside, 0 at r_out, with vanishing slope at both ends. */
     float f = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0);
     bool inside = r >= emission.disk.r_in && r <= emission.disk.r_out;
-    /* Elsewhere t may be NaN: inside the photon orbit u^t does not exist, and E (r^(3/2) + a) - L, by which g is
-     * divided, vanishes. */
+    /* Elsewhere t may be NaN: inside the photon orbit u^t does not exist, and the divisor of g, E (r^(3/2) + a) - L,
+     * vanishes. */
     return kd_gas(inside ? t : 0.0, inside ? emission.disk.opacity * (f * f * (3.0 - 2.0 * f)) : 0.0);
 }
 

@@ -5,13 +5,13 @@
     U(pixels_x)            /* a row */ \
     U(band_pixels)         /* pixels whose light one buffer holds; the separate luminance follows */ \
     F(azimuth)             /* of the observer, radians */ \
-    F(delay)               /* delay of light for which moving emitters are shown at the scene's time, M */ \
+    F(delay)               /* the light delay for which moving emitters are shown at the scene's time, M */ \
     F(w_least) F(w_most)   /* 1/r of crossings at which something may emit light */ \
-    F(along_least) F(along_most) /* range of 1/r of all volumes, */ \
-    F(along_hollow) F(along_u)   /* and the least and largest |cos(theta)| */ \
+    F(along_least) F(along_most) /* range of 1/r of all volumes together */ \
+    F(along_hollow) F(along_u)   /* least and largest |cos(theta)| of all volumes together */ \
     F(along_knot)          /* 1/r of a sphere at which the light of a volume has an edge; 0: none */ \
     F(r_isco) \
     F(one_minus_a)         /* 1 - spin, which a float of the spin loses near 1 */ \
-    F(inner) F(outer)      /* edges of the disk, M, whether anything emits light between them or not */
+    F(inner) F(outer)      /* edges of the disk, M; set whether anything emits light between them or not */
 /* clang-format on */
 #endif

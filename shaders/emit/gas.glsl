@@ -1,40 +1,40 @@
 /* Turbulent gas in place of the smooth disk: the disk's temperature and optical depth are multiplied by a procedural
  * pattern, and the opacity of a crossing depends on the length of the ray's path through the gas.
  *
- * Pattern. Rings, KD_GAS_RING apart in ln r, rotate rigidly with the Omega of their middle. Each holds its own noise in
- * the plane that rotates with it, at K (r/r_j) (cos psi, sin psi), psi = phi - Omega_j t + shear ln(r/r_j): features
- * grow with r, there is no seam in phi, and nothing winds up at any t. The noises b of the two rings about a place are
- * added with weights w_1^2 + w_2^2 = 1, so that the variance is the same everywhere. Octaves are those of fractional
- * Brownian motion; the lattice of each is rotated, shifted at random and drifting, and is displaced by the octaves
- * before it (domain warp).
+ * Pattern. Rings, KD_GAS_RING apart in ln r, rotate rigidly with the Omega of their middle. Each has its own noise in
+ * the plane that rotates with it. The noise is evaluated at K (r/r_j) (cos psi, sin psi), psi = phi - Omega_j t + shear
+ * ln(r/r_j): features grow with r, there is no seam in phi, and nothing winds up at any t. The noises b of the two
+ * rings about a place are added with weights w_1^2 + w_2^2 = 1, so that the variance is the same everywhere. Octaves
+ * are those of fractional Brownian motion. The lattice of each octave is rotated, shifted at random and drifting, and
+ * is displaced by the octaves before it (domain warp).
  *
- * With n = sum of s_k b_k, b_k of variance 1 and nearly Gaussian, flux and depth are multiplied by exp(n - sum
+ * Let n = sum of s_k b_k, where b_k has variance 1 and is nearly Gaussian. Flux and depth are multiplied by exp(n - sum
  * s_k^2/2), whose mean is 1. A black body of T^4 proportional to that flux changes colour and brightness consistently.
  *
- * Opacity. A layer of optical depth tau along its normal absorbs 1 - exp(-tau/cos) of light that crosses it at an
- * angle theta to the normal, in the frame of the gas. There cos(theta) = |p_theta| g / r, with p_theta^2 = Q in the
- * plane (Carter 1968), for a photon of energy 1/g. */
+ * Opacity. A layer of optical depth tau along its normal absorbs 1 - exp(-tau/cos) of light that crosses it at an angle
+ * theta to the normal, in the frame of the gas. There cos(theta) = |p_theta| g / r, with p_theta^2 = Q in the plane
+ * (Carter 1968), for a photon of energy 1/g. */
 #ifndef KD_BLOCK_gas
 #define KD_GAS_RING 0.2 /* ln of the ratio of neighbouring rings' radii */
 #define KD_GAS_RINGS 80 /* from 1 to 1e6 M and one beyond */
 #define KD_GAS_OCTAVES 8
 #define KD_GAS_DRIFT 0.15 /* cells by which the first octave's lattice drifts while its ring turns by a radian */
 #define KD_GAS_HASTE 1.6  /* ratio of the drift of successive octaves */
-#define KD_GAS_FINER 1.9  /* ratio of the cells a length of successive octaves */
-#define KD_GAS_TURN 0.9   /* rotation of each octave's lattice against the one before, radians */
+#define KD_GAS_FINER 1.9  /* ratio of the numbers of cells per length of successive octaves */
+#define KD_GAS_TURN 0.9   /* rotation of each octave's lattice against that of the octave before, radians */
 #define KD_BLOCK_gas(F, U, A) \
     F(first) /* log2 of the innermost ring's radius */ \
-    F(cells) /* K: cells of the first octave over the length r */ \
+    F(cells) /* K: cells of the first octave over a length equal to r */ \
     F(shear) \
     F(warp)        /* displacement at one standard deviation of an octave, in its own cells */ \
-    F(loudness)    /* s_0 */ \
-    F(persistence) /* s_(k+1)/s_k */ \
-    F(finer)       /* squared ratio of the steps of successive octaves, including displacement */ \
+    F(loudness)    /* s_0, the amplitude of the first octave */ \
+    F(persistence) /* s_(k+1)/s_k, the ratio of successive amplitudes */ \
+    F(finer)       /* squared ratio of the ray's steps, in cells, of successive octaves, including displacement */ \
     F(depth)       /* optical depth along the normal where the flux is largest */
 #define KD_GAS_ROWS (KD_GAS_RINGS * (KD_GAS_OCTAVES + 1))
 /* Tables. The row of a ring: azimuth minus the observer's in radians, Omega, and the factor that converts a place in
- * its plane to that in the next one's. The row of an octave: drift of the lattice, as a fraction of a cell and whole
- * cells. */
+ * its plane to a place in the next ring's plane. The row of an octave: drift of the lattice, as a fraction of a cell
+ * and whole cells. */
 #define KD_TABLES_gas(T) T(gas, KD_GAS_ROWS)
 #define KD_TRAIT_GAS_DEEP 64u /* opacity by optical depth */
 #define KD_TRAIT_GAS_SHIFT 8u /* number of octaves from this bit on; 0: no turbulence */
@@ -46,9 +46,10 @@
 
 #ifdef KD_EMIT_CODE
 const uint KD_GAS_TAKEN = TRAITS_gas >> KD_TRAIT_GAS_SHIFT;
-const bool KD_GAS_SLOW = ((TRAITS_gas | TRAITS_thick) & KD_TRAIT_SLOW) != 0u; /* for the scene's gas, thin or thick */
+/* the scene's gas, thin or thick, is shown as it was when its light left it */
+const bool KD_GAS_SLOW = ((TRAITS_gas | TRAITS_thick) & KD_TRAIT_SLOW) != 0u;
 
-/* Gradient at each point of a lattice that repeats after 65536 cells, times 32768. */
+/* Gradient at a point of a lattice that repeats after 65536 cells, times 32768. */
 vec2 kd_gas_gradient(uint point)
 {
     uint h = (point ^ (point >> 15)) * 0x2c1b3c6du;
@@ -56,8 +57,8 @@ vec2 kd_gas_gradient(uint point)
     return vec2(float(int(h) >> 16), float(int(h << 16) >> 16));
 }
 
-/* Gradient noise of variance 1 (Perlin 2002) in a lattice shifted by at.xy of a cell and at.zw cells; and,
- * uncorrelated with it, the noise of the gradients rotated by a quarter turn. */
+/* Gradient noise of variance 1 (Perlin 2002) in a lattice shifted by at.xy of a cell and at.zw cells. The second result
+ * is noise that is uncorrelated with the first: its gradients are rotated by a quarter turn. */
 vec2 kd_gas_noise(vec2 p, vec4 at)
 {
     p += at.xy;
@@ -71,8 +72,8 @@ vec2 kd_gas_noise(vec2 p, vec4 at)
                    vec2(b.x * e.x + b.y * d.y, b.x * d.y - b.y * e.x), t.x);
     vec2 high = mix(vec2(c.x * d.x + c.y * e.y, c.x * e.y - c.y * d.x),
                     vec2(f.x * e.x + f.y * e.y, f.x * e.y - f.y * e.x), t.x);
-    return mix(low, high, t.y) *
-           (5.677716904867669 / 32768.0); /* E[n^2] over the square's gradients and places of the cell */
+    /* so that the mean of n^2 over the square's gradients and over places in a cell is 1 */
+    return mix(low, high, t.y) * (5.677716904867669 / 32768.0);
 }
 
 /* Place in a ring's plane, and the ring's motion. */
@@ -82,7 +83,7 @@ struct kd_gas_ring {
     float ahead;
 };
 
-/* off: ln(r/r_j). */
+/* off: ln(r/r_j), the distance from the ring's middle */
 kd_gas_ring kd_gas_ring_of(uint j, float off, kd_sample s)
 {
     uint row = j * (KD_GAS_OCTAVES + 1u);
@@ -103,8 +104,8 @@ vec4 kd_gas_lattice(kd_gas_ring ring, uint octave)
     return at;
 }
 
-/* Cells of the pattern that one ray stands for: the sum of the squared semi-axes of its footprint there, and their
- * squared product. A step (dr, r dphi) is one of (dr, r dphi + shear dr) K/r cells. */
+/* The area of the pattern, in cells, that one ray stands for: the sum of the squared semi-axes of its footprint there,
+ * and the product of the squared semi-axes. A step (dr, r dphi) is a step of (dr, r dphi + shear dr) K/r cells. */
 struct kd_gas_steps { float sum, product; };
 
 kd_gas_steps kd_gas_footprint(kd_sample s)
@@ -112,21 +113,21 @@ kd_gas_steps kd_gas_footprint(kd_sample s)
     uint bits = floatBitsToUint(s.shape);
     float i = float(bits & 2047u) * (1.0 / 2047.0), j = float((bits >> 11) & 2047u) * (2.0 / 2047.0) - 1.0;
     float both = i * (1.0 - i), apart = i - 0.5, per = s.w * s.footprint * emission.gas.cells;
-    float all = per * per / (0.5 + sqrt(apart * apart + j * j * both)); /* M_rr + M_ff from the long axis */
+    float all = per * per / (0.5 + sqrt(apart * apart + j * j * both)); /* M_rr + M_ff, from the long axis */
     float c = j * sqrt(both), shear = emission.gas.shear;
     return kd_gas_steps(all * (1.0 + shear * (shear * i + 2.0 * c)), all * all * both * (1.0 - j * j));
 }
 
-/* Fraction of an octave that remains in the mean over a ray's footprint: the variance of this noise along a line of
- * q cells is about that at a point over 1 + 0.66 q^2. It is set to 0 where it is small, to avoid flickering aliases;
- * the loop ends there. */
+/* Fraction of an octave that remains in the mean over a ray's footprint: the variance of this noise, averaged along a
+ * line of q cells, is about its variance at a point over 1 + 0.66 q^2. The fraction is set to 0 where it is small, to
+ * avoid flickering aliases; the loop over octaves ends there. */
 float kd_gas_left(kd_gas_steps q)
 {
     float fine = 1.0 + 0.66 * q.sum + 0.4356 * q.product, cut = clamp(1.8 - 0.5 * q.sum, 0.0, 1.0);
     return cut * cut * (3.0 - 2.0 * cut) * inversesqrt(fine);
 }
 
-/* ln of the factor of flux and depth. */
+/* ln of the factor by which flux and depth are multiplied. */
 float kd_gas_excess(kd_sample s)
 {
     float u = max(-(log2(s.w) + emission.gas.first) * (0.69314718 / KD_GAS_RING), 0.0), j = floor(u), x = u - j;

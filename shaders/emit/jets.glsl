@@ -1,9 +1,10 @@
-/* Two stylised jets: optically thin light in cones along the spin axis, from matter that moves outwards along the
- * radius at one speed relative to observers of zero angular momentum (Bardeen, Press & Teukolsky 1972). In their frame
- * a photon has the energy and radial momentum
+/* Two stylised jets: optically thin light in cones along the spin axis. Their matter moves outwards along the radius at
+ * one speed relative to observers of zero angular momentum (Bardeen, Press & Teukolsky 1972). In the frame of these
+ * observers a photon has the energy and radial momentum
  *
- *   e = (E - omega L) sqrt(A/(Sigma Delta)),   k_r = p_r sqrt(Delta/Sigma),   and for the matter   -k.U = Gamma (e -
- *                                              beta k_r).
+ *   e = (E - omega L) sqrt(A/(Sigma Delta)),   k_r = p_r sqrt(Delta/Sigma),
+ *
+ * and in the frame of the matter the energy -k.U = Gamma (e - beta k_r).
  *
  * A spectrum j_nu ~ nu^-alpha keeps its shape under a shift. j_nu/nu^2 is invariant: per unit of the observer's affine
  * parameter light is g^(2 + alpha) j, g = 1/(-k.U), the D^(2 + alpha) of a steady jet (Lind & Blandford 1985, ApJ 295,
@@ -13,20 +14,20 @@
  * along: (r/inner)^-falloff, with smooth ends. */
 #ifndef KD_BLOCK_jets
 #define KD_JETS_RISE 0.5 /* fraction of the inner radius over which light rises */
-#define KD_JETS_FADE 0.3 /* fraction of the outer radius over which it fades */
+#define KD_JETS_FADE 0.3 /* fraction of the outer radius over which light fades */
 /* clang-format off */
 #define KD_BLOCK_jets(F, U, A) \
     F(inner) F(outer)      /* M */ \
     F(cot)                 /* 1/tan of the opening angle */ \
-    F(tan_)                /* and its tangent */ \
+    F(tan_)                /* tangent of the opening angle */ \
     /* log2 of the light per length, 1/M, at the spine's inner edge, in units of the disk's largest surface \
      * brightness */ \
     F(brightness) \
-    F(sheath)              /* fraction of the sheath, 0 to 1 */ \
+    F(sheath)              /* the sheath's fraction of the light, 0 to 1 */ \
     F(falloff) F(power)    /* power: 2 + alpha */ \
     F(gamma) F(gamma_beta) \
     F(counter)             /* light of the lower jet over that of the upper one */ \
-    F(temperature)         /* K: temperature whose colour it has */
+    F(temperature)         /* K: temperature of the black body that has the colour of the light */
 /* clang-format on */
 #define KD_TABLES_jets(T)
 #define KD_TRAITS_jets(T)
@@ -35,10 +36,10 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* -k.U of its matter, without a difference of nearly equal numbers. For light along the jet, e - k_r is across^2
- *   over the sum, with across^2 = k_theta^2 + k_phi^2 = (p_theta^2 + L^2 Sigma^2/(A sin^2))/Sigma. By p_theta^2 = Q
- *   + a^2 E^2 u^2 - L^2 u^2/sin^2 and A = (r^2 + a^2)^2 - a^2 Delta sin^2 this has no sine in a denominator: Sigma
- *   across^2 = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2 r)/A. */
+/* -k.U of the matter, without a difference of nearly equal numbers. For light along the jet, e - k_r is across^2 over
+ * the sum e + k_r, with across^2 = k_theta^2 + k_phi^2 = (p_theta^2 + L^2 Sigma^2/(A sin^2))/Sigma. By p_theta^2 = Q +
+ * a^2 E^2 u^2 - L^2 u^2/sin^2 and A = (r^2 + a^2)^2 - a^2 Delta sin^2 this has no sine in a denominator: Sigma across^2
+ * = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2 r)/A. */
 float kd_jets_energy(kd_midst p)
 {
     float a = cam.spin, w2 = p.w * p.w, aw2 = a * a * w2, b = 1.0 + aw2, delta = max(kd_delta(p.w, cam.root), 1e-30);
@@ -62,14 +63,14 @@ kd_medium kd_jets_along(kd_midst p)
     float up = clamp((r - inner) / (KD_JETS_RISE * inner), 0.0, 1.0),
           down = clamp((outer - r) / (KD_JETS_FADE * outer), 0.0, 1.0);
     float along = up * up * (3.0 - 2.0 * up) * down * down * (3.0 - 2.0 * down);
-    /* Both powers and the brightness in one exponential: g to the 12th may be 2^92 and r/inner to the 10th 2^199,
-     * which would overflow separately even if their product is 1. */
+    /* Both powers and the brightness are computed in one exponential. g to the 12th may be 2^92 and r/inner to the 10th
+     * 2^199, which would overflow separately even if their product is 1. */
     float light = exp2(clamp(emission.jets.brightness - emission.jets.falloff * log2(r / inner) -
                                  emission.jets.power * log2(kd_jets_energy(p)),
                              -126.0, 120.0));
     float side = p.u > 0.0 ? 1.0 : emission.jets.counter;
     light *= side * across * along;
-    /* Outside, the distance to the cone, and not less than its smooth edge requires. */
+    /* Outside the jet the grain is the distance to the cone, but not less than the cone's smooth edge requires. */
     float away =
         max(r * (s - c * emission.jets.tan_) * inversesqrt(1.0 + emission.jets.tan_ * emission.jets.tan_), 0.0);
     float grain = min(max(away, 0.25 * width), r);

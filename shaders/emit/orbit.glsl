@@ -5,15 +5,15 @@
 #ifndef KD_BLOCK_orbit
 #define KD_BLOCK_orbit(F, U, A)
 #define KD_TRAIT_DOPPLER 2u  /* for emitters on orbits: apply the factor 1 / (E - Omega L) */
-#define KD_TRAIT_REDSHIFT 4u /* and the factor 1 / u^t */
+#define KD_TRAIT_REDSHIFT 4u /* for emitters on orbits: apply the factor 1 / u^t */
 #endif
 
 #ifdef KD_EMIT_CODE
 /* g r^(-3/4) at r = 1/w: the factor for the temperature of a disk whose table holds T r^(3/4). */
 float kd_orbit_cooled(float w, float energy, float momentum, uint traits)
 {
-    /* With x = sqrt(r), 1 - 3/r + 2a r^-3/2 = ((x - 1)^2 (x + 2) - 2 (1 - a)) / x^3: near the ISCO of a fast hole
-     * the left-hand side loses all digits. Its x^3 and r^(-3/4) cancel. */
+    /* With x = sqrt(r), 1 - 3/r + 2a r^-3/2 = ((x - 1)^2 (x + 2) - 2 (1 - a)) / x^3. Near the ISCO of a fast hole the
+     * left-hand side loses all digits. The x^3 of the right-hand side and r^(-3/4) cancel. */
     float r = 1.0 / w, x = sqrt(r), x3 = r * x, d = (1.0 - w) / (w * (x + 1.0)), all = x3 + cam.spin;
     precise float rest = d * d * (x + 2.0) - 2.0 * emission.frame.one_minus_a;
     bool doppler = (traits & KD_TRAIT_DOPPLER) != 0u, redshift = (traits & KD_TRAIT_REDSHIFT) != 0u;
@@ -21,7 +21,7 @@ float kd_orbit_cooled(float w, float energy, float momentum, uint traits)
     return redshift ? sqrt(max(rest, 0.0)) / under : inversesqrt(x3) * all / under;
 }
 
-/* g itself. */
+/* The redshift factor g. */
 float kd_orbit_shift(float w, float energy, float momentum, uint traits)
 {
     float r = 1.0 / w;

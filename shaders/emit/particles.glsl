@@ -1,5 +1,5 @@
-/* The disk as particles: its brightness is that of the smooth disk times their number over the mean
- * (src/render/emit/particles.h). */
+/* The disk as particles: the brightness of the smooth disk is multiplied by the ratio of the number of particles to the
+ * mean number (src/render/emit/particles.h). */
 #ifndef KD_BLOCK_particles
 /* clang-format off */
 #define KD_BLOCK_particles(F, U, A) \
@@ -8,19 +8,19 @@
 /* clang-format on */
 #define KD_TABLES_particles(T)
 #define KD_TRAITS_particles(T) KD_TRAITS_disk(T) T(SLOW)
-#define KD_BUFFERS_particles(B) B(0, floats, density) /* on the grid, then on that of plunge.glsl */
+#define KD_BUFFERS_particles(B) B(0, floats, density) /* on the disk's grid, then on the grid of plunge.glsl */
 #define KD_PASS_particles(P) P(particles, PARTICLE, "particle", 40)
 #endif
 
 #ifdef KD_EMIT_CODE
-/* A place on one of the grids, which begins at node `first`: its row, and its azimuth in turns on the row before and
- * on the one after. */
+/* A place on one of the grids, which begins at node `first`: the row, and the azimuth in turns on the row before the
+ * place and on the row after it. */
 struct kd_place {
     uint first, rows, columns;
     float row, before, after;
 };
 
-/* Number of turns ahead of matter that rotates with a row's Omega and was seen a time `ago`. */
+/* Number of turns by which matter that rotates with a row's Omega advances in the time `ago`. */
 float kd_particles_ahead(uint row, float ago)
 {
     float r = emission.disk.r_in * exp2(float(row) / emission.particles.rows_octave);
@@ -48,7 +48,7 @@ float kd_density_of_row(kd_place at, uint row, float turn)
                KD_OWN_FLOAT(density, first + ((j + 1) & (at.columns - 1))), column - float(j));
 }
 
-/* Number of particles over the expected number, bilinear between the nodes. */
+/* The ratio of the number of particles to the expected number, bilinear between the nodes. */
 float kd_density_at(kd_place at)
 {
     uint i = min(uint(at.row), at.rows - 1);

@@ -1,10 +1,10 @@
 /* Matter at one radio frequency: the analytic model of R. Gold et al. 2020 (ApJ 897, 148), and hot electrons in a
  * magnetic field by power laws, as used by A. E. Broderick, H.-Y. Pu and others. The state at a point is one struct,
- * kd_plasma, from which light and, if requested, polarisation follow.
+ * kd_plasma. Light and, if requested, polarisation follow from it.
  *
- * At the observed frequency nu_obs, per unit of the affine parameter (by the observer's energy), light grows by
- * (nu_obs/nu)^2 j_nu and optical depth by (nu/nu_obs) alpha_nu: I/nu^3, j/nu^2 and alpha nu are invariant (Rybicki &
- * Lightman 1979, 4.9), and nu/nu_obs = -k.u. */
+ * nu_obs is the observed frequency, and the affine parameter is measured by the observer's energy. Per unit of it,
+ * light grows by (nu_obs/nu)^2 j_nu and optical depth by (nu/nu_obs) alpha_nu: I/nu^3, j/nu^2 and alpha nu are
+ * invariant (Rybicki & Lightman 1979, 4.9), and nu/nu_obs = -k.u. */
 #ifndef KD_BLOCK_plasma
 /* clang-format off */
 #define KD_BLOCK_plasma(F, U, A) \
@@ -12,38 +12,38 @@
     F(frequency)           /* log2 of the observed frequency, GHz */ \
     F(light) F(depth)      /* log2 of the units of kd_radiates per M of length: of light; of optical depth */ \
     F(kelvin) F(jansky)    /* for light 1: brightness temperature, K; Jy a steradian */ \
-    F(jansky_pixel)        /* and Jy from one pixel, if all have the same size */ \
+    F(jansky_pixel)        /* Jy from one pixel of light 1, if all pixels have the same size */ \
     F(gold_light) F(gold_depth) /* log2 of light and depth of a length M at density 1, at 230 GHz */ \
     F(gold_index) F(gold_flat) F(gold_momentum) \
-    F(density) F(density_index) /* log2 of the density at r = 1 M, cm^-3; power at which it falls */ \
-    F(heat) F(heat_index)  /* log2 of Theta there; power at which it falls */ \
+    F(density) F(density_index) /* log2 of the density at r = 1 M, cm^-3; power of r at which it falls */ \
+    F(heat) F(heat_index)  /* log2 of Theta at r = 1 M; power of r at which it falls */ \
     F(steep)               /* distance from the axis over scale height; 0: no layer */ \
-    F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3; power at which it falls */ \
+    F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3; power of r at which it falls */ \
     F(power_index) F(power_light) F(power_depth) /* for a power law of electrons */ \
     F(torus_momentum) F(torus_edge) F(torus_index) /* l; offset of ln h; density is h - 1 to this power */ \
     U(grid_rows) U(grid_columns) U(grid_layers) /* nodes in r, theta and phi; 1 layer: axisymmetric */ \
-    /* first coordinate of each (log2 for r), and nodes per unit of it */ \
+    /* first coordinate in each direction (log2 for r), and nodes per unit of it */ \
     F(grid_r) F(grid_per_r) F(grid_theta) F(grid_per_theta) F(grid_phi) F(grid_per_phi) \
-    F(grid_fall)           /* a if phi is that of ingoing coordinates; else 0 */ \
-    F(grid_field)          /* log2 of the unit of its field, gauss */ \
-    F(kappa) F(kappa_width) /* for a kappa distribution: log2(kappa - 3); */ \
-    /* the rest as in physics/disk/synchrotron.h */ \
+    F(grid_fall)           /* a if the grid's phi is that of ingoing coordinates; else 0 */ \
+    F(grid_field)          /* log2 of the unit of the grid's field, gauss */ \
+    F(kappa) F(kappa_width) /* a kappa distribution: log2(kappa - 3) is `kappa`; */ \
+    /* the other numbers are as in physics/disk/synchrotron.h */ \
     F(kappa_light_low) F(kappa_light_high) F(kappa_light_sharp) F(kappa_depth_low) F(kappa_depth_high) \
     F(kappa_depth_sharp)
 /* clang-format on */
-#define KD_KAPPA_FIRST -10.0 /* log2(z) of the table's first row, */
+#define KD_KAPPA_FIRST -10.0 /* log2(z) of the table's first row */
 #define KD_KAPPA_OCTAVE 16   /* rows for each octave */
 #define KD_KAPPA_ROWS 640
 #define KD_TABLES_plasma(T) T(kappa, KD_KAPPA_ROWS) /* log2 of F(z), and its difference to the next row */
 #define KD_TRAIT_PLASMA_GOLD 2u
-#define KD_TRAIT_PLASMA_VERTICAL 4u /* the field is along the axis, */
-#define KD_TRAIT_PLASMA_RADIAL 8u   /* or along the radius; otherwise round the axis */
+#define KD_TRAIT_PLASMA_VERTICAL 4u /* the field is along the axis */
+#define KD_TRAIT_PLASMA_RADIAL 8u   /* the field is along the radius; without both traits it is round the axis */
 #define KD_TRAIT_PLASMA_REST \
-    512u /* it is at rest for observers of zero angular momentum; otherwise it orbits and falls in */
-#define KD_TRAIT_PLASMA_POWER 64u /* electrons by a power law */
+    512u /* the matter is at rest for observers of zero angular momentum; otherwise it orbits and falls in */
+#define KD_TRAIT_PLASMA_POWER 64u /* the electrons have a power law */
 #define KD_TRAIT_PLASMA_TORUS 128u
-#define KD_TRAIT_PLASMA_KAPPA 256u /* electrons by a kappa distribution */
-#define KD_TRAIT_PLASMA_GRID 1024u /* all of it from a buffer: src/render/emit/matter_grid.h */
+#define KD_TRAIT_PLASMA_KAPPA 256u /* the electrons have a kappa distribution */
+#define KD_TRAIT_PLASMA_GRID 1024u /* matter and field are read from a buffer: src/render/emit/matter_grid.h */
 /* clang-format off */
 #define KD_TRAITS_plasma(T) \
     T(PLASMA_GOLD) \
@@ -53,9 +53,9 @@
 #define KD_BUFFERS_plasma(B) B(5, quads, plasma_grid)
 #define KD_GRID_CELLS 2.0 /* largest number of the grid's cells that a grain covers */
 #define KD_PASS_plasma(P)
-#define KD_TORUS_COLD -24.0 /* log2(h - 1) */
+#define KD_TORUS_COLD -24.0 /* log2(h - 1) in place of log2 of 0 */
 #define KD_PLASMA_SEEN \
-    7.0 /* scale heights, beyond which the density is below 2e-11 of the one in the plane and is taken as 0 */
+    7.0 /* scale heights from the plane; beyond, the density is below 2e-11 of that in the plane and is taken as 0 */
 #endif
 
 #ifdef KD_EMIT_CODE
@@ -73,8 +73,8 @@ kd_metric kd_metric_at(float w, float u)
                      sigma);
 }
 
-/* Velocity of matter: u^t and u_phi, where u^phi - omega u^t = u_phi/g_phiphi, u^r, and u^theta, which is 0 except
- * on a grid. */
+/* Velocity of matter: u^t; u_phi, where u^phi - omega u^t = u_phi/g_phiphi; u^r; and u^theta, which is 0 except on a
+ * grid. */
 struct kd_flow { float time, round_, out_, down; };
 const bool KD_PLASMA_GRID = (TRAITS_plasma & KD_TRAIT_PLASMA_GRID) != 0u;
 
@@ -97,7 +97,7 @@ kd_flow kd_flow_gold(kd_metric g, kd_midst p)
     return kd_flow(scale * seen / g.lapse2, scale * l, 0.0, 0.0);
 }
 
-/* With the angular velocity of the circular orbit at its r, at any latitude. */
+/* Matter with the angular velocity of the circular orbit at its r, at any latitude. */
 kd_flow kd_flow_round(kd_metric g, float r)
 {
     float past = 1.0 / (r * sqrt(r) + cam.spin) - g.omega,
@@ -105,10 +105,10 @@ kd_flow kd_flow_round(kd_metric g, float r)
     return kd_flow(time, g.round_ * past * time, 0.0, 0.0);
 }
 
-/* Inside the ISCO matter keeps the e and l that it has there at its latitude (H.-Y. Pu, K. Akiyama & K. Asada 2016,
- * ApJ 831, 4), and stays at that latitude. Then Sigma^2 (u^r)^2 = A e^2 - 4 a r e l - (Sigma - 2r) l^2/sin^2 - Sigma
- * Delta is a quartic that vanishes at the ISCO; divided by r - r_isco, it has no difference of nearly equal numbers.
- * Where it is negative, off the plane, matter rotates with the angular velocity of e and l. */
+/* Inside the ISCO matter keeps the e and l that it has at the ISCO at its latitude (H.-Y. Pu, K. Akiyama & K. Asada
+ * 2016, ApJ 831, 4), and stays at that latitude. Then Sigma^2 (u^r)^2 = A e^2 - 4 a r e l - (Sigma - 2r) l^2/sin^2 -
+ * Sigma Delta is a quartic that vanishes at the ISCO; divided by r - r_isco, it has no difference of nearly equal
+ * numbers. Where it is negative, off the plane, matter rotates with the angular velocity of e and l. */
 kd_flow kd_flow_plunge(kd_metric g, kd_midst p)
 {
     float r = 1.0 / p.w, edge = emission.frame.r_isco, a2 = cam.spin * cam.spin, u2 = p.u * p.u,
@@ -125,8 +125,8 @@ kd_flow kd_flow_plunge(kd_metric g, kd_midst p)
     return kd_flow(rest * seen / g.lapse2, rest * l, -sqrt(max(out2, 0.0)), 0.0);
 }
 
-/* -ln(1 - z), for z from 0 to 1: GLSL's logarithm has an absolute error of 5e-7 near 1. By 2 artanh(y), whose next
- *   term is below 1e-8 of it. */
+/* -ln(1 - z), for z from 0 to 1. GLSL's logarithm has an absolute error of 5e-7 near 1, so 2 artanh(y) is used. The
+ * next term of its series is below 1e-8 of the result. */
 float kd_less_ln(float z)
 {
     float y = z / (2.0 - z), y2 = y * y;
@@ -134,10 +134,10 @@ float kd_less_ln(float z)
                      : -log(1.0 - z);
 }
 
-/* The torus of L. G. Fishbone & V. Moncrief 1976 (ApJ 207, 962): u^t u_phi = l everywhere. With u_phi^2 = g_phiphi
- * U^2 and u^t = sqrt(1 + U^2)/lapse, U^2 (1 + U^2) = l^2 lapse^2/g_phiphi = q/4; and ln h = ln((1 + sqrt(1 +
- * q))/lapse^2)/2 - sqrt(1 + q)/2 - omega l, equation 3.6. It is about a hundredth, a difference of numbers near 1.
- * So U^2 = (sqrt(1 + q) - 1)/2 is used, which contributes ln(1 + U^2)/2 - U^2, and 1 - lapse^2 = 2 r (r^2 + a^2)/A. */
+/* The torus of L. G. Fishbone & V. Moncrief 1976 (ApJ 207, 962): u^t u_phi = l everywhere. With u_phi^2 = g_phiphi U^2
+ * and u^t = sqrt(1 + U^2)/lapse, U^2 (1 + U^2) = l^2 lapse^2/g_phiphi = q/4; and ln h = ln((1 + sqrt(1 + q))/lapse^2)/2
+ * - sqrt(1 + q)/2 - omega l, equation 3.6. ln h is about a hundredth, a difference of numbers near 1. So U^2 = (sqrt(1
+ * + q) - 1)/2 is used, which contributes ln(1 + U^2)/2 - U^2, and 1 - lapse^2 = 2 r (r^2 + a^2)/A. */
 struct kd_equilibrium {
     kd_flow flow;
     float enthalpy;
@@ -152,9 +152,9 @@ kd_equilibrium kd_torus_at(kd_metric g, kd_midst p)
     return kd_equilibrium(kd_flow(sqrt((1.0 + u2) / g.lapse2), sqrt(g.round_ * u2) * sign(l), 0.0, 0.0), ln_h);
 }
 
-/* State of the matter at a place. energy: -k.u, the frequency there over the observed one; frequency: its log2, GHz;
- * field: the unit vector along B, b.u = 0, as contravariant components t, r, theta, phi of Boyer-Lindquist
- * coordinates, for an arriving photon. */
+/* State of the matter at a place, for an arriving photon. energy: -k.u, the frequency in the frame of the matter over
+ * the observed one; frequency: log2 of that frequency in GHz; field: the unit vector along B, b.u = 0, as contravariant
+ * components t, r, theta, phi of Boyer-Lindquist coordinates. */
 struct kd_plasma {
     kd_electrons electrons;
     kd_flow flow;
@@ -163,8 +163,8 @@ struct kd_plasma {
     vec4 field;
 };
 
-/* Makes a direction e perpendicular to u: b = e + (e.u) u, k.b = k.e - energy e.u. e has the components r, theta
- * times 1/sin(theta), phi. */
+/* Makes a direction e perpendicular to u: b = e + (e.u) u, k.b = k.e - energy e.u. e has the components r, theta times
+ * 1/sin(theta), and phi. */
 void kd_plasma_field(inout kd_plasma m, kd_midst p)
 {
     float s = sqrt(max(1.0 - p.u * p.u, 1e-12)), r2 = 1.0 / (p.w * p.w), out_ = 0.0, down = 0.0, round_ = 0.0;
@@ -196,8 +196,8 @@ kd_grid_node kd_grid_line(uint at, uint next, float part)
                         mix(plasma_grid[at + 1u], plasma_grid[next + 1u], part));
 }
 
-/* phi of ingoing Kerr-Schild coordinates is phi + int a/Delta dr, a/(r+ - r-) ln((r - r+)/(r - r-)) = -a/(r - 1)
- * artanh(x)/x, x = (r+ - 1)/(r - 1). */
+/* phi of ingoing Kerr-Schild coordinates minus Boyer-Lindquist phi: int a/Delta dr = a/(r+ - r-) ln((r - r+)/(r - r-))
+ * = -a/(r - 1) artanh(x)/x, x = (r+ - 1)/(r - 1). */
 float kd_grid_fallen(float r)
 {
     float x = min(cam.root / max(r - 1.0, 1e-6), 0.999999), x2 = x * x;
@@ -232,9 +232,10 @@ kd_grid_node kd_grid_at(kd_midst p, float log2_r)
     return sum;
 }
 
-/* Any u^r, u^theta and u_phi belong to a timelike unit vector: -lapse^2 (u^t)^2 = -1 - U^2, where U are the
- * components for the observer of zero angular momentum. With B likewise from b, b.u = 0 gives lapse b^t = B.U/sqrt(1
- * + U^2), and b^2 = (B^2 + (B x U)^2)/(1 + U^2), without a difference of large numbers near the horizon. */
+/* Any u^r, u^theta and u_phi belong to a timelike unit vector: -lapse^2 (u^t)^2 = -1 - U^2, where U are the components
+ * of the velocity for the observer of zero angular momentum. Let B be the same components of b. Then b.u = 0 gives
+ * lapse b^t = B.U/sqrt(1 + U^2), and b^2 = (B^2 + (B x U)^2)/(1 + U^2), without a difference of large numbers near the
+ * horizon. */
 kd_plasma kd_plasma_of_grid(kd_midst p, float log2_r)
 {
     kd_plasma m;
@@ -261,8 +262,8 @@ kd_plasma kd_plasma_of_grid(kd_midst p, float log2_r)
     return m;
 }
 
-/* The edges of cells are visible in the light, so a grain covers at most KD_GRID_CELLS. It is not shorter than half
- * of one of the finest rows that a grid may have, which columns and layers next to the axis would require. */
+/* The edges of cells are visible in the light, so a grain covers at most KD_GRID_CELLS. The grain is at least half of
+ * one of the finest rows that a grid may have; columns and layers next to the axis would require less. */
 float kd_grid_grain(kd_midst p, float sharp)
 {
     float r = 1.0 / p.w, s2 = max(1.0 - p.u * p.u, 1e-4);
@@ -276,7 +277,7 @@ float kd_grid_grain(kd_midst p, float sharp)
 void kd_stokes_at(kd_plasma m, kd_midst p, float light, float depth, float depth_log2); /* emit/stokes.glsl */
 #endif
 
-/* Electrons by power laws of r, in a layer about the plane; or those of a torus. */
+/* Matter at a place: electrons by power laws of r, in a layer about the plane; or the electrons of a torus. */
 kd_plasma kd_plasma_at(kd_midst p)
 {
     if (KD_PLASMA_GRID)
@@ -303,7 +304,7 @@ kd_plasma kd_plasma_at(kd_midst p)
     m.electrons.heat = emission.plasma.heat - emission.plasma.heat_index * log2_r;
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_TORUS) != 0u) {
         m.electrons.density = emission.plasma.density + emission.plasma.torus_index * more;
-        /* at zero temperature no fit is valid, but there is no matter */
+        /* at zero temperature no fit is valid, but then there is no matter */
         m.electrons.heat = emission.plasma.heat + max(more, KD_TORUS_COLD);
         m.electrons.field = 0.5 * (m.electrons.density + emission.plasma.field + more);
     } else
@@ -356,8 +357,8 @@ kd_radiates kd_plasma_gives(kd_plasma m)
     return kd_synchrotron_thermal(m.electrons, m.frequency);
 }
 
-/* Medium from logarithms. Matter deeper than 2^24 a length shows only its own light, so light and depth are reduced
- * by the same factor: light of such matter is correct up to 6e28 K. Light of thin matter is limited to 2^99 a
+/* Medium from logarithms. Matter deeper than 2^24 a length shows only its own light, so its light and depth are both
+ * reduced by the same factor: light of such matter is correct up to 6e28 K. Light of thin matter is limited to 2^99 a
  * length, beyond the range of layers (src/render/frame/layers.c). */
 kd_medium kd_plasma_medium(float light, float depth, float grain)
 {
@@ -367,8 +368,9 @@ kd_medium kd_plasma_medium(float light, float depth, float grain)
     return kd_medium(vec3(light > -126.0 ? exp2(min(light, 99.0)) : 0.0), depth > -126.0 ? exp2(depth) : 0.0, grain);
 }
 
-/* M along the ray over which a layer exp(-x^2/2), x = steep u/sin(theta), and its field vary: inside, from its
- * height and the place; outside, the distance to it. sharp: steep of kd_radiates. */
+/* Distance along the ray, M, over which a layer exp(-x^2/2), x = steep u/sin(theta), and its field vary. Inside the
+ * layer it follows from the layer's height and the place; outside it is the distance to the layer. sharp: steep of
+ * kd_radiates. */
 float kd_plasma_grain(kd_midst p, float steep, float sharp)
 {
     float r = 1.0 / p.w, per = 1.0 / p.speed, s2 = max(1.0 - p.u * p.u, 1e-6), turn = abs(p.du) * per * r,
@@ -414,14 +416,15 @@ kd_medium kd_plasma_along(kd_midst p)
     }
     if (r < emission.plasma.inner || r > emission.plasma.outer)
         return kd_medium(vec3(0.0), 0.0, max(max(emission.plasma.inner - r, r - emission.plasma.outer), 0.1 * r));
-    /* Off the plane infall begins as the square root of the distance to the ISCO: stretches are shorter the nearer
-     * they are to it. */
+    /* Off the plane infall begins as the square root of the distance to the ISCO. So stretches are shorter the nearer
+     * they are to the ISCO. */
     if ((TRAITS_plasma &
          (KD_TRAIT_PLASMA_GOLD | KD_TRAIT_PLASMA_REST | KD_TRAIT_PLASMA_TORUS | KD_TRAIT_PLASMA_GRID)) == 0u &&
         r < emission.frame.r_isco)
         medium.grain = min(medium.grain, max(0.8 * (emission.frame.r_isco - r), 2e-3 * r));
     float edge =
-        min(abs(r - emission.plasma.inner), abs(r - emission.plasma.outer)); /* inside the bounds of other volumes */
+        /* the edges may lie inside the bounds of other volumes, where the march does not find them */
+        min(abs(r - emission.plasma.inner), abs(r - emission.plasma.outer));
     medium.grain = KD_VOLUMES > 1 ? min(medium.grain, max(edge, 2.5e-4 * r)) : medium.grain;
     return medium;
 }

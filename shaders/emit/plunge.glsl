@@ -1,11 +1,13 @@
-/* Gas that plunges from the ISCO with its energy E and angular momentum L; src/render/emit/plunging.h describes its
- * parcels.
+/* Gas that plunges from the ISCO with the energy E and angular momentum L of the orbit there;
+ * src/render/emit/plunging.h describes its parcels.
  *
- * A grey body of one temperature. Its optical depth is proportional to its surface density, 1/(r |u^r|) times the
- * number of particles over the expected one. With W = (r^2 + a^2 - aL/E) E/r^2 of the gas and of the light, D =
- * Delta/r^2, J = L - aE,
+ * The gas is a grey body of one temperature. Its optical depth is proportional to its surface density: 1/(r |u^r|)
+ * times the ratio of the number of particles to the expected number. With W = (r^2 + a^2 - aL/E) E/r^2 of the gas and
+ * of the light, D = Delta/r^2, J = L - aE,
+ *
  *   u^r = -sqrt(2/(3 r0)) (r0/r - 1)^(3/2),   r0 the ISCO's radius     (Mummery & Balbus 2022, arXiv:2209.03579)
  *   1/g = -p.u = (W W' - w' u^r)/D - J J'/r^2 ,                         (Carter 1968)
+ *
  * where primed quantities and w' are the light's; w' is positive where a ray traced back goes inwards and the light
  * comes outwards. */
 #ifndef KD_BLOCK_plunge
@@ -13,12 +15,12 @@
 /* clang-format off */
 #define KD_BLOCK_plunge(F, U, A) \
     F(first) F(last)       /* w at the start and at the end of the plunge */ \
-    F(energy) F(j)         /* for its gas: E, and L - aE */ \
-    F(temperature)         /* over the disk's largest */ \
+    F(energy) F(j)         /* constants of the gas: E, and L - aE */ \
+    F(temperature)         /* temperature, relative to the disk's largest */ \
     F(depth)               /* optical depth where r |u^r| is 1, for the expected number of particles */ \
-    F(log_first) F(step_)  /* of the table: its first argument, and entries per unit */ \
-    F(laps) F(turns)       /* per M: from start to end; of the orbit at the ISCO */ \
-    U(at)                  /* offset of its grid, which follows the other particles' */ \
+    F(log_first) F(step_)  /* the table's first argument, and its entries per unit */ \
+    F(laps) F(turns)       /* per M: fraction of the way from start to end; turns of the orbit at the ISCO */ \
+    U(at)                  /* offset of this grid, which follows that of the other particles */ \
     U(rows) U(columns) \
     U(lap_rows) U(lead_rows) /* rows from start to end; rows before the start */
 /* clang-format on */
@@ -30,7 +32,8 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* Place on the grid of phases and azimuths at the ISCO, of what is here now, or was a time `ago`. */
+/* Place on the grid of phases and azimuths at the ISCO. The matter is shown as it is now or, with slow light, as it was
+ * a time `ago`. */
 kd_place kd_plunge_place(kd_sample s, float turn)
 {
     float way = log2((emission.frame.r_isco * s.w - 1.0) / (1.0 - s.w / cam.horizon));
@@ -71,7 +74,7 @@ float kd_plunge_shift(kd_sample s, bool doppler, bool redshift)
     return g;
 }
 
-/* The gas as seen, for this number of particles over the expected one. */
+/* The gas as seen, for this ratio of the number of particles to the expected number. */
 kd_gas kd_plunge_gas(kd_sample s, float number)
 {
     float g = kd_plunge_shift(s, (TRAITS_plunge & KD_TRAIT_DOPPLER) != 0u, (TRAITS_plunge & KD_TRAIT_REDSHIFT) != 0u);

@@ -1,4 +1,4 @@
-/* Polarisation of light from gas in the plane. The direction of polarisation is carried along the ray, by a constant of
+/* Polarisation of light from gas in the plane. The direction of polarisation is carried along the ray by a constant of
  * Walker & Penrose (1970): with F = k ^ f, where k is the light's wave vector and f the direction of its electric
  * field,
  *
@@ -8,35 +8,38 @@
  * vector V are
  *
  *   V^t = ((r^2 + a^2) E - a L)/sqrt(Delta Sigma),  V^r = sqrt(Delta/Sigma) V_r,  V^theta = V_theta/sqrt(Sigma),
- *                                                   V^phi = (L/sin(theta) - a E sin(theta))/sqrt(Sigma),
+ *   V^phi = (L/sin(theta) - a E sin(theta))/sqrt(Sigma),
  *
- * with E = -V_t and L = V_phi. In the equatorial plane, times sqrt(Delta/Sigma), those needed are finite wherever gas
- * can be. A quarter turn of f from right to up multiplies kappa by -i. So f = x right + y up has x - i y =
- * kappa/kappa(right), and only kappa(right) is computed at the observer.
+ * with E = -V_t and L = V_phi. In the equatorial plane the components that are needed, times sqrt(Delta/Sigma), are
+ * finite wherever gas can be. A quarter turn of f from right to up multiplies kappa by -i. So f = x right + y up has x
+ * - i y = kappa/kappa(right), and only kappa(right) is computed at the observer.
  *
  * Stokes Q and U follow the IAU (1973): the angle of the electric field counts from the top of the picture, taken as
  * north, to its left, taken as east. */
 #ifndef KD_BLOCK_polarization
-#define KD_SCATTERING_ROWS 128                     /* rows by sqrt(mu): the fraction there and that of the next row */
-#define KD_BLOCK_polarization(F, U, A) F(fraction) /* for an ordered field, times its degree of order */
+/* rows by sqrt(mu): the polarised fraction there and that of the next row */
+#define KD_SCATTERING_ROWS 128
+/* polarised fraction for an ordered field, times the field's degree of order */
+#define KD_BLOCK_polarization(F, U, A) F(fraction)
 #define KD_TABLES_polarization(T) T(scattering, KD_SCATTERING_ROWS)
 #define KD_TRAIT_SCATTERED \
-    2u /* scattered by electrons: polarised across the plane of light and normal; otherwise by a field: across the \
-          plane of light and field, */
-#define KD_TRAIT_RADIAL 4u   /* field along the radius, */
-#define KD_TRAIT_VERTICAL 8u /* or along the normal; otherwise round the axis */
+    2u /* light scattered by electrons is polarised across the plane of light and normal; otherwise light is polarised \
+        * by a field, across the plane of light and field */
+#define KD_TRAIT_RADIAL 4u   /* the field is along the radius */
+#define KD_TRAIT_VERTICAL 8u /* the field is along the normal; without both traits it is round the axis */
 #define KD_TRAITS_polarization(T) T(SCATTERED) T(RADIAL) T(VERTICAL)
 #define KD_BUFFERS_polarization(B)
 #define KD_PASS_polarization(P)
 #endif
 
 #ifdef KD_EMIT_CODE
-/* kappa of the unit vector to the right of a ray in the picture, up to a positive factor. x, y: its place there. */
+/* kappa of the unit vector to the right of a ray in the picture, up to a positive factor. place: of the ray in the
+ * picture. */
 vec2 kd_polarization_right(uvec2 place)
 {
     kd_ray k = kd_camera_ray(place.x, place.y);
     float a = cam.spin, s = cam.s;
-    if (!FINITE) { /* r kappa (alpha) = alpha + a sin(theta) + i beta; for beta -i times that */
+    if (!FINITE) { /* r kappa of the direction alpha is alpha + a sin(theta) + i beta; for beta it is -i times that */
         vec2 alpha = vec2(a * s - k.l, k.p), right = vec2(cam.cxx, cam.cxy);
         return vec2(right.x * alpha.x + right.y * alpha.y, right.x * alpha.y - right.y * alpha.x);
     }
@@ -45,8 +48,8 @@ vec2 kd_polarization_right(uvec2 place)
     vec2 at = vec2(float(place.x) - cam.middle_x, cam.middle_y - float(place.y)), off = at;
     float ahead = kd_camera_ahead(off.x, off.y);
     vec3 look = normalize(ahead * c0 + off.x * cx + off.y * cy), up = cy;
-    if (SIGHT ==
-        KD_SIGHT_DOME) { /* transported from the middle along great circles: no place of the dome is a pole of that */
+    if (SIGHT == KD_SIGHT_DOME) { /* transported from the middle along great circles: no place of the dome is a pole of
+                                   * this transport */
         float d = length(at);
         vec2 to = d > 0.0 ? at / d : vec2(0.0, 1.0), angle = kd_quarter_turns(d * cam.turn_x);
         up = to.y * (angle.x * (to.x * cx + to.y * cy) - angle.y * c0) + to.x * (to.x * cy - to.y * cx);
@@ -64,14 +67,14 @@ vec2 kd_polarization_right(uvec2 place)
     return vec2(ab.x - turn * ab.y, ab.y + turn * ab.x);
 }
 
-/* Polarisation of light from a crossing: its fraction, and kappa of its electric field, up to a positive or negative
- * factor. */
+/* Polarisation of light where it leaves the gas: its fraction, and kappa of its electric field, up to a positive or
+ * negative factor. */
 struct kd_polarized {
     float fraction;
     vec2 kappa;
 };
 
-/* down: whether the light goes down through the plane there. */
+/* down: whether the light goes down through the plane at the crossing. */
 kd_polarized kd_polarization_left(kd_sample s, bool down)
 {
     float a = cam.spin, w = s.w, w2 = w * w, delta = kd_delta(w, cam.root), root = sqrt(max(delta, 1e-12));
@@ -80,16 +83,16 @@ kd_polarized kd_polarization_left(kd_sample s, bool down)
     float k_theta = (down ? w : -w) * sqrt(max(s.q, 0.0));
     vec4 k = vec4(s.energy * (1.0 + a * a * w2) - a * w2 * s.momentum, s.slope, root * k_theta,
                   root * w * (s.momentum - a * s.energy));
-    vec4 u =
-        falls ? vec4(emission.plunge.energy - a * emission.plunge.j * w2, kd_plunge_speed(w), 0.0,
-                     root * w * emission.plunge.j)
-              : vec4(root, 0.0, 0.0, (inversesqrt(w) - a) * w); /* on a circle its speed is (sqrt(r) - a)/sqrt(Delta) */
+    vec4 u = falls ? vec4(emission.plunge.energy - a * emission.plunge.j * w2, kd_plunge_speed(w), 0.0,
+                          root * w * emission.plunge.j)
+                   /* on a circular orbit the gas has the speed (sqrt(r) - a)/sqrt(Delta) */
+                   : vec4(root, 0.0, 0.0, (inversesqrt(w) - a) * w);
     vec4 b = vec4(-a * root * root, 0.0, 0.0, root * (1.0 / w + a * a * w)); /* d/dphi */
     if ((TRAITS_polarization & KD_TRAIT_RADIAL) != 0u)
         b = vec4(0.0, 1.0, 0.0, 0.0);
     if ((TRAITS_polarization & (KD_TRAIT_VERTICAL | KD_TRAIT_SCATTERED)) != 0u)
         b = vec4(0.0, 0.0, 1.0, 0.0);
-    /* f is orthogonal to all three; components of b along u or k do not matter. */
+    /* f is orthogonal to all three vectors; components of b along u or k do not matter. */
     vec3 f = u.x * cross(k.yzw, b.yzw) - k.x * cross(u.yzw, b.yzw) + b.x * cross(u.yzw, k.yzw);
     float f_t = dot(u.yzw, cross(k.yzw, b.yzw));
     kd_polarized out_ =
@@ -105,8 +108,8 @@ kd_polarized kd_polarization_left(kd_sample s, bool down)
     return out_;
 }
 
-/* Stokes Q and U of the light of a crossing, relative to its I. A ray traced back from above the plane first goes
- * down through it, so that the light comes up; for an observer in the plane the direction of look decides. right:
+/* Stokes Q and U of the light of a crossing, relative to its I. A ray traced back from above the plane first goes down
+ * through the plane, so that the light comes up; for an observer in the plane the camera's direction decides. right:
  * kappa of the ray's place, from kd_polarization_right. */
 vec2 kd_polarization_at(kd_sample s, vec2 right, float up)
 {

@@ -1,4 +1,4 @@
-/* Ringdown of a struck hole, as an illustration: light of image orders 1 and up oscillates. */
+/* Ringdown of a struck hole, as an illustration: light of image orders 1 and higher oscillates. */
 #ifndef KD_BLOCK_ringdown
 #define KD_BLOCK_ringdown(F, U, A) F(factor)
 #define KD_TABLES_ringdown(T)

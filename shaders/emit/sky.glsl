@@ -1,32 +1,33 @@
-/* The sky: what lies at infinity, where escaping rays end.
+/* The sky: light from infinity, where escaping rays end.
  *
- * Model "grid": a celestial sphere with four quadrants in quiet colours, meridians and parallels in white; a line's
- * width is a fortieth of the spacing. All other models: diffuse light, and stars.
+ * Model "grid": a celestial sphere with four quadrants in quiet colours, and with meridians and parallels in white; a
+ * line's width is a fortieth of the spacing. All other models: diffuse light, and stars.
  *
  * Diffuse light is a panorama in galactic coordinates (src/render/sky/panorama.h), interpolated between the two levels
  * of its mips that fit a ray's footprint. Texels are interpolated by a quadratic B-spline, which shows no corners when
  * the picture is magnified. Stars are points: comp/star_images.comp has spread each of their images over some pixels
  * before, and this light is read here, 64 bits a channel.
  *
- * By Liouville I_nu/nu^3 is constant along a ray: a black body of T is seen as one of g T, with a bolometric
- * intensity g^4 times as large, g = 1/E, where E is the energy at infinity of light that the observer measures as 1.
- * A star's flux changes likewise, times the magnified solid angle. Diffuse light is shifted like black bodies of
- * KD_SKY_KELVIN. */
+ * By Liouville I_nu/nu^3 is constant along a ray: a black body of T is seen as one of g T, with a bolometric intensity
+ * g^4 times as large. g = 1/E, where E is the energy at infinity of light that the observer measures as 1. A star's
+ * flux changes likewise, and is multiplied by the magnification of its solid angle. Diffuse light is shifted like black
+ * bodies of KD_SKY_KELVIN. */
 #ifndef KD_BLOCK_sky
 /* clang-format off */
 #define KD_BLOCK_sky(F, U, A) \
     F(brightness) \
-    F(spacing)             /* of the grid, radians */ \
+    F(spacing)             /* spacing of the grid, radians */ \
     F(spread)              /* brightness of the panorama */ \
-    U(columns) U(rows)     /* of its finest level, powers of two */ \
+    U(columns) U(rows)     /* size of the panorama's finest level; powers of two */ \
     F(texel)               /* log2 of a texel's size, radians */ \
-    /* rotation from directions, with azimuths minus the observer's, to galactic ones: rows */ \
+    /* rows of the rotation from directions, with azimuths minus the observer's, to galactic directions */ \
     F(xx) F(xy) F(xz) F(yx) F(yy) F(yz) F(zx) F(zy) F(zz)
 /* clang-format on */
 #define KD_TRAIT_SKY_GRID 64u
 #define KD_TRAIT_SKY_SPREAD 128u
 #define KD_SKY_KELVIN 5600.0
-#define KD_STAR_LIGHT 6          /* words a pixel: for red, green and blue the lower 32 bits and the upper ones */
+/* words a pixel: for each of red, green and blue the lower 32 bits and the upper 32 bits */
+#define KD_STAR_LIGHT 6
 #define KD_STAR_UNIT 268435456.0 /* 2^28: the value of 1 in these words */
 #define KD_TABLES_sky(T)
 #define KD_TRAITS_sky(T) T(VISIBLE) T(SKY_GRID) T(SKY_SPREAD) T(POINTS) T(SPREAD)
@@ -35,7 +36,7 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* Light of a black body that has temperature T and luminance 1 at g = 1, as observed. */
+/* Observed light of a black body that has temperature T and luminance 1 at g = 1. */
 vec3 kd_sky_shifted(float kelvin, float g, uint traits)
 {
     kd_colour_place seen = kd_colour_at(g * kelvin);
@@ -68,7 +69,7 @@ vec3 kd_sky_texel(uint word)
            vec3(float(word & 511u), float((word >> 9) & 511u), float((word >> 18) & 511u));
 }
 
-/* Value at (u, v) in [0, 1], on one level. */
+/* The panorama's value at (u, v) in [0, 1], on one level. */
 vec3 kd_sky_level(vec2 at, uint level)
 {
     uint columns = emission.sky.columns >> level, rows = emission.sky.rows >> level,
@@ -113,7 +114,7 @@ vec3 kd_sky_grid(float u, float phi)
     float longitude = phi - 2.0 * KD_PI * floor(phi / (2.0 * KD_PI));
     vec2 q = vec2(longitude, latitude) / emission.sky.spacing;
     vec2 d = abs(q - floor(q + 0.5));
-    d.x *= s; /* meridians keep their width towards the pole */
+    d.x *= s; /* so that meridians have the same width towards the pole */
     float line = min(d.x, d.y) < 0.025 ? 1.0 : 0.0;
     vec3 base = longitude < KD_PI ? (u > 0.0 ? vec3(0.10, 0.22, 0.55) : vec3(0.08, 0.38, 0.26))
                                   : (u > 0.0 ? vec3(0.45, 0.16, 0.30) : vec3(0.48, 0.33, 0.08));

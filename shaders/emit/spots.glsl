@@ -1,18 +1,19 @@
-/* Hot spots as an emitter. `phi` is shown by light that left them with their delay; `apart` is their luminance.
+/* Hot spots as an emitter. They are shown where they were when their light left them: `phi` decreases with the light
+ * delay. `apart` is their luminance.
  *
- * Light comes from the gas at each place, with the g of its own orbit: the figure rotates with its centre, and its
- * matter shears through it. I_nu/nu^3 is constant along the ray, so I_nu ~ nu^-index is multiplied by g^(3 + index).
- * A. E. Broderick & A. Loeb 2006, MNRAS 367, 905, have such spots as spheres in a hot flow. Spots are inside the
- * gas, so the gas of their own element does not hide them. */
+ * Light comes from the gas at each place, with the g of that gas's own orbit. The shape of a spot rotates with the
+ * orbit of its centre, and matter shears through it. I_nu/nu^3 is constant along the ray, so I_nu ~ nu^-index is
+ * multiplied by g^(3 + index). A. E. Broderick & A. Loeb 2006, MNRAS 367, 905, have such spots as spheres in a hot
+ * flow. Spots are inside the gas, so the gas around a spot does not hide it. */
 #ifndef KD_BLOCK_spots
 #define KD_SPOT_MAX 16
 /* clang-format off */
 #define KD_BLOCK_spot(F, U) \
-    /* of its centre; its azimuth minus the observer's at the time that the picture shows, radians */ \
+    /* r of a spot's centre; the centre's azimuth minus the observer's at the time that the picture shows, radians */ \
     F(r) F(phi) \
     F(omega)                 /* decrease of phi for each M of light delay */ \
-    F(sharp) F(reach)        /* log2(e)/(2 size^2); square of the distance beyond which it is 0 */ \
-    F(brightness) F(power)   /* at the centre; power of g */ \
+    F(sharp) F(reach)        /* log2(e)/(2 size^2); square of the distance beyond which brightness is 0 */ \
+    F(brightness) F(power)   /* brightness at the centre; power of g */ \
     F(temperature)           /* K */
 /* clang-format on */
 #define KD_BLOCK_spots(F, U, A) A(kd_spot_block, at, KD_SPOT_MAX)

@@ -22,11 +22,11 @@
 /* clang-format off */
 #define KD_BLOCK_stokes(F, U, A) \
     F(turn) F(convert) /* log2 of the power law's factors of rho_V and rho_Q */ \
-    F(gamma2)          /* log2 of the square of its least gamma */ \
+    F(gamma2)          /* log2 of the square of the power law's least gamma */ \
     /* for a kappa distribution: physics/disk/synchrotron.h */ \
     F(kappa_light_q) F(kappa_light_q_sharp) F(kappa_light_v_low) F(kappa_light_v_high) \
     F(kappa_depth_q) F(kappa_depth_q_sharp) F(kappa_depth_v_low) F(kappa_depth_v_high) F(kappa_depth_v_sharp) \
-    U(kappa_node) F(kappa_past) /* Marszewski's next lower kappa, and the fraction of the way to the next one */ \
+    U(kappa_node) F(kappa_past) /* Marszewski's next lower kappa; fraction of the way from it to the next one */ \
     F(whole)           /* fraction of linear polarisation that remains in a disordered field */
 /* clang-format on */
 #define KD_TABLES_stokes(T)
@@ -41,11 +41,11 @@
 #include "light/stokes.glsl"
 
 #define KD_STOKES_MOST \
-    0.99 /* largest polarised fraction of emission and of absorption: Q and V of fits are reduced in proportion to it \
-          */
+    0.99 /* largest polarised fraction of emission and of absorption: Q and V of the fits are reduced in proportion to \
+          * it */
 
-/* State along the ray: the current place, per unit of the affine parameter; kappa of the unit vector to the right of
- * the ray; Q, U and V seen so far; and the transfer of light from behind. */
+/* State along the ray. here: the medium at the current place, per unit of the affine parameter; right: kappa of the
+ * unit vector to the right of the ray; seen: Q, U and V so far; front: the transfer of light from behind. */
 kd_stokes kd_stokes_here = kd_stokes(vec4(0.0), 0.0, vec3(0.0), vec3(0.0));
 vec2 kd_stokes_right = vec2(0.0);
 vec3 kd_stokes_seen = vec3(0.0);
@@ -77,7 +77,7 @@ vec3 kd_stokes_bessel(float log2_heat)
                    : vec3(p0, p1, 0.0) / (p0 + z * p1);
 }
 
-/* Dexter 2016, B8 and B13: rho_Q at high temperatures over its high-frequency limit. */
+/* Dexter 2016, B8 and B13: rho_Q at high temperatures, relative to its high-frequency limit. */
 float kd_stokes_converts(float log2_x)
 {
     float x = exp2(clamp(log2_x, -40.0, 40.0)), far = max(x, 30.0);
@@ -102,7 +102,7 @@ float kd_stokes_rotates(vec3 k, float log2_x)
     return k.x * max(1.0 - 0.11 * log(1.0 + 0.035 * x), 0.0);
 }
 
-/* Q and V over I of emission and of absorption, and rho_Q and rho_V, as log2 and sign. */
+/* Ratios of Q and V to I, for emission and for absorption; rho_Q and rho_V, as log2 and sign. */
 struct kd_polarises { vec2 light, depth, turns, signs; };
 
 vec2 kd_stokes_held(vec2 part)
@@ -162,13 +162,13 @@ vec2 kd_stokes_marszewski(uint node, float log2_w, float log2_x)
                                   vec4(1.0 / 12.0, 0.25, 2.0, 0.525), vec4(0.125, 0.375, 2.25, 0.541));
     const vec4 ratios[4] =
         vec4[](vec4(2.0, 1.0, 3.125, 4.0), vec4(54.0, 50.0, 30.0 / 11.0, 134.0), vec4(43.0, 38.0, 7.0 / 3.0, 92.5),
-               vec4(13.0 / 14.0, 0.0, 2.0, 13.0 / 14.0)); /* the last column is over w */
+               vec4(13.0 / 14.0, 0.0, 2.0, 13.0 / 14.0)); /* the second column is divided by w */
     const float slows[4] = float[](0.447, 0.391, 0.348, 0.313);
     vec3 width = widths[node];
     vec4 shape = shapes[node], ratio = ratios[node];
     float w = exp2(clamp(log2_w, -40.0, 40.0)), root = sqrt(w), x = exp2(clamp(log2_x, -40.0, 40.0));
     float bend =
-        exp(-shape.z * pow(x, shape.w)) * kd_cos_sin(shape.y * min(x, 1e3)).s; /* beyond, the exponential is 0 */
+        exp(-shape.z * pow(x, shape.w)) * kd_cos_sin(shape.y * min(x, 1e3)).s; /* beyond 1e3 the exponential is 0 */
     float q =
         (1.0 - exp(-shape.x * pow(x, 0.84)) - bend) * (width.x * w - width.y * root + width.z * root * exp(-5.0 * w));
     float v = max(1.0 - 0.17 * log(1.0 + slows[node] * inversesqrt(x)), 0.0) * (w + ratio.x + ratio.y / w) /
@@ -224,7 +224,8 @@ vec2 kd_stokes_kappa(kd_midst p, kd_metric g, vec4 f)
     return vec2(ab.x - turn * ab.y, ab.y + turn * ab.x);
 }
 
-/* exp(2 i EVPA) on the sky of light whose electric field is perpendicular to the magnetic one. */
+/* exp(2 i EVPA), with the EVPA as seen on the sky, for light whose electric field is perpendicular to the magnetic
+ * field. */
 vec2 kd_stokes_direction(kd_plasma m, kd_midst p)
 {
     vec4 u =
@@ -236,7 +237,8 @@ vec2 kd_stokes_direction(kd_plasma m, kd_midst p)
     return vec2(z.x * z.x - z.y * z.y, -2.0 * z.x * z.y) / dot(z, z);
 }
 
-/* light, depth: for I; depth_log2: log2 of the depth, whose excess over 2^40 is dropped in proportion. */
+/* Sets the medium at the current place. light, depth: for I; depth_log2: log2 of the depth, whose excess over 2^40 is
+ * dropped in proportion. */
 void kd_stokes_at(kd_plasma m, kd_midst p, float light, float depth, float depth_log2)
 {
     kd_polarises of;
@@ -256,14 +258,14 @@ void kd_stokes_at(kd_plasma m, kd_midst p, float light, float depth, float depth
                                depth * vec3(whole * of.depth.x * c, of.depth.y), vec3(whole * turns.x * c, turns.y));
 }
 
-/* A stretch: the transfer in front of it, its light so far as it arrives, and its three places. */
+/* A stretch: the transfer in front of it, its light as far as it arrives, and the matter at its three nodes. */
 struct kd_stokes_trial {
     kd_jones front;
     vec4 light;
     kd_stokes one, two, three;
 };
 
-/* K S per length. */
+/* K S: what the medium takes from S per length. */
 vec4 kd_stokes_less(kd_stokes m, vec4 s)
 {
     return m.depth * s + vec4(dot(m.takes, s.yzw), s.x * m.takes - cross(m.turns, s.yzw));
@@ -288,8 +290,8 @@ void kd_stokes_along(inout kd_stokes_trial trial, float way)
     trial.three = kd_stokes(i * m.light, m.depth, m.takes, m.turns);
 }
 
-/* Light of the three places is attenuated and rotated by half of its own matter and all matter before it: the
- * remainder at first order, by Gauss's coefficients as in kd_march_rest. */
+/* First-order remainder of the light of a stretch. Light of each of its three nodes is attenuated and rotated by half
+ * of the node's own matter and all matter before it. The remainder has Gauss's coefficients, as in kd_march_rest. */
 vec4 kd_stokes_rest(kd_stokes_trial t)
 {
     vec4 rest = 0.0809475 * (kd_stokes_less(t.two, t.one.light) - kd_stokes_less(t.one, t.two.light) +
@@ -299,8 +301,8 @@ vec4 kd_stokes_rest(kd_stokes_trial t)
     return x < 8.0 && turn < 2.0 ? exp(-0.5 * x) * rest : vec4(0.0);
 }
 
-/* Second-order remainder of the product of all places by its three factors, sum [c_i, c_j] by those coefficients (W.
- * Magnus 1954), as a factor after them. */
+/* Second-order remainder of the product of the three nodes' factors: sum [c_i, c_j] with the coefficients of
+ * kd_stokes_rest (W. Magnus 1954). It is a factor after that product. */
 kd_jones kd_stokes_order(kd_stokes_trial t)
 {
     const float near = 0.0809475, far = 0.0352425;
@@ -311,7 +313,7 @@ kd_jones kd_stokes_order(kd_stokes_trial t)
         near * (cross(r1, r2) - cross(a1, a2) + cross(r2, r3) - cross(a2, a3)) - far * (cross(r1, r3) - cross(a1, a3));
     float size = dot(re, re) + dot(im, im), turn = length(r1 + r2 + r3);
     /* The series is one in the rotation angle of the stretch, and the factor does not preserve lengths: over many
-     * stretches of many radians each it would amplify light. */
+     * stretches of many radians each the factor would amplify light. */
     return size < 0.25 && turn < 2.0 ? kd_jones(vec2(1.0, 0.0), -0.5 * re, -0.5 * im) : kd_jones_one();
 }
 

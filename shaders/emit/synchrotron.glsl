@@ -1,25 +1,25 @@
 /* Synchrotron emission and absorption of electrons in a magnetic field, per length at one frequency and angle. All
- * values are logarithms to base 2, because neither the powers of ten that occur here nor exponentials far from 1 fit a
- * float.
+ * values are logarithms to base 2, because neither the powers of ten that occur here nor exponentials of numbers far
+ * from 1 fit a float.
  *
  * Thermal electrons (A. Pandya, Z. Zhang, M. Chandra & C. F. Gammie 2016, ApJ 822, 34, equation 31; the fit is that of
  * P. K. Leung, C. F. Gammie & S. C. Noble 2011, ApJ 737, 21), with nu_c = eB/(2 pi m_e c), nu_s = (2/9) nu_c Theta^2
  * sin(theta) and X = nu/nu_s:
  *
- *   j = n e^2 nu_c/c (sqrt(2) pi/27) sin(theta) (X^(1/2) + 2^(11/12) X^(1/6))^2 exp(-X^(1/3)),   alpha = j/B_nu
- *     (Kirchhoff)
+ *   j = n e^2 nu_c/c (sqrt(2) pi/27) sin(theta) (X^(1/2) + 2^(11/12) X^(1/6))^2 exp(-X^(1/3)),
+ *   alpha = j/B_nu (Kirchhoff)
  *
  * Power law, n(gamma) ~ gamma^-p from gamma_min to gamma_max (equations 33 and 34): j ~ nu^(-(p-1)/2), alpha ~
  * nu^(-(p+4)/2). The host has combined the constant factors into two numbers. */
 #ifndef KD_SYNCHROTRON_GLSL
 #define KD_SYNCHROTRON_GLSL
 
-/* Electrons: log2 of their density in cm^-3, of Theta = kT/(m_e c^2), and of the field in gauss; cosine, sine2: of
- * the angle between field and light in the frame of the matter, and the square of its sine. */
+/* Electrons. density, heat, field: log2 of their density in cm^-3, of Theta = kT/(m_e c^2), and of the field in gauss.
+ * cosine: of the angle between field and light in the frame of the matter; sine2: the square of the angle's sine. */
 struct kd_electrons { float density, heat, field, cosine, sine2; };
-/* Log2 of the emissivity in units of e^2/c cm^-3 GHz (e in Gaussian units), 7.69558e-22 W m^-3 Hz^-1 sr^-1, and of
- * the absorptivity in units of that over 2h GHz^3/c^2, 52.191 m^-1. steep: relative change of light per relative
- * change of the field. */
+/* light: log2 of the emissivity in units of e^2/c cm^-3 GHz (e in Gaussian units), 7.69558e-22 W m^-3 Hz^-1 sr^-1.
+ * depth: log2 of the absorptivity in units of that over 2h GHz^3/c^2, 52.191 m^-1. steep: relative change of light per
+ * relative change of the field. */
 struct kd_radiates { float light, depth, steep; };
 
 #define KD_LOG2_E 1.44269504

@@ -1,33 +1,33 @@
 /* The smooth disk's gas with a height: Gaussian about the plane at each distance R = r sin(theta) from the axis, z = r
  * cos(theta),
  *
- *   density ~ exp(-z^2/2H^2) (1 - (z/4.5 H)^8)^3,   H = height R (R/10)^flare,   between the spheres of the disk's
- *                                                   edges, where R is beyond the ISCO,
+ *   density ~ exp(-z^2/2H^2) (1 - (z/4.5 H)^8)^3,   H = height R (R/10)^flare,
  *
- * and up to 4.5 H, where it ends smoothly: samples between it and the plane would either hit or miss a sharp edge.
+ * between the spheres of the disk's edges, where R is beyond the ISCO. It ends smoothly at a height of 4.5 H: samples
+ * between that height and the plane would either hit or miss a sharp edge. The gas emits as the thin disk does at R,
+ * with its temperature and flux, and rotates with the Omega of the circular orbit there at any height (by the metric's
+ * u^t: -1/u^t^2 = g_tt + 2 Omega g_tphi + Omega^2 g_phiphi, Bardeen, Press & Teukolsky 1972).
  *
- * It emits as the thin disk does at R, with its temperature and flux, and rotates with the Omega of the circular
- * orbit there at any height (by the metric's u^t: -1/u^t^2 = g_tt + 2 Omega g_tphi + Omega^2 g_phiphi, Bardeen,
- * Press & Teukolsky 1972). From top to bottom it has the optical depth of the thin disk: light that crosses at an
- * angle theta to its normal in the frame of the gas is attenuated by as much, including opacity and fade, so that
- * for a small height the picture is the thin disk's. Turbulence is that of gas.glsl, with a third coordinate in its
- * noise. */
+ * From top to bottom the gas has the optical depth of the thin disk: light that crosses at an angle theta to its normal
+ * in the frame of the gas is attenuated by as much, including opacity and fade. For a small height the picture is
+ * therefore the thin disk's. Turbulence is that of gas.glsl, with a third coordinate in its noise. */
 #ifndef KD_BLOCK_thick
-#define KD_THICK_REACH 4.5        /* times H */
-#define KD_THICK_AMID 0.399624938 /* density in the middle over the column, for height 1: its integral is 1 */
+#define KD_THICK_REACH 4.5 /* times H */
+/* density in the middle of the column for height 1, such that the integral over the column is 1 */
+#define KD_THICK_AMID 0.399624938
 /* reciprocal standard deviation of gradient noise with the gradients of a cube */
 #define KD_THICK_NOISE 5.237147522273636
 #define KD_THICK_FAINT 0.15 /* octaves fainter than this fraction of the first do not shorten stretches */
 #define KD_THICK_HASTE \
-    4.0 /* slow light: M of time per M along the ray by which a grain is shortened at most; beyond that, next to the \
-           horizon, it is hardly visible */
+    4.0 /* slow light: M of time per M along the ray by which a grain is shortened, at most. Beyond that, next to the \
+         * horizon, the gas is hardly visible */
 /* Streaks fade out where the gas, along its normal, has less than this fraction of the optical depth at the ray's
- * innermost crossing of the plane. Light is proportional to depth times flux, which is the square: the first octave
- * ends where 3e-9 of that crossing's light is left. Otherwise rays along a disk of 5e5 M would take thousands of
- * stretches in the dark. */
+ * innermost crossing of the plane. Light is proportional to depth times flux, that is, to the square of depth: the
+ * first octave ends where 3e-9 of that crossing's light is left. Otherwise rays along a disk of 5e5 M would take
+ * thousands of stretches in the dark. */
 #define KD_THICK_AFAR 1e-3
 #define KD_THICK_LAYERS \
-    3.0 /* cells in height for each in the plane: streaks are narrower than they are long by this factor */
+    3.0 /* cells in height for each cell in the plane: streaks are narrower than they are long by this factor */
 /* clang-format off */
 #define KD_BLOCK_thick(F, U, A) \
     F(height) F(flare)     /* H/R at 10 M; power of R/10 at which it grows */ \
@@ -43,7 +43,7 @@
 #ifdef KD_MARCH
 const uint KD_THICK_TAKEN = (TRAITS_thick & KD_TRAIT_GAS_OCTAVES) >> KD_TRAIT_GAS_SHIFT;
 
-/* The circular orbit at a distance from the axis, as matter at any height moves: u^t and Omega. */
+/* The circular orbit at a distance from the axis, at which matter of any height rotates: u^t and Omega. */
 struct kd_thick_orbit { float ut, omega; };
 
 kd_thick_orbit kd_thick_orbit_of(kd_midst p, float r, float axis)
@@ -54,14 +54,14 @@ kd_thick_orbit kd_thick_orbit_of(kd_midst p, float r, float axis)
     return kd_thick_orbit(inversesqrt(max(rest, 1e-6)), omega);
 }
 
-/* t': how much earlier light was at a place, per unit of Mino time along the ray backwards. */
+/* t': how much earlier light was at a place, per unit of Mino time backwards along the ray. */
 float kd_thick_time(kd_midst p, float s2)
 {
     float a = cam.spin, w2 = p.w * p.w, all = p.energy + a * (a * p.energy - p.momentum) * w2;
     return (1.0 + a * a * w2) * all / (w2 * max(kd_delta(p.w, cam.root), 1e-30)) + a * (p.momentum - a * p.energy * s2);
 }
 
-/* Gradient at each point of a lattice, times 2^31. */
+/* Gradient at a point of a lattice, times 2^31. */
 vec3 kd_thick_gradient(uint point)
 {
     uint h = (point ^ (point >> 15)) * 0x2c1b3c6du;
@@ -69,7 +69,7 @@ vec3 kd_thick_gradient(uint point)
     return vec3(float(int(h)), float(int(h << 10)), float(int(h << 20)));
 }
 
-/* One plane of the lattice: noise by its gradients, and noise by gradients rotated by a quarter turn about the third
+/* Noise on one plane of the lattice: by its gradients, and by the gradients rotated by a quarter turn about the third
  * axis. */
 vec2 kd_thick_plane(uint x0, uint x1, uint y0, uint y1, uint z, vec3 d, vec2 t)
 {
@@ -84,7 +84,7 @@ vec2 kd_thick_plane(uint x0, uint x1, uint y0, uint y1, uint z, vec3 d, vec2 t)
 }
 
 /* Gradient noise of variance 1 (Perlin 2002) in three dimensions, in a lattice shifted by at.xy of a cell and at.zw
- * cells; and, uncorrelated with it, the noise of the rotated gradients, of variance 2/3. */
+ * cells. The second result is the noise of the rotated gradients, uncorrelated with the first, of variance 2/3. */
 vec2 kd_thick_noise(vec3 p, vec4 at)
 {
     p.xy += at.xy;
@@ -94,11 +94,12 @@ vec2 kd_thick_noise(vec3 p, vec4 at)
          z0 = uint(int(corner.z)) * 0xcb1ab31fu;
     vec2 low = kd_thick_plane(x0, x1, y0, y1, z0, d, t.xy),
          high = kd_thick_plane(x0, x1, y0, y1, z0 + 0xcb1ab31fu, vec3(d.xy, d.z - 1.0), t.xy);
-    return mix(low, high, t.z) *
-           (KD_THICK_NOISE / 2147483648.0); /* E[n^2] over the cube's gradients and places of the cell */
+    return mix(low, high, t.z) * (KD_THICK_NOISE / 2147483648.0); /* so that the mean of n^2 over the cube's gradients
+                                                                   * and over places in a cell is 1 */
 }
 
-/* As kd_gas_excess, with a height. finest: cells of the finest octave relevant for the grain, per cell of the first. */
+/* As kd_gas_excess, with a height. finest: cells of the finest octave that matters for the grain, per cell of the first
+ * octave. */
 struct kd_thick_stir { float excess, finest; };
 
 kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
@@ -123,8 +124,8 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     }
     float up = KD_THICK_LAYERS * emission.gas.cells * z / axis, sum = 0.0, loud = emission.gas.loudness, finest = 1.0;
     float shear = emission.gas.shear, per = emission.gas.cells / axis;
-    /* In cells (dr, dphi + shear dr, layers dz) the sum of an ellipse's squared semi-axes is the trace of its
-     * matrix, and the sum of its minors takes the place of the squared product. */
+    /* In cells (dr, dphi + shear dr, layers dz) the sum of an ellipse's squared semi-axes is the trace of its matrix.
+     * The sum of the matrix's minors replaces the product of the squared semi-axes. */
     vec3 plane = p.spread.plane, rise = KD_THICK_LAYERS * p.spread.rise;
     float rr = plane.x, rf = plane.y + shear * rr, ff = plane.z + shear * (2.0 * plane.y + shear * rr), rz = rise.x,
           fz = rise.y + shear * rise.x, zz = KD_THICK_LAYERS * rise.z;
@@ -135,7 +136,8 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     for (uint octave = 0u; octave < KD_THICK_TAKEN; octave++) {
         float left = kd_gas_left(steps), part = loud * left;
         float seen = part * counts / (slice.unseen * emission.gas.loudness) -
-                     1.0; /* by the amount of gas; octaves fade out from three times this value */
+                     1.0; /* how visible the octave is, by the amount of gas; octaves fade out from three times the
+                           * limit on */
         if (!(seen > 0.0))
             break;
         seen = min(0.5 * seen, 1.0);
@@ -153,8 +155,8 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     return kd_thick_stir(sum, finest);
 }
 
-/* Weight of gas of a given flux for a ray's light, relative to the plane at the ray's innermost crossing, up to
- * about where the flux is largest. */
+/* Weight of gas of a given flux in a ray's light, relative to the plane at the ray's innermost crossing. That crossing
+ * is taken no further in than about where the flux is largest. */
 float kd_thick_counts(float nearest, float flux)
 {
     float w = min(nearest, 0.5 / emission.frame.r_isco), t = kd_disk_heat(w), near = t * t * t * t * w * w * w;

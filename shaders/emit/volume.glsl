@@ -1,18 +1,18 @@
-/* A uniform shell of matter about the hole: emission and absorption along each ray's path through it are the same
- * everywhere in its own frame. It is at rest for observers of zero angular momentum (Bardeen, Press & Teukolsky 1972),
- * who measure the energy
+/* A uniform shell of matter about the hole: in its own frame, emission and absorption per length are the same
+ * everywhere. It is at rest for observers of zero angular momentum (Bardeen, Press & Teukolsky 1972), who measure the
+ * energy
  *
  *   -k.U = (E - omega L) sqrt(A/(Sigma Delta)),   omega = 2 a r/A,   A = (r^2 + a^2)^2 - a^2 Delta sin^2(theta).
  *
- * Without the redshift its frequencies are taken as the observer's: what remains is the affine parameter, which has
- * a closed form. */
+ * Without the redshift its frequencies are taken as the observer's: what remains is the affine parameter, which has a
+ * closed form. */
 #ifndef KD_BLOCK_volume
 /* clang-format off */
 #define KD_BLOCK_volume(F, U, A) \
     F(inner) F(outer)      /* M */ \
     F(emissivity)          /* per unit of length, 1/M, in units of the disk's largest surface brightness */ \
     F(opacity)             /* optical depth per unit of length, 1/M */ \
-    F(temperature)         /* K: temperature whose colour it has */
+    F(temperature)         /* K: temperature of the black body that has the colour of the light */
 /* clang-format on */
 #define KD_TABLES_volume(T)
 #define KD_TRAITS_volume(T) T(REDSHIFT)
@@ -29,9 +29,9 @@ float kd_volume_energy(kd_midst p)
     return (p.energy - 2.0 * a * w2 * p.w / area * p.momentum) * sqrt(area / (sigma * max(delta, 1e-30)));
 }
 
-/* The march finds the edges of all volumes together. Edges of the shell may be inside others: there a stretch is no
- * longer than the distance to them, or than this fraction of r, the uncertainty of the shell's length at `balanced`,
- * which falls with finer stretches. */
+/* The march finds the edges of all volumes together. Edges of the shell may be inside other volumes. There a stretch is
+ * no longer than the distance to the edge, or than this fraction of r. The fraction is the uncertainty of the shell's
+ * length at `balanced`; it falls with finer stretches. */
 #define KD_VOLUME_EDGE 2.5e-4
 float kd_volume_grain(float r, float grain)
 {

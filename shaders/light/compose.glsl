@@ -3,33 +3,32 @@
 #ifndef KD_COMPOSE_GLSL
 #define KD_COMPOSE_GLSL
 
-/* A sample of a ray. ago: how much earlier its light left than light that shows the scene's time; energy, momentum,
- * q: E, L and Carter's Q in units of the energy that the observer measures; footprint, shape: of this ray there, 0
- * if no emitter needs it (shared/lens.h). */
+/* A sample of a ray. ago: how much earlier its light left than light that shows the scene's time; energy, momentum, q:
+ * E, L and Carter's Q in units of the energy that the observer measures; footprint, shape: of the ray's footprint at
+ * the sample, 0 if no emitter needs them (shared/lens.h). */
 struct kd_sample {
     float w, phi, ago, slope, energy, momentum, q, footprint, shape;
     uint order;
 };
-/* The end of a ray that escapes; its footprint in radians; its energy in units of the energy that the observer
- * measures. */
+/* The end of a ray that escapes. footprint: radians; energy: in units of the energy that the observer measures. */
 struct kd_end { float u, phi, footprint, energy; };
-/* Contribution of one emitter at a sample: light including its opacity; opacity; luminance that is kept separately
- * as well. */
+/* Contribution of one emitter at a sample: its light, including its opacity; its opacity; and the luminance that is
+ * also kept separately. */
 struct kd_glow {
     vec3 light;
     float alpha, apart;
 };
-/* The ellipse across a ray that it stands for, at its nearest crossing of the plane: M_rr, M_rf, M_ff in the plane
+/* The ellipse across a ray that the ray stands for, at its nearest crossing of the plane: M_rr, M_rf, M_ff in the plane
  * as in KD_LENS_SHAPE (shared/lens.h), and M_rz, M_fz, M_zz, M^2; z is along the normal. */
 struct kd_spread { vec3 plane, rise; };
-/* A point of a ray inside a volume. w = 1/r, u = cos(theta), and dw, du: their derivatives by Mino time in the
- * direction of tracing, against the light. The arriving photon has p_r = dw/kd_delta(w), p_theta = du/sin(theta),
- * and E, L and Q in `energy`, `momentum`, `q`, in units of the energy that the observer measures. speed: length in
- * (r, r n), M, per unit of Mino time, as if space were flat, where n is the direction from the hole; the unit of
- * grains. phi: azimuth, source minus observer; spread: what the ray stands for; both 0 without KD_TRAIT_AZIMUTH.
- * order: of the nearest crossing of the plane on the ray, where it changes at the extremes of cos(theta); 0 if
- * nothing needs it. ago: as in kd_sample, 0 without KD_TRAIT_SLOW. nearest: 1/r of the ray's innermost crossing of
- * the plane; 0: unknown. */
+/* A point of a ray inside a volume. w = 1/r, u = cos(theta). dw, du: their derivatives by Mino time in the direction
+ * of tracing, against the light. energy, momentum, q: E, L and Q in units of the energy that the observer measures;
+ * the arriving photon has these, p_r = dw/kd_delta(w) and p_theta = du/sin(theta). speed: length in (r, r n), M, per
+ * unit of Mino time, as if space were flat, where n is the direction from the hole; grains are in this unit of
+ * length. phi: azimuth, source minus observer; spread: the ellipse that the ray stands for; both 0 without
+ * KD_TRAIT_AZIMUTH. order: of the nearest crossing of the plane on the ray; it changes at the extremes of
+ * cos(theta); 0 if nothing needs it. ago: as in kd_sample, 0 without KD_TRAIT_SLOW. nearest: 1/r of the ray's
+ * innermost crossing of the plane; 0: unknown. */
 struct kd_midst {
     float w, u, dw, du, energy, momentum, q, speed, phi;
     kd_spread spread;
@@ -37,18 +36,18 @@ struct kd_midst {
     float ago;
     float nearest;
 };
-/* The medium at such a point. light: emission, and depth: optical depth, both per unit of the affine parameter by
+/* The medium at a point of a ray. light: emission, and depth: optical depth, both per unit of the affine parameter by
  * the observer's energy. Along a ray d lambda = (r^2 + a^2 u^2) d tau, and matter of velocity U sees the path length
- * -k.U d lambda. With emissivity j and opacity alpha per its own length, depth = alpha (-k.U) and bolometric light =
- * j (-k.U)^-3, where 1/(-k.U) is g. grain: M along the ray over which the medium changes by about its own size;
- * where there is no matter, the distance to it. */
+ * -k.U d lambda. With emissivity j and opacity alpha per its own length, depth = alpha (-k.U) and bolometric light = j
+ * (-k.U)^-3, where 1/(-k.U) is g. grain: M along the ray over which the medium changes by about its own size; where
+ * there is no matter, the distance to the matter. */
 struct kd_medium {
     vec3 light;
     float depth, grain;
 };
-/* A surface that a ray meets. time: Mino time from the observer; body: its number, or KD_NOBODY; crossed: crossings
- * of the plane before it; w, u, phi and dw, du: as in kd_midst; energy, momentum: E and L; cosine: of the emission
- * angle in the frame of the surface. */
+/* A surface that a ray meets. time: Mino time from the observer; body: the body's number, or KD_NOBODY; crossed: number
+ * of crossings of the plane before the surface; w, u, phi and dw, du: as in kd_midst; energy, momentum: E and L;
+ * cosine: of the emission angle in the frame of the surface. */
 struct kd_met {
     float time;
     uint body, crossed;
@@ -89,7 +88,7 @@ const uint KD_ALONG_TRAITS =
 const uint KD_MET_TRAITS =
     0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_);
 const bool KD_MARCHES = (KD_ALONG_TRAITS & KD_TRAIT_PRESENT) != 0u, KD_MEETS = (KD_MET_TRAITS & KD_TRAIT_PRESENT) != 0u;
-/* Whether light is multiplied by a factor of its order. */
+/* Whether an emitter multiplies light by a factor that depends on the light's image order. */
 const uint KD_OVER_TRAITS =
     0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_OVERS = (KD_OVER_TRAITS & KD_TRAIT_PRESENT) != 0u;
@@ -98,7 +97,7 @@ const uint KD_END_TRAITS =
     0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) != 0u;
 
-/* All emitters of a place share it: none hides another's light. */
+/* Adds the light of all emitters at a place. They share the place: none hides another's light. */
 void kd_beam_at(inout kd_beam beam, kd_sample s)
 {
     float seen = beam.through;
@@ -119,7 +118,7 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
 }
 
 #ifdef KD_MARCH
-/* The sum of all emitters at a point, which share it. */
+/* The sum of all emitters at a point. They share the point: none hides another's light. */
 kd_medium kd_medium_at(kd_midst p)
 {
     kd_medium sum = kd_medium(vec3(0.0), 0.0, 1e30);
@@ -141,7 +140,7 @@ kd_medium kd_medium_at(kd_midst p)
     return sum;
 }
 
-/* Advances by a length `way` of the affine parameter through a uniform medium: exact for any depth. */
+/* Advances through a uniform medium, by a length `way` of the affine parameter: exact for any depth. */
 void kd_beam_along(inout kd_beam beam, kd_medium medium, float way)
 {
     float x = medium.depth * way, passes = exp(-x);
@@ -180,7 +179,7 @@ void kd_beam_end(inout kd_beam beam, kd_end end)
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_END_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 }
 
-/* Points of light are spread over pixels independent of the pixels' own rays. */
+/* Adds points of light, which are spread over pixels independently of the pixels' own rays. */
 void kd_beam_points(inout kd_beam beam, uint pixel)
 {
 #define KD_POINTS_(number, name) \

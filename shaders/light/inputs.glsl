@@ -1,6 +1,6 @@
-/* Inputs of the kernels that make light from a lens map: the map, numbers and tables of the emitters, the camera,
- * and the emitters' buffers. Bindings 0, 1, 2, 4, and from KD_OWN_BINDING on; 3 is their output. Needs the
- * specialisation constants of KD_SPEC_TRANSFER. */
+/* Inputs of the kernels that make light from a lens map: the map, numbers and tables of the emitters, the camera, and
+ * the emitters' buffers. These have the bindings 0, 1, 2, 4, and from KD_OWN_BINDING on; 3 is the kernels' output.
+ * Needs the specialisation constants of KD_SPEC_TRANSFER. */
 #ifndef KD_INPUTS_GLSL
 #define KD_INPUTS_GLSL
 
@@ -25,12 +25,12 @@ layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
 layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
-/* Uniform over all invocations, and read before the first branch: after one, lavapipe reads it again for each lane
- * and each use. */
+/* Numbers that are uniform over all invocations. They are read before the first branch: after one, lavapipe reads them
+ * again for each lane and each use. */
 struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 #define READ(number, name) emission.name = emission_.name;
 #include "light/tables.glsl"
-/* The emitters' buffers, as texels if the map is: lavapipe reads storage buffers lane by lane, at ten times the
+/* The emitters' buffers are texels if the map is, because lavapipe reads storage buffers lane by lane, at ten times the
  * cost. */
 #define KD_OWN_stored(number, member) \
     layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { float member[]; };

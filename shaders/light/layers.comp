@@ -1,6 +1,6 @@
-/* Kernel: makes one layer of a frame (shared/layers.h) from the lens map; an invocation writes a pixel's number, NaN
- * if there is none. LAYER: which layer; ORDER: of which crossing. KD_MARCH: for scenes with volumes or bodies, whose
- * light, followed by Stokes Q, U and V, was stored by transfer.comp. */
+/* Kernel: makes one layer of a frame (shared/layers.h) from the lens map; an invocation writes a pixel's number, NaN if
+ * there is none. LAYER: which layer; ORDER: of which crossing. KD_MARCH: for scenes with volumes or bodies;
+ * transfer.comp has stored their light, followed by Stokes Q, U and V. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -11,7 +11,7 @@ KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #include "light/numbers.glsl"
 layout(set = 0, binding = 3) writeonly buffer Layer { uint layer[]; };
 
-/* A device need not preserve NaN in arithmetic: it is recognised and written by its bits. */
+/* NaN, recognised and written by its bits, because a device need not preserve NaN in arithmetic. */
 #define KD_NOTHING_BITS 0x7fc00000u
 #define KD_INFINITE_BITS 0x7f800000u
 #define KD_NOTHING uintBitsToFloat(KD_NOTHING_BITS)
@@ -34,7 +34,7 @@ float kd_layer_depth(kd_sample s)
     return beam.through > 0.0 ? -log(beam.through) : uintBitsToFloat(KD_INFINITE_BITS);
 }
 
-/* A footprint. There is none for a ray without neighbours, or one whose neighbours are indistinguishable in 32 bits
+/* A footprint. There is none for a ray without neighbours, or for one whose neighbours are indistinguishable in 32 bits
  * (comp/footprint.comp). */
 #define KD_FOOTPRINT_LEAST 1e-6 /* relative to r, and in radians */
 float kd_layer_size(float footprint, float least)
@@ -46,7 +46,7 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
 {
     uint plane = at + n * slice.stride;
     bool listed =
-        (QUANTITIES & KD_LENS_ALPHA) != 0u; /* rays round the critical curve, which are not on the camera's grid */
+        (QUANTITIES & KD_LENS_ALPHA) != 0u; /* rays are round the critical curve, and not on the camera's grid */
     float momentum = (listed ? -quantity(KD_LENS_ALPHA, at) : ray.l) * cam.s;
     float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0,
           slope = quantity(KD_LENS_SLOPE, plane);
@@ -57,8 +57,8 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
 
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
-/* Whether a ray of the pixel was given up, which gives no number. This is a flag because a device need not preserve
- * NaN in sums. */
+/* Whether a ray of the pixel was given up, so that the pixel has no number. This is a flag because a device need not
+ * preserve NaN in sums. */
 bool untold = false;
 
 #ifdef KD_MARCH
@@ -68,7 +68,7 @@ bool untold = false;
 #include "light/meet.glsl"
 layout(set = 0, binding = KD_LIGHT_BINDING) readonly buffer Radiance { float radiance[]; };
 
-/* Luminance of a pixel, Stokes I, and Q, U and V. */
+/* Luminance of a pixel (Stokes I), and Stokes Q, U and V. */
 vec4 light_of_pixel(uint o)
 {
     const uint pixels = emission.frame.band_pixels, at = (KD_SEPARATE_PHOTOMETRY ? 4u : 3u) * pixels + o;
@@ -87,7 +87,8 @@ void at_crossing(inout kd_beam beam, kd_sample s, uvec2 place, kd_ray ray)
         polarized += (dot(beam.light, LUMINANCE) - before) * kd_polarization_at(s, kd_polarization_right(place), ray.p);
 }
 
-/* Luminance of a ray, Stokes I, and Q, U and V, as it arrives: of everything that it sees, or of one order. */
+/* Luminance of a ray (Stokes I), and Stokes Q, U and V, as its light arrives: for everything that it sees, or for one
+ * order. */
 vec4 light(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
@@ -124,7 +125,7 @@ float kd_layer_evpa(vec4 light)
 }
 float kd_layer_polarized(vec4 light) { return light.x > 0.0 ? kd_part_of(vec3(light.yz, 0.0), light.x) : KD_NOTHING; }
 
-/* The layer's number for the mean light of a pixel. */
+/* The layer's value for the mean light of a pixel. */
 float value_of_light(vec4 light)
 {
 #define LIGHT_VALUE_(number, name, needs, value) \
@@ -134,7 +135,7 @@ float value_of_light(vec4 light)
     return KD_NOTHING;
 }
 
-/* The layer's number for a crossing, which must be on the disk. */
+/* The layer's value at a crossing. The crossing must lie on the disk. */
 float value_of(kd_sample s, float delay)
 {
 #define VALUE_(number, name, needs, value, met) \
@@ -145,7 +146,7 @@ float value_of(kd_sample s, float delay)
 }
 
 #ifdef KD_MARCH
-/* The layer's number for a body that hides what is behind it. */
+/* The layer's value at a body that hides what is behind it. */
 float value_of_met(kd_met met)
 {
 #define MET_(number, name, needs, value, met) \
@@ -227,7 +228,7 @@ void main()
 #endif
         value = value_of_light(sum);
     } else {
-        /* of the grid: the middle one, or the one before the middle */
+        /* the pixel's ray in the grid: the middle one, or the one before the middle */
         uvec2 place = uvec2(px, py) * SIDE + (SIDE - 1u) / 2u;
         uint at = (place.y - slice.band0) * cam.width + place.x;
         value = OF_CROSSING ? of_crossing(place, at) : of_end(at);

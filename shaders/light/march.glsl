@@ -1,12 +1,12 @@
 /* The march: light along a ray through volumes, composed with the crossings of the lens map in their order
  * (docs/physics/volume.md).
  *
- * The ray is traced again by the steps of ray/escape.glsl, which are long and accurate. Between the ends of a step it
- * is the quintic that fits y, y' and y'' at both (Hermite's, with an error of sixth order in the step, as the
- * integrator's). A step is split where w or u turns and where the plane is crossed, so that both are monotone in each
- * part. In each part the range inside the volumes' bounds is found by Newton's method. It is integrated in stretches
- * with three Gauss-Legendre nodes each, as long as the grain, the depth and the distance allow; a stretch that turns
- * out too long is repeated.
+ * The ray is traced again by the steps of ray/escape.glsl, which are long and accurate. Within a step it is the quintic
+ * that fits y, y' and y'' at both ends (Hermite's; its error, like the integrator's, is of sixth order in the step). A
+ * step is split where w or u turns and where the plane is crossed, so that both are monotone in each part. In each part
+ * the range inside the volumes' bounds is found by Newton's method. This range is integrated in stretches with three
+ * Gauss-Legendre nodes each. A stretch is as long as the grain, the depth and the distance allow; one that turns out
+ * too long is repeated.
  *
  * Needs inputs.glsl, KD_MARCH_MEET(beam, w, n, place, at), which composes crossing n of the lens map, and
  * KD_MARCH_GIVEN_UP(beam) for a ray whose end is not found. */
@@ -21,20 +21,21 @@
 #include "ray/radial_step.glsl"
 #include "ray/escape.glsl"
 
-#define KD_MARCH_SHORTEST (1.0 / 4096.0) /* shortest stretch: this fraction of a step, */
-/* or, if that is shorter, this fraction of the longest stretch by distance */
+#define KD_MARCH_SHORTEST (1.0 / 4096.0) /* shortest stretch, as a fraction of a step */
+/* the shortest stretch is also at most this fraction of the longest stretch by distance */
 #define KD_MARCH_LEAST 0.05
 #define KD_MARCH_WAY 0.5   /* longest stretch, times r: three nodes then integrate r^2 with an error of 4e-5 */
-#define KD_MARCH_DEPTH 1.0 /* longest stretch in optical depth, */
-#define KD_MARCH_TURN 1.0  /* and in radians of Faraday rotation and conversion, */
-/* but at least this fraction of the length otherwise allowed: light rotated further is mixed and mostly depolarised */
+#define KD_MARCH_DEPTH 1.0 /* longest stretch, in optical depth */
+#define KD_MARCH_TURN 1.0  /* longest stretch, in radians of Faraday rotation and conversion */
+/* Faraday rotation leaves at least this fraction of the length otherwise allowed: light rotated further is mixed and
+ * mostly depolarised */
 #define KD_MARCH_TURNED 0.125
 #define KD_MARCH_TOO_LONG 1.5 /* a stretch that is longer by this factor than its nodes allow is repeated */
 /* largest factor by which a grain is lengthened for matter that is barely visible behind other matter */
 #define KD_MARCH_BEHIND 1.5
 #define KD_MARCH_LOOPS \
-    65536u /* more than needed: lavapipe may end loops before their condition does, and work left undone must be \
-              detected */
+    65536u /* more loop passes than needed; lavapipe may end loops before their condition does, and unfinished work \
+            * must be detected */
 #define KD_MARCH_CLOSE \
     1e-8 /* Delta w^4 at which a turning ray is as close to the horizon as 32 bits resolve: its time there has no \
             valid digits, but stays finite */
@@ -44,9 +45,9 @@
 #define KD_MARCH_DEEP 1e3            /* optical depth beyond which more makes no difference */
 #define KD_MARCH_OPAQUE slice.opaque /* a ray ends where less than this fraction of the light behind is transmitted */
 
-/* A ray that was stopped by a driver's limit on loops is traced again in pieces, one dispatch each (KD_PIECES).
- * left: passes of loops that this piece may still take; waits: they ran out before the ray's end. The other members
- * are where to continue: completed steps, the place within the next step, and the length of the next stretch. */
+/* A ray that was stopped by a driver's limit on loops is traced again in pieces, one dispatch each (KD_PIECES). left:
+ * loop passes that this piece may still take; waits: no passes were left before the ray's end. The other members are
+ * where to continue: completed steps, the place within the next step, and the length of the next stretch. */
 #ifdef KD_PIECES
 struct kd_march_piece {
     uint left, steps;
@@ -62,10 +63,10 @@ struct kd_march_piece {
 #define KD_MARCH_WAITS false
 #endif
 
-/* A polynomial in the time within a step, from 0 to 1. */
+/* A polynomial in the time within a step, which goes from 0 to 1. */
 struct kd_quintic { float c0, c1, c2, c3, c4, c5; };
 
-/* The quintic with these values, slopes and second derivatives at both ends. */
+/* The quintic with given values, slopes and second derivatives at both ends. */
 kd_quintic kd_quintic_of(float y0, float d0, float a0, float y1, float d1, float a1)
 {
     float rest = y1 - y0 - d0 - 0.5 * a0, slope = d1 - d0 - a0, bend = a1 - a0;
@@ -86,7 +87,7 @@ kd_quintic kd_quintic_derived(kd_quintic q)
     return kd_quintic(q.c1, 2.0 * q.c2, 3.0 * q.c3, 4.0 * q.c4, 5.0 * q.c5, 0.0);
 }
 
-/* Time at which it takes a value that it crosses between two times: Newton's method, bracketed. */
+/* Time at which the quintic takes a value that it crosses between two times: Newton's method, bracketed. */
 float kd_quintic_root(kd_quintic q, float value, float low, float high)
 {
     bool falls = kd_quintic_at(q, low) >= value;
@@ -117,24 +118,24 @@ void kd_quintic_clip(kd_quintic q, float value, float sign_, inout float from, i
 
 const bool KD_MARCH_TURNS = ((KD_ALONG_TRAITS | KD_MET_TRAITS) & KD_TRAIT_AZIMUTH) != 0u;
 
-/* Whether the times are needed at which light left. */
+/* Whether the march needs the times at which light left. */
 #ifdef KD_PROBE
 const bool KD_MARCH_DELAYS = true;
 #else
 const bool KD_MARCH_DELAYS = (KD_ALONG_TRAITS & KD_TRAIT_SLOW) != 0u;
 #endif
 
-/* Frame dragging up to the start of a step: chi, the azimuth of the ray in the coordinates of ray/radial_step.glsl;
- * way, which coordinates these are; and fallen, the terms left out earlier. ago: how much earlier light left the
- * start of the step than light that shows the scene's time. */
+/* Frame dragging up to the start of a step. chi: the azimuth of the ray in the coordinates of ray/radial_step.glsl;
+ * way: which coordinates these are; fallen: the terms left out earlier; ago: how much earlier light left the start of
+ * the step than light that shows the scene's time. */
 struct kd_march_drag {
     float chi, way, fallen;
     bool returns;
     float ago;
 };
 
-/* A step of the ray. chi grows by a cubic; ago by a quintic, plus the difference of kd_march_edge if the ray does
- * not turn: along = 1 inwards, -1 outwards. */
+/* A step of the ray. Within it chi grows by a cubic. ago grows by a quintic and, if the ray does not turn, the
+ * difference of kd_march_edge: along = 1 inwards, -1 outwards. */
 struct kd_stride {
     kd_quintic w, u, x, y;
     float h, c0, c1, c2, c3, way;
@@ -142,12 +143,12 @@ struct kd_stride {
     float along;
 };
 
-/* Boyer-Lindquist time along the ray backwards grows by t' = (1 + a^2 w^2) W/(w^2 D) + a (L - a E (1 - u^2)), D = 1
- * - 2w + a^2 w^2 and W = E + a (a E - L) w^2. With w'^2 = W^2 - D K w^2 the first part is (1 + a^2 w^2) (w'/(w^2 D)
- * + K/(W + w')) where the ray goes inwards, and the same with -w' where it goes outwards. The first term of that is
- * d/dtau of -1/w + ln(w^2/D) + 2 kd_fall, which contains everything that grows without bound towards infinity and at
- * the horizon, and minus r_o + 2 ln r_o vanishes for an observer at infinity. The rest is smooth. In the step in
- * which the ray turns t' itself is smooth. */
+/* Boyer-Lindquist time along the ray backwards grows by t' = (1 + a^2 w^2) W/(w^2 D) + a (L - a E (1 - u^2)), D = 1 -
+ * 2w + a^2 w^2 and W = E + a (a E - L) w^2. With w'^2 = W^2 - D K w^2 the first part of t' is (1 + a^2 w^2) (w'/(w^2 D)
+ * + K/(W + w')) where the ray goes inwards, and the same with -w' where it goes outwards. The first term of this part
+ * is d/dtau of -1/w + ln(w^2/D) + 2 kd_fall. That contains everything that grows without bound towards infinity and at
+ * the horizon, and minus r_o + 2 ln r_o vanishes for an observer at infinity. The rest is smooth. In the step in which
+ * the ray turns, t' itself is smooth. */
 float kd_march_edge(float w)
 {
     return w > 0.0 ? 2.0 * kd_fall(w, cam.root) - 1.0 / w + kd_log(w * w / kd_horizons(w, cam.root)) : 0.0;
@@ -165,7 +166,8 @@ float kd_march_later(kd_geodesic m, kd_ray ray, kd_stride s, float t)
     return s.h * (out_ + a * (m.momentum - a * ray.e * (1.0 - u * u)));
 }
 
-/* Integral of the polynomial through five nodes of the step (Newton's forward differences): Boole's rule at its end. */
+/* Integral of the polynomial through five nodes of the step (Newton's forward differences). At the end of the step it
+ * is Boole's rule. */
 kd_quintic kd_march_later_along(kd_geodesic m, kd_ray ray, kd_stride s, float begin)
 {
     float f0 = kd_march_later(m, ray, s, 0.0), f1 = kd_march_later(m, ray, s, 0.25),
@@ -242,7 +244,7 @@ kd_march_drag kd_march_drag_of(kd_geodesic m, kd_ray ray)
     return drag;
 }
 
-/* Shortens an ellipse M_rr, M_rf, M_ff by this fraction in the direction d. */
+/* Shortens an ellipse M_rr, M_rf, M_ff by the fraction `less` in the direction d. */
 vec3 kd_march_shorter(vec3 m, vec2 d, float less)
 {
     vec2 md = vec2(m.x * d.x + m.y * d.y, m.y * d.x + m.z * d.y);
@@ -251,10 +253,10 @@ vec3 kd_march_shorter(vec3 m, vec2 d, float less)
            dd * vec3(d.x * d.x, d.x * d.y, d.y * d.y);
 }
 
-/* The ellipse across a ray that it stands for, at its crossing n of the plane. The axis of the footprint along the
- * ray is multiplied by the cosine to the normal to lie across the ray; it then has components in the plane (times
- * the cosine again) and along the normal (times the sine). outwards: 1 if the ray is traced outwards, -1 if inwards.
- * Zero for a ray without that crossing. */
+/* The ellipse across a ray that the ray stands for, at its crossing n of the plane. To lie across the ray, the
+ * footprint's axis along the ray is multiplied by the cosine of the angle to the normal. It then has components in the
+ * plane (times the cosine again) and along the normal (times the sine). outwards: 1 if the ray is traced outwards, -1
+ * if inwards. The result is zero for a ray without that crossing. */
 kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outwards)
 {
     uint k = at + min(n, ORDERS - 1u) * slice.stride;
@@ -264,8 +266,8 @@ kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outw
     float both = sqrt(i * (1.0 - i)), apart = i - 0.5,
           all = size * size / (0.5 + sqrt(apart * apart + j * j * both * both));
     vec3 flat_ = all * vec3(i, j * both, 1.0 - i);
-    /* Direction of the ray as if space were flat: r'^2 = R(w)/w^4, L about the axis, and sqrt(Q) along the normal,
-     * over r. */
+    /* Direction of the ray as if space were flat, over r: r'^2 = R(w)/w^4, L about the axis, and sqrt(Q) along the
+     * normal. */
     float w2 = w * w, out2 = max(ray.e * ray.e + w2 * (m.a2 + w * (2.0 * m.k - w * m.d)), 0.0),
           round_ = -m.momentum * w, up2 = max(m.q, 0.0) * w2;
     float plane2 = max(out2 + round_ * round_, 1e-12), c2 = up2 / (up2 + plane2), less = 1.0 - sqrt(c2),
@@ -306,8 +308,9 @@ kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, u
 }
 
 /* Light of a node is attenuated by half its own depth and all depth before it. By Gauss's method of three stages
- * (Hairer, Norsett & Wanner 1993, II.7), with coefficients a_ij, the attenuation is sum_j a_ij/b_j x_j: this is the
- * remainder to first order in depth. It is 0 where light is proportional to depth, for which the sum is exact. */
+ * (Hairer, Norsett & Wanner 1993, II.7), with coefficients a_ij, the attenuation is sum_j a_ij/b_j x_j: this function
+ * returns the remainder to first order in depth. The remainder is 0 where light is proportional to depth, for which the
+ * sum is exact. */
 vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
 {
     float x = one.w + two.w + three.w;
@@ -341,7 +344,7 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
 {
     float coarse = 4.0 / float(FINE), front = beam.through, depth = 0.0, depth_off = 0.0;
     vec3 light = vec3(0.0), light_off = vec3(0.0), seen = vec3(0.0), seen_off = vec3(0.0);
-    float wish = stretch / s.h; /* length of the next stretch; 0: unknown, and determined by a stretch of no length */
+    float wish = stretch / s.h; /* length of the next stretch; 0: unknown, and found from a stretch of no length */
     for (uint n = 0u; n < KD_MARCH_LOOPS && from < to && beam.through > KD_MARCH_OPAQUE && KD_MARCH_MAY; n++) {
         KD_MARCH_SPEND(KD_MARCH_STRETCH)
         float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 16777216.0)) : 0.0, most = 1.0,
@@ -402,16 +405,16 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
     beam.through = beam.through > KD_MARCH_OPAQUE ? beam.through : 0.0;
 }
 
-/* Whether a ray can reach the volumes, by w'^2 = R(w): from outside R must not vanish before. */
+/* Whether a ray can reach the volumes, by w'^2 = R(w): for a ray from outside R must not vanish before. */
 bool kd_march_meets(kd_geodesic m, kd_ray ray)
 {
     float w = emission.frame.along_least, w2 = w * w;
     return ray.w >= w || ray.e * ray.e + w2 * (m.a2 + w * (2.0 * m.k - w * m.d)) > 0.0;
 }
 
-/* State of a ray: the current step goes from p to q. side: side of the plane that p is on; crossed: crossings so
- * far; stretch: length of the next stretch, in Mino time; steps: number of steps. goes: there is a current step.
- * lost: no end was found. left: Mino time from p to a surface that ends the ray (light/meet.glsl). */
+/* State of a ray: the current step goes from p to q. side: side of the plane that p is on; crossed: crossings so far;
+ * stretch: length of the next stretch, in Mino time; steps: number of steps; goes: there is a current step; lost: the
+ * ray's end was not found; left: Mino time from p to a surface that ends the ray (light/meet.glsl). */
 struct kd_march_way {
     kd_geodesic m;
     kd_path p, q;
@@ -432,7 +435,7 @@ vec2 kd_quintic_hull(kd_quintic q)
 
 bool kd_march_crosses(kd_march_way y) { return y.q.y.z * y.side < 0.0; }
 
-/* Whether a step may touch the volumes, or a crossing with light. */
+/* Whether a step may touch the volumes, or may contain a crossing with light. */
 bool kd_march_matters(kd_march_way y)
 {
     vec2 w = kd_quintic_hull(y.s.w), u = kd_quintic_hull(y.s.u);
@@ -466,7 +469,7 @@ void kd_march_next(inout kd_march_way y, kd_ray ray)
     if (INGOING && y.q.y.w > cam.horizon && y.q.v.w < 0.0)
         y.q.v.w = kd_leaving(y.m, y.q.y.w, ray.e);
     y.lost = y.lost || y.steps++ >= 12u * STEPS; /* the ray circles without end */
-    y.goes = !y.lost && kd_is_finite(y.q.y.w);   /* otherwise it has fallen in */
+    y.goes = !y.lost && kd_is_finite(y.q.y.w);   /* if not, the ray has fallen in */
     y.s = kd_stride_of(y.m, ray, y.p, y.q, y.h, y.drag);
 }
 
@@ -516,7 +519,7 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
                         to);
         kd_spread spread = kd_spread(vec3(0.0), vec3(0.0));
         uint order = 0u;
-        /* of the next crossing, or of the previous one while the ray moves away from the plane */
+        /* order of the next crossing, or of the previous one while the ray moves away from the plane */
         if (KD_OVERS || (KD_MARCH_TURNS && ORDERS > 0)) {
             uint passed = y.crossed + (t >= plane ? 1u : 0u);
             bool leaves =
@@ -559,7 +562,7 @@ kd_march_way kd_march_begin(kd_ray ray, float left)
 }
 
 #ifdef KD_PIECES
-/* Repeats the steps of earlier pieces. */
+/* Takes the steps of earlier pieces again. */
 void kd_march_again(inout kd_march_way y, kd_ray ray)
 {
     y.stretch = kd_march_at.stretch;
@@ -572,8 +575,8 @@ void kd_march_again(inout kd_march_way y, kd_ray ray)
 }
 #endif
 
-/* Follows one ray up to a Mino time, before which it crosses the plane `crossings` times; without what is there or
- * at the ray's end. */
+/* Follows one ray up to a Mino time, before which it crosses the plane `crossings` times. The light of what is at the
+ * end is left out. */
 void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint crossings)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);

@@ -1,23 +1,21 @@
-/* Finds the first body that a ray meets (emit/bodies.glsl), and composes its light with everything before it: crossings
- * of the lens map, and volumes by the march.
+/* Finds the first body that a ray meets (emit/bodies.glsl). Composes its light with everything before it: crossings of
+ * the lens map, and volumes by the march.
  *
  * The ray is traced by the steps of ray/escape.glsl. With n the direction from the hole in Boyer-Lindquist azimuths,
  * and w = 1/r, a point is X = n/w. Relative to a point c it is along Z = n - w c, and X' is along e = n' w - n w',
  * which stays finite at infinity and is almost constant where space is flat. So the ray is nearest to c where Z.e
  * changes sign, at most once a step.
  *
- * lavapipe skips work only by leaving a loop. The inner loops take steps, and descend the tree of balls, until a
- * body is near for each ray of a group or none is left; the outer loop then tests it closely. Needs
- * light/march.glsl. */
+ * lavapipe skips work only by leaving a loop. The inner loops take steps, and descend the tree of balls, until each ray
+ * of a group is near a body or has none left; the outer loop then tests the body closely. Needs light/march.glsl. */
 #ifndef KD_MEET_GLSL
 #define KD_MEET_GLSL
 
 #define KD_MEET_SLACK \
-    0.02 /* of r, and 0.1 of the radius of the ball: a ray that passes a ball at a smaller distance is tested closely \
-          */
+    0.02 /* fraction of r; to it 0.1 of the ball's radius is added. A ray this near to the ball is tested closely */
 #define KD_MEET_FAR 1e30
 
-/* An end of a step: (n, w), and its change over a step. */
+/* An end of a step: (n, w), and the change of (n, w) over a step. */
 struct kd_met_end { vec4 p, d; };
 
 kd_met_end kd_met_end_of(kd_geodesic m, kd_ray ray, kd_path p, float h, float chi)
@@ -48,7 +46,7 @@ bool kd_met_near(kd_met_end a, kd_met_end b, vec4 ball)
     return (g0 < 0.0 && g1 >= 0.0 && dot(z, z) < reach * reach) || dot(z0, z0) < in0 * in0 || dot(z1, z1) < in1 * in1;
 }
 
-/* A point of a ray in the frame of a body: t' w and b w, and Mino time, in steps, over t'. */
+/* A point of a ray in the frame of a body: t' w; the square of b w; and Mino time, in steps, per unit of t'. */
 struct kd_met_sight { float ahead, off2, rate; };
 
 kd_met_sight kd_met_sight_of(kd_met_end e, vec4 a, vec4 b, vec4 c, vec4 v, float turn)
@@ -66,7 +64,7 @@ kd_met_sight kd_met_sight_of(kd_met_end e, vec4 a, vec4 b, vec4 c, vec4 v, float
     return kd_met_sight(v.w * (t - dot(v.xyz, y)), max(dot(y, y) - t * t, 0.0), long_ * p.w * p.w / (v.w * slow));
 }
 
-/* Time within the step at which the ray reaches the surface; above 1: it does not. */
+/* Time within the step at which the ray reaches the surface; above 1: the ray does not reach it. */
 float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
 {
     vec4 r0 = kd_body_row(body, 0u), r1 = kd_body_row(body, 1u), r2 = kd_body_row(body, 2u), v = kd_body_row(body, 3u),
@@ -89,7 +87,7 @@ float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
             enters = next - size * sqrt(max(1.0 - off, 0.0)) * s.rate;
     }
     bool meets = (passes || ends_within) && off < 1.0 && enters <= 1.0;
-    /* Again from there, as the ray's position and direction have changed. */
+    /* Solve again from the surface found, as the ray's position and direction have changed. */
     t = clamp(enters, 0.0, 1.0);
     kd_met_end e = kd_met_between(a, b, t);
     kd_met_sight s = kd_met_sight_of(e, r0, r1, r2, v, own.x);
@@ -101,7 +99,7 @@ float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
 
 kd_met kd_met_nothing() { return kd_met(KD_MEET_FAR, KD_NOBODY, ORDERS, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0); }
 
-/* The node after this one, or after its subtree if that is far; 0: none. */
+/* The node after this one; or, if the ray is far from this node, the node after its subtree. 0: none. */
 uint kd_met_next(uint node)
 {
     uint next = (node + 1u) >> uint(findLSB(node + 1u));
@@ -113,7 +111,7 @@ uint kd_met_next(uint node)
 bool kd_meet_lost = false;
 
 #define KD_MEET_CLOSE \
-    0.995 /* of 1/r of the horizon: up to here points of a step are known; azimuths diverge at the horizon */
+    0.995 /* fraction of 1/r of the horizon: up to here points of a step are known; azimuths diverge at the horizon */
 
 kd_met kd_meet(uvec2 place)
 {
@@ -146,10 +144,11 @@ kd_met kd_meet(uvec2 place)
                 p = q;
                 float was = h;
                 h = KD_PI / (float(STEPS) * sqrt(INGOING ? rate2 + 6.0 * m.k * p.y.w : rate2));
-                /* azimuths diverge there: the ray first steps to a point before it, */
+                /* azimuths diverge at the horizon: the ray first steps to a point before it */
                 if (p.v.w > 0.0 && p.y.w < near_horizon)
                     h = min(h, max((near_horizon - p.y.w) / p.v.w, 0.2 * h));
-                else if (p.v.w > 0.0 && p.y.w < KD_MEET_CLOSE * cam.horizon) /* and then by halves */
+                /* then each step covers half the way to the horizon */
+                else if (p.v.w > 0.0 && p.y.w < KD_MEET_CLOSE * cam.horizon)
                     h = min(h, 0.5 * (cam.horizon - p.y.w) / p.v.w);
                 q = kd_path_step(m, p, h);
                 if (INGOING && q.y.w > cam.horizon && q.v.w < 0.0)
@@ -172,7 +171,7 @@ kd_met kd_meet(uvec2 place)
                 leaf = near && one ? node : 0u;
                 node = near && !one ? 2u * node : kd_met_next(node);
             }
-            goes = goes && !(leaf == 0u && met.body != KD_NOBODY); /* later steps are behind it */
+            goes = goes && !(leaf == 0u && met.body != KD_NOBODY); /* later steps are behind the body */
         }
         if (leaf == 0u)
             break;
@@ -184,14 +183,14 @@ kd_met kd_meet(uvec2 place)
             met = kd_met(time, body, crossed + (q.y.z * side < 0.0 && e.p.z * side < 0.0 ? 1u : 0u), max(e.p.w, 1e-12),
                          e.p.z, -kd_atan2(e.p.y, e.p.x), per * e.d.w, per * e.d.z, ray.e, m.momentum, cosine);
         }
-        if (node == 0u && met.body != KD_NOBODY) /* later steps are behind it */
+        if (node == 0u && met.body != KD_NOBODY) /* later steps are behind the body */
             break;
     }
     kd_meet_lost = node != 0u || (goes && met.body == KD_NOBODY);
     return met;
 }
 
-/* Follows one ray, without what is at its end. */
+/* Follows one ray, without the light of what is at its end. */
 void kd_follow(inout kd_beam beam, uvec2 place, uint at)
 {
     kd_met met = kd_met_nothing();

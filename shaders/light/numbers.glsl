@@ -3,7 +3,8 @@
 #ifndef KD_NUMBERS_GLSL
 #define KD_NUMBERS_GLSL
 
-/* Frequency that the observer measures over that in the frame of the gas, even if the picture does not apply it. */
+/* Ratio of the frequency that the observer measures to the frequency in the frame of the gas, even if the picture does
+ * not apply it. */
 float kd_layer_g(kd_sample s)
 {
     if (kd_plunge_falls(s))
@@ -11,18 +12,18 @@ float kd_layer_g(kd_sample s)
     return kd_orbit_shift(s.w, s.energy, s.momentum, KD_TRAIT_DOPPLER | KD_TRAIT_REDSHIFT);
 }
 
-/* Temperature of the black body that the gas emits as, in its own frame, K. */
+/* Temperature, in the gas's own frame, of the black body as which the gas emits, K. */
 float kd_layer_temperature(kd_sample s)
 {
     if (kd_plunge_falls(s))
         return emission.plunge.temperature * emission.disk.peak;
     float r = 1.0 / s.w, t = emission.disk.peak * kd_disk_heat(s.w) * inversesqrt(r * sqrt(r));
     return KD_HAS(gas) && KD_GAS_TAKEN > 0u ? t * exp(0.25 * kd_gas_excess(s))
-                                            : t; /* flux is proportional to its fourth power */
+                                            : t; /* the flux is proportional to the fourth power of the temperature */
 }
 
 #ifdef KD_MARCH
-/* The same for a surface, by its emitter. */
+/* kd_layer_g for a surface, by its emitter. */
 float kd_layer_met_g(kd_met met)
 {
 #define KD_MET_G_(number, name) \

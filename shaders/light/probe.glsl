@@ -15,9 +15,8 @@
  *                     emission angle, transmission in front; followed by KD_PROBE_MET_AT: w, u, azimuth, g
  *   KD_PROBE_POLARIZED for the place before it: Stokes Q and U of its light over I
  *   KD_PROBE_LOST      the ray was given up
- *   KD_PROBE_FRONT, KD_PROBE_WHOLE        the sum before the end and including it: light, transmission, the steps
- *                                       and samples of the march, and Stokes Q, U and V
- *                     of a volume, and whether there are any */
+ *   KD_PROBE_FRONT, KD_PROBE_WHOLE   the sum before the end, and the sum that includes it: light, transmission, the
+ *                     steps and samples of the march, Stokes Q, U and V of volumes, and whether there are any */
 #ifndef KD_PROBE_GLSL
 #define KD_PROBE_GLSL
 
@@ -92,8 +91,8 @@ void kd_probe_place(kd_sample s, float through)
 #define KD_PROBED_STOKES vec4(0.0)
 #endif
 
-/* Light and depth of each volume: at a sample per unit of the affine parameter; of the current stretch; and of all
- * accepted ones. */
+/* Light and depth of each volume: kd_place_, at a sample, per unit of the affine parameter; kd_tried_, of the current
+ * stretch; kd_probed_, of all accepted stretches. */
 float kd_probed_steps = 0.0, kd_probed_places = 0.0;
 #define KD_PROBE_NONE_(number, name)
 #define KD_PROBE_VOLUME_(number, name) \
@@ -113,7 +112,8 @@ KD_PROBE_VOLUMES_(KD_PROBE_VOLUME_)
         float tells = comes, told_way = way; \
         KD_PROBE_VOLUMES_(KD_PROBE_ON_) \
     }
-/* Light of the stretch beyond the sum over its samples is divided among the volumes in proportion to that sum. */
+/* The stretch's light may exceed the sum over its samples. The excess is divided among the volumes in proportion to
+ * that sum. */
 #define KD_PROBE_TAKE_(number, name) kd_probed_##name += kd_tried_##name * vec4(share, 1.0);
 #define KD_PROBE_TAKE(before, tried, rest) \
     { \

@@ -2,14 +2,14 @@
  * Degl'Innocenti & M. Landi Degl'Innocenti 1985, Sol. Phys. 97, 239; Landi Degl'Innocenti & Landolfi 2004, section
  * 8.3), with
  *
- *   K S = alpha S + (a.v, a I - rho x v),   v = (Q, U, V),   a = (alpha_Q, alpha_U, alpha_V),   rho = (rho_Q,
- *                                                            rho_U, rho_V).
+ *   K S = alpha S + (a.v, a I - rho x v),
+ *   v = (Q, U, V),   a = (alpha_Q, alpha_U, alpha_V),   rho = (rho_Q, rho_U, rho_V).
  *
- * With S written in Pauli matrices, I + v.sigma, the solution is a product with a 2 x 2 matrix: exp(-K s) S = A S
+ * S is written in Pauli matrices, I + v.sigma. The solution is then a product with a 2 x 2 matrix: exp(-K s) S = A S
  * A*, A = exp(-alpha s/2) (cosh(lambda s/2) - sinh(lambda s/2)/lambda c.sigma), with c = a + i rho and lambda =
  * sqrt(c.c) = Lambda_1 + i Lambda_2. Products of such matrices preserve I^2 >= Q^2 + U^2 + V^2 in spite of rounding,
- * and have half as many numbers as the corresponding 4 x 4 matrices. Light of the medium itself is the integral of A
- * j A*, whose four functions of the length are means of exponentials. */
+ * and have half as many numbers as the corresponding 4 x 4 matrices. Light of the medium itself is the integral of A j
+ * A*, whose four functions of the length are means of exponentials. */
 #ifndef KD_STOKES_GLSL
 #define KD_STOKES_GLSL
 
@@ -18,13 +18,14 @@ struct kd_jones {
     vec2 s;
     vec3 re, im;
 };
-/* A length of matter: its light; its depth for I; its absorption of Q, U and V; and its rotation of them. */
+/* A length of matter: its light; its depth for I; its absorption of Q, U and V; and the rotation of Q, U and V by
+ * it. */
 struct kd_stokes {
     vec4 light;
     float depth;
     vec3 takes, turns;
 };
-/* The result on the observer's side: its effect on light from behind, and its own light. */
+/* The effect of such a length on the observer's side: on light from behind, and its own light. */
 struct kd_stokes_cell {
     kd_jones passes;
     vec4 light;
@@ -47,7 +48,7 @@ kd_jones kd_jones_times(kd_jones a, kd_jones b)
     return kd_jones(s, re, im);
 }
 
-/* one S + (b c + its conjugate) S + two c S c*, where b c = p + i q. */
+/* The form one S + (b c + (b c)*) S + two c S c*, where b c = p + i q and c = re + i im. */
 vec4 kd_stokes_forms(vec4 s, float one, vec3 p, vec3 q, float two, vec3 re, vec3 im)
 {
     vec3 v = s.yzw, across = cross(re, im);
@@ -73,7 +74,7 @@ vec4 kd_stokes_sound(vec4 s)
     return vec4(i, i > 0.0 ? s.yzw * (part > 1.0 ? 1.0 / part : 1.0) : vec3(0.0));
 }
 
-/* The mean of exp(-y s) for s from 0 to 1, for a real y, and for a complex one with a given exp(-y). */
+/* The mean of exp(-y s) for s from 0 to 1: for a real y, and for a complex y with a given exp(-y). */
 float kd_stokes_mean(float y)
 {
     return abs(y) < 0.25 ? 1.0 - y * (0.5 - y * (1.0 / 6.0 - y * (1.0 / 24.0 - y * (1.0 / 120.0 - y * (1.0 / 720.0)))))
@@ -135,7 +136,7 @@ kd_stokes_cell kd_stokes_cell_of(kd_stokes m)
     vec3 largest = max(abs(m.takes), abs(m.turns));
     float t = m.depth, size = max(max(largest.x, max(largest.y, largest.z)), 1e-30);
     vec2 lambda = size * kd_stokes_root(m.takes / size, m.turns / size);
-    lambda.x = min(lambda.x, t); /* nothing absorbs more of a polarisation than is there */
+    lambda.x = min(lambda.x, t); /* t - lambda.x, the least absorption of a polarisation, is not negative */
     float square = dot(lambda, lambda), per = 1.0 / max(square, 1e-30), around = lambda.y * (0.5 / 6.28318531);
     bool near = square < max(KD_STOKES_NEAR * KD_STOKES_NEAR, 0.01 * t * t);
     kd_phasor half_ = kd_cos_sin(6.28318531 * clamp(around - floor(around), 0.0, 1.0));

@@ -15,7 +15,7 @@ KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #ifndef KD_PROBE
 layout(set = 0, binding = 3) KD_RADIANCE_ACCESS buffer Radiance { float radiance[]; };
 #ifdef KD_MARCH
-/* The same buffer: after the light, the list of rays that were not completed (KD_LOST_...). */
+/* The buffer of light, for the list of rays that were not completed, which follows the light (KD_LOST_...). */
 layout(set = 0, binding = 3) buffer Lost { uint lost_rays[]; };
 layout(set = 0, binding = 3) buffer Pieces { float pieces[]; };
 #endif
@@ -36,8 +36,8 @@ void forget_stokes()
     untold = false;
 }
 
-/* Composes a crossing of order n, w = 1/r (negative: the ray was given up on its way there), of the ray at this
- * place of the camera, with index `at` in the lens map. */
+/* Composes a crossing of order n of the ray at this place of the camera, with index `at` in the lens map. w = 1/r;
+ * negative: the ray was given up on its way to the crossing. */
 void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
@@ -65,7 +65,7 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
     }
 }
 
-/* A map may hold the ends of rays only for layers: the picture must not depend on that. */
+/* A map may hold the ends of rays only because layers need them: the picture must not depend on that. */
 const bool ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) * (QUANTITIES & KD_LENS_FATE) != 0u;
 
 /* Light behind all crossings. */
@@ -87,7 +87,7 @@ vec3 background(uvec2 place, uint at, uint pixel)
 
 #ifdef KD_MARCH
 #define KD_MARCH_MEET(beam, w, n, place, at) meet(beam, w, n, place, at)
-bool lost = false; /* the current ray */
+bool lost = false; /* whether the current ray was given up */
 #define KD_MARCH_GIVEN_UP(beam) (kd_beam_given_up(beam), lost = true, untold = true)
 #include "light/march.glsl"
 #include "light/meet.glsl"
@@ -164,8 +164,8 @@ void store_light(uint at, vec3 light)
     radiance[3 * at + 2] = light.b;
 }
 
-/* After the band's pixels follow, a band of pixels each, the separate luminance, then Stokes Q, U and V of all
- * light, and Q and U of the separate one. */
+/* After the light of the band's pixels follow, one number a pixel each: the separate luminance; Stokes Q, U and V of
+ * all light; Q and U of the separate light. */
 const uint STOKES_AT = KD_SEPARATE_PHOTOMETRY ? 4u : 3u;
 void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
 {
@@ -187,12 +187,12 @@ void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
 /* Lights KD_TRANSFER_ROWS pixels of a column, with one ray each and without diffuse light behind them. Pixels without
  * light are left as they are: they were set to black before.
  *
- * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop searches the
- * next crossing with light, which is cheap, and the outer loop lights it. With diffuse light on the sky each pixel
- * has some, and the search would only cost time. */
+ * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop searches the next
+ * crossing with light, which is cheap, and the outer loop lights it. With diffuse light on the sky every pixel has
+ * light, and the search would only cost time. */
 #ifdef KD_MARCH
-const bool COLUMNS = false,
-           SAMPLES = CRITICAL == 0; /* its error is measured on a lattice of pixels (src/render/frame/march_error.c) */
+const bool COLUMNS = false, SAMPLES = CRITICAL == 0; /* the march's error is measured on a lattice of pixels
+                                                      * (src/render/frame/march_error.c) */
 #else
 const bool SAMPLES = false;
 const bool COLUMNS =
@@ -251,7 +251,7 @@ void light_column(uint x, uint y, uint end)
     }
 }
 
-/* Place of this ray of a pixel, whose index in the list is `listed`, and the place of its map. */
+/* Place of a ray of a pixel, whose index in the list is `listed`. map_of: the ray's index in the lens map. */
 uvec2 place_of(uvec2 pixel, uint ray)
 {
     return CRITICAL > 0 ? kd_critical_place(pixel, ray) : pixel * SIDE + uvec2(ray % SIDE, ray / SIDE);
@@ -271,7 +271,7 @@ kd_beam follow_one(uvec2 pixel, uint listed, uint ray, uint to)
 #ifdef KD_MARCH
 const uint RAYS = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
 
-/* Stores a ray's fraction of its pixel's light, or adds it to that of earlier rays. */
+/* Stores a ray's share of its pixel's light, or adds it to that of earlier rays. */
 void store_ray(uint to, kd_beam beam, bool adds)
 {
     const float share = 1.0 / float(RAYS);
@@ -288,7 +288,7 @@ void store_ray(uint to, kd_beam beam, bool adds)
         if (STOKES && KD_SEPARATE_PHOTOMETRY && KD_HAS(polarization))
             spots += vec2(radiance[from + 3 * pixels], radiance[from + 4 * pixels]);
     }
-    if (untold || all.z > KD_STOKES_LEAST_UNTOLD) /* whatever the pixel's other rays are */
+    if (untold || all.z > KD_STOKES_LEAST_UNTOLD) /* whatever light the pixel's other rays have */
         all.z = KD_STOKES_UNTOLD;
     store(to, sum, apart, all, spots);
 }
@@ -296,7 +296,7 @@ void store_ray(uint to, kd_beam beam, bool adds)
 /* Index of a word of the list, which counts from the end of the buffer. */
 uint lost_word(uint at) { return lost_rays.length() - at; }
 
-/* Lists a ray that was not completed, which then has no light yet, or gives it up if there is no room. */
+/* Lists a ray that was not completed. It has no light yet. If there is no room in the list, the ray is given up. */
 void lose(inout kd_beam beam, uint name)
 {
     uint n = atomicAdd(lost_rays[lost_word(KD_LOST_LISTED)], 1u);
@@ -360,7 +360,7 @@ void end_piece(kd_beam beam)
     atomicAdd(lost_rays[lost_word(KD_LOST_WAITING)], 1u);
 }
 
-/* Follows the next piece of each listed ray that waits: of each pixel the ray with the number slice.ray. */
+/* Follows the next piece of each listed ray that waits, but of each pixel only of the ray with the number slice.ray. */
 void main()
 {
     kd_camera_read();
@@ -395,8 +395,8 @@ void main()
     store_ray(to, beam, true);
 }
 #else
-/* The march has one ray an invocation: lavapipe (Mesa 22.3) ends all loops of eight invocations after 65 535 passes
- * in total, which the successive rays of a pixel through turbulent gas would reach. */
+/* The march processes one ray an invocation: lavapipe (Mesa 22.3) ends all loops of eight invocations after 65 535
+ * passes in total, which the successive rays of a pixel through turbulent gas would reach. */
 void main()
 {
     kd_camera_read();

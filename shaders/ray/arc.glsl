@@ -2,17 +2,22 @@
  * backwards.
  *
  * With g(z) = 1/(wp(z) - A/12), where wp is Weierstrass's function with the invariants of f,
+ *
  *   g'^2 = 4g + A g^2 + e^2 D g^3 + G g^4,    G = e^2 (K^2 + A D)/4,    g = z^2 + ...,
+ *
  * Biermann's formula (Whittaker & Watson 20.6) leads from v, v' at one time to v at z before or after it:
+ *
  *   v(+-z) = v + (g (F P/2 + c g) +- v' g'/2) / (P^2 + v'^2 D g^2/4),
  *   F = v'' = v (A + 3K v - 2D v^2),  s = v (K - D v)/2,  P = 1 - g s,  c = v'^2 (K/4 - D v/2).
  *
- * g has its pole at the time from 0 to v = K/D, inside the horizon: no stretch outside it lasts that long. No root
- * of f is needed. The pair (g, g') is the same for all points of a path: one pair serves the same time before and
- * after each crossing. It comes from the Laurent series of wp (Abramowitz & Stegun 18.5) up to z sqrt|A| = pi/2, and
- * by the duplication formula from z to 2z. The unit of time is a power of two, so that scaling causes no rounding,
- * chosen such that 1 <= |A| < 4 and a half period lasts from pi/2 to pi. Rays with b below about 1 have a smaller A,
- * and are captured or gone long before. */
+ * g has its pole at the time from v = 0 to v = K/D, inside the horizon: no stretch outside the horizon lasts that
+ * long. No root of f is needed. The pair (g, g') is the same for all points of a path: one pair serves the same time
+ * before and after each crossing. It comes from the Laurent series of wp (Abramowitz & Stegun 18.5) up to z sqrt|A|
+ * = pi/2, and beyond by the duplication formula from z to 2z.
+ *
+ * The unit of time is a power of two, so that scaling causes no rounding. It is chosen such that 1 <= |A| < 4 and a
+ * half period lasts from pi/2 to pi. Rays with b below about 1 have a smaller A, and are captured or gone long
+ * before. */
 #ifndef KD_ARC_GLSL
 #define KD_ARC_GLSL
 
@@ -20,12 +25,12 @@
 
 struct kd_lattice {
     float a, d, g;                    /* coefficients of g'^2: A, e^2 D, G       */
-    float c2, c3, c4, c5, c6, c7, c8; /* of the series: z^2/g = 1 - A z^2/12 + c2 z^4 + c3 z^6 + ... */
+    float c2, c3, c4, c5, c6, c7, c8; /* coefficients of the series z^2/g = 1 - A z^2/12 + c2 z^4 + c3 z^6 + ... */
 };
 
 /* f is scaled: time z = scale tau, v = scale w. */
 struct kd_arcs {
-    float scale, unit; /* and 1/scale */
+    float scale, unit; /* scale, and 1/scale */
     float k, d;        /* K, D        */
     kd_lattice l;
 };
@@ -74,7 +79,7 @@ kd_arc kd_arc_short(kd_lattice l, float z)
         (l.c2 + y * (2.0 * l.c3 +
                      y * (3.0 * l.c4 + y * (4.0 * l.c5 + y * (5.0 * l.c6 + y * (6.0 * l.c7 + y * (7.0 * l.c8)))))));
     float inv = 1.0 / (1.0 + sum), part = sum * inv;
-    /* Small differences from the values of g and g' at which the series is 1. */
+    /* Small differences from the values that g and g' have where the series is 1. */
     precise float g = y - y * part, turn = z - z * part, dg = turn - turn * (part + slope * inv);
     o.g = g;
     o.dg = 2.0 * dg;
@@ -84,7 +89,7 @@ kd_arc kd_arc_short(kd_lattice l, float z)
 /* g''. */
 float kd_arc_bend(kd_lattice l, float g) { return 2.0 + g * (l.a + g * (1.5 * l.d + g * (2.0 * l.g))); }
 
-/* g at twice the time: wp's duplication formula, written for g. */
+/* g at twice the time: the duplication formula of wp, written for g. */
 kd_arc kd_arc_twice(kd_lattice l, kd_arc p)
 {
     kd_arc o;
@@ -117,7 +122,7 @@ kd_centre kd_centre_of(kd_arcs a, kd_state y)
     return o;
 }
 
-/* v after that time, and v as long before. */
+/* v a time z after the centre, and v a time z before it. */
 vec2 kd_around(kd_centre o, kd_arc z)
 {
     float p = 1.0 - z.g * o.s, inv = 1.0 / (p * p + o.d * z.g * z.g);
@@ -125,7 +130,7 @@ vec2 kd_around(kd_centre o, kd_arc z)
     return o.v + vec2(even + odd, even - odd) * inv;
 }
 
-/* v and v' after that time. */
+/* v and v' a time z after the centre. */
 kd_state kd_ahead(kd_arcs a, kd_centre o, kd_arc z)
 {
     kd_state y;

@@ -41,8 +41,8 @@ kd_drag_terms kd_drag_terms_of(kd_geodesic m, float e, float a, float root, floa
     return o;
 }
 
-/* The integrand without the factor a. For a ray that falls in it is that of ingoing coordinates, without -E. Both
- * kinds are computed together, because a driver may run both branches of an if. */
+/* The integrand without the factor a. For a ray that falls in it is the integrand of ingoing coordinates, without -E.
+ * Both kinds are computed together, because a driver may run both branches of an if. */
 float kd_drag_at(kd_drag_terms t, float v)
 {
     float w = v * t.unit, w2 = w * w, d = kd_delta(w, t.root), kw = t.k * w2;
@@ -52,7 +52,7 @@ float kd_drag_at(kd_drag_terms t, float v)
     return num / max(den, 1e-12);
 }
 
-/* Integrates between two points of a path, separated by the scaled time z, with the nodes for z. */
+/* Integrates between two points of a path that are separated by the scaled time z; n: the nodes for z. */
 float kd_drag_between(kd_drag_terms t, kd_centre from, kd_centre to, kd_nodes n, float z)
 {
     float sum =
@@ -63,7 +63,7 @@ float kd_drag_between(kd_drag_terms t, kd_centre from, kd_centre to, kd_nodes n,
     return t.a * z * t.unit * (t.falls ? sum - t.e : sum);
 }
 
-/* The term left out in ingoing coordinates, at w. */
+/* The term that ingoing coordinates leave out, at w. */
 float kd_drag_fallen(kd_drag_terms t, float w) { return t.falls ? t.a * kd_fall(w, t.root) : 0.0; }
 
 #endif

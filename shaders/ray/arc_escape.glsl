@@ -5,8 +5,8 @@
 #include "ray/arc.glsl"
 #include "ray/polar_azimuth.glsl"
 
-/* g of the time from here to w = 0, or back to there: Biermann's formula with v = 0 at the other end. A point that
- * still moves inwards is treated as far from it. */
+/* g of the time between this point and w = 0: Biermann's formula with v = 0 at the other end. A point that still moves
+ * inwards is treated as far from w = 0. */
 float kd_arc_to_infinity(kd_state y, float e) { return y.dw < 0.0 ? 2.0 * y.w * y.w / (e * (e - y.dw)) : 1e30; }
 
 /* The inverse of g, to second order. */
@@ -15,12 +15,12 @@ float kd_arc_time(kd_lattice l, float g)
     return sqrt(g) * (1.0 + g * (l.a * (-1.0 / 24.0) + g * (l.a * l.a * (3.0 / 640.0) - l.d * (1.0 / 40.0))));
 }
 
-/* Scaled time from `last` to infinity, for a ray that gets there before `next`, z later; `middle` is the arc of z/2.
- * The nearest of the three points gives the time to 1e-3, and the value of w left there the rest, because w'' = 0 at
- * w = 0. */
+/* Scaled time from `last` to infinity, for a ray that gets there before `next`, a time z later; `middle` is the arc of
+ * z/2. The nearest of the three points gives the time to 1e-3. The value of w left there gives the rest, because w'' =
+ * 0 at w = 0. */
 float kd_arc_escape_time(kd_arcs a, kd_centre last, kd_arc middle, kd_state next, float z, float e)
 {
-    float most = last.dv < 0.0 ? 4.0 * last.v / min(e, -last.dv) : 1e30; /* the points further on are meaningless */
+    float most = last.dv < 0.0 ? 4.0 * last.v / min(e, -last.dv) : 1e30; /* points further along are meaningless */
     kd_state y, half_ = kd_ahead(a, last, middle);
     y.w = last.v;
     y.dw = last.dv;
@@ -45,7 +45,7 @@ float kd_arc_escape_time(kd_arcs a, kd_centre last, kd_arc middle, kd_state next
 
 struct kd_direction { float u, psi; };
 
-/* Direction of a ray that time after it crossed the plane upwards; psi counts from the crossing. */
+/* Direction of a ray the given time after it crossed the plane upwards; psi counts from the crossing. */
 kd_direction kd_arc_direction(kd_geodesic m, kd_arcs a, kd_azimuth azimuth, float time)
 {
     kd_direction o;
@@ -74,9 +74,9 @@ vec3 kd_direction_pull(kd_geodesic m, vec3 n)
     return f;
 }
 
-/* Direction of a ray that escapes soon after its start, with psi counted from the start: four steps of the vector
- * equation of escape.glsl, each of which has an error below a float's for a quarter radian. A ray that never meets
- * the plane, with b < a, is such a ray if it starts outside the photon orbits. */
+/* Direction of a ray that escapes soon after its start, with psi counted from the start. Takes four steps of the vector
+ * equation of escape.glsl, each of which has an error below a float's for a quarter radian. A ray that never meets the
+ * plane, with b < a, is such a ray if it starts outside the photon orbits. */
 kd_direction kd_arc_direction_aside(kd_geodesic m, kd_ray ray, float u, float s, float time)
 {
     vec3 n = vec3(s, 0.0, u), v = vec3(-u * ray.p, ray.l, s * ray.p);

@@ -1,13 +1,14 @@
-/* Wrap-around of a picture of all directions (KD_SIGHT_SPHERE), which has no edges. Beyond its left and right edges
- * it continues at the opposite one, and beyond the upper and lower edges half a turn further on. Needs camera.glsl. */
+/* Wrap-around of a picture of all directions (KD_SIGHT_SPHERE), which has no edges. Beyond its left and right edges it
+ * continues at the opposite edge. Beyond the upper and lower edges it continues at the same edge, half a turn further
+ * on. Needs camera.glsl. */
 #ifndef KD_AROUND_GLSL
 #define KD_AROUND_GLSL
 
-/* Columns and rows of the whole picture, in rays if side is 1, in pixels if it is SIDE. */
+/* Columns and rows of the whole picture: in rays if side is 1, in pixels if it is SIDE. */
 ivec2 kd_around_size(uint side) { return ivec2(vec2(4.0, 2.0) / (vec2(cam.turn_x, cam.turn_y) * float(side)) + 0.5); }
 
-/* Moves a place outside the picture, by up to a whole picture, into it. With an odd number of columns it is off by
- * half a column beyond a pole. */
+/* Moves a place outside the picture, by up to a whole picture, into it. With an odd number of columns the place is off
+ * by half a column beyond a pole. */
 ivec2 kd_around(ivec2 at, ivec2 size)
 {
     bool over = at.y < 0 || at.y >= size.y;
@@ -17,8 +18,8 @@ ivec2 kd_around(ivec2 at, ivec2 size)
     return at;
 }
 
-/* Moves a place next to a ray of the current map to its equivalent in the map; (-1, -1) if the map does not contain
- * it. */
+/* Moves a place next to a ray of the current map to the equivalent place in the map; (-1, -1) if the map does not
+ * contain the place. */
 ivec2 kd_around_neighbour(ivec2 at)
 {
     if (SIGHT == KD_SIGHT_SPHERE && !AT_RIM) {

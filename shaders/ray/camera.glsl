@@ -18,7 +18,8 @@ kd_camera_block cam;
 struct kd_slice { KD_SLICE_FIELDS_(F, U) };
 layout(push_constant) uniform Slice { kd_slice slice_; };
 
-/* Call before the first branch: after one, lavapipe reads both again for each lane and each use. */
+/* kd_camera_read reads both. Call it before the first branch: after one, lavapipe reads them again for each lane and
+ * each use. */
 kd_slice slice;
 void kd_camera_read()
 {
@@ -27,7 +28,7 @@ void kd_camera_read()
 }
 #endif
 
-/* The component of a direction along c0; (x, y) become those along cx and cy. */
+/* Returns the component of a direction along c0; (x, y) become the components along cx and cy. */
 float kd_camera_ahead(inout float x, inout float y)
 {
     if (SIGHT == KD_SIGHT_SPHERE) {
@@ -39,7 +40,7 @@ float kd_camera_ahead(inout float x, inout float y)
     if (SIGHT == KD_SIGHT_DOME) {
         float d = sqrt(x * x + y * y);
         vec2 off = kd_quarter_turns(d * cam.turn_x);
-        x *= off.y / max(d, 0.25); /* except for a ray in the middle itself, none is nearer to it than half a step */
+        x *= off.y / max(d, 0.25); /* no ray but one in the middle itself is nearer to the middle than half a step */
         y *= off.y / max(d, 0.25);
         return off.x;
     }
@@ -59,19 +60,19 @@ kd_ray kd_camera_ray(uint px, uint py)
     float kx = ahead * cam.c0x + x * cam.cxx + y * cam.cyx;
     float ky = ahead * cam.c0y + x * cam.cxy + y * cam.cyy;
     kd_ray ray;
-    if (!FINITE) { /* (alpha, beta) */
+    if (!FINITE) { /* k is (alpha, beta) */
         ray.e = 1.0;
         ray.l = -kx;
         ray.p = ky;
         ray.w = 0.0;
         ray.dw = 1.0;
-    } else { /* (k_r, k_theta, k_phi); the photon moves along -k */
+    } else { /* k is (k_r, k_theta, k_phi); the photon moves along -k */
         float kz = ahead * cam.c0z + x * cam.cxz + y * cam.cyz;
         float n = inversesqrt(kx * kx + ky * ky + kz * kz), m_r = -kx * n, m_theta = -ky * n, m_phi = -kz * n;
         ray.e = cam.e_t + cam.e_r * m_r + cam.e_theta * m_theta + cam.e_phi * m_phi;
         ray.l = cam.l_t + cam.l_r * m_r + cam.l_theta * m_theta + cam.l_phi * m_phi;
         ray.p = cam.p_t - (cam.p_r * kx + cam.p_theta * ky + cam.p_phi * kz) *
-                              n; /* multiplied here and not through m: a single product is rounded once less */
+                              n; /* multiplied here and not through m, so that a single product is rounded once less */
         ray.w = cam.w0;
         ray.dw = cam.dw_t - (cam.dw_r * kx + cam.dw_theta * ky + cam.dw_phi * kz) * n;
     }

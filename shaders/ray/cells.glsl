@@ -1,12 +1,12 @@
 /* Places of cells and nodes of a sampled lens map, and the contents of a node; shared by its kernels.
  *
- * A cell of level k has KD_CELL_BLOCK / 2^(k - 1) rays along each side, and nodes at each quarter of it, which are rays
- * of the picture: 5 x 5 including those of its far sides, which the next cells share. Between them w and azimuth of
- * each crossing, and the other quantities, are polynomials of degree 4 in both directions. Nodes of all levels are at
- * even places, except the rays that check a cell of the last level.
+ * A cell of level k has KD_CELL_BLOCK / 2^(k - 1) rays along each side. Its nodes are rays of the picture at each
+ * quarter of a side: 5 x 5 including those of its far sides, which the next cells share. Between the nodes w and
+ * azimuth of each crossing, and the other quantities, are polynomials of degree 4 in both directions. Nodes of all
+ * levels are at even places, except the rays that check a cell of the last level.
  *
- * Needs the specialisation constants QUANTITIES and ORDERS, KD_SAMPLE_CAMERA_BINDING, and NODE_AT(i) for words of
- * the nodes' map. */
+ * Needs the specialisation constants QUANTITIES and ORDERS, KD_SAMPLE_CAMERA_BINDING, and NODE_AT(i) for words of the
+ * nodes' map. */
 #ifndef KD_CELLS_GLSL
 #define KD_CELLS_GLSL
 
@@ -26,8 +26,8 @@ kd_camera_block cam;
 const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SLOPE = (QUANTITIES & KD_LENS_SLOPE) != 0u,
            SKY = (QUANTITIES & KD_LENS_SKY_U) != 0u, FATE = (QUANTITIES & KD_LENS_FATE) != 0u;
 
-/* The index: a word for each even place, with the number of its node plus 1, or 0; then for each cell of the last
- * level the two rays that check it. */
+/* The index has two parts. First a word for each even place: the number of the place's node plus 1, or 0. Then for each
+ * cell of the last level the two rays that check it. */
 const uint SIDE = 32u; /* even places along the side of a block */
 uint index_width() { return SIDE * push.blocks_x + 1u; }
 uint index_of(uvec2 even) { return even.y * index_width() + even.x; }
@@ -46,23 +46,25 @@ ivec2 place_of(uvec2 at) { return ivec2(at) + ivec2(int(push.origin_x), int(push
 uint blocks() { return push.blocks_x * push.blocks_y; }
 uint side_of(uint level) { return KD_CELL_BLOCK >> (level - 1u); }
 
-/* Start of the units in the lists: kind 0 for crossings, 1 for the sky. */
+/* Start of the list of units of a kind: 0 for crossings, 1 for the sky. */
 uint units_of(uint kind) { return KD_SAMPLE_QUEUES + blocks() * (KD_SAMPLE_QUEUED + kind * KD_SAMPLE_UNITS); }
 
-/* A unit in one word: the cell's corner in eighths of rays, which eight of its columns, and its level. */
+/* A unit in one word: the cell's corner in units of eight rays, the number of the unit's eight columns in the cell, and
+ * the cell's level. */
 uint kd_unit(uvec2 corner, uint eight, uint level) { return corner.x + eight | corner.y << 15 | (level - 1u) << 29; }
-/* Corner of the eight columns. */
+/* Corner of the unit's eight columns, in rays. */
 uvec2 kd_unit_corner(uint unit) { return 8u * uvec2(unit & 0x7fffu, (unit >> 15) & 0x3fffu); }
 uint kd_unit_level(uint unit) { return (unit >> 29) + 1u; }
 
-/* Values that ray/node.glsl stores after the planes: the state of a node; and a value that vanishes where the fate
- * of rays changes. */
+/* Values that ray/node.glsl stores after the planes: the state of a node; and a value that vanishes where the fate of
+ * rays changes. */
 float state_of(uint node) { return NODE_AT(kd_planes_of_all() * push.room + node); }
 float curve_of(uint node) { return NODE_AT((kd_planes_of_all() + 1u) * push.room + node); }
 uint crossings_of(float state) { return uint(state) & 15u; }
 bool captured(float state) { return state >= KD_NODE_CAPTURED; }
 
-/* As stored by ray/node.glsl: w, azimuth and slope of a crossing; and where in the sky a ray ends. */
+/* Values of a node as stored by ray/node.glsl: w, azimuth and slope of a crossing. sky_of: where in the sky a ray
+ * ends. */
 vec3 crossing_of(uint node, uint n)
 {
     return vec3(NODE_AT(n * push.room + node), PHI ? NODE_AT((kd_plane(KD_LENS_PHI) + n) * push.room + node) : 0.0,

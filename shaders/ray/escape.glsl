@@ -67,7 +67,7 @@ float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
     b.dw = -sqrt(max(kd_radial_potential(m, b.w, ray.e, cam.spin, cam.root), 0.0));
     if (INGOING && 1.5 * (c.w - a.w) > 0.25 * h * (a.dw + c.dw)) /* at the midpoint the ray still moves inwards */
         b.dw = -b.dw;
-    if (INGOING) /* no pole: an outgoing ray is in ingoing coordinates from the start */
+    if (INGOING) /* ingoing coordinates have no pole here: an outgoing ray is in them from the start */
         return h * (1.0 / 6.0) *
                (kd_drag_ingoing(m, a, ray.e, cam.spin, cam.root, -1.0) +
                 4.0 * kd_drag_ingoing(m, b, ray.e, cam.spin, cam.root, -1.0) +
@@ -80,7 +80,7 @@ float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
                 kd_drag(m, c, ray.e, cam.spin, cam.root, way));
 }
 
-/* w' of an outgoing ray by the first integral. Inside the horizon w' does not vanish and may be large, so its
+/* w' of an outgoing ray, from the first integral. Inside the horizon w' does not vanish and may be large, so its
  * rounding there would matter outside. */
 float kd_leaving(kd_geodesic m, float w, float e) { return -sqrt(kd_radial_potential(m, w, e, cam.spin, cam.root)); }
 
@@ -90,11 +90,11 @@ kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
     o.fate = KD_FATE_UNDECIDED;
     o.u = 0.0;
     o.phi = 0.0;
-    /* Steps as fine as between crossings, and no coarser than 1/E where the ray is nearly radial, nor than 1/sqrt(6K
-     * w), which matters deep inside the hole. */
+    /* Steps are as fine as between crossings. They are no coarser than 1/E where the ray is nearly radial, nor than
+     * 1/sqrt(6K w), which matters deep inside the hole. */
     float rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e);
     float h = KD_PI / (float(STEPS) * sqrt(rate2));
-    /* Twelve half periods: after that only rays within 1e-13 of the critical curve still circle. */
+    /* Twelve half periods: after them only rays within 1e-13 of the critical curve still circle. */
     for (uint i = 0; i < 12 * STEPS; i++) {
         if (INGOING)
             h = KD_PI / (float(STEPS) * sqrt(rate2 + 6.0 * m.k * p.y.w));
@@ -107,7 +107,7 @@ kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
             break;
         }
         if (q.y.w < 0.0) {
-            /* Finds the zero of the cubic through both ends by Newton's method; then takes one step to it. */
+            /* Finds the zero of the cubic through both ends by Newton's method; then takes one step to this zero. */
             float s = p.y.w / (p.y.w - q.y.w), d0 = h * p.v.w, d1 = h * q.v.w, dy = q.y.w - p.y.w;
             float c2 = 3.0 * dy - 2.0 * d0 - d1, c3 = d0 + d1 - 2.0 * dy;
             for (int k = 0; k < 4; k++) {

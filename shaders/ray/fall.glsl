@@ -4,8 +4,8 @@
 
 #include "shared/math.glsl"
 
-/* Delta/r^2 = 1 - 2w + a^2 w^2 from root = sqrt(1 - a^2): 1 - w is exact near the horizon of a fast hole, and the
- * two factors keep their precision where the horizons almost coincide. Precise: a driver may otherwise multiply it
+/* Delta/r^2 = 1 - 2w + a^2 w^2 from root = sqrt(1 - a^2). 1 - w is exact near the horizon of a fast hole, and the two
+ * factors keep their precision where the horizons almost coincide. Precise: a driver may otherwise multiply the product
  * out, which would lose that precision. */
 float kd_delta(float w, float root)
 {
@@ -16,7 +16,7 @@ float kd_delta(float w, float root)
 /* Delta/r^2, with a positive lower bound so that it can be divided by. */
 float kd_horizons(float w, float root) { return max(kd_delta(w, root), 1e-30); }
 
-/* Integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w); by its series where x is small,
+/* Integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w). A series is used where x is small,
  * as for a nearly extremal hole. */
 float kd_fall(float w, float root)
 {

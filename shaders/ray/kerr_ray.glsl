@@ -3,9 +3,9 @@
  *   w'^2 = R(w) = E^2 + A w^2 + 2 K w^3 - D w^4     A = a^2 E^2 - L^2 - Q,  K = Q + (L - aE)^2,  D = a^2 Q
  *   u'^2 = U(u) = Q + A u^2 - a^2 E^2 u^4
  *
- * (Carter 1968, with w and u for r and theta.) With l = L / sin(theta_o) and p = p_theta at the observer,
- * L^2 + Q = l^2 + p^2 - a^2 E^2 cos^2(theta_o), so that no term is singular for an observer on the axis. At infinity
- * l = -alpha and p = beta. E is the photon's energy at infinity over the one that the observer measures. */
+ * (Carter 1968, with w and u for r and theta.) With l = L / sin(theta_o) and p = p_theta at the observer, L^2 + Q = l^2
+ * + p^2 - a^2 E^2 cos^2(theta_o), so that no term is singular for an observer on the axis. At infinity l = -alpha and p
+ * = beta. E is the ratio of the photon's energy at infinity to the energy that the observer measures. */
 #ifndef KD_KERR_RAY_GLSL
 #define KD_KERR_RAY_GLSL
 
@@ -26,7 +26,7 @@ struct kd_rounding {
     float unit; /* unit of these errors: several roundoffs */
 };
 
-/* For a ray given by its labels, which are exact. */
+/* The bounds for a ray given by its labels, which are exact. */
 kd_rounding kd_rounding_of_labels(kd_ray ray, float a, float u, float s, float horizon, float epsilon)
 {
     float j = abs(a) * ray.e, wl = abs(a) * s * horizon * horizon, w = ray.e + abs(a) * j * horizon * horizon,
@@ -56,8 +56,8 @@ kd_geodesic kd_geodesic_of(kd_ray ray, float a, float u, float s)
     return m;
 }
 
-/* Factor for A, K and Q before they are squared, and its inverse for the result. It is 1 unless their squares exceed
- * a float's range, as for a fast observer far away. Powers of two, so no digit changes. */
+/* Factor for A, K and Q before they are squared, and the inverse factor for the result. It is 1 unless their squares
+ * exceed a float's range, as for a fast observer far away. Factors are powers of two, so no digit changes. */
 float kd_squared_by(kd_geodesic m) { return max(abs(m.a2), abs(m.k)) > 1e15 ? 8.673617379884035e-19 : 1.0; }
 float kd_squared_back(float by) { return by < 1.0 ? 1152921504606846976.0 : 1.0; }
 

@@ -5,9 +5,9 @@
 
 #include "ray/fall.glsl"
 
-/* A node holds quantities that are smooth from ray to ray. For a captured ray these are azimuths without the
- * logarithm that diverges at the horizon. In place of the angles in the sky and the fate it is a unit vector: x, y
- * and z in the planes of SKY_PHI, FATE and SKY_U. */
+/* A node holds quantities that are smooth from ray to ray. For a captured ray these are azimuths without the logarithm
+ * that diverges at the horizon. The angles in the sky and the fate are replaced by a unit vector: x, y and z in the
+ * planes of SKY_PHI, FATE and SKY_U. */
 void kd_finish_node(uint at, uint crossings, bool captured, float curve)
 {
     lens[slice.list + at] = float(crossings) + (captured ? KD_NODE_CAPTURED : 0.0);
@@ -24,8 +24,8 @@ void kd_finish_node(uint at, uint crossings, bool captured, float curve)
     }
 }
 
-/* A node is not listed as open: its state says so, and the rays of its cells are traced singly. curve: for rays, a
- * smooth function that vanishes where fates change. */
+/* Completes a ray or a node. An open node is not listed: its state says that it is open, and the rays of its cells are
+ * traced singly. curve: for rays, a smooth function that vanishes where fates change. */
 void kd_finish_ray(bool open, uint at, uint crossings, bool captured, float curve)
 {
     const bool node = BY_PLACE && slice.stage != KD_STAGE_ALONE;

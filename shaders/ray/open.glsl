@@ -15,12 +15,12 @@ void kd_leave_open(bool open, uint at)
     }
 }
 
-/* The least distance of a crossing from infinity and from the horizon, in units of w, at which rounding can neither
- * create nor remove it. */
+/* Margins of a crossing: the least distances, in units of w, from infinity and from the horizon at which rounding can
+ * neither create nor remove the crossing. */
 struct kd_margins { float far, horizon, edge; };
 
-/* far, horizon: the scales of w there; noise: rounding error of R at the barrier. The margin grows as the ray comes
- * closer to the critical curve, where R vanishes there. */
+/* far, horizon: the scales of w far out and at the horizon; noise: rounding error of R at the barrier. The margin grows
+ * as the ray comes closer to the critical curve, where R vanishes at the barrier. */
 kd_margins kd_margins_of(kd_turning_point b, float noise, float far, float horizon)
 {
     float part = 32.0 * KD_ROUNDOFF + noise / max(abs(b.r), 1e-30);

@@ -1,11 +1,11 @@
-/* Determines which ray an invocation is for. Needs camera.glsl, the lens map as `lens`, and the specialisation
+/* Determines which ray an invocation processes. Needs camera.glsl, the lens map as `lens`, and the specialisation
  * constants CRITICAL, GENERATOR and SHIFT. KD_BY_PLACE_BINDING: binding of the places, for kernels that trace.
  *
- * CRITICAL = KD_RAYS_BY_PLACE: the rays of a stage of a list of places (ray/places.glsl). These are nodes, which
- * have a map of their own with their states after its planes, or single rays of the grid. CRITICAL = 0: rays of the
- * picture's grid; a row of workgroups is a row of rays. Otherwise: CRITICAL rays on each of the listed pixels, on a
- * lattice or, if GENERATOR is 0, a square grid (src/render/view/critical_pixels.h); the list, x and y of each pixel,
- * follows the planes in the lens map. */
+ * CRITICAL = KD_RAYS_BY_PLACE: the rays of a stage of a list of places (ray/places.glsl). These are nodes, which have a
+ * map of their own with their states after its planes, or single rays of the grid. CRITICAL = 0: rays of the picture's
+ * grid; a row of workgroups is a row of rays. Otherwise: CRITICAL rays on each of the listed pixels, on a lattice or,
+ * if GENERATOR is 0, a square grid (src/render/view/critical_pixels.h). The list, x and y of each pixel, follows the
+ * planes in the lens map. */
 #ifndef KD_PLACE_GLSL
 #define KD_PLACE_GLSL
 
@@ -26,7 +26,8 @@ uvec2 kd_listed_pixel(uint pixel)
     return uvec2(KD_MAP_AT(at), KD_MAP_AT(at + 1));
 }
 
-/* Ray of this number on a pixel, in steps of the camera: CRITICAL steps a pixel, or SHIFT on a square grid. */
+/* A ray on a pixel, by its number. The result is in steps of the camera: CRITICAL steps a pixel, or SHIFT on a square
+ * grid. */
 uvec2 kd_critical_place(uvec2 pixel, uint ray)
 {
     if (GENERATOR == 0)
@@ -34,7 +35,8 @@ uvec2 kd_critical_place(uvec2 pixel, uint ray)
     return pixel * CRITICAL + uvec2(ray, (ray * GENERATOR + SHIFT) % max(CRITICAL, 1));
 }
 
-/* The ray of this invocation of a tracing kernel; false: none. at: its index in a plane of the lens map. */
+/* The ray of this invocation of a tracing kernel; false: there is none. at: the ray's index in a plane of the lens
+ * map. */
 bool kd_this_ray(out uvec2 ray, out uint at)
 {
     uint x = gl_GlobalInvocationID.x;

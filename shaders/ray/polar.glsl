@@ -1,14 +1,16 @@
 /* Closed form of the polar motion: when a ray crosses the equatorial plane.
  *
  * u = sqrt(U+) cos(x) turns u'^2 = Q + A u^2 - e u^4, e = a^2 E^2, into
+ *
  *   x'^2 = p^2 cos^2 x + q^2 sin^2 x,    q^2 = (s - A)/2,  p^2 = q^2 + e U+ = s,  s = sqrt(A^2 + 4 e Q),
- * which is Gauss's form of the elliptic integral: a half period takes pi / AGM(p, q), and Landen's transformation
+ *
+ * which is Gauss's form of the elliptic integral. A half period takes pi / AGM(p, q), and Landen's transformation
  * tan(x_{n+1} - x_n) = (q_n/p_n) tan x_n (Abramowitz & Stegun 17.6.8) gives the incomplete integral.
  *
  * Rays with an impact parameter well above a have q/p near 1, for which two iterations would do. Four are used for
- * pictures, with an error of 1e-7 at q/p = 0.05 and of 1e-5 at 0.01. q/p is smaller only for rays that aim at the
- * hole along the plane of the disk, with |alpha| below a and |beta| below a hundredth of it. The kernel of listed
- * rays reports each ray's error: it defines KD_POLAR_LISTED and uses eight. */
+ * pictures, with an error of 1e-7 at q/p = 0.05 and of 1e-5 at 0.01. q/p is smaller only for rays that aim at the hole
+ * along the plane of the disk, with |alpha| below a and |beta| below a hundredth of a. The kernel of listed rays
+ * reports each ray's error: it defines KD_POLAR_LISTED and uses eight iterations. */
 #ifndef KD_POLAR_GLSL
 #define KD_POLAR_GLSL
 
@@ -17,8 +19,8 @@
 struct kd_polar {
     float first;  /* Mino time from the observer to the first crossing */
     float half_;  /* from each crossing to the next                    */
-    float b;      /* q^2 above                                         */
-    float s;      /* s above                                           */
+    float b;      /* q^2 in the head of this file */
+    float s;      /* s in the head of this file */
     bool crosses; /* false: the motion stays on one side of the plane, or in the plane */
 };
 
@@ -29,7 +31,7 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
     float by = kd_squared_by(m), a2 = by * m.a2,
           root = sqrt(max(a2 * a2 + 4.0 * (by * m.energy2) * (by * m.q), 0.0)) * kd_squared_back(by);
     o.s = root;
-    o.crosses = u == 0.0 ? ray.p != 0.0 : m.q > 0.0; /* from the plane Q = p^2, which may underflow */
+    o.crosses = u == 0.0 ? ray.p != 0.0 : m.q > 0.0; /* in the plane Q = p^2, which may underflow */
     /* (s - A)/2 without cancellation for either sign of A. */
     float b = m.a2 < 0.0 ? 0.5 * (root - m.a2) : 2.0 * m.energy2 * (m.q / (root + m.a2));
     o.b = max(b, 1e-30);
@@ -37,7 +39,7 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
     /* By symmetry the observer may be taken above the plane; one in the plane starts upwards. */
     float du = u < 0.0 || (u == 0.0 && ray.p < 0.0) ? -(s * ray.p) : s * ray.p;
     float cx = abs(u), sx = -du / sqrt(o.b + m.energy2 * u * u); /* sqrt(U+) (cos x, sin x) */
-    float larger = max(cx, abs(sx)); /* only the direction counts; its squares must not underflow */
+    float larger = max(cx, abs(sx)); /* only the direction counts, and its squares must not underflow */
     sx = larger > 0.0 ? sx / larger : -1.0;
     cx = larger > 0.0 ? cx / larger : 0.0;
     float angle = kd_angle_upper(sx, cx); /* pi/2 - x */
@@ -57,7 +59,8 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
         cx = (cx * cx - k * sx * sx) * n;
         sx = y;
         p *= 0.5 + 0.5 * k;
-        k = 2.0 * sqrt(k) / (1.0 + k); /* the ratio of the next two means; their product might exceed a float's range */
+        k = 2.0 * sqrt(k) / (1.0 + k); /* the ratio of the next two means, computed without their product, which might
+                                        * exceed a float's range */
     }
     float mean = p;
 #else
@@ -76,7 +79,8 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
     correction += 0.125 * kd_atan_small(y2);
     float c3 = c2 * c2 - k2 * s2 * s2, s3 = (1.0 + k2) * s2 * c2;
     float p3 = 0.5 * (p2 + q2), q3 = sqrt(p2 * q2), k3 = q3 / p3;
-    correction += 0.0625 * (k3 - 1.0) * s3 * c3 / (c3 * c3 + k3 * s3 * s3); /* its arc tangent, to the last bit */
+    /* the arc tangent of this, to the last bit */
+    correction += 0.0625 * (k3 - 1.0) * s3 * c3 / (c3 * c3 + k3 * s3 * s3);
     float mean = 0.5 * (p3 + q3);
 #endif
     float inv = 1.0 / mean;

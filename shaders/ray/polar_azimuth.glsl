@@ -2,13 +2,14 @@
  *
  * The integrand peaks as 1/sin^2(theta) near the axis. With u^2 = U+ cos^2 x, y = b + e u^2 and c = b + e one has c (1
  * - U+) = L^2, so that
- *   L dx / ((1 - u^2) sqrt(y)) = sign(L) d atan(tan x / sqrt(1 - U+)) + L e dx / (sqrt(y) sqrt(c) (sqrt(y) +
- *     sqrt(c))).
  *
- * The first term contains the whole peak and is exact; between crossings it is pi. The second is small and smooth,
- * even and periodic in x: a cosine series through five points. Its terms fall as ((p - q)/(p + q))^k. Rays with an
- * impact parameter below about twice the spin, a few of a picture, would need many more terms; for them it is
- * integrated in time. */
+ *   L dx / ((1 - u^2) sqrt(y)) =
+ *     sign(L) d atan(tan x / sqrt(1 - U+)) + L e dx / (sqrt(y) sqrt(c) (sqrt(y) + sqrt(c))).
+ *
+ * The first term contains the whole peak and is exact; between crossings it is pi. The second is small and smooth, even
+ * and periodic in x: a cosine series through five points. The terms of the series fall as ((p - q)/(p + q))^k. Rays
+ * with an impact parameter below about twice the spin, a few of a picture, would need many more terms; for them the
+ * second term is integrated in time. */
 #ifndef KD_POLAR_AZIMUTH_GLSL
 #define KD_POLAR_AZIMUTH_GLSL
 
@@ -49,10 +50,10 @@ float kd_azimuth_smooth(kd_geodesic m, float b, float u, float du, float time)
 }
 
 /* psi from a point of the path to the crossing of the plane less than a half period away, by the series. (cx, sx) is
- * proportional to (cos x, sin x) there; the angle of (tx, ty) is pi/2 - atan(tan x / sqrt(1 - U+)). */
+ * proportional to (cos x, sin x) at the point; the angle of (tx, ty) is pi/2 - atan(tan x / sqrt(1 - U+)). */
 float kd_azimuth_part(kd_azimuth o, float cx, float sx, float tx, float ty)
 {
-    float n = 1.0 / max(cx * cx + sx * sx, 1e-37); /* an observer may be 1e-16 from the plane, and not less */
+    float n = 1.0 / max(cx * cx + sx * sx, 1e-37); /* an observer outside the plane is at least 1e-16 from it */
     float sin2 = 2.0 * sx * cx * n, cos2 = (cx * cx - sx * sx) * n, cos4 = 2.0 * cos2 * cos2 - 1.0;
     float wave =
         sin2 * (0.5 * o.f1 + cos2 * (0.5 * o.f2 + cos4 * 0.5 * o.f4) + o.f3 * (0.5 - (2.0 / 3.0) * sin2 * sin2));
@@ -81,7 +82,7 @@ kd_azimuth kd_azimuth_of(kd_geodesic m, kd_ray ray, kd_polar polar, float u, flo
     o.b = polar.b;
     o.root_c = sc;
     o.side = ray.l < 0.0 ? -1.0 : 1.0;
-    o.uneven = polar.b < 0.85 * (polar.b + eu); /* (p - q)/(p + q) above 0.04: the fifth term above 1e-7 */
+    o.uneven = polar.b < 0.85 * (polar.b + eu); /* (p - q)/(p + q) above 0.04, where the fifth term is above 1e-7 */
     /* tan x / sqrt(1 - U+) at the observer, without the sine of the polar angle, which cancels: exact on the axis. */
     float tx = -dp / root, ty = cx * abs(ray.l) / sc;
     o.first = kd_azimuth_part(o, cx, sx, tx, ty);

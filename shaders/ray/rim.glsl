@@ -1,18 +1,18 @@
-/* The rim of the shadow: rays next to the critical curve (src/render/view/rim.h) on several grids (rim_grid.h),
- * between which images of stars of all orders are found. Binding 7. Needs sky_map.glsl and camera.glsl, and the
- * specialisation constant RIM. 0: there is no rim; 1: the rays are the picture's, and images next to the curve are
- * left to the rim; 2: the rays are those of a grid of the rim. */
+/* The rim of the shadow: rays next to the critical curve (src/render/view/rim.h) on several grids (rim_grid.h). Images
+ * of stars of all orders are found between these rays. Binding 7. Needs sky_map.glsl and camera.glsl, and the
+ * specialisation constant RIM. 0: there is no rim; 1: the rays are the picture's, and images next to the curve are left
+ * to the rim; 2: the rays are those of a grid of the rim. */
 #ifndef KD_RIM_GLSL
 #define KD_RIM_GLSL
 
 layout(set = 0, binding = 7) readonly buffer Rim
 {
     float rim[];
-}; /* distance of the curve from the middle, by angle; from push.rim on the table of the current grid */
+}; /* distance of the curve from the middle, by angle; from push.rim on, the table of the current grid */
 
 const bool AT_RIM = RIM == 2u;
 
-/* Direction of look at a place of the picture; at infinity alpha and beta. */
+/* Direction of the camera at a place of the picture; at infinity alpha and beta. */
 vec3 kd_camera_look(vec2 place)
 {
     float x = place.x - cam.middle_x, y = cam.middle_y - place.y, ahead = kd_camera_ahead(x, y);
@@ -20,8 +20,8 @@ vec3 kd_camera_look(vec2 place)
            y * vec3(cam.cyx, cam.cyy, cam.cyz);
 }
 
-/* The inverse: the place of a direction in the picture, and the squared steps of the picture per unit of area about
- * `ahead` on the direction's plane. 0 behind a pinhole. */
+/* The place of a direction in the picture; and the squared steps of the picture per unit of area about `ahead` on the
+ * direction's plane. steps is 0 behind a pinhole. */
 struct kd_seen {
     vec2 place;
     float steps;
@@ -67,7 +67,7 @@ vec2 kd_rim_place(vec3 d)
     return depth > 1e-6 ? vec2(dot(d, kd_rim_right()), dot(d, kd_rim_up())) / depth : vec2(1e6);
 }
 
-/* Fraction of an image's light that the rim contributes there. */
+/* Fraction of an image's light that the rim contributes at a place. */
 float kd_rim_share(vec2 place)
 {
     float angle = kd_atan2(place.y, place.x) * (float(KD_RIM_EDGES) / (2.0 * KD_PI)), low = floor(angle);
@@ -76,7 +76,8 @@ float kd_rim_share(vec2 place)
     return clamp((push.none - off) / (push.none - push.full), 0.0, 1.0);
 }
 
-/* The quartic through five values at -2 ... 2, without its constant and fourth-order terms: x, x^2, x^3. */
+/* The quartic through five values at -2 ... 2, without its constant and its term of fourth order: coefficients of x,
+ * x^2, x^3. */
 struct kd_quartic { vec2 x, xx, xxx; };
 
 kd_quartic kd_quartic_of(vec2 p2, vec2 p1, vec2 o, vec2 n1, vec2 n2)
@@ -86,7 +87,8 @@ kd_quartic kd_quartic_of(vec2 p2, vec2 p1, vec2 o, vec2 n1, vec2 n2)
                       (far - 2.0 * near) * (1.0 / 12.0));
 }
 
-/* A place p in the cell (x, y) of a grid: on the plane, as a direction, and the area of the cell on the plane. */
+/* A place p in the cell (x, y) of a grid: its place on the plane, its direction, and the area of the cell on the
+ * plane. */
 struct kd_rim_cell {
     vec2 place;
     vec3 d;
@@ -118,8 +120,8 @@ kd_rim_cell kd_rim_cell_at(uint x, uint y, vec2 p)
     return o;
 }
 
-/* Fraction of an image at a column and row that the current grid contributes; an upper bound for images within a
- * distance `within`. */
+/* Fraction of the light of an image at a column and row that the current grid contributes. It is an upper bound for
+ * images within a distance `within`. */
 float kd_rim_part(vec2 at, float within)
 {
     vec2 low = (at + within - vec2(rim[push.rim], rim[push.rim + 3u])),
@@ -129,7 +131,7 @@ float kd_rim_part(vec2 at, float within)
     return share.x * share.y;
 }
 
-/* Squared steps of the picture that the ray at (x, y) of the current map stands for. */
+/* The area of the picture, in squared steps, that the ray at (x, y) of the current map stands for. */
 float kd_steps_of(uint x, uint y)
 {
     if (!AT_RIM)

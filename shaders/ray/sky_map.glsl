@@ -1,6 +1,6 @@
-/* Bindings shared by kernels that search stars in a lens map: the map, and numbers and tables of the emitters.
- * Bindings 0, 1, 2. Needs the specialisation constants QUANTITIES, ORDERS and RIM: if RIM is 2, the rays are the
- * rim's (rim.glsl), whose map holds directions x, y and z. */
+/* Bindings shared by kernels that search stars in a lens map: the map, and numbers and tables of the emitters. Bindings
+ * 0, 1, 2. Needs the specialisation constants QUANTITIES, ORDERS and RIM. If RIM is 2, the rays are those of the rim
+ * (rim.glsl), whose map holds directions x, y and z. */
 #ifndef KD_SKY_MAP_GLSL
 #define KD_SKY_MAP_GLSL
 
@@ -47,8 +47,8 @@ void kd_sky_map_read()
 #include "emit/sky.glsl"
 
 float kd_sky_number(uint quantity, uint at) { return map_at(at + kd_plane(quantity) * push.stride); }
-/* Size on the sky that a ray stands for, radians: from the map or, if it is missing there, from products of the
- * derivatives along the picture's axes. */
+/* Size on the sky of the area that a ray stands for, radians: from the map or, if it is missing there, from products of
+ * the derivatives along the picture's axes. */
 float kd_sky_size(uint at, float aa, float bb, float ab)
 {
     float half_ = 0.5 * (aa - bb);

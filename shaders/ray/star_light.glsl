@@ -16,15 +16,15 @@ void kd_star_add(uint o, float light)
         atomicAdd(point_light[o + 1u], high);
 }
 
-/* Weights of the pixels before, at and after a place at distance d from the middle one. */
+/* Weights of the pixels before, at and after a place that is at distance d from the centre of the middle pixel. */
 vec3 kd_star_weights(float d) { return vec3(0.5 * (0.5 - d) * (0.5 - d), 0.75 - d * d, 0.5 * (0.5 + d) * (0.5 + d)); }
 
 /* Solid angle of a pixel of a picture of all directions by its row, relative to the equator. */
 float kd_star_level(float row, float rows) { return abs(sin(KD_PI * (row + 0.5) / rows)); }
 
-/* place: in pixels of the picture. light: the mean radiance of a pixel centred there. Near the poles of a picture of
- * all directions adjacent rows have different solid angles: the sum of light times solid angle is that of the
- * centred pixel. */
+/* Spreads the light of an image. place: in pixels of the picture. light: the mean radiance of a pixel centred there.
+ * Near the poles of a picture of all directions adjacent rows have different solid angles: the sum of light times solid
+ * angle over all pixels is that of the centred pixel. */
 void kd_star_spread(vec2 place, vec3 light)
 {
     vec2 middle = floor(place + 0.5);

@@ -4,7 +4,8 @@
 #define KD_STAR_LIST_GLSL
 
 #include "shared/faces.h"
-layout(set = 0, binding = 3) buffer Pairs { uint pairs[]; }; /* number of pairs; from 2 on a ray and a star each */
+/* the number of pairs; from word 2 on the pairs, a ray and a star each */
+layout(set = 0, binding = 3) buffer Pairs { uint pairs[]; };
 #ifdef KD_TEXELS
 layout(set = 0, binding = 4) uniform textureBuffer stars;
 vec4 star_row(uint k) { return texelFetch(stars, int(k)); }
@@ -19,9 +20,9 @@ uint cell_at(uint of) { return cells[of]; }
 layout(set = 0, binding = 6) buffer Listed
 {
     uint listed[];
-}; /* numbers of tiles and of rays; the tiles, with room for push.tiles; then the rays */
+}; /* numbers of tiles and of rays; the tiles, with room for push.tiles of them; then the rays */
 
-/* Cells of a face in a rectangle. */
+/* The cells of a face that lie in a rectangle. */
 struct kd_cells {
     int first, side;
     ivec2 low, high;

@@ -1,21 +1,21 @@
 /* Light spread by a lens to a point of the picture; shared by bloom_*.comp and post.comp.
  *
- * Spread light is on a grid of cells that covers the picture exactly, a vec4 a cell, rows from the top. Beyond the
- * edge the grid is its own mirror image: light that would leave the picture stays at its edge. In a picture of all
+ * Spread light is on a grid of cells that covers the picture exactly, a vec4 for each cell, rows from the top. Beyond
+ * the edge the grid is its own mirror image: light that would leave the picture stays at its edge. In a picture of all
  * directions the left and right edges adjoin. */
 #ifndef KD_BLOOM_GLSL
 #define KD_BLOOM_GLSL
 
-/* In units of white, to which the exposure maps 1. FROM: light above this may be spread; KNEE: half the width of the
- * transition; MOST: the most that is spread from one place. Light near white is included, because the film-like
+/* All in units of white, to which the exposure maps 1. FROM: light above this may be spread; KNEE: half the width of
+ * the transition; MOST: the most that is spread from one place. Light near white is included, because the film-like
  * curve shows the brightest parts of many pictures there. */
 #define KD_BLOOM_FROM 0.6
 #define KD_BLOOM_KNEE 0.4
 #define KD_BLOOM_MOST 64.0
 
-/* The part of exposed light c that a lens spreads, where `strength` is the fraction for bright light: nothing below
- * FROM - KNEE, everything above FROM from FROM + KNEE on, and a parabola between. If y is 10^30 or more, or NaN,
- * nothing is spread. */
+/* The part of exposed light c that a lens spreads, where `strength` is the fraction for bright light. With y the
+ * luminance, it is nothing if y is below FROM - KNEE, everything above FROM if y is above FROM + KNEE, and a parabola
+ * between. If y is 10^30 or more, or NaN, nothing is spread. */
 vec3 bloom_of(vec3 c, float strength)
 {
     float y = 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
@@ -27,7 +27,7 @@ vec3 bloom_of(vec3 c, float strength)
 /* Weights of a quadratic B-spline on three cells; t: distance from the centre of the second, in cells. */
 vec3 bloom_spline(float t) { return vec3(0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)); }
 
-/* The weight of a cell by the distance t to its centre: the same three. */
+/* The weight of a cell at distance t from its centre, which is one of the three weights of bloom_spline. */
 float bloom_weight(float t)
 {
     float a = max(1.5 - abs(t), 0.0), b = max(0.5 - abs(t), 0.0);
@@ -43,10 +43,10 @@ uvec2 bloom_place(uint n, uint across)
     return uvec2(x - more * width, y + more);
 }
 
-/* Index of a cell in the mirror image of n cells, for i from -1 to n. */
+/* Index of cell i in n cells that are mirrored at their edges, for i from -1 to n. */
 int bloom_mirror(int i, int n) { return clamp(i, 0, n - 1); }
 
-/* The same for a column, for i from -2n on; around: the picture shows all directions. */
+/* As bloom_mirror, for a column i from -2n on; around: the picture shows all directions. */
 int bloom_column(int i, int n, bool around) { return around ? (i + 2 * n) % n : bloom_mirror(i, n); }
 
 #endif

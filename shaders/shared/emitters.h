@@ -1,15 +1,17 @@
 /* The list of emitters, which send light along a ray, absorb it or change it. Each has a line here, in the order of
- * composition at one place; the number is that of the specialisation constant TRAITS_name, counted from KD_SPEC_TRAITS.
+ * composition at one place. The number is that of the specialisation constant TRAITS_name, counted from KD_SPEC_TRAITS.
  *
  *   AT_CROSSING   kd_name_glow(sample): light of a crossing of the equatorial plane, and its opacity
- *   HELPER          no light of its own: other emitters call its functions, so that shared values are computed once
- *   MODULATE          kd_name_over(order): a factor for all light of a crossing of that order, and for a part of the
- * light of volumes (kd_midst) ALONG         kd_name_along(point): emission and absorption of a volume at a point of the
- * ray (a kd_medium of light/compose.glsl). Scenes with such an emitter are lit by the march (light/march.glsl), whose
- * step length follows the emitter's grain, its optical depth and the ray's bending; its C file gives its range of radii
- * and latitudes SURFACE           kd_name_light(met), kd_name_shift(met), kd_name_kelvin(met): light, 1/g and
- * temperature of opaque surfaces off the plane (light/meet.glsl), the first of which hides everything behind it. Scenes
- *                 with such an emitter are lit by the march's kernel as well
+ *   HELPER        no light of its own: other emitters call its functions, so that shared values are computed once
+ *   MODULATE      kd_name_over(order): a factor for all light of a crossing of that order, and for a part of the light
+ *                 of volumes (kd_midst)
+ *   ALONG         kd_name_along(point): emission and absorption of a volume at a point of the ray (a kd_medium of
+ *                 light/compose.glsl). Scenes with such an emitter are lit by the march (light/march.glsl), whose step
+ *                 length follows the emitter's grain, its optical depth and the ray's bending. The emitter's C file
+ *                 gives its range of radii and latitudes
+ *   SURFACE       kd_name_light(met), kd_name_shift(met), kd_name_kelvin(met): light, 1/g and temperature of opaque
+ *                 surfaces off the plane (light/meet.glsl), the first of which hides everything behind it. Scenes with
+ *                 such an emitter are lit by the march's kernel as well
  *   AT_END        kd_name_end(end): light at the end of a ray that was transmitted; kd_name_points(pixel): for points
  *                 of light, their contribution to a pixel
  *
@@ -19,7 +21,7 @@
  *   KD_TABLES_name(T)       its tables: T(table, rows), rows of four floats
  *   KD_TRAITS_name(T)       its variants: T(trait), bits KD_TRAIT_trait of its word; emitters may share traits
  *   KD_BUFFERS_name(B)      device buffers that it fills before the light passes: B(number, type, member), numbered
- *                           from 0 over all emitters; of words, pairs of words or floats, which are read by
+ *                           from 0 over all emitters. They hold words, pairs of words or floats, which are read by
  *                           KD_OWN_WORD(member, at) and the like, or stored floats, member[at] (light/inputs.glsl)
  *   KD_PASS_name(P)         the pass that fills them, if it has one: P(name, ID, word, guess). It is timed and named
  *                           in plans by the emitter's name, and its kernel is comp/name.comp. The cost of an
@@ -48,7 +50,7 @@
     ALONG(13, plasma) \
     HELPER(14, stokes)
 
-/* Everything that has numbers. */
+/* The blocks of numbers of all emitters and of the frame. */
 #define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B, B, B)
 /* All tables in sequence, by the KD_T(table, rows) defined at the place of use. */
 #define KD_TABLES_OF_(number, name) KD_TABLES_##name(KD_T)
@@ -61,26 +63,27 @@
 #define KD_EMIT_BUFFERS \
     KD_EMITTERS(KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_)
 #define KD_OWN_BINDING 5
-/* Binding at which layers.comp reads the light stored by the march. It takes the place of the points of light, which
- * that light includes: a device may allow no more than 8 storage buffers for a kernel. */
+/* Binding at which layers.comp reads the light stored by the march. It replaces the binding of the points of light,
+ * which that light includes: a device may allow no more than 8 storage buffers for a kernel. */
 #define KD_LIGHT_BINDING (KD_OWN_BINDING + 2)
 /* All passes that belong to emitters, by the KD_P(name, ID, word, guess) defined at the place of use
  * (render/plan/pass.h). */
 #define KD_PASS_OF_(number, name) KD_PASS_##name(KD_P)
 #define KD_EMIT_PASSES KD_EMITTERS(KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_)
 
-/* Bits of every word. PRESENT: the scene has the emitter. APART: its luminance is kept separately as well, so that
- * its flux and centroid can be measured; possible for one emitter. */
+/* Bits that every emitter's word has. PRESENT: the scene has the emitter. SEPARATE_PHOTOMETRY: its luminance is also
+ * kept separately, so that its flux and centroid can be measured; possible for one emitter. */
 #define KD_TRAIT_PRESENT 1u
 #define KD_TRAIT_SEPARATE_PHOTOMETRY 32u
 #define KD_TRAIT_SLOW \
-    16u /* moving emitters are shown as they were when their light left them; volumes are given the light delay for \
-           that */
+    16u /* moving emitters are shown as they were when their light left them; for this, volumes are given the light \
+         * delay */
 #define KD_TRAIT_AZIMUTH \
-    0x20000000u /* for volumes: it needs the azimuth of a point, and the footprint of a ray there */
+    0x20000000u /* for volumes: the emitter needs the azimuth of a point, and the footprint of a ray there */
 #define KD_TRAIT_POINTS \
-    0x80000000u /* it has points of light, which a separate pass spreads over pixels (comp/star_images.comp) */
-#define KD_TRAIT_SPREAD 0x40000000u /* it emits light wherever a ray ends */
+    0x80000000u /* the emitter has points of light, which a separate pass spreads over pixels: comp/star_images.comp \
+                 */
+#define KD_TRAIT_SPREAD 0x40000000u /* the emitter emits light wherever a ray ends */
 
 #endif
 #include "emit/frame.glsl"

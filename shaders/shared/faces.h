@@ -1,16 +1,18 @@
-/* Division of the sphere into cells: the six faces of a cube, each with a grid. A direction belongs to the face of
- * its largest component; its place there is (p, q) in [-1, 1], the other two components divided by that one. Each
- * face extends beyond its edges to KD_FACE_EDGE, so that the neighbourhood of a direction is on the direction's own
- * face: a star is on up to three faces. */
+/* Division of the sphere into cells: the six faces of a cube, each with a grid. A direction belongs to the face of its
+ * largest component. Its place there is (p, q) in [-1, 1], the other two components divided by the largest. Each face
+ * extends beyond its edges to KD_FACE_EDGE, so that the neighbourhood of a direction is on the direction's own face: a
+ * star is on up to three faces. */
 #ifndef KD_FACES_GLSL
 #define KD_FACES_GLSL
 
 #define KD_FACE_EDGE 1.5
-#define KD_FACE_FINE 192  /* cells along a side, edges included; all stars are sorted into these, */
-#define KD_FACE_COARSE 32 /* and again into these, for wide searches and for bright stars only */
-#define KD_FACE_FAR 0.06  /* distance on a face from which a search counts as wide */
+#define KD_FACE_FINE 192 /* fine cells along a side, edges included; all stars are sorted into fine cells */
+/* coarse cells along a side; all stars are also sorted into these, for wide searches and for bright stars only */
+#define KD_FACE_COARSE 32
+#define KD_FACE_FAR 0.06 /* distance on a face from which a search counts as wide */
 #define KD_FACES 6
-#define KD_FACE_TABLE(side) (KD_FACES * (side) * (side) + 2) /* numbers: the start of each cell, and the end, twice */
+/* numbers of a table: the start of each cell, and the end, twice */
+#define KD_FACE_TABLE(side) (KD_FACES * (side) * (side) + 2)
 
 #ifdef VULKAN
 struct kd_face {
@@ -37,7 +39,7 @@ kd_face kd_face_of(vec3 n)
                        unit);
 }
 
-/* The place of a direction on a face whose normal has a positive component along it. */
+/* The place of a direction on a face whose normal makes an acute angle with it. */
 vec2 kd_face_place(uint face, vec3 n)
 {
     float unit = 1.0 / abs(face < 2u ? n.x : face < 4u ? n.y : n.z);

@@ -1,5 +1,5 @@
-/* Layouts and constants shared by C and GLSL. Only 4-byte scalars; each list is written once and expanded by both
- * sides; a test compares the offsets in the SPIR-V with offsetof. */
+/* Layouts and constants shared by C and GLSL. They consist of 4-byte scalars only. Each list is written once and
+ * expanded by both sides; a test compares the offsets in the SPIR-V with offsetof. */
 #ifndef KD_INTERFACE_H
 #define KD_INTERFACE_H
 
@@ -38,43 +38,43 @@
     F(e_t) F(e_r) F(e_theta) F(e_phi) F(l_t) F(l_r) F(l_theta) F(l_phi) \
     F(p_t) F(p_r) F(p_theta) F(p_phi) F(dw_t) F(dw_r) F(dw_theta) F(dw_phi) \
     F(turn_x) F(turn_y)     /* quarter turns a step, for a sphere and a dome */ \
-    F(size_e)               /* upper bound of |E| over all its rays, */ \
-    /* and bounds of the rounding error of R (kd_rounding of shaders/ray/kerr_ray.glsl) */ \
+    F(size_e)               /* upper bound of |E| over all rays of the camera */ \
+    /* bounds of the rounding error of R (kd_rounding of shaders/ray/kerr_ray.glsl) */ \
     F(noise_w) F(noise_wl) F(noise_p) F(noise_l) F(noise_k) F(noise_0) \
     U(width)                /* rays a row */ \
     U(sight)                /* KD_SIGHT_; kernels have it as a constant, too */
 /* clang-format on */
 
-/* Push constants of these kernels: the current rows of rays. For listed pixels row0 is the first pixel of a slice,
- * rows the number of pixels, band0 the first row of the band that their light is written to. */
+/* Push constants of the tracing and transfer kernels: the current rows of rays. For listed pixels row0 is the first
+ * pixel of a slice, rows the number of pixels, band0 the first row of the band to which their light is written. */
 /* clang-format off */
 #define KD_SLICE_FIELDS_(F, U) \
     U(row0) U(rows)         /* first row of this slice in the picture; rows of the slice */ \
     U(band0)                /* first row of the band that the buffers hold */ \
-    U(stride)               /* rays of the band: distance between planes of the lens map */ \
+    U(stride)               /* number of rays of the band, the distance between planes of the lens map */ \
     U(list)                 /* listed pixels: start of the list in the lens map; nodes: start of their states */ \
     /* rays by place: the stage, the start of its list of places, and the ray from which places count */ \
     U(stage) U(places) U(origin_x) U(origin_y) \
     U(steps) U(fine)        /* march (light/march.glsl): steps a half period; quarters of a stretch a grain */ \
     F(opaque)               /* a ray ends if less than this fraction of the light behind is transmitted */ \
     F(unseen)               /* octaves of noise below this fraction of the first are left out */ \
-    /* sample: pixels a row, 0: all pixels are lit; first column (row0 is the first row) */ \
+    /* sample: pixels a row, 0: there is no sample, all pixels are lit; first column (row0 is the first row) */ \
     U(columns) U(first) \
-    U(every_x) U(every_y)   /* distance of its columns and rows */ \
-    /* index, counted by rows, from which on the light of these pixels is stored */ \
+    U(every_x) U(every_y)   /* distance of the sample's columns and of its rows */ \
+    /* index, counted by rows, from which on the light of the sample's pixels is stored */ \
     U(to) \
     /* number of the ray in its pixel; the march adds its light to that of earlier rays */ \
     U(ray) \
-    U(lost_most)            /* capacity of the list of stopped rays; to continue some of them: */ \
-    U(lost_first) U(lost_n) /* the first, and their number */ \
-    U(lost_goes)            /* 0: their first piece */
+    U(lost_most)            /* capacity of the list of stopped rays */ \
+    U(lost_first) U(lost_n) /* some of these rays are continued: the first one, and their number */ \
+    U(lost_goes)            /* 0: it is their first piece */
 /* clang-format on */
 
-/* Rays through volumes that were stopped early are stored after a band's light (frame/pieces.c). Offsets count from
- * the end of its buffer: counters of rays given up, rays listed, and rays waiting for their next piece;
- * KD_LOST_STATE words for each of the rays that continue at once; and the list. An entry of the list is (pixel
- * number) * (rays a pixel) + ray, with the pixel's number in the band, the list of pixels or the sample. A piece
- * takes up to KD_PIECE_PASSES passes of loops: lavapipe (Mesa 22.3) ends those of eight invocations after 65 535 in
+/* Rays through volumes that were stopped early are stored after a band's light (frame/pieces.c). Offsets count from the
+ * end of the light's buffer: counters of rays given up, rays listed, and rays waiting for their next piece;
+ * KD_LOST_STATE words for each of the rays that continue at once; and the list. An entry of the list is (pixel number)
+ * * (rays a pixel) + ray, with the pixel's number in the band, the list of pixels or the sample. A piece takes up to
+ * KD_PIECE_PASSES passes of loops. lavapipe (Mesa 22.3) ends the loops of eight invocations after 65 535 passes in
  * total, and repeated work takes some thousand of these. */
 #define KD_LOST_GIVEN_UP 1
 #define KD_LOST_LISTED 2
@@ -82,8 +82,9 @@
 #define KD_LOST_STATES 3 /* end of the states */
 #define KD_LOST_STATE 25
 #define KD_LOST_AT_ONCE 2048
-#define KD_LOST_RAYS (KD_LOST_STATES + KD_LOST_STATE * KD_LOST_AT_ONCE + 1) /* the first ray; others precede it */
-#define KD_LOST_NONE 0xffffffffu                                            /* the ray reached its end */
+/* the first ray; the next ones precede it */
+#define KD_LOST_RAYS (KD_LOST_STATES + KD_LOST_STATE * KD_LOST_AT_ONCE + 1)
+#define KD_LOST_NONE 0xffffffffu /* the ray reached its end */
 #define KD_PIECE_PASSES 6000u
 
 /* Push constants of footprint.comp. Rows are rows of rays in the buffer. */
@@ -94,9 +95,9 @@
     U(first) U(end)         /* requested rows; on listed pixels, requested rays */ \
     U(stride)               /* rays a plane */ \
     U(list)                 /* start of the listed pixels; for rays traced singly, start of their places */ \
-    U(alone)                /* 1: only these; in rows from `end` on, whose next rows are not traced yet, */ \
-                            /* they are only marked. 2: the marked ones */ \
-    U(origin_x) U(origin_y) /* ray from which their places count, as row and column of the buffer */
+    U(alone)                /* 1: only single rays; in rows from `end` on, whose next rows are not traced yet, */ \
+                            /* footprints are only marked as missing. 2: only the marked footprints */ \
+    U(origin_x) U(origin_y) /* ray from which the places of single rays count, as row and column of the buffer */
 /* clang-format on */
 /* Push constants of lens_cells.comp and lens_fill.comp, for a lens map traced at nodes and interpolated
  * (src/render/frame/sample.c). Places are those of rays in this picture; cells are aligned to the whole picture. */
@@ -104,10 +105,10 @@
 #define KD_SAMPLE_FIELDS_(F, U) \
     U(origin_x) U(origin_y) /* place of the first block's first ray, a signed integer */ \
     U(blocks_x) U(blocks_y) \
-    U(width) U(rows)        /* rays a row of the map; number of requested rows of rays, */ \
-    U(row0) U(band0)        /* and the first of them; first row that the map's buffer holds */ \
-    U(stride)               /* rays a plane of the map, */ \
-    U(room)                 /* and of the nodes */ \
+    U(width) U(rows)        /* rays a row of the map; number of requested rows of rays */ \
+    U(row0) U(band0)        /* first requested row; first row that the map's buffer holds */ \
+    U(stride)               /* rays a plane of the map */ \
+    U(room)                 /* rays a plane of the nodes' map */ \
     U(level)                /* lens_cells.comp: 0 makes the first nodes, 1 to KD_CELL_LEVELS test cells */ \
     F(tolerance)
 /* clang-format on */
@@ -133,7 +134,8 @@
 /* State of a node: its number of crossings, plus this if it is captured; negative: the ray is open. */
 #define KD_NODE_CAPTURED 16.0
 #define KD_NODE_OPEN -1.0
-#define KD_NODE_OWN 2 /* planes after those of the nodes: their states; a value that vanishes where fates change */
+/* planes after those of the nodes: the nodes' states, and a value that vanishes where fates change */
+#define KD_NODE_OWN 2
 
 #define KD_FOOTPRINT_WANTED -1.0
 #define KD_FOOTPRINT_EDGE 1e9 /* M, and radians: larger than any footprint */
@@ -142,18 +144,18 @@
 /* clang-format off */
 #define KD_STARS_FIELDS_(F, U) \
     U(width)                /* rays a row */ \
-    U(rows)                 /* all of them */ \
+    U(rows)                 /* number of all rows */ \
     U(first) U(end)         /* requested rows */ \
     U(stride)               /* rays a plane */ \
-    U(row0) U(column0)      /* row and column, among the picture's rays, of the buffer's first ray */ \
-    U(room)                 /* capacity for pairs of a ray and a star, */ \
-    U(tiles)                /* and for small tiles */ \
-    U(stars)                /* entries of their list: temperatures follow directions and fluxes */ \
-    U(pixels_y)             /* rows of pixels of the light */ \
-    /* signed integers added to rows and columns of pixels of the picture, to get those of the light */ \
+    U(row0) U(column0)      /* row and column of the buffer's first ray, among the picture's rays */ \
+    U(room)                 /* capacity for pairs of a ray and a star */ \
+    U(tiles)                /* capacity for small tiles */ \
+    U(stars)                /* number of stars in the list: temperatures follow directions and fluxes */ \
+    U(pixels_y)             /* rows of pixels that the buffer of light holds */ \
+    /* signed integers: rows and columns of the picture's pixels plus these are those of the light */ \
     U(up) U(aside) \
     U(rim)                  /* rim: start of the current grid's table (render/view/rim_grid.h) */ \
-    /* far, fall: distance of its first row from the curve, and the decrease from row to row */ \
+    /* far, fall: distance of the grid's first row from the curve, and the decrease from row to row */ \
     /* none to up_z: as in rim.h */ \
     F(far) F(fall) F(none) F(full) \
     F(ahead_x) F(ahead_y) F(ahead_z) F(right_x) F(right_y) F(right_z) F(up_x) F(up_y) F(up_z) \
@@ -164,16 +166,16 @@
 /* rays along the sides of a large tile of star_tiles.comp; odd, and a multiple of 3 */
 #define KD_STAR_TILE 9
 #define KD_STAR_LEAST 0.03       /* fraction of sky.brightness: images that brighten a pixel less are left out */
-#define KD_STAR_LEAST_BRIGHT 1.0 /* the same if only bright images are made */
-#define KD_STAR_PATCH 0.15       /* radians: largest patch of a ray in which images of stars are searched, */
-#define KD_STAR_PATCH_RIM 0.8    /* and the same if a rim has the images next to the critical curve */
+#define KD_STAR_LEAST_BRIGHT 1.0 /* as KD_STAR_LEAST, if only bright images are made */
+#define KD_STAR_PATCH 0.15       /* radians: largest patch of a ray in which images of stars are searched */
+#define KD_STAR_PATCH_RIM 0.8    /* as KD_STAR_PATCH, if a rim has the images next to the critical curve */
 
 /* Push constants of between.comp, for the pixels of a list that are in one band. */
 /* clang-format off */
 #define KD_BETWEEN_FIELDS_(F, U) \
-    U(first) U(count)       /* range of these pixels */ \
+    U(first) U(count)       /* range of the pixels that are in the band, in the list */ \
     U(stride) U(list)       /* as in KD_SLICE_FIELDS_ */ \
-    U(marks)                /* pixels of the whole list, after which the result word of each follows */ \
+    U(marks)                /* number of pixels of the whole list; the result word of each follows them */ \
     U(width) U(row0)        /* pixels a row; first row of the band */ \
     U(map_rows) U(map_stride) /* rows of the band; rays a plane of its lens map */
 /* clang-format on */
@@ -194,27 +196,27 @@
     U(unit)                  /* weight of one particle */ \
     F(tilt)                  /* largest latitude, radians */ \
     U(plunging)              /* number of falling particles, which are the first ones */ \
-    U(lap) U(phase)          /* of a plunge that began at time 0: whole plunges, and turns of 2^32 */ \
-    U(turn)                  /* turns of the orbit at the ISCO */ \
-    U(plunge_at)             /* start of their grid in the common buffer */ \
+    U(lap) U(phase)          /* a plunge that began at time 0: whole plunges since, and the rest in turns of 2^32 */ \
+    U(turn)                  /* turns of the orbit at the ISCO since time 0, as fractions of 2^32 */ \
+    U(plunge_at)             /* start of the falling particles' grid in the common buffer */ \
     U(plunge_rows) U(plunge_columns_log2) \
     U(lap_rows) U(lead_rows) /* as in the transfer kernel */
 /* clang-format on */
 
 #define KD_TRANSFER_ROWS \
-    8 /* adjacent rows of pixels for one invocation of transfer.comp, if pixels have a single ray each */
+    8 /* rows of adjacent pixels that one invocation of transfer.comp processes, if pixels have a single ray each */
 
 #define KD_POST_PIXELS 4 /* for one invocation of post.comp: three words, or six */
 /* clang-format off */
 #define KD_POST_FIELDS_(F, U) \
     F(gain)                  /* 2^exposure */ \
     F(dither)                /* 0 or 1 */ \
-    U(pixels)                /* of the band */ \
+    U(pixels)                /* number of pixels of the band */ \
     U(first)                 /* index of the band's first pixel in the picture */ \
     U(pixels_x) \
     F(left) F(top)           /* tile: its first pixel in the picture */ \
     U(counter)               /* index of the word that counts pixels whose light is not finite; 0: not counted */ \
-    F(bloom)                 /* fraction that is spread of light above white; this and the rest only with bloom */ \
+    F(bloom)                 /* fraction of light above white that is spread; this and the rest: only with bloom */ \
     F(scale_x) F(scale_y)    /* cells a pixel */ \
     U(cells_x) U(cells_y)
 /* clang-format on */
@@ -226,17 +228,17 @@
 /* clang-format off */
 #define KD_BLOOM_BRIGHT_FIELDS_(F, U) \
     F(gain)                  /* 2^exposure */ \
-    F(strength)              /* fraction that is spread of light above white */ \
+    F(strength)              /* fraction of the light above white that is spread */ \
     U(pixels_x) \
-    U(row0) U(rows)          /* of the band */ \
-    U(blocks_x)              /* of the picture */ \
+    U(row0) U(rows)          /* rows of the band */ \
+    U(blocks_x)              /* blocks in a row of the picture */ \
     U(block_row0) U(block_rows) /* blocks with pixels of the band */ \
     U(across)                /* invocations for a row of blocks */
 /* clang-format on */
 #define KD_BLOOM_TAPS 16 /* blocks along an axis that two cells may read, at most */
 /* clang-format off */
 #define KD_BLOOM_GATHER_FIELDS_(F, U) \
-    U(pixels_x) U(pixels_y)  /* of the picture */ \
+    U(pixels_x) U(pixels_y)  /* size of the picture */ \
     U(blocks_x) U(blocks_y) U(cells_x) U(cells_y) \
     U(block_x) U(block_y)    /* sides of a block in pixels */
 /* clang-format on */
@@ -246,46 +248,46 @@
 /* clang-format off */
 #define KD_BEAM_BAND_FIELDS_(F, U) \
     U(pixels_x) \
-    U(row0) U(rows)          /* of the band in the picture */ \
-    U(columns)               /* of cells */ \
+    U(row0) U(rows)          /* rows of the band in the picture */ \
+    U(columns)               /* number of cells in a row */ \
     U(cell)                  /* side of a cell in pixels, */ \
-    F(cells)                 /* and its reciprocal */
+    F(cells)                 /* reciprocal of `cell` */
 /* clang-format on */
 /* Push constants of beam_spline.comp. Row i is a sum over `count` rows, starting at i first_times/first_over -
  * before. */
 /* clang-format off */
 #define KD_BEAM_SPLINE_FIELDS_(F, U) \
     U(columns) \
-    U(row0) U(rows)          /* of the slice of the result */ \
+    U(row0) U(rows)          /* rows of the slice of the result */ \
     U(length_)               /* rows of the source */ \
     U(first_times) U(first_over) U(before) U(count) \
-    F(from_scale)            /* units of the weights' argument for a row of the source, */ \
-    F(to_scale) F(shift)     /* and for a row of the result, which is shifted by this */ \
-    F(weight)                /* of the whole sum */
+    F(from_scale)            /* units of the weights' argument per row of the source */ \
+    F(to_scale) F(shift)     /* units of the weights' argument per row of the result, and the result's shift */ \
+    F(weight)                /* factor of the whole sum */
 /* clang-format on */
 /* Push constants of beam_blur.comp. */
 #define KD_BEAM_BLUR_FIELDS_(F, U) \
     U(columns) \
-    U(row0)    /* of the slice, a multiple of four */ \
-    U(lines)   /* of the slice: rows, or along columns groups of four rows */ \
+    U(row0)    /* first row of the slice, a multiple of four */ \
+    U(lines)   /* lines of the slice: rows, or along columns groups of four rows */ \
     U(length_) /* cells along the axis */ \
     U(reach)   /* cells on either side that have weight */ \
     F(narrow)  /* 1/(2 sigma^2) */ \
-    F(weight)  /* of the whole sum */
+    F(weight)  /* factor of the whole sum */
 
-/* Stokes V of a pixel of which a ray was given up: larger than for any light. */
+/* Stokes V of a pixel one of whose rays was given up: larger than for any light. */
 #define KD_STOKES_UNTOLD 3e38
 #define KD_STOKES_LEAST_UNTOLD 1e38
 
-/* Push constants of photometry.comp. Each invocation sums KD_LIGHT_PIXELS pixels of a band to twice four sums, and
- * with Stokes Q, U and V to twice four more. */
+/* Push constants of photometry.comp. Each invocation sums KD_LIGHT_PIXELS pixels of a band to eight sums, and with
+ * Stokes Q, U and V to sixteen. */
 /* clang-format off */
 #define KD_LIGHT_FIELDS_(F, U) \
     U(pixels_x) U(pixels)     /* pixels a row; pixels of the band */ \
-    U(row0)                   /* of the band in the picture */ \
-    U(spots)                  /* start of the spots' separate luminance, */ \
-    U(stokes)                 /* and of Stokes Q, U, V, and the spots' Q and U, */ \
-    U(plane)                  /* each this many pixels long */ \
+    U(row0)                   /* first row of the band in the picture */ \
+    U(spots)                  /* start of the spots' separate luminance */ \
+    U(stokes)                 /* start of Stokes Q, U and V, and of the spots' Q and U */ \
+    U(plane)                  /* length of each of these planes, in pixels */ \
     F(middle_x) F(middle_y)   /* pixel coordinates of the middle of the picture */ \
     F(step_)                  /* distance of pixels over the distance of the picture */
 /* clang-format on */
@@ -306,15 +308,15 @@
 #define KD_FATE_CAPTURED 1.0
 #define KD_FATE_UNDECIDED 2.0 /* hit the step limit */
 
-/* Records of trace.glsl: numbers before the records, numbers a record, and the stages. A stage 0, 1, ... is a step
- * on the way to the crossing of that order, in w and u; the others hold the unit vector n and w. */
+/* Records of trace.glsl: numbers before the records, numbers a record, and the stages. A stage 0, 1, ... is a step on
+ * the way to the crossing of that order, in w and u. Records of the other stages hold the unit vector n and w. */
 #define KD_TRACE_HEADER 8
 #define KD_TRACE_RECORD 11
 #define KD_TRACE_START -1.0
 #define KD_TRACE_CROSSING -2.0
 #define KD_TRACE_END -3.0 /* after the last crossing */
 
-/* Records of light/tell.glsl: numbers a record, and kinds. */
+/* Records of light/probe.glsl: numbers a record, and kinds. */
 #define KD_PROBE_RECORD 11
 #define KD_PROBE_AT 0.0
 #define KD_PROBE_OF_PLACE 1.0

@@ -1,13 +1,13 @@
-/* The layers of a frame besides "rgb": maps of numbers, one a pixel, one line each. The number is the place of the
- * layer's name among the words of image.layers (src/scene/fields.h), where "rgb" is 0. src/render/plan/layer_kinds.c
- * has its unit and colours, by the name.
+/* The layers of a frame besides "rgb": maps of numbers, one a pixel, one line each. The number in a line is the place
+ * of the layer's name among the words of image.layers (src/scene/fields.h), where "rgb" is 0.
+ * src/render/plan/layer_kinds.c has the layer's unit and colours, by the name.
  *
- *   LIGHT(number, name, needs, value)      of the mean light of all rays of a pixel (light/layers.comp): GLSL of its
- *                                          Stokes I, Q, U and V, the vec4 `light`
- *   CROSSING(number, name, needs, value, met)  of one place on the pixel's middle ray, where it crosses the disk:
- *                                          GLSL of the sample s and its delay; or of kd_met met if the ray meets a
+ *   LIGHT(number, name, needs, value)      of the mean light of all rays of a pixel (light/layers.comp). value: GLSL
+ *                                          of its Stokes I, Q, U and V, the vec4 `light`
+ *   CROSSING(number, name, needs, value, met)  of the place where the pixel's middle ray crosses the disk. value: GLSL
+ *                                          of the sample s and its delay. met: GLSL of kd_met met, if the ray meets a
  *                                          body before
- *   RAY(number, name, needs, value)        of the end of that ray: GLSL of its fate and of kd_end end
+ *   RAY(number, name, needs, value)        of the end of that ray. value: GLSL of its fate and of kd_end end
  *
  * needs: quantities of the lens map besides W. NaN means no value; infinity is a value. */
 #ifndef KD_LAYERS_H

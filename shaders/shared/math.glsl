@@ -1,12 +1,12 @@
-/* Elementary functions with known errors in both precisions: Vulkan allows its atan 4096 ulp and its sine 2^-11, and
- * has none of them in double. KD_DOUBLE: accurate to 1e-16 instead of 1e-7. */
+/* Elementary functions with known errors in both precisions. Vulkan allows 4096 ulp for its atan and 2^-11 for its
+ * sine, and has neither in double. KD_DOUBLE: accurate to 1e-16 instead of 1e-7. */
 #ifndef KD_MATH_GLSL
 #define KD_MATH_GLSL
 
 #define KD_PI 3.14159265358979323846
 
-/* Whether x is finite, by the bits of the exponent: a compiler that need not preserve NaN (Vulkan 1.2,
- * shaderSignedZeroInfNanPreserve) may take any comparison with one as true. */
+/* Whether x is finite, by the bits of the exponent. A comparison would not do: a compiler that need not preserve NaN
+ * (Vulkan 1.2, shaderSignedZeroInfNanPreserve) may take any comparison with NaN as true. */
 bool kd_is_finite(float x)
 {
 #ifdef KD_DOUBLE
@@ -55,14 +55,14 @@ float kd_atan2(float y, float x) { return y < 0.0 ? -kd_angle_upper(x, -y) : kd_
  * 1e-19 or above 1e19 are not. */
 float kd_squarable(float x) { return x < 1e-10 ? 1e25 : x > 1e10 ? 1e-20 : 1.0; }
 
-/* Length of v over a number > 0, however small or large both are. */
+/* Length of v divided by a number > 0, however small or large both are. */
 float kd_part_of(vec3 v, float whole)
 {
     float by = kd_squarable(whole);
     return length(v * by) / (whole * by);
 }
 
-/* Cosine and sine of a number of quarter turns, to 1e-7: Taylor's series within half of one. */
+/* Cosine and sine of a number of quarter turns, to 1e-7: Taylor's series within half a quarter turn. */
 vec2 kd_quarter_turns(float turns)
 {
     float whole = floor(turns + 0.5), f = (turns - whole) * (0.5 * KD_PI), z = f * f;
@@ -82,7 +82,7 @@ float kd_log(float x)
         m *= 2.0;
         e--;
     }
-    /* log(m) = 2 atanh((m - 1)/(m + 1)): the argument is below 0.172, the first term left out below 1e-17. */
+    /* log(m) = 2 atanh((m - 1)/(m + 1)): the argument is below 0.172, and the first term left out is below 1e-17. */
     float s = (m - 1.0) / (m + 1.0), z = s * s, sum = 0.0;
     for (int k = 10; k >= 0; k--)
         sum = sum * z + 1.0 / float(2 * k + 1);

@@ -1,5 +1,5 @@
-/* Specialisation constants of the kernels: U(id, name, value) an unsigned one, B(id, name, value) a flag. Each list
- * is written once; GLSL declares its constants from it, and C a struct of 32-bit members, whose offsets are checked
+/* Specialisation constants of the kernels: U(id, name, value) an unsigned one, B(id, name, value) a flag. Each list is
+ * written once. GLSL declares its constants from the list, and C a struct of 32-bit members, whose offsets are checked
  * against the ids at compile time. */
 #ifndef KD_SPEC_H
 #define KD_SPEC_H
@@ -26,11 +26,11 @@
     U(5, X1, 0) U(6, Y1, 0) U(7, X2, 0) U(8, Y2, 0) U(9, X3, 0) U(10, Y3, 0) U(11, X4, 0) U(12, Y4, 0)
 /* clang-format on */
 
-/* Of lens_cells.comp; and of lens_fill.comp. OF_SKY: fill in the ends of rays instead of crossings. */
+/* For lens_cells.comp. KD_SPEC_FILL, for lens_fill.comp; OF_SKY: fill in the ends of rays instead of crossings. */
 #define KD_SPEC_SAMPLE(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3)
 #define KD_SPEC_FILL(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3) B(2, OF_SKY, false)
 
-/* Of between.comp. SIDE: rays along each side of a pixel; MARK: only report where interpolation is accurate. */
+/* For between.comp. SIDE: rays along each side of a pixel; MARK: only report where interpolation is accurate. */
 #define KD_SPEC_BETWEEN(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 4) B(3, MARK, false)
 
 /* SIDE: rays along each side of a pixel. LAYER, ORDER: for layers.comp, which layer (layers.h) of which image order;
@@ -46,19 +46,20 @@
 #define KD_SPEC_TRAITS 11
 #define KD_NO_ORDER 0xffffffffu
 
-/* Of rays.comp and rays_kerr_schild.comp. METHOD: order of the Nystroem method, or one of the Kerr-Schild methods. */
+/* For rays.comp and rays_kerr_schild.comp. METHOD: order of the Nystroem method, or one of the Kerr-Schild methods. */
 #define KD_SPEC_RAYS(U, B) U(0, ORDERS, 3) U(1, STEPS, 16) U(2, METHOD, 6)
 
-/* SWING: there are epicycles; LIST: return places instead of depositing; PLUNGE: process falling particles, in a
- * list those with low numbers. */
+/* SWING: there are epicycles; LIST: return places instead of depositing; PLUNGE: process falling particles, which in a
+ * list have the lowest numbers. */
 #define KD_SPEC_PARTICLES(U, B) B(0, SWING, true) B(1, LIST, false) B(2, PLUNGE, false)
 
 /* SEPARATE_PHOTOMETRY: the luminance of some emitter is kept separately; FINITE: solid angles of an observer at a
- * finite radius; STOKES: Stokes Q, U and V follow the radiance, STOKES_APART: and Q and U of the separate luminance. */
+ * finite radius; STOKES: Stokes Q, U and V follow the radiance; STOKES_APART: then Q and U of the separate luminance
+ * follow. */
 #define KD_SPEC_PHOTOMETRY(U, B) \
     B(0, SEPARATE_PHOTOMETRY, false) B(1, FINITE, false) B(2, STOKES, false) B(3, STOKES_APART, false)
 
-/* Of star_tiles.comp, star_search.comp and star_images.comp. VISIBLE: brightness weighted as by the eye; TILE: rays
+/* For star_tiles.comp, star_search.comp and star_images.comp. VISIBLE: brightness weighted as by the eye; TILE: rays
  * along the sides of a tile; RIM: as in ray/rim.glsl. */
 /* clang-format off */
 #define KD_SPEC_STARS(U, B) \
@@ -79,7 +80,7 @@
 #define KD_SPEC_POST(U, B) \
     B(0, ACES, true) B(1, WIDE, false) B(2, NEUTRAL, false) B(3, TOGETHER, false) B(4, AROUND, false)
 
-/* Of beam_gather.comp and beam_spread.comp: whether cells are larger than pixels. */
+/* For beam_gather.comp and beam_spread.comp: whether cells are larger than pixels. */
 #define KD_SPEC_BEAM(U, B) B(0, COARSE, true)
 
 /* ROWS: blur along columns, from row to row. */

@@ -20,6 +20,6 @@ enum kd_status kd_buffer_append(struct kd_buffer *buffer, const void *data, size
 /* Appends printf output. A NUL follows the text; size does not count it. */
 enum kd_status kd_buffer_printf(struct kd_buffer *buffer, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-void kd_buffer_finish(struct kd_buffer *buffer); /* frees; the buffer may be used again */
+void kd_buffer_finish(struct kd_buffer *buffer); /* frees the memory; the buffer may be used again */
 
 #endif

@@ -16,7 +16,7 @@ static inline double kd_clock_ms(void)
     return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
 }
 
-/* Locks with a timeout of `ms`. False if it ran out. */
+/* Locks with a timeout of `ms`. Returns false if the time ran out. */
 static inline bool kd_clock_lock(pthread_mutex_t *lock, double ms)
 {
     struct timespec t;

@@ -4,9 +4,9 @@
 
 unsigned kd_cores(void); /* cores in the process's affinity mask, at least 1 */
 
-/* Number of these cores that are idle now, not counting the calling thread's own; negative if more threads want to
- * run than there are cores. Threads of all processes count (proc_loadavg(5)). If the process may use only some of
- * the machine's cores, the others are taken to be as busy. Without /proc: all cores but the caller's. */
+/* Number of these cores that are idle now. The core of the calling thread counts as busy. Negative if more threads want
+ * to run than there are cores. Threads of all processes count (proc_loadavg(5)). If the process may use only some of
+ * the machine's cores, these are taken to be as busy as the others. Without /proc: all cores but the caller's. */
 int kd_cores_idle(void);
 
 #endif

@@ -1,17 +1,17 @@
 /* Processor pressure: how long this process's threads have waited for a core, from /proc/self/task/N/schedstat
- * (Documentation/scheduler/sched-stats.rst of Linux). Other load makes the host's work slower by about that much. Any
+ * (Documentation/scheduler/sched-stats.rst of Linux). Other load slows this process's work by about that much. Any
  * thread. */
 #ifndef KD_BASE_CPU_PRESSURE_H
 #define KD_BASE_CPU_PRESSURE_H
 
 struct kd_cpu_pressure {
-    double ran_ns, waited_ns; /* summed over the living threads; both 0 where the kernel does not report them */
+    double ran_ns, waited_ns; /* summed over the living threads; both are 0 if the kernel does not report them */
 };
 
 struct kd_cpu_pressure kd_cpu_pressure_now(void);
 
-/* Share of runnable time since `since` in which the threads ran. 1 when the cores are uncontended, or when nothing
- * is known. */
+/* Of the time since `since` in which the threads ran or waited for a core, the fraction in which they ran. 1 if they
+ * never waited, or if nothing is known. */
 double kd_cpu_pressure_share(const struct kd_cpu_pressure *since);
 
 #endif

@@ -7,15 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Giulietti's g(k): the 128 leading bits of 10^k, rounded up unless exact. */
+/* Giulietti's g(k): the 128 leading bits of 10^k, rounded up unless they are exact. */
 #define K_MIN (-292)
 #define K_MAX 324
-#define WORDS 38 /* words of 32 bits: 10^324 has 1077 bits, and 2^1152/10^292 still has 183 */
+#define WORDS 38 /* number of 32-bit words: 10^324 has 1077 bits, and 2^1152/10^292 still has 183 */
 
 struct g { uint64_t high, low; };
 static struct g powers[K_MAX - K_MIN + 1];
 
-struct big { uint32_t word[WORDS]; /* least significant first */ };
+struct big { uint32_t word[WORDS]; /* the least significant word first */ };
 
 static void multiply_by_ten(struct big *n)
 {
@@ -64,7 +64,7 @@ static void make_powers(void)
         if (k < K_MAX)
             multiply_by_ten(&up);
     }
-    down.word[WORDS - 2] = 1; /* the floor of repeated divisions is the floor of the whole quotient */
+    down.word[WORDS - 2] = 1; /* the floor of repeated divisions equals the floor of the whole quotient */
     for (int k = -1; k >= K_MIN; k--) {
         divide_by_ten(&down);
         powers[k - K_MIN] = leading_bits(&down, 0);
@@ -73,7 +73,7 @@ static void make_powers(void)
 
 __extension__ typedef unsigned __int128 wide;
 
-/* Returns the leading 64 bits of g n / 2^127, the last one set if anything below it is. */
+/* Returns the leading 64 bits of g n / 2^127. The last of these bits is set if any bit below it is. */
 static uint64_t round_to_odd(struct g g, uint64_t n)
 {
     wide x = (wide)g.low * n, y = (wide)g.high * n + (uint64_t)(x >> 64);
@@ -89,7 +89,7 @@ struct decimal {
 static struct decimal shortest(uint64_t c, int q, int lower_is_closer)
 {
     uint64_t odd = c & 1;
-    int k = (q * 1262611 - (lower_is_closer ? 524031 : 0)) >> 22; /* floor of the log10 of the interval */
+    int k = (q * 1262611 - (lower_is_closer ? 524031 : 0)) >> 22; /* floor of the log10 of the interval's length */
     int h = q + (-k * 1741647 >> 19) + 1;
     struct g g = powers[-k - K_MIN];
     uint64_t lower = round_to_odd(g, (4 * c - 2 + (uint64_t)lower_is_closer) << h) + odd;
@@ -195,7 +195,7 @@ size_t kd_decimal_print(char out[KD_DECIMAL_SIZE], double value)
 
 double kd_decimal_round(double value, int digits)
 {
-    /* Powers of ten up to 10^22 and integers up to 10^15 are exact as doubles, so that one division or product
+    /* Powers of ten up to 10^22 and integers up to 10^15 are exact as doubles, so a single division or product of them
      * rounds only once. */
     static const double exact[] = { 1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };

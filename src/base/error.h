@@ -1,7 +1,7 @@
-/* Errors: a status code gives the kind of failure, and one sentence explains it.
+/* Errors: a status code tells the kind of failure, and one sentence explains it.
  *
- * A function that can fail returns enum kd_status and fills the caller's struct kd_error (which may be NULL). Only
- * the server maps a status to an HTTP code, and only main maps it to an exit code. No thread-local state. */
+ * A function that can fail returns enum kd_status and fills the caller's struct kd_error (which may be NULL). Only the
+ * server maps a status to an HTTP code, and only main maps it to an exit code. No thread-local state. */
 #ifndef KD_BASE_ERROR_H
 #define KD_BASE_ERROR_H
 
@@ -9,41 +9,41 @@
 
 enum kd_status {
     KD_OK = 0,
-    KD_EINVAL,     /* bad input: the caller's fault, names field, value and range  */
+    KD_EINVAL,     /* bad input, the caller's fault; the message names the field, its value and its range */
     KD_ETOOBIG,    /* well-formed, but larger than this device or this server can hold */
-    KD_ENOMEM,     /* allocation failed, host or device                             */
-    KD_EIO,        /* a file or socket                                              */
+    KD_ENOMEM,     /* the host or the device has no memory left */
+    KD_EIO,        /* reading or writing a file or socket failed */
     KD_EFULL,      /* no room on the disk                                           */
     KD_EDEVICE,    /* no usable device, or the device failed or missed its deadline */
     KD_EBUSY,      /* the queue is full                                             */
     KD_EABSENT,    /* a required external program is not installed */
     KD_EINTERNAL,  /* a defect of kerrd itself, never the caller's fault */
-    KD_ECANCELLED, /* the caller's progress callback asked to stop                  */
+    KD_ECANCELLED, /* the caller's progress callback has cancelled the work */
 };
 
 struct kd_error {
     enum kd_status status;
-    char pointer[160]; /* RFC 6901 JSON pointer to the offending field, "" if none */
-    char message[480]; /* one sentence, no trailing newline or full stop needed    */
+    char pointer[160]; /* RFC 6901 JSON pointer to the offending field; "" if there is none */
+    char message[480]; /* one sentence; it needs no full stop and no line feed */
     unsigned retry_s;  /* with KD_EBUSY: seconds after which to retry; 0: unknown */
-}; /* pointer and message are UTF-8, and the message has no control characters, whatever they quote */
+}; /* Both texts are UTF-8, and the message has no control characters, whatever is quoted in them. */
 
-/* Fill *error (if not NULL) and return status, so that callers can `return kd_error_set(...)`. */
+/* Fills *error (if not NULL) and returns status, so that callers can `return kd_error_set(...)`. */
 enum kd_status kd_error_set(struct kd_error *error, enum kd_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* The same for one field of an input document: status KD_EINVAL, with its JSON pointer. */
+/* Like kd_error_set, for one field of an input document: the status is KD_EINVAL, and the pointer is the field's. */
 enum kd_status kd_error_field(struct kd_error *error, const char *pointer, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Prepends parent, a JSON pointer, to the pointer of *error (which may be NULL). What does not fit is cut off, at
- * whole characters and escapes. */
+/* Prepends parent, a JSON pointer, to the pointer of *error (which may be NULL). If the result is too long it is cut,
+ * at whole characters and escapes. */
 void kd_error_inside(struct kd_error *error, const char *parent);
 
-/* One step of a function that can fail. KD_TRY(f(...)) stores what f returned in the function's local `enum
- * kd_status status`. Unless that is KD_OK it jumps to the label `done`, where the successful path ends too: there
- * the function frees its resources and returns status. Variables read after `done` must be set before the first
- * step. A step inside a loop leaves the function. */
+/* One step of a function that can fail. KD_TRY(f(...)) stores what f returned in the function's local `enum kd_status
+ * status`. Unless that is KD_OK it jumps to the label `done`. There the function frees its resources and returns
+ * status; the successful path ends there too. Variables that are read after `done` must be set before the first step.
+ * In a loop, a failing step also leaves the function. */
 #define KD_TRY(step) \
     do { \
         if ((status = (step))) \

@@ -1,4 +1,4 @@
-/* FNV-1a, 64 bits (Fowler, Noll & Vo 1991): detects damage and different versions, not forgery. Pure. */
+/* FNV-1a, 64 bits (Fowler, Noll & Vo 1991). It detects damage and different versions, but not forgery. Pure. */
 #ifndef KD_BASE_HASH_H
 #define KD_BASE_HASH_H
 
@@ -7,7 +7,7 @@
 
 #define KD_HASH_BEGIN UINT64_C(0xcbf29ce484222325)
 
-/* Extends a hash by `size` bytes. The hash of no bytes is KD_HASH_BEGIN. */
+/* Extends a hash by `size` bytes. KD_HASH_BEGIN is the hash of no bytes. */
 static inline uint64_t kd_hash(uint64_t hash, const void *data, size_t size)
 {
     const unsigned char *bytes = data;

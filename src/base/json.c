@@ -48,7 +48,7 @@ static void put_string(struct kd_json *json, const char *text)
     put(json, "\"", 1);
 }
 
-/* Writes the comma and the name before a value. */
+/* Writes what precedes a value: the comma and the name. */
 static void lead(struct kd_json *json, const char *name)
 {
     if (!json->depth) {
@@ -106,7 +106,7 @@ void kd_json_number(struct kd_json *json, const char *name, double value)
 {
     char text[KD_DECIMAL_SIZE];
     if (isfinite(value))
-        kd_json_raw(json, name, text, kd_decimal_print(text, value == 0 ? 0 : value)); /* no -0 */
+        kd_json_raw(json, name, text, kd_decimal_print(text, value == 0 ? 0 : value)); /* 0 instead of -0 */
     else
         kd_json_null(json, name);
 }

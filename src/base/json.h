@@ -1,4 +1,4 @@
-/* Writes JSON documents. Errors are checked once, at the end. One thread a document.
+/* Writes JSON documents. Errors are checked once, at the end. One thread at a time for a document.
  *
  *     struct kd_json json = kd_json_begin(out);
  *     kd_json_object(&json, NULL);
@@ -9,8 +9,8 @@
  *     kd_json_end(&json);
  *     return kd_json_finish(&json);
  *
- * After the first failure nothing more is written; kd_json_finish returns the status and removes the partial
- * document. `name` is the member's name within an object, and NULL within an array and for the outermost value. */
+ * After the first failure nothing more is written; kd_json_finish returns the status and removes the partial document.
+ * `name` is the member's name within an object. Within an array, and for the outermost value, it is NULL. */
 #ifndef KD_BASE_JSON_H
 #define KD_BASE_JSON_H
 
@@ -22,33 +22,33 @@ enum { KD_JSON_DEPTH = 32 };
 
 struct kd_json {
     struct kd_buffer *out;
-    /* KD_ENOMEM: out of memory. KD_EINVAL: objects and arrays are nested wrongly, the caller's mistake. */
+    /* KD_ENOMEM: out of memory. KD_EINVAL: the caller has nested objects and arrays wrongly. */
     enum kd_status status;
-    size_t begun; /* out->size before the document */
+    size_t begun; /* size of *out before the document */
     unsigned depth;
-    bool lines; /* one member a line, for human readers */
+    bool lines; /* each member is on a line of its own, for human readers */
     struct { bool array, filled; } open[KD_JSON_DEPTH];
 };
 
-/* Appends to out, whose earlier bytes stay. */
+/* Begins a document. It is appended to out, whose earlier bytes stay. */
 struct kd_json kd_json_begin(struct kd_buffer *out);
-/* The same, with each value on a line of its own. */
+/* Like kd_json_begin, with each value on a line of its own. */
 struct kd_json kd_json_begin_lines(struct kd_buffer *out);
 
 void kd_json_object(struct kd_json *json, const char *name);
 void kd_json_array(struct kd_json *json, const char *name);
 void kd_json_end(struct kd_json *json); /* ends the innermost object or array */
 
-/* The fewest digits that read back as the same double; null if it is infinite or NaN. */
+/* Writes a number with the fewest digits that read back as the same double; null if it is infinite or NaN. */
 void kd_json_number(struct kd_json *json, const char *name, double value);
-/* text is UTF-8. */
+/* Writes a string. text is UTF-8. */
 void kd_json_string(struct kd_json *json, const char *name, const char *text);
 void kd_json_bool(struct kd_json *json, const char *name, bool value);
 void kd_json_null(struct kd_json *json, const char *name);
-/* A value that is JSON already. */
+/* Writes a value that is JSON text already. */
 void kd_json_raw(struct kd_json *json, const char *name, const char *text, size_t length);
 
 enum kd_status kd_json_finish(struct kd_json *json);
-enum kd_status kd_json_finish_line(struct kd_json *json); /* the same, followed by a line feed */
+enum kd_status kd_json_finish_line(struct kd_json *json); /* like kd_json_finish, and appends a line feed */
 
 #endif

@@ -1,8 +1,8 @@
-/* Logs events, one line each, to stderr. Any thread. Level and format are set once, at start.
+/* Logs events to stderr, each on one line. Any thread. Level and format are set once, at the start.
  *
  * A line of text is "kerrd: LEVEL: MESSAGE". A line of JSON is an object with time (RFC 3339, UTC, milliseconds),
- * level, event and the event's members; kd_log writes the event "message" with the member message. Control
- * characters and invalid UTF-8 become \xNN, so that an event is always one line. */
+ * level, event and the event's members. kd_log writes the event "message" with the member message. Control characters
+ * and invalid UTF-8 become \xNN, so that an event is always one line. */
 #ifndef KD_BASE_LOG_H
 #define KD_BASE_LOG_H
 
@@ -15,16 +15,16 @@ enum kd_log_format { KD_LOG_TEXT, KD_LOG_JSON };
 void kd_log_set_level(enum kd_log_level level);    /* default KD_LOG_WARN */
 void kd_log_set_format(enum kd_log_format format); /* default KD_LOG_TEXT */
 enum kd_log_format kd_log_get_format(void);
-bool kd_log_tells(enum kd_log_level level); /* true if events of this level are written */
+bool kd_log_tells(enum kd_log_level level); /* whether events of this level are written */
 
 void kd_log(enum kd_log_level level, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A member of an event: text if not NULL, else number. A number that is not finite is left out. */
+/* A member of an event. Its value is text if that is not NULL, else number. A number that is not finite is left out. */
 struct kd_log_member {
     const char *name, *text;
     double number;
 };
-/* Logs an event of its own kind. The JSON format writes the members, the text format the message. */
+/* Logs an event with a name of its own. The JSON format writes the members, the text format the message. */
 void kd_log_event(enum kd_log_level level, const char *event, const struct kd_log_member *members, size_t n,
                   const char *message);
 

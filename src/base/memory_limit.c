@@ -6,10 +6,11 @@
 #include <string.h>
 #include <sys/resource.h>
 
-/* A version of control groups: the names of its files and keys. */
+/* A version of control groups: its file system and the names of its files and keys. */
 struct version {
-    const char *filesystem, *controller; /* as in mountinfo; NULL: any */
-    const char *most, *used, *idle;      /* file of the limit, file of the use, key in memory.stat */
+    const char *filesystem, *controller; /* as they appear in mountinfo; NULL: any */
+    /* names of the file with the limit, of the file with the use, and of a key in memory.stat */
+    const char *most, *used, *idle;
     const char *by;
 };
 static const struct version versions[] = {
@@ -18,8 +19,8 @@ static const struct version versions[] = {
       "the memory.limit_in_bytes of a control group" },
 };
 
-/* Reads the number after a key, as in "key 12" or "key: 12 kB". key "": the file holds a number only. False for
- * "max" as well. */
+/* Reads the number after a key, as in "key 12" or "key: 12 kB". key "": the file holds only a number. Returns false if
+ * there is no number, as for "max". */
 static bool number_in(const char *root, const char *path, const char *key, uint64_t *out)
 {
     char name[PATH_MAX], line[256];
@@ -52,7 +53,7 @@ static bool list_holds(char *list, const char *word)
     return false;
 }
 
-/* Reads the mounted group and its mount point from a mountinfo line of this version's file system. */
+/* Reads the mounted group and its mount point from a line of mountinfo that belongs to this version's file system. */
 static bool read_mount(char *line, const struct version *version, char *group, char *mount)
 {
     char filesystem[32], options[256];
@@ -83,9 +84,9 @@ static FILE *open_list(const char *root, const char *path)
     return snprintf(name, sizeof name, "%s%s", root, path) < (int)sizeof name ? fopen(name, "re") : NULL;
 }
 
-/* Finds the folder of the process's group, and the length of the mount point within that path. In a container the
- * mount may show only part of the tree; the path in /proc/self/cgroup is then relative to the whole tree, or names a
- * group that is not visible here. */
+/* Finds the folder of the process's group, and how much of its path is the mount point. In a container the mount may
+ * show only part of the tree. Then the path in /proc/self/cgroup is relative to the whole tree, or names a group that
+ * is not visible here. */
 static bool find_group(const char *root, const struct version *version, char *folder, size_t size, size_t *mount_length)
 {
     char line[4096], mounted[1024], mount[1024], group[1024];
@@ -111,7 +112,7 @@ static bool find_group(const char *root, const struct version *version, char *fo
     return snprintf(folder, size, "%s%s", mount, strcmp(below, "/") ? below : "") < (int)size;
 }
 
-/* Bytes that one group leaves; UINT64_MAX if it sets no limit. */
+/* Bytes that one group leaves; UINT64_MAX if it has no limit. */
 static uint64_t left_in(const char *root, const char *folder, const struct version *version)
 {
     char path[PATH_MAX];
@@ -127,7 +128,7 @@ static uint64_t left_in(const char *root, const char *folder, const struct versi
     return used < most ? most - used : 0;
 }
 
-/* Minimum over the process's group and its ancestors up to the mount: each may set a limit. */
+/* Finds the least of what the process's group and its ancestors up to the mount leave: each may have a limit. */
 static void least_of_groups(const char *root, const struct version *version, struct kd_memory_limit *least)
 {
     char folder[2560];

@@ -1,6 +1,6 @@
-/* Runs a function for each of n items, on the caller's thread and others, and returns when all are done. The items must
- * not depend on one another; their order is not fixed, but they begin in order. Any thread may call it. Where no thread
- * can be started, the caller does all the work. */
+/* Runs a function for each of n items, on the caller's thread and on others. Returns when all items are done. The items
+ * must not depend on one another. They begin in order, but may end in any order. Any thread. If no thread can be
+ * started, the caller does all the work. */
 #ifndef KD_BASE_PARALLEL_H
 #define KD_BASE_PARALLEL_H
 
@@ -11,9 +11,9 @@
 /* Uses as many threads as there are cores, at most KD_PARALLEL_THREADS. */
 void kd_parallel(size_t n, void (*each)(void *user, size_t item), void *user);
 
-/* Uses idle cores only; for items of about 100 us or more. Before each of its items the caller starts a thread for
- * each idle core. A started thread ends after an item if more threads want to run than there are cores. All calls
- * together start at most one thread less than there are cores. */
+/* Like kd_parallel, on idle cores only; for items that take about 100 us or more. Before each of its own items the
+ * caller starts a thread for each idle core. A started thread ends after an item if more threads want to run than there
+ * are cores. All calls together start at most one thread less than there are cores. */
 void kd_parallel_idle(size_t n, void (*each)(void *user, size_t item), void *user);
 
 /* For tests and benchmarks: kd_parallel_idle uses this many threads, however busy the cores are. 0: idle cores only. */

@@ -1,12 +1,13 @@
 /* Preemption points in long computations. A function that may compute for longer than some milliseconds calls kd_pause
- * every few thousand operations. On a thread that serves several requests (server/http/turns.h) that lets others run
- * first; everywhere else it does nothing. The caller must not hold a lock that others need meanwhile. Any thread. */
+ * every few thousand operations. On a thread that serves several requests (server/http/task_scheduler.h) kd_pause lets
+ * others run first; everywhere else it does nothing. The caller must not hold a lock that others may need in the
+ * meantime. Any thread. */
 #ifndef KD_BASE_PAUSE_H
 #define KD_BASE_PAUSE_H
 
 #include <stdint.h>
 
-extern _Thread_local void (*kd_pause_hook)(void); /* NULL: this thread serves one request only */
+extern _Thread_local void (*kd_pause_hook)(void); /* NULL: this thread does not serve several requests */
 
 static inline void kd_pause(void)
 {
@@ -14,7 +15,7 @@ static inline void kd_pause(void)
         kd_pause_hook();
 }
 
-/* Pauses at every n-th i of a loop. */
+/* Pauses in a loop, whenever i is a multiple of n. */
 static inline void kd_pause_every(uint64_t i, uint64_t n)
 {
     if (i % n == 0)

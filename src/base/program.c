@@ -16,8 +16,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#define PIPE_BYTES (1 << 20) /* pipe capacity: what is written between two polls should fit */
-#define NICE 10              /* pictures that users wait for come first */
+#define PIPE_BYTES (1 << 20) /* capacity of the pipe; what is written between two polls should fit */
+#define NICE 10              /* lower priority, because pictures that users wait for come first */
 
 extern char **environ;
 
@@ -39,8 +39,9 @@ static bool make_pipe(int *ours, int *its, bool we_write)
     return fcntl(*ours, F_SETFL, O_NONBLOCK) == 0;
 }
 
-/* Closes descriptors from 4 on, which libraries may have left open. */
-#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 34) && !defined(KD_PROGRAM_LISTS) /* tests */
+/* Closes all descriptors from 4 on. Libraries may have left them open. */
+/* tests define KD_PROGRAM_LISTS */
+#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 34) && !defined(KD_PROGRAM_LISTS)
 static int close_others(posix_spawn_file_actions_t *files)
 {
     return posix_spawn_file_actions_addclosefrom_np(files, 4);
@@ -61,8 +62,8 @@ static int close_others(posix_spawn_file_actions_t *files)
 }
 #endif
 
-/* If kerrd was started with descriptors 0 to 2 closed, the given ones may have numbers up to 3 and be overwritten
- * here; kd_program_start moves them out of the way first. */
+/* If kerrd was started with descriptors 0 to 2 closed, the given descriptors may have numbers up to 3, and would be
+ * overwritten here. kd_program_start moves them out of the way first. */
 static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid)
 {
     posix_spawn_file_actions_t files;
@@ -81,7 +82,7 @@ static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid
     sigaddset(&usual, SIGXFSZ);
     posix_spawnattr_setsigmask(&how, &none);
     posix_spawnattr_setsigdefault(&how, &usual);
-    /* A process group of its own: Ctrl-C reaches kerrd only, which then ends the program. */
+    /* The program has a process group of its own, so that Ctrl-C reaches kerrd only, which then ends the program. */
     posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
     if (!(code = posix_spawn_file_actions_adddup2(&files, in, 0)) &&
         !(code = posix_spawn_file_actions_adddup2(&files, told, 2)) &&
@@ -94,7 +95,7 @@ static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid
     return code;
 }
 
-/* Moves a descriptor to 4 or above, beyond those that the program uses. */
+/* Moves a descriptor to 4 or above. The program uses those below. */
 static bool lift(int *fd)
 {
     int high = fcntl(*fd, F_DUPFD_CLOEXEC, 4);
@@ -129,7 +130,7 @@ enum kd_status kd_program_start(const char *const argv[], int out, uint64_t most
                    ? 0
                    : errno;
     if (!code) {
-        (void)fcntl(program->in, F_SETPIPE_SZ, PIPE_BYTES); /* if refused, it stays 64 KiB */
+        (void)fcntl(program->in, F_SETPIPE_SZ, PIPE_BYTES); /* if this is refused, the capacity stays 64 KiB */
         code = spawn(argv, in, told, to, &program->pid);
     }
     shut(&in);
@@ -156,8 +157,8 @@ size_t kd_program_write(struct kd_program *program, const void *data, size_t siz
 
 void kd_program_hang_up(struct kd_program *program) { shut(&program->in); }
 
-/* Reads its standard error. The beginning is kept, where the reason mostly is, and the end, where a full disk is
- * reported. Closes the pipe at its end of file. */
+/* Reads the program's standard error. Its beginning is kept, which mostly has the reason of a failure, and its end,
+ * where a full disk is reported. Closes the pipe at the end of file. */
 static void listen_to(struct kd_program *p)
 {
     char part[256];
@@ -167,7 +168,7 @@ static void listen_to(struct kd_program *p)
         memcpy(p->said + p->n_said, part, keep);
         p->n_said += keep;
         p->said[p->n_said] = 0;
-        if (p->n_last + (size_t)n >= sizeof p->last) { /* drop its older half */
+        if (p->n_last + (size_t)n >= sizeof p->last) { /* drops the older half */
             const size_t kept = sizeof p->last / 2;
             memmove(p->last, p->last + p->n_last - kept, kept);
             p->n_last = kept;
@@ -180,11 +181,11 @@ static void listen_to(struct kd_program *p)
         shut(&p->told);
 }
 
-/* Kills the program's process group. Its id cannot be reused before waitpid. */
+/* Kills the program's process group. The group's id cannot be reused before waitpid. */
 static void end_group(const struct kd_program *p)
 {
     kill(-p->pid, SIGKILL);
-    kill(p->pid, SIGKILL); /* in case it has no group of its own yet */
+    kill(p->pid, SIGKILL); /* in case the program has no group of its own yet */
 }
 
 bool kd_program_over(struct kd_program *p, int *code)
@@ -192,7 +193,7 @@ bool kd_program_over(struct kd_program *p, int *code)
     siginfo_t about = { 0 };
     int status;
     *code = -1;
-    if (p->pid <= 0) /* it has ended already */
+    if (p->pid <= 0) /* the program has ended already */
         return true;
     listen_to(p);
     if (!waitid(P_PID, (id_t)p->pid, &about, WEXITED | WNOHANG | WNOWAIT) && !about.si_pid)
@@ -207,7 +208,7 @@ bool kd_program_over(struct kd_program *p, int *code)
     return true;
 }
 
-/* Processor time in ms that it has used, without its children. */
+/* Processor time in ms that the program has used, without its children. */
 static double used_ms(const struct kd_program *p)
 {
     clockid_t clock;
@@ -238,7 +239,7 @@ static bool begins_path(const char *at)
     return *at == '/' && (unsigned char)at[1] > ' ';
 }
 
-/* Skips a control character, or a whole escape sequence (ECMA-48, 5.4). */
+/* Skips a control character or a whole escape sequence (ECMA-48, 5.4). */
 static const char *skip_control(const char *at)
 {
     if (at[0] != '\x1b' || at[1] != '[')
@@ -256,7 +257,7 @@ void kd_program_reason(const struct kd_program *p, char out[300])
     while (*at && *at != '\n' && *at != '\r' && n < 300 - 5) {
         if ((unsigned char)*at < ' ' || *at == 0x7f)
             at = skip_control(at);
-        else if (!strncmp(at, " @ 0x", 5)) /* an address in its memory */
+        else if (!strncmp(at, " @ 0x", 5)) /* an address in the program's memory */
             at += 5 + strspn(at + 5, "0123456789abcdefABCDEF");
         else if (strchr(before, last) && begins_path(at)) {
             at += strcspn(at, after);

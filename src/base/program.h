@@ -1,11 +1,11 @@
-/* Runs an external program such as an encoder: kerrd writes to its standard input, and it writes to a descriptor of
- * kerrd's. One thread at a time.
+/* Runs an external program such as an encoder. kerrd writes to the program's standard input, and the program writes to
+ * a descriptor of kerrd's. One thread at a time.
  *
- *     kd_program_start(argv, fd, &p, &error)       argv says "/dev/fd/3" where the program is to write
- *     while (more) kd_program_write(&p, ...)       never blocks: takes what fits into the pipe
- *     kd_program_hang_up(&p)                       end of input
- *     while (!kd_program_over(&p, &code)) ...      poll
- *     kd_program_end(&p)                           kills it if it still runs */
+ *     kd_program_start(argv, fd, &p, &error)      in argv "/dev/fd/3" stands for what the program writes to
+ *     while (more) kd_program_write(&p, ...)      never blocks: takes what fits into the pipe
+ *     kd_program_hang_up(&p)                      end of input
+ *     while (!kd_program_over(&p, &code)) ...     poll
+ *     kd_program_end(&p)                          kills the program if it still runs */
 #ifndef KD_BASE_PROGRAM_H
 #define KD_BASE_PROGRAM_H
 
@@ -17,35 +17,36 @@
 #include <sys/types.h>
 
 struct kd_program {
-    pid_t pid;    /* 0: not started, or ended */
-    int in, told; /* pipes to its standard input and from its standard error; -1: closed */
+    pid_t pid;    /* 0: the program is not started, or has ended */
+    int in, told; /* pipes to the program's standard input and from its standard error; -1: closed */
     size_t n_said, n_last;
-    char said[1000];                    /* the first bytes of its standard error, NUL-terminated */
-    char last[1000];                    /* the last bytes of its standard error, likewise */
+    char said[1000];                    /* the first bytes of the program's standard error, NUL-terminated */
+    char last[1000];                    /* the last bytes of the program's standard error, NUL-terminated */
     double idle_ms, looked_ms, used_ms; /* state of kd_program_idle_ms */
 };
 #define KD_PROGRAM_NONE { .in = -1, .told = -1 }
 
-/* True if the PATH has a program of this name that we may execute. */
+/* Whether the PATH has a program of this name that we may execute. */
 bool kd_program_known(const char *name);
-/* Starts argv[0], which is looked for on the PATH. out becomes the program's descriptor 3; the caller still owns it.
- * A file of more than `most` bytes ends the program. The program runs at a lower priority, inherits no other
- * descriptors, and its standard output goes to /dev/null. KD_EABSENT: no such program. KD_EIO. */
+/* Starts argv[0], which is searched for on the PATH. out becomes the program's descriptor 3; the caller still owns it.
+ * If the program writes a file of more than `most` bytes, it ends. It runs at a lower priority, inherits no other
+ * descriptors, and its standard output goes to /dev/null. KD_EABSENT: there is no such program. KD_EIO. */
 enum kd_status kd_program_start(const char *const argv[], int out, uint64_t most, struct kd_program *program,
                                 struct kd_error *error);
-/* Returns how many bytes the pipe took. 0: it is full for now, or the program has closed it (ask kd_program_over). */
+/* Returns how many bytes the pipe took. 0: it is full at present, or the program has closed it; kd_program_over tells
+ * which. */
 size_t kd_program_write(struct kd_program *program, const void *data, size_t size);
 void kd_program_hang_up(struct kd_program *program);
-/* True if the program has ended. *code: its exit code, or -1 if a signal ended it. Also reads its standard error,
- * and kills the children it leaves behind. */
+/* Whether the program has ended. *code: its exit code, or -1 if a signal ended it. This call also reads the program's
+ * standard error, and kills children that it has left behind. */
 bool kd_program_over(struct kd_program *program, int *code);
-/* Milliseconds for which the program has been idle at now_ms: it used no processor time, and the caller saw no
- * output (moved). Call it regularly. A gap between two calls counts as at most one second, because the machine may
- * have been suspended. */
+/* Milliseconds for which the program has been idle at now_ms. It is idle while it uses no processor time and the caller
+ * sees no output of it (moved: there was some). Call it regularly. A gap between two calls counts as at most one
+ * second, because the machine may have been suspended. */
 double kd_program_idle_ms(struct kd_program *program, bool moved, double now_ms);
-/* Gives the first line of its standard error, ready to be shown: without control characters and without paths and
- * addresses of this machine. "" if it printed nothing. */
+/* Gets the first line of the program's standard error in a form that can be shown: without control characters, and
+ * without paths and addresses of this machine. "" if the program has printed nothing. */
 void kd_program_reason(const struct kd_program *program, char out[300]);
-void kd_program_end(struct kd_program *program); /* also one that was never started */
+void kd_program_end(struct kd_program *program); /* may be called for a program that was never started */
 
 #endif

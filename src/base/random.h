@@ -8,7 +8,7 @@
 
 struct kd_random { uint64_t state; }; /* initialise with the seed */
 
-/* The next number, uniform in [0, 1). */
+/* Returns the next number, uniform in [0, 1). */
 static inline double kd_random(struct kd_random *random)
 {
     uint64_t x = random->state += KD_RANDOM_STEP;
@@ -17,7 +17,7 @@ static inline double kd_random(struct kd_random *random)
     return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
 }
 
-/* Random number *n (from 0) of the sequence of this seed; increments *n. */
+/* Returns random number *n, counted from 0, of the sequence that belongs to this seed; increments *n. */
 static inline double kd_random_drawn(uint64_t seed, uint64_t *n)
 {
     struct kd_random random = { seed + (*n)++ * KD_RANDOM_STEP };

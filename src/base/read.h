@@ -7,8 +7,9 @@
 #include <stdbool.h>
 
 /* Appends the bytes of a regular file to out. folder: a descriptor that `name` is relative to, or AT_FDCWD. flags:
- * for open, besides those for reading, such as O_NOFOLLOW. On failure returns false with errno and leaves out
- * unchanged. EINVAL: not a regular file; EFBIG: more than `most` bytes. Never blocks on a pipe's writer. */
+ * flags for open in addition to those for reading, such as O_NOFOLLOW. On failure it returns false with errno and
+ * leaves out unchanged. EINVAL: not a regular file; EFBIG: more than `most` bytes. It never waits for the writer of a
+ * pipe. */
 bool kd_read_file(int folder, const char *name, int flags, size_t most, struct kd_buffer *out);
 
 #endif

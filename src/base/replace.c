@@ -13,7 +13,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#define STALE_S 3600 /* seconds since the last change; no write takes that long, even to a slow disk */
+/* A temporary file that has not changed for this long is left over. No write takes that long, even to a slow disk. */
+#define STALE_S 3600
 
 static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 
@@ -94,7 +95,7 @@ bool kd_replace_commit(struct kd_replacing *file, const char *name)
     int cause = errno;
     if (!good)
         unlinkat(file->folder, file->temporary, 0);
-    /* Makes the rename durable: otherwise a power cut may bring the old file back. Some file systems do not support
+    /* Makes the rename durable; otherwise a power cut may bring the old file back. Some file systems do not support
      * fsync of folders. */
     if (good && fsync(file->folder) && errno != EINVAL && errno != EROFS)
         cause = errno, good = false;
@@ -121,7 +122,8 @@ bool kd_replace_file_at(int folder, const char *name, const void *data, size_t s
     return false;
 }
 
-/* Removes temporary files that killed processes left. A recently changed one may still be being written, and stays. */
+/* Removes temporary files that killed processes have left. A file that has changed recently may still be being written,
+ * so it stays. */
 static void remove_stale(int folder, const char *name)
 {
     int fd = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);

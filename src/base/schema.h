@@ -1,5 +1,5 @@
-/* Writes JSON Schemas of answers. Objects have exactly the members listed, so that tests which validate real answers
- * find added and missing members. One thread a document. */
+/* Writes JSON Schemas of answers. An object has exactly the members in its list, so that tests that validate real
+ * answers find additional and missing members. One thread at a time for a document. */
 #ifndef KD_BASE_SCHEMA_H
 #define KD_BASE_SCHEMA_H
 
@@ -18,11 +18,11 @@
 #define KD_SCHEMA_VECTOR "{\"type\":\"array\",\"minItems\":3,\"maxItems\":3,\"items\":{\"type\":\"number\"}}"
 #define KD_SCHEMA_REF(name) "{\"$ref\":\"#/components/schemas/" name "\"}"
 
-/* The word number `index` of an enumeration, NULL after the last. */
+/* Returns entry `index` of an enumeration; NULL beyond the last. */
 typedef const char *kd_schema_words(size_t index);
 
 struct kd_schema_member {
-    const char *name, *schema; /* JSON text; NULL: an enumeration of `words` */
+    const char *name, *schema; /* JSON text; NULL: the schema is an enumeration of `words` */
     bool may_lack;
     kd_schema_words *words;
 };
@@ -49,8 +49,8 @@ static inline void kd_schema_enum(struct kd_json *json, const char *name, kd_sch
     kd_json_end(json);
 }
 
-/* Writes the schema of one word, as an enumeration of one. With "const", generated clients would take the value in
- * one branch of a union for the only one. */
+/* Writes the schema of one word, as an enumeration with one entry. With "const" instead, generated clients would take
+ * the word in one branch of a union for the only possible one. */
 static inline void kd_schema_word(struct kd_json *json, const char *name, const char *word)
 {
     kd_json_object(json, name);
@@ -61,8 +61,8 @@ static inline void kd_schema_word(struct kd_json *json, const char *name, const 
     kd_json_end(json);
 }
 
-/* Begin and end the schema of an object `name` that allows no other members. The caller writes the members' schemas
- * in between. */
+/* Begin and end the schema of an object `name` that permits no further members. Between the two calls the caller writes
+ * the members' schemas. */
 static inline void kd_schema_begin_strict(struct kd_json *json, const char *name)
 {
     kd_json_object(json, name);
@@ -81,7 +81,7 @@ static inline void kd_schema_end_strict(struct kd_json *json, const char *const 
     kd_json_end(json);
 }
 
-/* Writes the schema of object `name`. about: a description of its members, for example their units, or NULL. */
+/* Writes the schema of the object `name`. about: a description of its members, for example of their units; or NULL. */
 static inline void kd_schema_told(struct kd_json *json, const char *name, const char *about,
                                   const struct kd_schema_member *members, size_t n)
 {
@@ -107,7 +107,7 @@ static inline void kd_schema_strict(struct kd_json *json, const char *name, cons
     kd_schema_told(json, name, NULL, members, n);
 }
 
-/* The same for a table whose length the compiler knows. */
+/* Like kd_schema_strict, for a table whose length the compiler knows. */
 #define KD_SCHEMA_STRICT(json, name, table) kd_schema_strict(json, name, table, sizeof(table) / sizeof *(table))
 /* A numeric constant as a string literal, with the digits it has in the source. */
 #define KD_SCHEMA_DIGITS_OF(x) #x

@@ -17,16 +17,16 @@
 enum { HELD = 16, KNOWN = 1 << 14, DEPTH = 24 };
 
 static _Thread_local bool answers;
-static _Thread_local double turn_ms; /* thread time at which the slice began */
+static _Thread_local double turn_ms; /* the thread's processor time when the slice began */
 static _Thread_local struct {
     const void *lock;
     double since_ms;
 } held[HELD];
 static _Thread_local unsigned n_held;
-/* Hash table of locks by address, with flags of what happened while they were held. A lock that hashes to a taken
- * slot replaces the other, so that a violation may be missed. */
+/* Hash table of locks by address. Its flags tell what happened while a lock was held. If two locks have the same slot,
+ * the later one replaces the other, so that a violation may be missed. */
 enum { ANSWERED = 1, SYNCED = 2 };
-static _Atomic uintptr_t known[KNOWN]; /* the address, with the two flags in its lowest bits */
+static _Atomic uintptr_t known[KNOWN]; /* the address of the lock, with the two flags in its lowest bits */
 
 static double used_ms(void)
 {
@@ -35,7 +35,7 @@ static double used_ms(void)
     return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
 }
 
-/* KERRD_WATCH=tell: report violations and continue. */
+/* Whether KERRD_WATCH=tell is set, which means: report violations and continue. */
 static bool tells(void)
 {
     const char *how = getenv("KERRD_WATCH");
@@ -55,7 +55,7 @@ static void broken(const char *rule, double ms)
 
 static _Atomic uintptr_t *place_of(const void *lock) { return &known[((uintptr_t)lock >> 4) * 2654435761u % KNOWN]; }
 
-/* Sets a flag of a lock; returns all its flags. */
+/* Sets a flag of a lock and returns all its flags. */
 static unsigned note(const void *lock, unsigned what)
 {
     _Atomic uintptr_t *place = place_of(lock);
@@ -78,8 +78,8 @@ static void taken(const void *lock)
     n_held++;
 }
 
-/* On a shared machine, time taken by others can count as a thread's own. So a limit is broken only by four times its
- * value, or by a thread's third excess. */
+/* On a shared machine, time that others took may count as a thread's own. So a limit counts as broken only at four
+ * times its value, or when a thread exceeds it for the third time. */
 static void too_long(const char *rule, double ms, double most_ms)
 {
     static _Thread_local unsigned times;
@@ -115,7 +115,7 @@ void kd_watch_turn_begins(void) { turn_ms = used_ms(); }
 
 void kd_watch_turn_ends(void) { too_long("a worker's turn is too long", used_ms() - turn_ms, TURN_MS); }
 
-/* The linker's --wrap: our calls go to __wrap_NAME, which call __real_NAME. */
+/* The linker's --wrap redirects our calls of NAME to __wrap_NAME, which calls __real_NAME. */
 #define REAL(type, name, ...) \
     type __real_##name(__VA_ARGS__); \
     type __wrap_##name(__VA_ARGS__)

@@ -1,13 +1,14 @@
 /* Debug checks on the server's threads, compiled in by -Dwatch=true. The program aborts with a backtrace when one of
  * these rules is broken:
  *
- *     a thread that answers requests never waits for a disk (fsync, unlink);
- *     a worker's slice takes at most 50 ms of the thread's processor time, and a lock is held for at most 2 ms of it
- *        (a single violation of less than four times that is tolerated twice a thread);
- *     no thread calls fsync while it holds a lock that a request-answering thread takes.
+ *     A thread that answers requests never waits for a disk (fsync, unlink).
+ *     A worker's slice takes at most 50 ms of the thread's processor time, and a lock is held for at most 2 ms of
+ *     it.
+ *     (A violation of less than four times these limits is tolerated twice for each thread.)
+ *     No thread calls fsync while it holds a lock that a thread that answers requests also takes.
  *
  * The linker redirects the calls of our own code to this file (src/server/meson.build). With KERRD_WATCH=tell in the
- * environment the program prints each violation and continues. Other builds contain nothing of this. Any thread. */
+ * environment the program prints each violation and continues. Other builds contain none of this. Any thread. */
 #ifndef KD_BASE_WATCH_H
 #define KD_BASE_WATCH_H
 

@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ASSET_MAX ((size_t)256 << 20) /* largest file: local files may be larger than a server accepts */
+/* limit of a file's size: local files may be larger than those that a server accepts */
+#define ASSET_MAX ((size_t)256 << 20)
 
 enum kd_status kd_asset_options_add(struct kd_asset_options *options, const char *text, struct kd_error *error)
 {
@@ -36,7 +37,7 @@ enum kd_status kd_asset_options_add(struct kd_asset_options *options, const char
     return KD_OK;
 }
 
-/* First bytes of other files that users may take for a grid or a picture. */
+/* First bytes of other kinds of files that users may take for a grid or a picture. */
 static const struct {
     const char *begin;
     size_t size;
@@ -55,7 +56,7 @@ static const struct {
     { "GIF8", 4, "a GIF" },
 };
 
-/* Detects the kind of the file, grid of matter or picture, and reads its description. */
+/* Detects whether the file is a grid of matter or a picture, and reads its description. */
 static enum kd_status look(const void *data, size_t size, struct kd_asset_found *out, struct kd_error *error)
 {
     struct kd_png_about about;

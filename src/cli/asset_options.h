@@ -7,25 +7,27 @@
 struct kd_named_asset {
     char name[KD_ASSET_NAME];
     const char *path;
-    struct kd_asset_found found; /* of the file as read; its hash is "" before that */
+    struct kd_asset_found found; /* description of the file's contents; its hash is "" until the file is read */
     bool used;                   /* a field of the scene uses it */
 };
 struct kd_asset_options { /* initialise to 0 */
     struct kd_named_asset *list;
     size_t n;
-    bool later; /* documents besides the scene may use assets; kd_asset_options_check is then called after them */
+    /* documents besides the scene may use assets; they are read first, and kd_asset_options_check is called after
+     * them */
+    bool later;
 };
 
 /* Adds an option, such as "sky=milky-way.png". Returns KD_EINVAL with a message if it is malformed. */
 enum kd_status kd_asset_options_add(struct kd_asset_options *options, const char *text, struct kd_error *error);
-/* Reads and checks the files, and replaces their names in the scene by their hashes. An asset that no field uses is an
- * error, and so is a field that names an asset without a file. */
+/* Reads and checks the files, and replaces their names in the scene by their hashes. It is an error if no field uses an
+ * asset, or if a field names an asset without a file. */
 enum kd_status kd_asset_options_resolve(struct kd_asset_options *options, struct kd_scene *scene,
                                         struct kd_error *error);
-/* Returns KD_EINVAL if an asset is unused. */
+/* Returns KD_EINVAL if an asset is not used. */
 enum kd_status kd_asset_options_check(const struct kd_asset_options *options, struct kd_error *error);
-/* The files as a renderer's assets. It reads them again when it needs them; they must not have changed. The result
- * refers to options. */
+/* Makes a renderer's assets of the files. The renderer reads a file again when it needs it, so the file must not have
+ * changed. The result refers to options. */
 struct kd_assets kd_asset_options_assets(struct kd_asset_options *options);
 void kd_asset_options_finish(struct kd_asset_options *options);
 

@@ -65,8 +65,8 @@ static enum kd_status put_error(struct kd_buffer *out, double value)
     return isfinite(value) ? kd_buffer_printf(out, " %9.1e", value) : kd_buffer_printf(out, " %9s", "-");
 }
 
-/* Prints a line for each row: speed and median errors over the bulk set, and the tolerance that the row is good enough
- * for. */
+/* Prints one line for each row: its speed, its median errors over the bulk set, and the tolerance for which it is good
+ * enough. */
 static enum kd_status summarise(const struct kd_accuracy_table *t, struct kd_buffer *out)
 {
     enum kd_status status;
@@ -105,7 +105,7 @@ static enum kd_status write_as(const struct kd_accuracy_table *table, const char
     return status;
 }
 
-/* Stores the table, unless a quick one would replace a thorough one of the same version. */
+/* Stores the table. A quick table does not replace a thorough one of the same version. */
 static enum kd_status keep(const struct kd_renderer *renderer, const struct kd_accuracy_table *table,
                            struct kd_buffer *said, struct kd_error *error)
 {
@@ -167,13 +167,13 @@ done:
     return status;
 }
 
-/* The command line, without quoting. */
+/* Returns the command line, without quoting. */
 static char *command_of(int argc, char **argv)
 {
     struct kd_buffer text = { 0 };
     for (int i = 0; i < argc; i++)
         if (kd_buffer_printf(&text, "%s%s", i ? " " : "", argv[i])) {
-            kd_buffer_finish(&text); /* a truncated command would mislead */
+            kd_buffer_finish(&text); /* without it, because a truncated command would mislead */
             break;
         }
     return (char *)text.data;

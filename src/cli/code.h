@@ -6,12 +6,13 @@
 
 #include <stdio.h>
 
-/* Writes the QR code of a text (byte mode, error correction M) as half blocks, two rows of modules in a line, black on
- * white by ANSI colours. Returns KD_ENOMEM when out of memory. */
+/* Writes the QR code of a text (byte mode, error correction M) as half blocks, black on white by ANSI colours. Each
+ * line of text holds two rows of modules. Returns KD_ENOMEM when out of memory. */
 enum kd_status kd_cli_code(FILE *to, const char *text);
 
-/* Chooses from the names of this machine (NULL-terminated, or NULL) the one that other machines most likely reach: an
- * address of a private network, then any other address, then a name. NULL if there is only loopback. */
+/* Chooses, from the names of this machine, the one that other machines most likely reach: an address of a private
+ * network, else another address, else a name. names: NULL-terminated, or NULL. Returns NULL if there is only
+ * loopback. */
 const char *kd_cli_code_of(const char *const *names);
 
 #endif

@@ -7,8 +7,8 @@
 #include <stddef.h>
 
 /* X(name, identifier in functions, one-line description), in the order of --help. Each line declares two functions,
- * which the subcommand's file defines: int kd_cli_ID(int argc, char **argv), described in cli.h; and const struct argp
- * *kd_cli_ID_argp(void), its options, the same at each call. */
+ * which the subcommand's file defines. One is int kd_cli_ID(int argc, char **argv), described in cli.h. The other is
+ * const struct argp *kd_cli_ID_argp(void), which returns its options, the same at each call. */
 #define KD_COMMANDS(X) \
     X("render", render, "a scene to a PNG file") \
     X("view", view, "a scene, or a picture that is there, in the terminal") \
@@ -51,8 +51,8 @@ extern const size_t kd_n_commands;
 #define KD_CLI_ABOUT "Pictures of black holes: a Kerr renderer on a Vulkan device."
 #define KD_CLI_EXIT_CODES "0 done, 1 failed, 2 bad input or usage, 3 a device that was lost or hangs"
 
-/* Options of one quantity of `kerrd physics`, whose first argument is the quantity's name. Valid until the next
- * call. */
+/* Options of one quantity of `kerrd physics`, whose first argument is the quantity's name. The result is valid until
+ * the next call. */
 struct kd_quantity;
 const struct argp *kd_cli_quantity_argp(const struct kd_quantity *quantity);
 

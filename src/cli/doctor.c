@@ -86,7 +86,7 @@ static bool print_devices(struct kd_error *error)
     return usable;
 }
 
-/* For scripts, and for completions of --device. */
+/* Prints the devices for scripts and for completions of --device. */
 static int list_devices(void)
 {
     struct kd_vk_info *list = NULL;
@@ -110,7 +110,7 @@ static enum kd_status print_choice(const char *device, struct kd_error *error)
     return status;
 }
 
-/* Prints the folder that kd_vk_params.cache_dir defaults to. */
+/* Prints the folder that is the default of kd_vk_params.cache_dir. */
 static void print_cache(void)
 {
     const char *xdg = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
@@ -130,7 +130,7 @@ static void print_cache(void)
         free(path);
 }
 
-/* Prints whether validation layers are available, which only an attempt shows. */
+/* Prints whether validation layers are available; only an attempt to load them shows that. */
 static void print_validation(const char *device)
 {
     struct kd_vk *vk = NULL;
@@ -209,7 +209,7 @@ static int examine(const char *device)
     printf("verdict: %s\n", status ? "not usable" : "usable");
     if (!status)
         return kd_cli_print("", 0);
-    fflush(stdout); /* before the message on stderr */
+    fflush(stdout); /* text on stdout must precede the message on stderr */
     kd_cli_fail(&error);
     return status == KD_EINVAL ? KD_EXIT_USAGE : KD_EXIT_FAILURE;
 }

@@ -1,4 +1,5 @@
-/* Renders one picture for the command line: format, plan, progress bar, loss of the device. Main thread only. */
+/* Renders one picture for the command line. Chooses its format, plans it, shows the progress bar, and handles the loss
+ * of the device. Main thread only. */
 #ifndef KD_CLI_DRAW_H
 #define KD_CLI_DRAW_H
 
@@ -7,12 +8,13 @@
 
 #include <argp.h>
 
-/* The format for the extension of a picture's file (cli/ending.h). NULL if the name has none and none is required. */
+/* Returns the format for the extension of a picture's file (cli/ending.h). Returns NULL if the name has no extension
+ * and none is required. */
 const struct kd_format *kd_cli_picture_format(const struct argp_state *state, const char *option, const char *path,
                                               bool required);
 
 /* Plans and renders what the format needs of a scene; Ctrl-C stops it. *ms: render time. Exits if the device is lost.
- * The caller finishes *frame, also on error. */
+ * The caller must finish *frame, even after an error. */
 enum kd_status kd_cli_draw(struct kd_renderer *renderer, const struct kd_format *format, struct kd_scene *scene,
                            struct kd_plan *plan, struct kd_frame *frame, double *ms, struct kd_error *error);
 

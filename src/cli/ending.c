@@ -7,7 +7,8 @@
 #include <string.h>
 #include <strings.h>
 
-enum { LETTERS_MAX = 9 }; /* longest extension; mktemp's names have ten random letters behind a dot */
+/* length of the longest extension that is examined; mktemp's names have ten random letters behind a dot */
+enum { LETTERS_MAX = 9 };
 
 /* Other extensions of our formats. */
 static const struct {
@@ -19,7 +20,7 @@ static const struct {
 
 static const char *const unfinished[] = {
     "tmp", "part", "new", "old", "bak", NULL
-}; /* the file will be renamed or has been */
+}; /* extensions of a file that will be renamed or has been */
 
 static const char *find(const char *const words[], const char *word)
 {
@@ -50,7 +51,7 @@ _Noreturn static void refuse(const struct argp_state *state, const char *option,
                                                 : " or ",
                                  strcmp(known[i], "text") ? known[i] : "txt");
     argp_error(state, "%s is \"%s\": the name must end in %s", option, path, list);
-    exit(argp_err_exit_status); /* not reached: argp_error exits */
+    exit(argp_err_exit_status); /* not reached, because argp_error exits */
 }
 
 const char *kd_cli_ending(const struct argp_state *state, const char *option, const char *path,

@@ -7,13 +7,14 @@
 /* List of formats, ended by NULL. */
 #define KD_ENDINGS(...) ((const char *const[]) { __VA_ARGS__, NULL })
 
-/* Returns the format in `known` for the extension of a file. Case is ignored, and .fit equals .fits. Returns "" for
- * NULL, "-", names without an extension, and names like a.tmp or v1.5. Any other extension is a usage error, because a
- * file in one format under the name of another would be noticed too late. option: for messages, such as "--output". */
+/* Returns the format in `known` that belongs to a file's extension. Case is ignored, and .fit means .fits. Returns ""
+ * for NULL, "-", names without an extension, and names like a.tmp or v1.5. Any other extension is a usage error;
+ * otherwise a file in one format with the extension of another would be noticed too late. option: for messages, such as
+ * "--output". */
 const char *kd_cli_ending(const struct argp_state *state, const char *option, const char *path,
                           const char *const known[]);
 
-/* The same, but a name without an extension is a usage error as well. */
+/* Like kd_cli_ending, but a name without an extension is a usage error as well. */
 const char *kd_cli_ending_required(const struct argp_state *state, const char *option, const char *path,
                                    const char *const known[]);
 

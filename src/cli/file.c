@@ -42,10 +42,10 @@ enum kd_status kd_file_read(const char *path, size_t most, struct kd_buffer *out
     return status;
 }
 
-/* The file behind symbolic links, because rename would replace a link. */
+/* The file that symbolic links lead to, because rename would replace a link. */
 struct target {
     char *path;    /* malloc'd */
-    bool in_place; /* exists and is not a regular file, so it must not be replaced */
+    bool in_place; /* it exists and is not a regular file, so it must not be replaced */
 };
 
 static enum kd_status find_target(const char *path, struct target *out, struct kd_error *error)
@@ -65,7 +65,7 @@ static enum kd_status find_target(const char *path, struct target *out, struct k
     return KD_OK;
 }
 
-/* Creates an empty file beside the target with the permissions of a new file. *temporary is malloc'd. */
+/* Creates an empty file beside the target, with the permissions that a new file gets. *temporary is malloc'd. */
 static int open_beside(const char *path, char **temporary)
 {
     *temporary = NULL;

@@ -7,7 +7,8 @@
 
 #include <stddef.h>
 
-/* Reads a file. Returns KD_EINVAL if it does not exist or has more than `most` bytes. Finish *out in any case. */
+/* Reads a file. Returns KD_EINVAL if it does not exist or has more than `most` bytes. The caller must finish *out in
+ * any case. */
 enum kd_status kd_file_read(const char *path, size_t most, struct kd_buffer *out, struct kd_error *error);
 
 /* Checks before a long render that kd_file_write can write to the path. Refuses a terminal. */
@@ -17,8 +18,8 @@ enum kd_status kd_file_check(const char *path, struct kd_error *error);
  * directly. */
 enum kd_status kd_file_write(const char *path, const struct kd_buffer *data, struct kd_error *error);
 
-/* The same for bytes that are generated while they are written. `read` returns up to `size` more, 0 at the end, or
- * KD_FILE_STOP on failure; then no file is left, and the caller reports the reason. */
+/* Like kd_file_write, for bytes that are generated while they are written. `read` returns up to `size` more bytes, 0 at
+ * the end, or KD_FILE_STOP on failure. Then no file is left, and the caller reports the reason. */
 #define KD_FILE_STOP ((size_t)-1)
 enum kd_status kd_file_stream(const char *path, size_t (*read)(void *user, void *to, size_t size), void *user,
                               struct kd_error *error);

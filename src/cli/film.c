@@ -23,8 +23,8 @@ enum { KEY_RATE = 256, KEY_STATE, KEY_SAMPLES, KEY_SHUTTER, KEY_ONLY };
 struct arguments {
     struct kd_scene_options scene; /* its document is the film's request */
     const char *device, *output, *state;
-    const struct kd_gather_format *kind; /* format of the output; NULL: none */
-    unsigned rate, samples, first, last; /* first and last frame to render */
+    const struct kd_gather_format *kind; /* format of the film; NULL: none, only frames are made */
+    unsigned rate, samples, first, last; /* first, last: numbers of the first and the last frame to render */
     bool only;
     double shutter;
     uint64_t memory;
@@ -63,7 +63,7 @@ static const struct kd_gather_format *kind_of(const char *path, const struct arg
     return kinds[i];
 }
 
-/* Parses "3:17", both frames included. */
+/* Parses a range such as "3:17", which includes both frames. */
 static void read_only(struct arguments *arguments, const char *text, const struct argp_state *state)
 {
     int end = 0;
@@ -119,15 +119,15 @@ struct work {
     struct arguments *arguments;
     const struct kd_gather_format *kind;
     struct kd_assets assets;
-    struct kd_buffer text; /* of the request */
+    struct kd_buffer text; /* text of the request */
     struct kd_job_spec spec;
     struct kd_renderer *renderer;
     struct kd_frames frames;
     struct kd_film_state state;
-    struct kd_playground *bodies; /* the playground in its state at the next frame, for films of playgrounds */
+    struct kd_playground *bodies; /* playground of a film, in its state at the next frame */
     struct kd_encoder encoder;
     struct kd_progress progress;
-    unsigned kept, done, measured, traced; /* kept: frames found in the folder */
+    unsigned kept, done, measured, traced; /* kept: number of frames found in the folder */
 };
 
 static enum kd_status change(void *user, struct kd_scene *scene, struct kd_error *error)
@@ -135,7 +135,7 @@ static enum kd_status change(void *user, struct kd_scene *scene, struct kd_error
     return kd_scene_options_set(user, scene, error);
 }
 
-/* Parses the request. --preset and --from replace the scene that the request's scenes are merged over; --set and --size
+/* Parses the request. --preset and --from give the scene that the request's scenes are merged over. --set and --size
  * are applied last. */
 static enum kd_status read_request(struct work *w, struct kd_error *error)
 {
@@ -176,8 +176,8 @@ done:
     return status;
 }
 
-/* Computes a hash of everything that frames depend on: the request, the options and the contents of the files that they
- * name. */
+/* Computes a hash of everything that frames depend on: the request, the options, and the contents of the files that
+ * these name. */
 static enum kd_status identify(struct work *w, struct kd_error *error)
 {
     const struct kd_scene_options *options = &w->arguments->scene;
@@ -208,7 +208,7 @@ done:
     return status;
 }
 
-/* Plans all frames before the first is rendered. */
+/* Plans all frames, before any is rendered. */
 static enum kd_status check(const struct work *w, struct kd_error *error)
 {
     struct kd_capacity capacity;
@@ -283,7 +283,7 @@ done:
     return status;
 }
 
-/* Measures the common exposure, if there is one and the folder does not have it, and writes film.json. */
+/* Measures the common exposure, if there is one and the folder does not hold it yet. Writes film.json. */
 static enum kd_status expose(struct work *w, struct kd_error *error)
 {
     unsigned frames[KD_JOB_EXPOSURE_FRAMES];
@@ -300,7 +300,7 @@ done:
     return status;
 }
 
-/* Moves the playground from the previous frame to this one, as the server's jobs do, and returns its bodies. */
+/* Moves the playground from the previous frame to this one, like the server's jobs, and returns its bodies. */
 static enum kd_status move(struct work *w, unsigned number, double begin, struct kd_dynamic_bodies **out,
                            struct kd_error *error)
 {

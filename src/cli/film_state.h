@@ -1,5 +1,5 @@
-/* film.json in a folder of a film's frames: identifies the request, the version and the device that rendered them. Main
- * thread only. */
+/* film.json in the folder of a film's frames. It identifies the request, the version and the device that have made
+ * them. Main thread only. */
 #ifndef KD_CLI_FILM_STATE_H
 #define KD_CLI_FILM_STATE_H
 
@@ -10,11 +10,11 @@
 struct kd_film_state {
     char request[65]; /* SHA-256 of everything that the frames depend on */
     unsigned frames;
-    const char *device; /* as kd_renderer_device_name */
+    const char *device; /* see kd_renderer_device_name */
     double exposure;    /* measured exposure of all frames in stops; NAN: none */
 };
 
-/* Reads film.json, if it exists, and takes over its exposure. Returns KD_EINVAL if its frames are of another film,
+/* Reads film.json if it exists, and takes the exposure from it. Returns KD_EINVAL if the frames belong to another film,
  * version or device. */
 enum kd_status kd_film_state_read(int folder, const char *path, struct kd_film_state *state, bool *there,
                                   struct kd_error *error);

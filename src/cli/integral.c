@@ -17,9 +17,9 @@ enum { KEY_FIRST = 256, FIELDS_MAX = 64, KEY_OBSERVATION = KEY_FIRST + FIELDS_MA
 struct arguments {
     enum kd_integral what;
     const char *input, *output, *format;
-    const char *given[FIELDS_MAX]; /* in the order of the table of fields */
-    const char *observation;       /* file of observations, for a comparison */
-    struct kd_scene_options scene; /* for integrals that accept a scene */
+    const char *given[FIELDS_MAX]; /* texts of the options, in the order of the table of fields; NULL: not given */
+    const char *observation;       /* file of observations that the scene is compared with */
+    struct kd_scene_options scene; /* options of the scene, for integrals that accept one */
     const char *device;
 };
 
@@ -79,7 +79,7 @@ static enum kd_status read_file(const struct arguments *arguments, struct kd_int
     return status;
 }
 
-/* Loads the scene of the file, or of --preset or --from, and applies --set. */
+/* Loads the scene from the file, --preset or --from, and applies --set. */
 static enum kd_status load_scene(struct arguments *arguments, struct kd_integral_request *request,
                                  struct kd_error *error)
 {
@@ -199,7 +199,7 @@ done:
     return status;
 }
 
-/* Makes the options: --inclination-deg for inclination_deg. */
+/* Makes an option for each field: --inclination-deg for inclination_deg. */
 static void set_options(enum kd_integral what, struct argp_option *options, char names[FIELDS_MAX][32],
                         char helps[FIELDS_MAX][240], char values[FIELDS_MAX][40])
 {
@@ -232,7 +232,7 @@ static void set_options(enum kd_integral what, struct argp_option *options, char
     }
 }
 
-/* Options of one integral, and the texts that they point to. */
+/* Options of one integral, and the texts that they refer to. */
 struct table {
     struct argp argp;
     struct argp_option options[FIELDS_MAX + 4];

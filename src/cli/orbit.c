@@ -13,7 +13,7 @@
 
 enum { KEY_FIRST = 256 };
 
-/* Fields in the order of their keys, with the names of kd_orbit_request_set and --help. */
+/* Fields in the order of their keys. Their names are those of kd_orbit_request_set and of --help. */
 static const struct {
     const char *name, *argument, *help;
 } fields[] = {
@@ -31,7 +31,7 @@ static const struct {
     { "v_r", "V", "components of the velocity, in units of that of light" },
     { "v_theta", "V", NULL },
     { "v_phi", "V", NULL },
-    /* these two follow the fields that decide which of the two it is */
+    /* These two come after the fields on which their meaning depends. */
     { "r", "R", "the radius there; or of a place on the way of an orbit by its constants" },
     { "outward", "true|false", "whether such an orbit moves outwards there" },
     { "periods", "N", "how long: radial periods (10), turns where r is constant" },
@@ -155,7 +155,7 @@ static void *help(void *feed)
     return NULL;
 }
 
-/* Integrates many orbits on all cores before the answer is read. */
+/* Integrates many orbits on all cores, before the answer is read. */
 static void share(struct kd_orbit_feed *feed)
 {
     pthread_t threads[15];
@@ -179,7 +179,7 @@ static enum kd_status write_answer(const struct arguments *arguments, struct kd_
     }
     kd_progress_init(&source.progress);
     kd_progress_catch_signals();
-    /* Computes the first bytes before the file is opened, so that invalid input leaves no file. */
+    /* The first bytes are computed before the file is opened, so that bad input leaves no file. */
     source.status = kd_orbit_feed_more(feed, &source.ready, error);
     if (!source.status && feed->request->many) {
         share(feed);
@@ -211,7 +211,7 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
     return status;
 }
 
-/* Makes the options: --inclination-deg for inclination_deg. */
+/* Makes an option for each field: --inclination-deg for inclination_deg. */
 static void set_options(struct argp_option *options, char names[N_FIELDS][32])
 {
     options[0] =

@@ -52,7 +52,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* Source of the file's bytes, made in slices. */
+/* Source of the file's bytes. They are made in slices. */
 struct source {
     struct kd_renderer *renderer;
     struct kd_particle_list list;

@@ -69,7 +69,7 @@ static enum kd_status plan_scene(struct arguments *arguments, struct kd_buffer *
     if (kd_plan_to_json(&plan, out) || kd_buffer_printf(out, "\n"))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the plan"));
 done:
-    kd_renderer_destroy(renderer); /* it owns the accuracy table in the capacity */
+    kd_renderer_destroy(renderer); /* the renderer owns the accuracy table in the capacity */
     return status;
 }
 

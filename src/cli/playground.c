@@ -35,7 +35,8 @@ struct arguments {
     const char *sets[SETS_MAX];
     size_t n_sets;
     double time;
-    bool list, bounded; /* bounded: --set budget was given; otherwise the server's budget does not apply */
+    /* bounded: --set budget was given; otherwise the budget, which is meant for servers, does not apply */
+    bool list, bounded;
     struct kd_pictures_asked pictures;
 };
 
@@ -173,12 +174,12 @@ done:
     return status;
 }
 
-/* Events since the beginning, one on each line. In a sub-step with more than KD_PLAYGROUND_EVENTS the oldest are lost,
- * which a line reports. */
+/* Events since the beginning, one on each line. If a sub-step has more than KD_PLAYGROUND_EVENTS events, the oldest are
+ * lost; a line says how many. */
 struct story {
     struct kd_buffer text;
-    uint64_t told, lost;      /* number of the last event written; number lost */
-    struct kd_error short_of; /* why the simulation ended early; status KD_OK: it did not */
+    uint64_t told, lost;      /* told: number of the last event written; lost: how many were lost */
+    struct kd_error short_of; /* why the simulation ended early; its status is KD_OK if it did not */
 };
 
 static enum kd_status add_lost(struct story *story, uint64_t to)
@@ -197,7 +198,7 @@ static enum kd_status go_on_telling(struct story *story, const struct kd_playgro
 {
     const uint64_t last = p->events.last, first = last > KD_PLAYGROUND_EVENTS
                                                       ? last - KD_PLAYGROUND_EVENTS
-                                                      : 0; /* number of the event before the first stored one */
+                                                      : 0; /* number of the event before the first one that is stored */
     enum kd_status status = KD_OK;
     if (story->told < first) {
         KD_TRY(add_lost(story, first));
@@ -238,7 +239,7 @@ static enum kd_status write_one(struct kd_playground *p, enum what what, const c
     return status;
 }
 
-/* Records why time stops before t; only the first reason is reported, after everything is written. */
+/* Records why time stops before t. Only the first reason is reported, after everything is written. */
 static void tell_short(const struct kd_playground *p, double t, bool bounded, struct kd_error *short_of)
 {
     if (short_of->status)
@@ -258,7 +259,7 @@ static void tell_short(const struct kd_playground *p, double t, bool bounded, st
                      p->t, t, p->params.budget);
 }
 
-/* Moves the playground to the time t. The budget of sub-steps is meant for servers, so it only applies if the option
+/* Moves the playground to the time t. The budget of sub-steps is meant for servers, so it applies only if the option
  * was given. */
 static enum kd_status go_on(const struct arguments *a, struct kd_playground *p, double t, struct story *story,
                             struct kd_error *error)
@@ -305,7 +306,7 @@ done:
     return status;
 }
 
-/* Checks that all files can be written before bodies move for minutes. */
+/* Checks that all files can be written, because moving the bodies may take minutes. */
 static enum kd_status check_files(const struct arguments *a, struct kd_error *error)
 {
     const char *const files[] = { a->output, a->series, a->fallback, a->events };
@@ -324,7 +325,7 @@ static enum kd_status work(struct arguments *a, struct kd_error *error)
     KD_TRY(kd_pictures_check(&a->pictures, error));
     KD_TRY(check_files(a, error));
     KD_TRY(load(a, &p, error));
-    story.told = p->events.last; /* skip the events that a snapshot contains */
+    story.told = p->events.last; /* skips the events that the snapshot contains already */
     kd_playground_series_begin(p, a->time);
     if (a->pictures.path)
         KD_TRY(film(a, p, &story, error));

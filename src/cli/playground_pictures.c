@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Finds the only %d, optionally with a width. Returns NULL if there is none, or any other conversion of printf. */
+/* Finds the only %d in a path; it may have a width. Returns NULL if there is none, or if the path has any other
+ * conversion of printf. */
 static const char *number_in(const char *path, int *length)
 {
     const char *at = strchr(path, '%'), *end = at;
@@ -43,7 +44,7 @@ enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct k
     return KD_OK;
 }
 
-/* Loads the scene. If none is given, it has the playground's spin. */
+/* Loads the scene. If no scene is given, it has the playground's spin. */
 static enum kd_status load(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p,
                            struct kd_scene *out, struct kd_error *error)
 {
@@ -65,7 +66,8 @@ static void name_of(const struct kd_pictures *p, char out[4096])
         snprintf(out, 4096, "%s", p->asked->path);
         return;
     }
-    const int width = atoi(at + 1); /* with or without a leading 0: numbers in names are padded with zeros */
+    /* the width may have a leading 0 or not: numbers in names are padded with zeros in both cases */
+    const int width = atoi(at + 1);
     snprintf(out, 4096, "%.*s%0*u%s", (int)(at - p->asked->path), p->asked->path, width, p->made, at + length);
 }
 

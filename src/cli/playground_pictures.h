@@ -10,10 +10,11 @@
 #include <stdint.h>
 
 struct kd_pictures_asked {
-    const struct kd_format *format; /* NULL if path is NULL */
-    /* one picture at the end; or with `every` a pattern with one %d, such as film/%05d.png; NULL: no pictures */
+    const struct kd_format *format; /* format of the pictures; NULL if path is NULL */
+    /* File of one picture at the end. If `every` is set: a pattern with one %d, such as film/%05d.png. NULL: no
+     * pictures. */
     const char *path;
-    double every; /* time between pictures from the beginning on, M; 0: one picture */
+    double every; /* time between two pictures in M, counted from the beginning; 0: one picture */
     struct kd_scene_options scene;
     const char *device;
     uint64_t memory;
@@ -31,10 +32,11 @@ struct kd_pictures {
     double ms; /* render time of all pictures */
 };
 
-/* Returns KD_EINVAL if path is not valid: with `every` it has one %d as in printf, otherwise none. */
+/* Returns KD_EINVAL if path is not valid. If `every` is set it must have exactly one %d as in printf, otherwise
+ * none. */
 enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct kd_error *error);
-/* Prepares rendering. view: JSON of the default scene for this playground, used if none is given; NULL: the default
- * scene at the distance of its bodies. */
+/* Prepares rendering. view: JSON of the default scene for this playground, which is used if no scene is given. NULL:
+ * the default scene, with the camera at the distance of the bodies. */
 enum kd_status kd_pictures_begin(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p,
                                  struct kd_pictures *out, struct kd_error *error);
 /* Renders the playground in its present state and writes the file. */

@@ -36,7 +36,7 @@ enum {
 };
 #define N_FIELDS (KEY_END - KEY_SPIN)
 
-/* Fields in the order of their keys, with the names of kd_rays_request_set. */
+/* Fields in the order of their keys. Their names are those of kd_rays_request_set. */
 static const char *const names[N_FIELDS] = { "spin",
                                              "r",
                                              "inclination_deg",
@@ -57,8 +57,8 @@ static const char *const names[N_FIELDS] = { "spin",
 struct arguments {
     const char *input, *output, *device, *format;
     const char *fields[N_FIELDS]; /* NULL: not given */
-    bool trace, points;           /* points: of the path, instead of steps */
-    struct kd_rays_request more;  /* the rays of --ray */
+    bool trace, points;           /* trace: the ray's steps; points: points of its path instead of the steps */
+    struct kd_rays_request more;  /* the rays that --ray gives */
 };
 
 static const struct argp_option table[] = {
@@ -107,7 +107,8 @@ static void add_ray(struct arguments *arguments, const char *text, struct argp_s
         argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--ray");
 }
 
-/* Sets the format from the output's name if it is not given. Text is for steps only, arrays are not. */
+/* If no format is given, takes it from the output's name. Text is possible for steps only, arrays only without
+ * steps. */
 static void settle_format(struct arguments *arguments, const struct argp_state *state)
 {
     const char *const *known = arguments->trace ? KD_ENDINGS("text", "json", "csv") : KD_ENDINGS("json", "npy", "csv");
@@ -194,7 +195,7 @@ done:
     return status;
 }
 
-/* Resolves the accuracy request to engine, precision and steps, with a device if needed. */
+/* Chooses engine, precision and steps by the requested accuracy. Opens a device if that is needed. */
 static enum kd_status settle(const struct arguments *arguments, struct kd_rays_request *request,
                              struct kd_renderer **renderer, struct kd_error *error)
 {
@@ -219,7 +220,7 @@ static enum kd_status trace(struct kd_renderer *renderer, struct kd_rays_answer 
     enum kd_status status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta, answer->n, answer->crossings,
                                           answer->ends, kd_progress_update, &progress, error);
     kd_progress_finish(&progress);
-    /* an error with a pointer means that the device lacks a feature, not that it is lost */
+    /* An error with a pointer means that the device lacks a feature, not that the device is lost. */
     if (status == KD_EDEVICE && !*error->pointer)
         kd_cli_device_lost(error);
     return status ? status : kd_rays_answer_summarise(answer, error);
@@ -241,7 +242,7 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
     KD_TRY(settle(arguments, &request, &renderer, error));
     if (strcmp(path, "-") || format == KD_RAYS_NPY)
         KD_TRY(kd_file_check(path, error));
-    double *alpha_beta = request.alpha_beta; /* owned by the answer from here on */
+    double *alpha_beta = request.alpha_beta; /* the answer owns it from here on */
     request.alpha_beta = NULL;
     KD_TRY(kd_rays_answer_init(&answer, &request.params, alpha_beta, request.n, error));
     KD_TRY(trace(renderer, &answer, error));
@@ -289,11 +290,11 @@ static enum kd_status run_trace(const struct arguments *arguments, struct kd_err
     KD_TRY(settle(arguments, &request, &renderer, error));
     if (request.params.observer) {
         kd_rays_looks_label(&request.params, request.alpha_beta, 1, request.alpha_beta, &outward, &energy);
-        request.params.observer = 0; /* the ray is now given without reference to an observer */
+        request.params.observer = 0; /* from here on the ray is given without reference to an observer */
     }
     status = kd_rays_steps(renderer, &request.params, &(struct kd_ray_labels) { request.alpha_beta, &outward, 1 },
                            &steps, error);
-    if (status == KD_EDEVICE && !*error->pointer) /* as in trace() */
+    if (status == KD_EDEVICE && !*error->pointer) /* see trace() */
         kd_cli_device_lost(error);
     KD_TRY(status);
     KD_TRY(kd_trace_explain(&steps, arguments->points, &trace, error));

@@ -14,7 +14,7 @@
 struct arguments {
     struct kd_scene_options scene;
     const char *device, *output;
-    const struct kd_format *format; /* of the output */
+    const struct kd_format *format; /* format of the output */
     uint64_t memory;
     bool stats;
 };

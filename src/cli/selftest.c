@@ -11,9 +11,9 @@
 #include <stdlib.h>
 
 struct report {
-    struct kd_json *rows; /* NULL: print text */
+    struct kd_json *rows; /* NULL: the output is text */
     unsigned checks, failed, compared;
-    double nearest; /* largest ratio of error and bound among the checks that passed */
+    double nearest; /* among the checks that passed, the largest ratio of error to bound */
     char nearest_what[128];
 };
 
@@ -29,7 +29,7 @@ static void add_row(struct kd_json *rows, const struct kd_selftest_row *row)
     kd_json_string(rows, "what", row->what);
     kd_json_string(rows, "by", row->by);
     kd_json_number(rows, "compared", row->compared);
-    if (isfinite(row->error)) /* missing numbers are left out, as everywhere */
+    if (isfinite(row->error)) /* a number that does not exist is left out, as everywhere */
         kd_json_number(rows, "error", row->error);
     kd_json_number(rows, "bound", row->bound);
     kd_json_bool(rows, "ok", row->ok);
@@ -52,7 +52,7 @@ static bool report(void *user, const struct kd_selftest_row *row)
     else
         print_row(row);
     if (fflush(stdout))
-        kd_cli_stdout_failed(errno); /* later the reason is lost */
+        kd_cli_stdout_failed(errno); /* reported here, because later the reason is lost */
     return true;
 }
 

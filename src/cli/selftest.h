@@ -1,4 +1,4 @@
-/* Output of kerrd doctor --selftest. Main thread only. */
+/* Prints the results of kerrd doctor --selftest. Main thread only. */
 #ifndef KD_CLI_SELFTEST_H
 #define KD_CLI_SELFTEST_H
 
@@ -6,8 +6,8 @@
 
 #include <stdbool.h>
 
-/* Runs the self-test on the device and prints its table, or with `json` a JSON document. Returns KD_OK even if checks
- * failed; *failed counts these. */
+/* Runs the self-test on the device and prints its table, or a JSON document if `json` is true. *failed is the number of
+ * failed checks; if only these fail it returns KD_OK. */
 enum kd_status kd_cli_selftest(const char *device, bool json, unsigned *failed, struct kd_error *error);
 
 #endif

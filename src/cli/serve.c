@@ -22,7 +22,7 @@
     { name, argument, KD_SETTING_##kind, least, most, initial, KD_SETTING_##where, doc },
 const struct kd_cli_setting kd_serve_settings[KD_SERVE_COUNT] = { KD_SERVE_SETTINGS(ROW, KD_SERVE_NOTHING) };
 
-/* A switch accepts yes or no, so that a flag can override the file. */
+/* A switch may be given as yes or no, so that a flag can override the file. */
 #define OPTION(id, name, letter, argument, kind, least, most, initial, where, doc) \
     { name, letter, argument, KD_SETTING_##kind == KD_SETTING_SWITCH && argument ? OPTION_ARG_OPTIONAL : 0, doc, 0 },
 #define HEADING(text) { NULL, 0, NULL, 0, text, 0 },
@@ -41,7 +41,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         argp_state_help(state, stdout, ARGP_HELP_STD_HELP);
     if (key == ARGP_KEY_ARG)
         argp_error(state, "%s: it takes no argument", text);
-    size_t i = 0; /* index of the setting, which does not count headings */
+    size_t i = 0; /* index of the setting; headings are not counted */
     const struct argp_option *option = table;
     while (i < KD_SERVE_COUNT && option->key != key)
         i += (option++)->key != 0;
@@ -55,7 +55,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return 0;
 }
 
-static struct kd_server *running; /* for the signal handler, which has no argument for it */
+static struct kd_server *running; /* for the signal handler, which has no argument for the server */
 
 static void on_signal(int number)
 {
@@ -69,11 +69,11 @@ static void set_signals(void (*handler)(int))
     struct sigaction hangup;
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGINT, &action, NULL);
-    if (!sigaction(SIGHUP, NULL, &hangup) && hangup.sa_handler != SIG_IGN) /* nohup has set it to be ignored */
+    if (!sigaction(SIGHUP, NULL, &hangup) && hangup.sa_handler != SIG_IGN) /* nohup has set the signal to be ignored */
         sigaction(SIGHUP, &action, NULL);
 }
 
-/* Shows the QR code if standard output is a terminal, since a log file needs none. */
+/* Shows the QR code if standard output is a terminal. A log file needs none. */
 static void show_code(const char *address, uint16_t port, const char *base_path, const char *const *own)
 {
     const char *const listened[] = { address, NULL };
@@ -90,18 +90,19 @@ static void show_code(const char *address, uint16_t port, const char *base_path,
 
 static void announce(const char *address, uint16_t port, const char *base_path, const char *const *own)
 {
-    bool six = strchr(address, ':'); /* IPv6 addresses have brackets in URLs */
+    bool six = strchr(address, ':'); /* in URLs an IPv6 address has brackets */
     printf("kerrd: listening on http://%s%s%s:%u%s/\n", six ? "[" : "", address, six ? "]" : "", port, base_path);
     for (const char *const *name = own; name && *name; name++)
         printf("kerrd: reached at http://%s:%u%s/\n", *name, port, base_path);
     show_code(address, port, base_path, own);
-    /* The parent may be waiting for this line in a pipe. The service continues if it cannot be written. */
+    /* The parent may be waiting for this line in a pipe. If it cannot be written, the service continues. */
     if (fflush(stdout) || ferror(stdout))
         kd_log(KD_LOG_ERROR, "cannot write to standard output: %s", strerror(errno));
     clearerr(stdout);
 }
 
-/* Waits for the end of standard input. The parent holds its other end, which is closed even if the parent is killed. */
+/* Waits for the end of standard input. The parent holds the other end of it, which is closed even if the parent is
+ * killed. */
 static void *await_eof(void *unused)
 {
     char bytes[64];
@@ -178,7 +179,7 @@ static enum kd_status serve(const struct kd_settings *settings, struct kd_error 
     status = kd_server_wait(running, error);
     if (status == KD_EDEVICE)
         kd_cli_device_lost(error);
-    set_signals(SIG_IGN); /* the server has stopped; a second Ctrl-C must not change the exit code */
+    set_signals(SIG_IGN); /* the server has stopped; another Ctrl-C must not change the exit code */
     kd_server_destroy(running);
     return status;
 }
@@ -205,12 +206,12 @@ static void set_log(const struct kd_settings *settings)
     kd_log_set_format(strcmp(kd_settings_text(settings, KD_SERVE_LOG_FORMAT), "json") ? KD_LOG_TEXT : KD_LOG_JSON);
 }
 
-/* Reads environment and file after the flags, which may name the file and take precedence. */
+/* Reads the environment and the file. It does so after the flags, which may name the file and take precedence. */
 static enum kd_status configure(struct kd_settings *settings, struct kd_error *error)
 {
     enum kd_status status;
     KD_TRY(kd_settings_read_environment(settings, environ, error));
-    set_log(settings); /* errors in the file are then logged as flags and environment say */
+    set_log(settings); /* so that errors in the file are logged as flags and environment require */
     if (kd_settings_text(settings, KD_SERVE_CONFIG))
         KD_TRY(kd_settings_read_file(settings, kd_settings_text(settings, KD_SERVE_CONFIG), error));
     set_log(settings);

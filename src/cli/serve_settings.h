@@ -1,5 +1,5 @@
-/* List of the options of `kerrd serve`. Flags, members of the configuration file, environment variables, help, manual
- * page, completions and docs/options.md are made from it. Constant data. */
+/* List of the options of `kerrd serve`. Flags, members of the configuration file, environment variables, help, the
+ * manual page, completions and docs/options.md are made from this list. Constant data. */
 #ifndef KD_CLI_SERVE_SETTINGS_H
 #define KD_CLI_SERVE_SETTINGS_H
 

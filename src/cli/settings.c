@@ -34,7 +34,7 @@ void kd_settings_finish(struct kd_settings *settings)
     *settings = (struct kd_settings) { 0 };
 }
 
-/* Whether text is one of "a|b|c"; `out` receives "a, b or c". */
+/* Whether text is one of the words "a|b|c". `out` receives "a, b or c". */
 static bool is_word(const char *words, const char *text, char *out, size_t size)
 {
     bool found = false;
@@ -50,7 +50,7 @@ static bool is_word(const char *words, const char *text, char *out, size_t size)
     return found;
 }
 
-/* Returns 1, 0, or -1 for neither. */
+/* Returns 1 for on, 0 for off, -1 for neither. */
 static int switch_of(const char *text)
 {
     static const char *const words[] = { "no", "yes", "false", "true", "0", "1" };
@@ -97,7 +97,7 @@ enum kd_status kd_settings_give(struct kd_settings *settings, size_t i, enum kd_
     return KD_OK;
 }
 
-/* The effective values; NULL if none is given. */
+/* The effective values of a setting; NULL if none is given. */
 static const struct kd_setting_values *found(const struct kd_settings *settings, size_t i)
 {
     for (int source = KD_SETTING_SOURCES - 1; source >= 0; source--)

@@ -20,7 +20,7 @@
 #define PREFIX "KERRD_"
 #define FILE_MOST ((size_t)64 << 10)
 
-/* Variables that are not settings: for developers of Vulkan code, and of the scripts in the repository. */
+/* Variables that are not settings. They are for developers of Vulkan code and of the scripts in the repository. */
 static const char *const others[] = { "KERRD_VALIDATE", "KERRD_WATCH", "KERRD_WERROR" };
 
 void kd_setting_variable(const struct kd_cli_setting *setting, char out[KD_SETTING_VARIABLE])
@@ -31,7 +31,7 @@ void kd_setting_variable(const struct kd_cli_setting *setting, char out[KD_SETTI
     out[n] = 0;
 }
 
-/* Finds a setting by the name of a member; n: none. */
+/* Finds a setting by the name of its member in the file. Returns n if there is none. */
 static size_t find_key(const struct kd_settings *settings, const char *name)
 {
     size_t i = 0;
@@ -72,7 +72,7 @@ static bool text_of(const struct kd_cli_setting *setting, const cJSON *item, cha
     return true;
 }
 
-/* Stores an item. pointer: its JSON pointer. */
+/* Stores a member's value. pointer: JSON pointer to the member. */
 static enum kd_status take(struct kd_settings *settings, size_t i, const cJSON *item, const char *pointer,
                            struct kd_error *error)
 {
@@ -133,7 +133,7 @@ enum kd_status kd_settings_read_file(struct kd_settings *settings, const char *p
     enum kd_status status;
     if (path[0] == '-' && path[1] && access(++path, F_OK) && errno == ENOENT)
         return KD_OK;
-    KD_TRY(kd_file_read(path, FILE_MOST, &text, error)); /* its error names the file */
+    KD_TRY(kd_file_read(path, FILE_MOST, &text, error)); /* the error of kd_file_read names the file */
     status = kd_tree_parse((const char *)text.data, text.size, FILE_MOST, KD_SCAN_FEW, &tree, error);
     if (!status)
         status = read_members(settings, tree, error);
@@ -147,8 +147,8 @@ done:
     return status;
 }
 
-/* Whether a variable is one that Kubernetes sets for each Service, unless enableServiceLinks is false: for a Service
- * called kerrd, KERRD_PORT=tcp://10.0.0.1:8080. */
+/* Whether Kubernetes has set a variable for a Service, as it does unless enableServiceLinks is false. For a Service
+ * called kerrd that is KERRD_PORT=tcp://10.0.0.1:8080. */
 static bool is_link(const char *name, const char *value)
 {
     const char *port = strstr(name, "_PORT_");
@@ -156,7 +156,7 @@ static bool is_link(const char *name, const char *value)
            !strncmp(value, "udp://", 6) || (port && isdigit((unsigned char)port[6]));
 }
 
-/* Finds the setting of a variable; n: none. *value is the text behind the name. */
+/* Finds the setting of an environment variable. Returns n if there is none. *value is the text behind the name. */
 static size_t find_variable(const struct kd_settings *settings, const char *variable, const char **value)
 {
     const size_t n = strcspn(variable, "=");

@@ -9,7 +9,7 @@
 
 enum { COLOURS = 256 };
 
-/* Converts pixels to 8 bits a channel. */
+/* Converts pixels to 8 bits for each channel. */
 static unsigned char *bytes_of(const struct kd_png *png)
 {
     const size_t n = (size_t)png->width * png->height * 3;

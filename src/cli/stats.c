@@ -19,7 +19,7 @@ static void add_field(struct kd_json *json, const struct kd_field *field, const 
     kd_buffer_finish(&text);
 }
 
-/* Writes the scene's accuracy section with the values that the plan has chosen. */
+/* Writes the scene's section accuracy, with the values that the plan has chosen. */
 static void add_setting(struct kd_json *json, const struct kd_stats *stats)
 {
     const struct kd_section *section = kd_section_find("accuracy");
@@ -31,7 +31,7 @@ static void add_setting(struct kd_json *json, const struct kd_stats *stats)
         else if (!strcmp(field->name, "precision"))
             kd_json_string(json, "precision", kd_precision_name(by->precision));
         else if (!strcmp(field->name, "steps"))
-            kd_json_number(json, "steps", by->steps); /* 0: closed form */
+            kd_json_number(json, "steps", by->steps); /* 0: in closed form */
         else
             add_field(json, field, stats->scene);
     }

@@ -19,7 +19,7 @@
 struct arguments {
     struct kd_scene_options scene;
     const char *device, *output, **axes;
-    const struct kind *kind; /* of the output */
+    const struct kind *kind; /* kind of the output */
     size_t n_axes;
     uint64_t memory;
     bool stats;
@@ -37,11 +37,11 @@ static const struct argp_option table[] = {
     { 0 },
 };
 
-/* A kind of output by its extension: the format of each scene and of the whole. */
+/* A kind of output: the format of each scene, and of the file that holds all of them. */
 struct kind {
-    const char *name; /* extension */
+    const char *name; /* extension of the file */
     const struct kd_format *frame;
-    const struct kd_gather_format *whole; /* NULL: a table */
+    const struct kd_gather_format *whole; /* format of the file; NULL: a table */
 };
 
 static const struct kind *kind_of(const char *path, const struct argp_state *state)
@@ -92,11 +92,11 @@ struct work {
     struct kd_encoder encoder;
     struct kd_progress progress;
     struct kd_frames frames;
-    double *fluxes; /* Jy; NAN: the picture has none */
+    double *fluxes; /* flux of each scene in Jy; NAN: its picture has none */
     unsigned done, traced;
 };
 
-/* Plans a scene; an error names its number. */
+/* Plans a scene. An error names the scene's number. */
 static enum kd_status plan_of(struct work *w, unsigned number, struct kd_scene *scene, struct kd_plan *plan,
                               struct kd_error *error)
 {
@@ -111,7 +111,7 @@ static enum kd_status plan_of(struct work *w, unsigned number, struct kd_scene *
     return status;
 }
 
-/* Plans all scenes before the first is rendered. */
+/* Plans all scenes, before any is rendered. */
 static enum kd_status check(struct work *w, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
@@ -197,7 +197,7 @@ static enum kd_status save_table(struct work *w, const char *path, struct kd_err
     return status;
 }
 
-/* Writes the fluxes in the order of the scenes, if any scene has one; null for a scene without. */
+/* If any scene has a flux, writes the fluxes in the order of the scenes; null for a scene without a flux. */
 static void write_fluxes(const struct work *w, struct kd_json *json)
 {
     bool any = false;

@@ -21,7 +21,7 @@
 #define ATTRIBUTES_QUERY ESC "[c" /* the answer is like ESC [ ? 62 ; 4 ; 22 c, where 4 means sixel */
 enum { ANSWER_SIZE = 1024, CTRL_C = 3 };
 
-/* Finds the answer to ATTRIBUTES_QUERY; NULL: not received yet. */
+/* Finds the answer to ATTRIBUTES_QUERY. NULL: it has not arrived yet. */
 static const char *attributes_in(const char *answer)
 {
     for (const char *at = answer; (at = strstr(at, ESC "[?")); at++) {
@@ -43,7 +43,7 @@ static bool has_attribute(const char *attributes, long wanted)
     return false;
 }
 
-/* Reads until the attributes have come or the time is over. Returns true for Ctrl-C. */
+/* Reads until the answer about attributes has arrived, or the time is over. Returns true for Ctrl-C. */
 static bool listen(int fd, char answer[ANSWER_SIZE])
 {
     const double end = kd_clock_ms() + KD_TERMINAL_WAIT_MS;
@@ -66,8 +66,8 @@ static bool listen(int fd, char answer[ANSWER_SIZE])
     return false;
 }
 
-/* Sends `query` and reads the answer, "" if there is none. Echo and signal keys are off meanwhile: a signal could
- * otherwise leave the terminal in raw mode. */
+/* Sends `query` and reads the answer; "" if there is none. Meanwhile echo and signal keys are off, because a signal
+ * could leave the terminal in raw mode. */
 static void ask(int fd, const char *query, char answer[ANSWER_SIZE])
 {
     struct termios before, raw;

@@ -7,20 +7,21 @@
 
 struct kd_terminal {
     bool is;                /* standard output is a terminal */
-    bool kitty, sixel;      /* protocols that it has confirmed */
-    uint32_t width, height; /* of the text area in pixels; 0: unknown */
-    uint32_t columns, rows; /* of the text area in characters */
+    bool kitty, sixel;      /* protocols that the terminal has confirmed */
+    uint32_t width, height; /* size of the text area in pixels; 0: unknown */
+    uint32_t columns, rows; /* size of the text area in characters */
 };
 
-/* Sends queries as escape sequences to /dev/tty and waits at most KD_TERMINAL_WAIT_MS for the answers: kitty's graphics
- * query; the text area in pixels if the system does not report it; and last the primary device attributes, which every
- * terminal answers. Restores the terminal's settings. A terminal that does not answer has no graphics protocol. */
+/* Sends queries as escape sequences to /dev/tty, and waits at most KD_TERMINAL_WAIT_MS for the answers. The queries are
+ * kitty's graphics query, the size of the text area in pixels if the system does not report it, and last the primary
+ * device attributes, which every terminal answers. Restores the terminal's settings. A terminal that does not answer
+ * counts as having no graphics protocol. */
 enum { KD_TERMINAL_WAIT_MS = 2000 };
 struct kd_terminal kd_terminal_ask(void);
 
-/* Computes the largest size with the same aspect ratio that fits in the terminal above `lines` lines of text, not
- * larger than the present size unless `enlarge`. The size is unchanged if the terminal's is unknown. At least one
- * pixel. */
+/* Computes the largest size that fits in the terminal above `lines` lines of text, with the same aspect ratio and at
+ * least one pixel. Unless `enlarge` is true, the size does not grow. If the terminal's size is unknown, it does not
+ * change. */
 void kd_terminal_fit(const struct kd_terminal *terminal, uint32_t lines, bool enlarge, uint32_t *width,
                      uint32_t *height);
 

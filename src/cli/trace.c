@@ -39,7 +39,7 @@ done:
 
 void kd_trace_finish(struct kd_described_steps *trace) { kd_ray_path_finish(&trace->path); }
 
-/* Writes a value: residuals with few digits, others with as many as the precision has. */
+/* Writes a value. A residual gets few digits, any other value as many as the precision has. */
 static enum kd_status put_cell(const struct kd_rays_steps *steps, const struct kd_steps_column *column, double x,
                                struct kd_buffer *out)
 {
@@ -162,7 +162,7 @@ enum kd_status kd_trace_json(const struct kd_described_steps *trace, struct kd_b
         { "orders", p->orders },
         { "spin", p->spin },
         { "inclination_deg", p->inclination_deg },
-        { "r", p->r }, /* not finite: the ray comes from infinity */
+        { "r", p->r }, /* not finite if the ray comes from infinity */
         { "alpha", steps->alpha },
         { "beta", steps->beta },
         { "lambda", trace->motion.lambda },

@@ -68,8 +68,8 @@ static enum kd_status choose(const struct arguments *arguments, const struct kd_
                         getenv("TMUX") ? ", or tmux, which stands before it, cannot" : "", remedy);
 }
 
-/* Reads the document if it is a picture made by kerrd. *picture stays empty for anything else, which the scene's
- * options read. */
+/* If the document is a picture that kerrd has made, reads it. Otherwise *picture stays empty, and the options of the
+ * scene read the document. */
 static enum kd_status look(const struct arguments *arguments, struct kd_buffer *picture, struct kd_scene *scene,
                            struct kd_error *error)
 {
@@ -77,7 +77,7 @@ static enum kd_status look(const struct arguments *arguments, struct kd_buffer *
     struct stat about;
     enum kd_status status;
     if (!options->document || !strcmp(options->document, "-") || stat(options->document, &about) ||
-        !S_ISREG(about.st_mode)) /* a pipe can be read only once, so it is left to the scene's options */
+        !S_ISREG(about.st_mode)) /* a pipe can be read only once, so the options of the scene read it */
         return KD_OK;
     KD_TRY(kd_file_read(options->document, PICTURE_MAX, picture, error));
     if (!picture->size || kd_format_of_bytes(picture->data, picture->size) != &kd_format_png) {
@@ -128,7 +128,7 @@ done:
     return status;
 }
 
-/* Renders the scene at the size that fits. */
+/* Renders the scene at the size that fits in the terminal. */
 static enum kd_status show_scene(struct arguments *arguments, struct kd_scene *scene, struct kd_buffer *out,
                                  struct kd_error *error)
 {

@@ -15,22 +15,23 @@ struct kd_canvas {
 
 #define KD_CANVAS_INK ((struct kd_map_colour) { 0.92, 0.92, 0.92 })
 
-/* One pixel; x and y must be inside. Put: encoded sRGB in [0, 1], rounded; darken: to a fifth of the present value. */
+/* kd_canvas_put sets one pixel to encoded sRGB in [0, 1], rounded. kd_canvas_darken reduces it to a fifth of its value.
+ * x and y must be inside the canvas. */
 void kd_canvas_put(const struct kd_canvas *canvas, uint32_t x, uint32_t y, struct kd_map_colour colour);
 void kd_canvas_darken(const struct kd_canvas *canvas, uint32_t x, uint32_t y);
 
-/* A rectangle, which must be inside. */
+/* Fills a rectangle, which must be inside the canvas. */
 void kd_canvas_fill(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
                     struct kd_map_colour colour);
 
-/* Text in the letters of image/font.h, `dot` pixels a dot, from x on, without letters that would end beyond `end`;
- * and the width of a text. */
+/* Writes a text in the letters of image/font.h, with `dot` pixels a dot, from x on; letters that would end beyond `end`
+ * are left out. kd_canvas_text_width: the width of a text. */
 void kd_canvas_write(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t end, uint32_t dot,
                      const char *text);
 uint32_t kd_canvas_text_width(uint32_t dot, const char *text);
 
-/* Pixels a dot: a whole number such that `width` dots fit the picture's width and `height` dots take at most a
- * seventh of its height, but at least 1. */
+/* The number of pixels a dot: the largest for which `width` dots fit the picture's width and `height` dots take at most
+ * a seventh of its height, but at least 1. */
 uint32_t kd_canvas_dot(const struct kd_canvas *canvas, uint32_t width, uint32_t height);
 
 #endif

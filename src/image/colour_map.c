@@ -5,14 +5,14 @@
 /* Linear sRGB, which may be outside [0, 1]. */
 struct linear { double r, g, b; };
 
-/* CIE 15:2004, the inverse of f(t), which is t^(1/3) above (6/29)^3 and its tangent below. */
+/* The inverse of f(t) of CIE 15:2004, which is t^(1/3) above (6/29)^3 and its tangent below. */
 static double inverse_f(double t)
 {
     const double d = 6.0 / 29;
     return t > d ? t * t * t : 3 * d * d * (t - 4.0 / 29);
 }
 
-/* From CIELAB, with the white and the matrix of sRGB (IEC 61966-2-1). */
+/* Converts from CIELAB, with the white and the matrix of sRGB (IEC 61966-2-1). */
 static struct linear of_lab(double lightness, double chroma, double hue)
 {
     double fy = (lightness + 16) / 116;
@@ -25,7 +25,7 @@ static struct linear of_lab(double lightness, double chroma, double hue)
     };
 }
 
-/* The tolerance is for the white of the matrix, which is (1, 1, 1) only to 1e-6. */
+/* Whether sRGB can show the colour. The tolerance is for the white of the matrix, which is (1, 1, 1) only to 1e-6. */
 static bool shows(struct linear c)
 {
     return fmin(fmin(c.r, c.g), c.b) >= -2e-6 && fmax(fmax(c.r, c.g), c.b) <= 1 + 2e-6;
@@ -50,7 +50,7 @@ static double encode(double c)
     return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055;
 }
 
-/* hue in degrees. */
+/* hue: in degrees. */
 static struct kd_map_colour colour(double lightness, double chroma, double hue)
 {
     struct linear c = of_lab(lightness, chroma, hue * (M_PI / 180));
@@ -65,7 +65,7 @@ static double chroma_of(double lightness, double hue, double limit)
 static struct kd_map_colour sequential(double x)
 {
     double lightness = 8 + 86 * x, hue = 310 - 208 * x, most = chroma_of(lightness, hue, 140);
-    return colour(lightness, pow(pow(most, -6) + pow(58, -6), -1.0 / 6), hue); /* a smooth minimum of both */
+    return colour(lightness, pow(pow(most, -6) + pow(58, -6), -1.0 / 6), hue); /* a smooth minimum of `most` and 58 */
 }
 
 static struct kd_map_colour heat(double x)

@@ -3,9 +3,10 @@
  *
  *   SEQUENTIAL   L* from 8 to 94 at a constant rate, violet, blue, green, yellow: also ordered in grey
  *   HEAT         L* from 0 to 100 at a constant rate, black, red, orange, white: for brightness
- *   DIVERGING    L* from 36 up to 94 at 1/2 and down again, red, white, blue: for values with a middle, as 1 for g;
- *                red is below it
- *   CYCLIC       L* 70 throughout, hue once round: for angles; its ends have the same colour
+ *   DIVERGING    L* from 36 up to 94 at 1/2 and down again, red, white, blue: for values with a middle, such as 1 for
+ *   g;
+ *                red is below the middle
+ *   CYCLIC       L* 70 throughout, hue once round: for angles; both ends have the same colour
  *   CATEGORICAL  hues by the golden angle: x is the number of a class, 0, 1, 2, ... */
 #ifndef KD_IMAGE_COLOUR_MAP_H
 #define KD_IMAGE_COLOUR_MAP_H
@@ -18,11 +19,11 @@ enum kd_colour_map { KD_MAP_SEQUENTIAL, KD_MAP_HEAT, KD_MAP_DIVERGING, KD_MAP_CY
 /* Encoded sRGB in [0, 1]. */
 struct kd_map_colour { double r, g, b; };
 
-/* x is clamped to [0, 1]; for CATEGORICAL it is a whole number from 0 on. 2 us. */
+/* The colour at x. x is clamped to [0, 1]; for CATEGORICAL it is a whole number from 0 on. 2 us. */
 struct kd_map_colour kd_colour_map_at(enum kd_colour_map map, double x);
 
-/* The same from a table, for many pixels: within 1/150 of a channel. For CATEGORICAL at[i] is the colour of class i.
- * 2 ms. */
+/* The colours of kd_colour_map_at from a table, for many pixels: within 1/150 of a channel. For CATEGORICAL at[i] is
+ * the colour of class i. 2 ms. */
 enum { KD_MAP_ENTRIES = 1024 };
 struct kd_map_table { struct kd_map_colour at[KD_MAP_ENTRIES]; };
 void kd_colour_map_fill(struct kd_map_table *table, enum kd_colour_map map);
@@ -37,7 +38,7 @@ struct kd_map_scale {
     double low, high; /* values at the ends of the map; if logarithmic, both must be above 0 */
     bool logarithmic;
 };
-/* Place on the map: 0 at low, 1 at high, not clamped; 0 if low equals high. */
+/* Place on the map: 0 at low, 1 at high; values beyond are not clamped. 0 if low equals high. */
 double kd_map_scale_place(const struct kd_map_scale *scale, double value);
 
 #endif

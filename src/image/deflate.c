@@ -70,12 +70,12 @@ void kd_deflate_destroy(struct kd_deflate *deflate)
     free(deflate);
 }
 
-/* Bytes of an empty stored block (RFC 1951, 3.2.4) after its three bits and the padding of their byte. */
+/* An empty stored block (RFC 1951, 3.2.4): the bytes after its three header bits and the padding to a whole byte. */
 static const uint8_t empty_block[4] = { 0, 0, 0xff, 0xff };
 
-/* Turns a complete stream into a piece: its last block is no longer marked as last, and an empty one follows. Bits
- * after a stream's end are zeros, as are the three bits of that block. Returns the size; there must be room for 5
- * more bytes. 0: it is not a deflate stream. */
+/* Turns a complete stream into a piece: its last block is no longer marked as last, and an empty block follows. The
+ * bits after a stream's end are zeros, and so are the three header bits of the empty block. Returns the size; there
+ * must be room for 5 more bytes. 0: the bytes are not a deflate stream. */
 static size_t make_piece(uint8_t *stream, size_t size)
 {
     struct kd_deflate_walk walk;
@@ -117,7 +117,7 @@ static enum kd_status by_isal(struct kd_deflate *deflate, const void *data, size
     stream->level_buf_size = sizeof deflate->level_memory;
     stream->end_of_stream = last;
     stream->flush = last ? NO_FLUSH : SYNC_FLUSH;
-    stream->next_in = (uint8_t *)data; /* it only reads */
+    stream->next_in = (uint8_t *)data; /* igzip only reads the data */
     stream->avail_in = (uint32_t)size;
     enum kd_status status = KD_OK;
     do {
@@ -146,7 +146,7 @@ enum kd_status kd_deflate_piece(struct kd_deflate *deflate, const void *data, si
     return status;
 }
 
-/* A window of 32 KiB, and a word on the level, chosen such that the two bytes are a multiple of 31 (RFC 1950, 2.2). */
+/* The two bytes state a window of 32 KiB and the level, and are chosen to be a multiple of 31 (RFC 1950, 2.2). */
 void kd_zlib_head(int level, uint8_t to[2])
 {
     to[0] = 0x78;
@@ -155,8 +155,8 @@ void kd_zlib_head(int level, uint8_t to[2])
 
 uint32_t kd_zlib_sum(const void *data, size_t size) { return libdeflate_adler32(1, data, size); }
 
-/* Adler-32 (RFC 1950, 8.2): a is 1 plus the sum of all bytes, b the sum of a after each byte, modulo a prime. After
- * other data, a is larger by its value there minus the initial 1, and so is each a that b sums. */
+/* Adler-32 (RFC 1950, 8.2): a is 1 plus the sum of all bytes, b the sum of a after each byte, modulo a prime. If other
+ * data precede, a is larger by its value after these data minus the initial 1, and so is each a that b sums. */
 uint32_t kd_zlib_sum_join(uint32_t sum, uint32_t other, size_t size)
 {
     enum { PRIME = 65521 };

@@ -1,7 +1,7 @@
 /* Makes deflate streams (RFC 1951) in pieces, by libraries that are several times faster than zlib. Pieces may be made
- * independently, each by its own struct kd_deflate; concatenated they form a stream, as in pigz: each but the last ends
- * with an empty stored block, which ends on a byte boundary. A piece does not refer to earlier ones: for 512 KiB that
- * costs less than 1 % (docs/decisions/0004-live-png.md).
+ * independently, each by its own struct kd_deflate. Concatenated they form a stream, as in pigz: each piece but the
+ * last ends with an empty stored block, which ends on a byte boundary. A piece does not refer to earlier ones; for
+ * pieces of 512 KiB that costs less than 1 % (docs/decisions/0004-live-png.md).
  *
  * One thread at a time uses a struct kd_deflate; it keeps its working memory between calls. */
 #ifndef KD_IMAGE_DEFLATE_H
@@ -19,8 +19,8 @@ enum kd_deflate_engine {
     KD_DEFLATE_COUNT
 };
 const char *kd_deflate_name(enum kd_deflate_engine engine); /* "libdeflate", "isa-l" */
-bool kd_deflate_has(enum kd_deflate_engine engine);         /* built in */
-enum kd_deflate_engine kd_deflate_fastest(void);            /* among those built in */
+bool kd_deflate_has(enum kd_deflate_engine engine);         /* whether the engine is built in */
+enum kd_deflate_engine kd_deflate_fastest(void);            /* the fastest engine among those built in */
 
 struct kd_deflate;
 /* level: 0 to 12, as in libdeflate; ISA-L has only 1. KD_EINVAL for an engine that is not built in. */
@@ -38,7 +38,7 @@ enum kd_status kd_deflate_piece(struct kd_deflate *deflate, const void *data, si
 /* A zlib stream (RFC 1950) consists of these two bytes, the pieces, and the big-endian checksum of all data. */
 void kd_zlib_head(int level, uint8_t to[2]);
 uint32_t kd_zlib_sum(const void *data, size_t size);
-/* Checksum of two data in sequence, from the checksum of each; size: bytes of the second. */
+/* Checksum of two pieces of data in sequence, from the checksum of each; size: bytes of the second. */
 uint32_t kd_zlib_sum_join(uint32_t sum, uint32_t other, size_t size);
 
 #endif

@@ -11,8 +11,8 @@ struct bits {
     size_t taken;
 };
 
-/* A Huffman code (RFC 1951, 3.2.2). Codes of up to FAST bits are in a table indexed by the next bits: the length of
- * a symbol with its extra bits, and its kind. Longer ones are searched among the sorted symbols, as in Mark Adler's
+/* A Huffman code (RFC 1951, 3.2.2). Codes of up to FAST bits are in a table indexed by the next bits: the length of a
+ * symbol with its extra bits, and its kind. Longer codes are searched among the sorted symbols, as in Mark Adler's
  * puff.c. */
 enum kind { LONG, PLAIN, LENGTH, END };
 struct entry { uint8_t bits, kind; };
@@ -21,7 +21,7 @@ struct code {
     uint16_t count[BITS_MAX + 1], symbols[LITERALS];
 };
 
-/* 3.2.5: extra bits of lengths, from symbol 257 on, and of distances. */
+/* Extra bits of lengths, from symbol 257 on, and of distances (section 3.2.5). */
 static const uint8_t length_extra[29] = { 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2,
                                           2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0 };
 static const uint8_t distance_extra[30] = { 0, 0, 0, 0, 1, 1, 2, 2,  3,  3,  4,  4,  5,  5,  6,
@@ -54,7 +54,7 @@ static inline bool drop(struct bits *b, unsigned n)
     return true;
 }
 
-/* n: 0 to 16. BAD: not enough bits. */
+/* Takes n bits, 0 to 16. BAD: there are not enough bits. */
 static int take(struct bits *b, unsigned n)
 {
     refill(b);
@@ -109,7 +109,7 @@ static bool make(struct code *code, const uint8_t *lengths, unsigned n, bool dis
     return true;
 }
 
-/* The symbol of the code in the next bits, with its length in *bits; BAD: none. */
+/* Finds the symbol of the code in the next bits, and the code's length in *bits; BAD: there is none. */
 static int find(const struct code *code, uint64_t held, unsigned *bits)
 {
     int value = 0, first = 0, place = 0;

@@ -1,5 +1,5 @@
-/* Finds where the last block of a deflate stream begins and ends (RFC 1951). libdeflate makes complete streams only:
- * this shows what to change so that another stream may follow. Pure, any thread. */
+/* Finds where the last block of a deflate stream begins and ends (RFC 1951). libdeflate makes complete streams only;
+ * the result shows what to change in one so that another stream may follow. Pure, any thread. */
 #ifndef KD_IMAGE_DEFLATE_WALK_H
 #define KD_IMAGE_DEFLATE_WALK_H
 
@@ -10,10 +10,10 @@
 /* Bits count from the start of the stream; the lowest bit of a byte comes first (RFC 1951, 3.1.1). */
 struct kd_deflate_walk {
     size_t last; /* position of the bit BFINAL of the last block */
-    size_t end;  /* position of the first bit after it */
+    size_t end;  /* position of the first bit after that block */
 };
 
-/* False if the bytes are not a deflate stream. It skips symbols without decoding their data, several times as fast
+/* Returns false if the bytes are not a deflate stream. Skips symbols without decoding their data, several times as fast
  * as level 1 compresses. */
 bool kd_deflate_walk(const uint8_t *stream, size_t size, struct kd_deflate_walk *out);
 

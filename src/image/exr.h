@@ -27,8 +27,8 @@ struct kd_exr {
 /* Appends a file. KD_ENOMEM; KD_EINVAL for what the format cannot hold. */
 enum kd_status kd_exr_encode(const struct kd_exr *image, struct kd_buffer *out, struct kd_error *error);
 
-/* Appends the value of a file's string attribute to *out. KD_EINVAL if there is none, or the file is not a complete
- * EXR file. */
+/* Appends the value of a file's string attribute to *out. KD_EINVAL if the attribute is missing, or the file is not a
+ * complete EXR file. */
 enum kd_status kd_exr_find_text(const void *data, size_t size, const char *name, struct kd_buffer *out,
                                 struct kd_error *error);
 

@@ -9,7 +9,7 @@ enum {
     VALUE = 10,
     PIECE = 67,
     ROOM = 20
-}; /* start of a value; most characters of a text between quotes together with a "&"; width of a number */
+}; /* column at which a value starts; most characters of a text between quotes together with a "&"; width of a number */
 
 static enum kd_status put_card(struct kd_buffer *cards, const char *text)
 {
@@ -106,8 +106,8 @@ uint32_t kd_fits_sum(uint32_t sum, const void *bytes, size_t size)
     return (uint32_t)all;
 }
 
-/* Sixteen letters and digits whose sum, at their place, is the complement of another sum: appendix J.2 of the
- * standard. */
+/* Encodes a sum as sixteen letters and digits. At their place in the header, their own sum is the complement of `sum`:
+ * appendix J.2 of the standard. */
 static void encode_sum(uint32_t sum, char out[17])
 {
     uint32_t value = ~sum;
@@ -170,7 +170,7 @@ static enum kd_status put_data(struct kd_buffer *out, const struct kd_fits_array
     return status ? status : pad(out, from, 0);
 }
 
-/* Cards that describe the data. */
+/* Appends the cards that describe the data. */
 static enum kd_status put_shape(struct kd_buffer *out, const struct kd_fits_shape *shape)
 {
     char key[16];

@@ -3,7 +3,7 @@
  *
  *     struct kd_buffer cards = { 0 };
  *     kd_fits_text(&cards, "OBJECT", "Kerr black hole", NULL);
- *     kd_fits_image(&file, true, &image, &cards);      the first HDU of the file; others with false */
+ *     kd_fits_image(&file, true, &image, &cards);      the first HDU of the file; false for later ones */
 #ifndef KD_IMAGE_FITS_H
 #define KD_IMAGE_FITS_H
 
@@ -16,8 +16,8 @@
 
 enum { KD_FITS_BLOCK = 2880, KD_FITS_CARD = 80 };
 
-/* Each appends a card; a text takes as many as it needs. key: at most 8 of A-Z, 0-9, - and _. comment: follows the
- * value as far as there is room; NULL: none. Characters other than printable ASCII become "?". KD_ENOMEM. */
+/* Each appends a card; a text takes as many cards as it needs. key: at most 8 of A-Z, 0-9, - and _. comment: follows
+ * the value as far as there is room; NULL: none. Characters other than printable ASCII become "?". KD_ENOMEM. */
 enum kd_status kd_fits_text(struct kd_buffer *cards, const char *key, const char *value, const char *comment);
 /* value must be finite */
 enum kd_status kd_fits_real(struct kd_buffer *cards, const char *key, double value, const char *comment);
@@ -29,7 +29,7 @@ struct kd_fits_array {
     const float *data;                /* rows from the top, channels of a pixel adjacent; NaN: no value */
 };
 
-/* Appends an HDU: the primary one, or an IMAGE extension. Its first row is the picture's lowest one, as in
+/* Appends an HDU: the primary one, or an IMAGE extension. The first row in the file is the picture's lowest one, as in
  * astronomy. KD_ENOMEM. */
 enum kd_status kd_fits_image(struct kd_buffer *out, bool primary, const struct kd_fits_array *array,
                              const struct kd_buffer *cards);
@@ -47,8 +47,8 @@ struct kd_fits_shape {
 /* Appends the header. data_sum: kd_fits_sum of all data. KD_ENOMEM. */
 enum kd_status kd_fits_head(struct kd_buffer *out, const struct kd_fits_shape *shape, const struct kd_buffer *cards,
                             uint32_t data_sum);
-/* Sum of data (ones' complement, of big-endian words), in pieces of whole words, starting from sum 0; and the sum of
- * two sums. */
+/* kd_fits_sum: sum of data (ones' complement, of big-endian words), in pieces of whole words, starting from sum 0.
+ * kd_fits_add_sums: the sum of two sums. */
 uint32_t kd_fits_sum(uint32_t sum, const void *data, size_t size);
 uint32_t kd_fits_add_sums(uint32_t a, uint32_t b);
 /* Number of zeros that follow `size` bytes of data. */
@@ -57,15 +57,16 @@ static inline size_t kd_fits_padding(uint64_t size)
     return (size_t)((KD_FITS_BLOCK - size % KD_FITS_BLOCK) % KD_FITS_BLOCK);
 }
 
-/* Size of the header at the start of the data, a whole number of blocks; 0 if its end is not included. */
+/* Size of the header at the start of the data, a whole number of blocks; 0 if the data do not include the header's
+ * end. */
 size_t kd_fits_head_size(const void *data, size_t size);
 /* Value of a whole-number card of a header; false if there is none. */
 bool kd_fits_number(const void *head, size_t size, const char *key, long long *out);
 /* Value of a numeric card of a header; NAN if there is none. */
 double kd_fits_find_real(const void *head, size_t size, const char *key);
 
-/* Appends the text of a card of the primary header to *out, with its continuations joined. KD_EINVAL if it is
- * missing, or this is not a FITS file. */
+/* Appends the text of a card of the primary header to *out, with its continuations joined. KD_EINVAL if the card is
+ * missing, or the data are not a FITS file. */
 enum kd_status kd_fits_find(const void *data, size_t size, const char *key, struct kd_buffer *out);
 
 #endif

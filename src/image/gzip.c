@@ -3,7 +3,7 @@
 #include <libdeflate.h>
 #include <stdlib.h>
 
-enum { LEVEL = 6 }; /* a table of numbers becomes a seventh smaller than with level 1 */
+enum { LEVEL = 6 }; /* makes a table of numbers a seventh smaller than level 1 does */
 
 bool kd_gzip(struct kd_buffer *buffer)
 {

@@ -6,7 +6,7 @@
 
 #include <stdbool.h>
 
-/* False: the buffer is unchanged, because the stream would not be shorter or memory ran out. */
+/* Returns false if the buffer is unchanged, because the stream would not be shorter or memory ran out. */
 bool kd_gzip(struct kd_buffer *buffer);
 
 #endif

@@ -18,7 +18,7 @@ enum {
     SOS = 0xda,
 };
 
-/* State of one compression: libjpeg's, and that of its callbacks. */
+/* State of one compression: that of libjpeg, and that of the callbacks. */
 struct work {
     struct jpeg_compress_struct info; /* first member, so that libjpeg's pointer can be cast to ours */
     struct jpeg_error_mgr errors;
@@ -121,15 +121,15 @@ static enum kd_status encode_strip(void *user, size_t strip, struct kd_buffer *o
         work->info.image_height = (JDIMENSION)(rest < p->rows ? rest : p->rows);
         compress(work, p->pixels + 3 * first * p->width, p->quality, p->strip_rows);
     } else {
-        status = KD_ENOMEM; /* no other error is possible */
+        status = KD_ENOMEM; /* compress() can fail for lack of memory only */
     }
     jpeg_destroy_compress(&work->info);
     free(work);
     return status;
 }
 
-/* Offset of the scan's data. On the way it sets the height in the frame header to that of all strips. libjpeg writes
- * segments of a marker, a length of two bytes that counts itself, and data, up to the scan (T.81, B.1.1.4). */
+/* Offset of the scan's data. On the way the function sets the height in the frame header to that of all strips. Up to
+ * the scan libjpeg writes segments: a marker, a length of two bytes that counts itself, and data (T.81, B.1.1.4). */
 static size_t scan_of(const struct kd_buffer *jpeg, uint32_t height)
 {
     for (size_t at = 2;; at += 2 + (size_t)(jpeg->data[at + 2] << 8 | jpeg->data[at + 3])) {
@@ -143,9 +143,9 @@ static size_t scan_of(const struct kd_buffer *jpeg, uint32_t height)
     }
 }
 
-/* The first strip's file provides the header; of the others only the scans follow, each after a restart marker. All
- * have the same tables, and a decoder resets its state at such a marker, as an encoder of the whole picture does
- * (T.81, F.1.1.5.1). */
+/* The first strip's file provides the header; of the other files only the scans follow, each after a restart marker.
+ * All strips have the same tables, and a decoder resets its state at such a marker, as an encoder of the whole picture
+ * does (T.81, F.1.1.5.1). */
 static enum kd_status join_strip(void *user, size_t strip, const struct kd_buffer *bytes)
 {
     const struct picture *p = user;
@@ -161,7 +161,7 @@ static enum kd_status join_strip(void *user, size_t strip, const struct kd_buffe
     return status;
 }
 
-/* Optimised tables are made for the whole picture, which is then one strip. */
+/* Cuts a picture into strips. Optimised tables are made for the whole picture, which is then one strip. */
 static void cut(struct picture *p)
 {
     const uint32_t side = p->quality < KD_JPEG_FULL_COLOUR ? 16 : 8, across = (p->width + side - 1) / side;

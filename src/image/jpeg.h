@@ -1,9 +1,9 @@
-/* Writes JPEG: 8-bit RGB pictures of moving views, for which size matters more than the last bit of a pixel. Kept files
- * are PNG. Any thread.
+/* Writes JPEG: 8-bit RGB pictures of moving views, for which size matters more than the last bit of a pixel. Files that
+ * are kept are PNG. Any thread.
  *
- * Chroma subsampling, chosen by measurement (docs/decisions/0004-live-png.md): below KD_JPEG_FULL_COLOUR half width and
- * height (4:2:0), from there on none (4:4:4). Below KD_JPEG_THRIFTY Huffman tables are optimised for the picture: 5 to
- * 12 % fewer bytes for twice the time.
+ * Chroma subsampling depends on the quality and was chosen by measurement (docs/decisions/0004-live-png.md): below
+ * KD_JPEG_FULL_COLOUR half width and height (4:2:0), from there on none (4:4:4). Below KD_JPEG_THRIFTY Huffman tables
+ * are optimised for the picture, for 5 to 12 % fewer bytes in twice the time.
  *
  * Strips of at least 256 Ki pixels are encoded separately, on as many cores as are idle, as restart intervals of one
  * scan: the decoded pixels are those of a scan without intervals. Below KD_JPEG_THRIFTY, and for smaller pictures,

@@ -15,13 +15,13 @@ enum {
     GAP = 3,
     MARGIN = 4,
     PANEL_WIDTH = BAR_WIDTH + 2 * PADDING +
-        4 * KD_FONT_ADVANCE, /* numbers at the ends of the bar extend beyond it by half their length */
+        4 * KD_FONT_ADVANCE, /* numbers at the ends of the bar extend beyond the bar by half their length */
     PANEL_HEIGHT = 2 * PADDING + 2 * KD_FONT_HEIGHT + BAR_HEIGHT + TICK + 2 * GAP,
 };
 _Static_assert(PANEL_WIDTH + 2 * MARGIN <= KD_LEGEND_LEAST_WIDTH && PANEL_HEIGHT + 2 * MARGIN <= KD_LEGEND_LEAST_HEIGHT,
                "it fits");
 
-/* A panel on a canvas: its origin, pixels a dot, and its width in pixels. */
+/* A panel on a canvas: its origin in pixels, the number of pixels a dot, and its width in pixels. */
 struct panel {
     const struct kd_canvas *canvas;
     uint32_t left, top, dot, width;
@@ -39,7 +39,7 @@ static void write_text(const struct panel *p, uint32_t x, uint32_t y, const char
     kd_canvas_write(p->canvas, p->left + x, p->top + y, p->left + p->width, p->dot, text);
 }
 
-/* Centred at x, kept inside the panel. */
+/* Writes a text centred at x, shifted if necessary to stay inside the panel. */
 static void write_centred(const struct panel *p, double x, uint32_t y, const char *text)
 {
     double width = kd_canvas_text_width(p->dot, text), most = (double)p->width - width - p->dot;
@@ -53,7 +53,7 @@ struct row {
     int decades;
 };
 
-/* Four digits, with an exponent if that is shorter by two characters. */
+/* Writes a number in four digits, with an exponent if that is shorter by two characters. */
 static void label(double value, char out[12])
 {
     char plain[32], power[32];
@@ -92,7 +92,7 @@ static size_t numbers(const struct kd_map_scale *scale, const struct row *row, s
     return n;
 }
 
-/* Whether at least two characters are left between any two. */
+/* Whether at least two characters' width is left between any two numbers. */
 static bool fit(const struct kd_map_scale *scale, double room, const struct kd_tick *ticks, size_t n)
 {
     if (n > KD_LEGEND_TICKS)
@@ -128,8 +128,8 @@ size_t kd_legend_ticks(const struct kd_map_scale *scale, double room, struct kd_
     size_t n = scale->logarithmic ? logarithmic_ticks(scale, room, out) : 0;
     if (n > 1 || (n && fmax(scale->low, scale->high) > 10 * fmin(scale->low, scale->high)))
         return n;
-    /* Steps of 1, 2, 5, 10, ... times a hundredth to a tenth of the length: the finest that fits. The same within a
-     * decade. */
+    /* Steps of 1, 2, 5, 10, ... times a hundredth to a tenth of the length: the finest that fits. A logarithmic scale
+     * that stays within a decade has such numbers, too. */
     static const double factors[] = { 1, 2, 5 };
     for (int i = 0; i < 9; i++) {
         const struct row row = { .step = step * factors[i % 3] * pow(10, i / 3) };
@@ -154,7 +154,7 @@ static void draw_bar(const struct panel *p, const struct kd_legend *legend, uint
     }
 }
 
-/* As many boxes as fit the panel. */
+/* Draws as many boxes as fit the panel. */
 static void draw_classes(const struct panel *p, const struct kd_legend *legend, uint32_t x, uint32_t y)
 {
     uint32_t n = legend->classes < 12 ? legend->classes : 12, each = BAR_WIDTH * p->dot / (n ? n : 1);
@@ -172,7 +172,7 @@ uint32_t kd_legend_dot(const struct kd_canvas *canvas)
     return kd_canvas_dot(canvas, PANEL_WIDTH + 2 * MARGIN, PANEL_HEIGHT);
 }
 
-/* Width of the bar, or of a title that ends at `title_end`, limited by the picture. */
+/* Width of the panel: that of the bar, or of a title that ends at `title_end`; limited by the picture's. */
 static uint32_t panel_width(const struct kd_canvas *canvas, uint32_t dot, uint32_t title_end)
 {
     const uint32_t least = PANEL_WIDTH * dot, most = canvas->width - 2 * MARGIN * dot,

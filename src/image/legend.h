@@ -22,8 +22,8 @@ enum { KD_LEGEND_LEAST_WIDTH = 160, KD_LEGEND_LEAST_HEIGHT = 90 };
 uint32_t kd_legend_dot(const struct kd_canvas *canvas); /* pixels */
 bool kd_legend_draw(const struct kd_canvas *canvas, const struct kd_legend *legend);
 
-/* Numbers on the bar: as many round numbers as fit without touching. room: length of the bar in widths of a letter.
- * An invalid scale (logarithmic from 0 on) has at most one. */
+/* Numbers on the bar: as many round numbers as fit without touching. room: length of the bar in widths of a letter. An
+ * invalid scale (a logarithmic one from 0 on) has at most one number. */
 struct kd_tick {
     double value;
     char label[12];

@@ -100,7 +100,7 @@ static bool take_word(struct reader *r, const char *word)
     return true;
 }
 
-/* 'text' or "text", without escapes. */
+/* Parses 'text' or "text", without escapes. */
 static bool take_string(struct reader *r, char *out, size_t size)
 {
     skip_blanks(r);
@@ -129,7 +129,7 @@ static bool take_number(struct reader *r, uint64_t *out)
     return r->at > start && (*start != '0' || r->at == start + 1);
 }
 
-/* (), (3,), (3, 2) */
+/* Parses a shape: (), (3,), (3, 2) */
 static enum kd_status take_shape(struct reader *r, uint64_t *shape, size_t most, size_t *n)
 {
     bool comma = true;
@@ -148,7 +148,7 @@ static enum kd_status take_shape(struct reader *r, uint64_t *shape, size_t most,
     return *n == 1 && !comma ? fail(r, "the shape is no tuple") : KD_OK;
 }
 
-/* "<U12", "|S12" */
+/* Whether a type code is that of text, such as "<U12" or "|S12"; sets its type and count. */
 static bool is_text(const char *code, struct kd_npy_field *out)
 {
     for (size_t i = KD_NPY_TEXT; i <= KD_NPY_BYTES; i++) {
@@ -190,7 +190,7 @@ static bool good_name(const struct kd_npy *array, const char *name)
     return *name && !name[strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")];
 }
 
-/* ('name', '<f8') or ('name', '<f8', (3,)) */
+/* Parses a field: ('name', '<f8') or ('name', '<f8', (3,)) */
 static enum kd_status take_field(struct reader *r)
 {
     struct kd_npy *array = r->array;
@@ -346,7 +346,7 @@ enum kd_status kd_npy_read_text(const void *data, size_t size, struct kd_buffer 
     const enum kd_npy_type type = array.fields[0].type;
     if (status)
         return status;
-    /* only here: an empty array may have no valid address */
+    /* computed only here, because an empty array may have no valid address */
     const uint8_t *p = (const uint8_t *)data + array.header_size;
     if (array.n_fields != 1 || array.fields[0].name[0] ||
         !(type == KD_NPY_U1 ? array.n_dimensions == 1 : type >= KD_NPY_TEXT && array.n_dimensions == 0))

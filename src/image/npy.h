@@ -19,8 +19,8 @@ enum {
     KD_NPY_HEADER_MAX = 10000, /* limit of NumPy's own reader */
 };
 
-/* The last three types can be written, but only kd_npy_read_text reads them. The last two are for plain elements
- * only: text of `count` characters, padded with NULs, in UTF-32 or as bytes. */
+/* The last three types can be written, but only kd_npy_read_text reads them. The last two are for plain elements only:
+ * a text of `count` characters, padded with NULs, in UTF-32 or as bytes. */
 enum kd_npy_type { KD_NPY_F8, KD_NPY_F4, KD_NPY_U1, KD_NPY_U4, KD_NPY_TEXT, KD_NPY_BYTES };
 
 struct kd_npy_field {
@@ -39,14 +39,14 @@ struct kd_npy {
     uint64_t items;
 };
 
-/* Writes everything up to the first element, a multiple of 64 bytes. */
+/* Writes everything up to the first element; the size of this is a multiple of 64 bytes. */
 enum kd_status kd_npy_write_header(const struct kd_npy *array, struct kd_buffer *out);
 
-/* Parses a whole file: its elements are at data + out->header_size, possibly unaligned. KD_EINVAL with what is
- * wrong, including missing or surplus bytes at the end. */
+/* Parses a whole file: its elements are at data + out->header_size, possibly unaligned. KD_EINVAL with what is wrong,
+ * including missing or surplus bytes at the end. */
 enum kd_status kd_npy_read(const void *data, size_t size, struct kd_npy *out, struct kd_error *error);
 
-/* Appends a text to *out as UTF-8: from an array of no dimension that holds a str, as numpy.array(TEXT) makes it, or
+/* Appends a text to *out as UTF-8: from an array of no dimension that holds a str (as numpy.array(TEXT) makes it) or
  * bytes; or from a list of bytes, |u1. KD_EINVAL with what is wrong; KD_ENOMEM. */
 enum kd_status kd_npy_read_text(const void *data, size_t size, struct kd_buffer *out, struct kd_error *error);
 

@@ -11,7 +11,7 @@
 
 #define MAX_SIDE 32768u
 #define MAX_TEXT (1u << 20)
-#define MAX_CHUNKS 100 /* text chunks: a compressed one of 1 KiB may still unpack to MAX_TEXT */
+#define MAX_CHUNKS 100 /* text chunks; a compressed chunk of 1 KiB may still unpack to MAX_TEXT */
 
 /* libpng leaves a failing call by longjmp. Everything that such a call changes is in this struct, in the frame of
  * the function that cleans up, so that a jump can neither clobber a register variable nor skip a free. */
@@ -54,7 +54,7 @@ static void job_free(png_structp png, png_voidp memory)
     free(memory);
 }
 
-/* Encoding */
+/* Encoding. */
 
 static void sink_write(png_structp png, png_bytep data, size_t size)
 {
@@ -73,7 +73,7 @@ static bool key_ok(const char *key)
     if (length < 1 || length > 79 || key[0] == ' ' || key[length - 1] == ' ' || strstr(key, "  "))
         return false;
     for (size_t i = 0; i < length; i++)
-        if (key[i] < ' ' || key[i] > '~') /* the format allows Latin-1, but only ASCII reads the same everywhere */
+        if (key[i] < ' ' || key[i] > '~') /* PNG allows Latin-1, but only ASCII reads the same everywhere */
             return false;
     return true;
 }
@@ -97,7 +97,7 @@ static enum kd_status check_params(const struct kd_png_params *params, struct kd
             return kd_error_set(error, KD_EINVAL, "PNG text \"%s\" is not UTF-8", text->key);
         total += strlen(text->key) + strlen(text->value);
     }
-    if (total > MAX_TEXT || params->n_text >= MAX_CHUNKS) /* whatever is written must be readable */
+    if (total > MAX_TEXT || params->n_text >= MAX_CHUNKS) /* more could be written, but not read again */
         return kd_error_set(error, KD_EINVAL, "%zu bytes of PNG text in %zu chunks: at most %u in %d", total,
                             params->n_text, MAX_TEXT, MAX_CHUNKS - 1);
     return KD_OK;
@@ -106,7 +106,7 @@ static enum kd_status check_params(const struct kd_png_params *params, struct kd
 static void put_text(struct job *job, const struct kd_png_text *text)
 {
     png_text chunk = {
-        .key = (png_charp)text->key, /* libpng copies both */
+        .key = (png_charp)text->key, /* libpng copies key and text */
         .text = (png_charp)text->value,
         .compression = kd_utf8_ascii(text->value) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE,
         .text_length = strlen(text->value),
@@ -166,7 +166,7 @@ enum kd_status kd_png_encode(const struct kd_png_params *params, struct kd_buffe
     return status;
 }
 
-/* Decoding */
+/* Decoding. */
 
 static void source_read(png_structp png, png_bytep data, size_t size)
 {
@@ -178,9 +178,9 @@ static void source_read(png_structp png, png_bytep data, size_t size)
     job->left -= size;
 }
 
-/* Text in one block: the array, then its strings. Latin-1 chunks become UTF-8. libpng skips a chunk that is too
- * long, unpacks to too much, is damaged or comes after too many others, with only a warning; for which of these it
- * does so differs between 1.6.39 and 1.6.48. The skipped chunk may have been the scene, so a missing text is an
+/* Text in one block: the array, then its strings. Latin-1 chunks become UTF-8. libpng skips a text chunk, with only a
+ * warning, if it is too long, unpacks to too much, is damaged, or comes after too many others; in which of these cases
+ * it does so differs between 1.6.39 and 1.6.48. The skipped chunk may have been the scene, so a missing text is an
  * error. */
 static enum kd_status take_text(struct job *job)
 {
@@ -263,7 +263,7 @@ static void read_info(struct job *job)
 {
     png_set_read_fn(job->png, job, source_read);
     png_set_user_limits(job->png, MAX_SIDE, MAX_SIDE);
-    png_set_chunk_malloc_max(job->png, MAX_TEXT + 128);                   /* including its key */
+    png_set_chunk_malloc_max(job->png, MAX_TEXT + 128);                   /* MAX_TEXT and the key */
     png_set_chunk_cache_max(job->png, MAX_CHUNKS + 1);                    /* libpng accepts two fewer */
     png_set_crc_action(job->png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT); /* damaged text counts as damage, too */
     png_read_info(job->png, job->info);

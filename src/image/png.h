@@ -1,4 +1,4 @@
-/* Reads and writes PNG files: 8- or 16-bit RGB, sRGB, with text chunks. Any thread. libpng reads them and writes
+/* Reads and writes PNG files: 8- or 16-bit RGB, sRGB, with text chunks. Any thread. libpng reads files and writes
  * everything except the pixels, which are encoded on as many cores as are idle (png_strips.h).
  *
  * Pixels are rows from the top, three channels, no padding; 16-bit samples are uint16_t in native byte order. */
@@ -16,8 +16,8 @@ struct kd_png_text { const char *key, *value; }; /* UTF-8; written as iTXt if tE
 struct kd_png_params {
     uint32_t width, height;
     int bit_depth; /* 8 or 16 */
-    /* 0..8: 0 stored, 1 fastest, from 2 on each row with its best filter; levels of libdeflate: the size of zlib's
-     * same level in a third of the time */
+    /* 0..8: 0 stored, 1 fastest, from 2 on each row with its best filter. These are levels of libdeflate; each makes
+     * files of the size of zlib's same level in a third of the time */
     int compression;
     const void *pixels;
     const struct kd_png_text *text;

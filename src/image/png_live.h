@@ -1,5 +1,5 @@
-/* Writes PNG for a live view: 8-bit RGB frames, one after another, fast rather than small. Files with text and 16 bits
- * are written by image/png.h.
+/* Writes PNG for a live view: 8-bit RGB frames, one after another, fast rather than small. image/png.h writes files
+ * with text and with 16 bits.
  *
  *     struct kd_png_live *live;
  *     if (kd_png_live_create(kd_deflate_fastest(), &live, &error)) ...
@@ -12,8 +12,8 @@
  * One thread at a time uses a struct kd_png_live: one for each encoder thread. Frames may differ in size; working
  * memory is kept (png_strips.h). Costs of a frame: bench/results, *-encode.md.
  *
- * The file: IHDR, sRGB, an IDAT for each strip, IEND. It has no text: the metadata of a live frame are sent
- * separately, and a frame to be kept is rendered again, as a file that carries its scene (render/output/png.h). */
+ * The file: IHDR, sRGB, an IDAT for each strip, IEND. It has no text. The metadata of a live frame are sent separately.
+ * A frame to be kept is rendered again, as a file that carries its scene (render/output/png.h). */
 #ifndef KD_IMAGE_PNG_LIVE_H
 #define KD_IMAGE_PNG_LIVE_H
 

@@ -10,7 +10,7 @@
 
 enum { STRIP = 512 << 10, MIB = 1 << 20, ROW_ROOM = 7 /* two rows, and scratch of the filters */ };
 
-/* Working memory of one thread; in a list while unused. */
+/* Working memory of one thread; kept in a list while unused. */
 struct workspace {
     struct workspace *next;
     struct kd_deflate *deflate;
@@ -100,7 +100,7 @@ static bool make_room(uint8_t **memory, size_t *size, size_t wanted)
 {
     if (wanted <= *size)
         return true;
-    free(*memory); /* its contents are not needed, so realloc's copy is avoided */
+    free(*memory); /* the old contents are not needed, so that freeing first avoids realloc's copy */
     *memory = malloc(wanted);
     *size = *memory ? wanted : 0;
     return *memory;

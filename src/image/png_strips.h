@@ -1,13 +1,13 @@
-/* Makes the IDAT chunks of a PNG from its pixels: filtered, as one zlib stream (PNG specification, third edition,
- * W3C 2025, sections 9 to 11). Strips of about 512 KiB are filtered and deflated separately, on as many cores as are
- * idle, and each is an IDAT chunk; a picture below 4 MiB (1 MiB with ISA-L) is one strip. For png.c and png_live.c. */
+/* Makes the IDAT chunks of a PNG from its pixels: filtered, as one zlib stream (PNG specification, third edition, W3C
+ * 2025, sections 9 to 11). Strips of about 512 KiB are filtered and deflated separately, on as many cores as are idle,
+ * and each becomes an IDAT chunk. A picture below 4 MiB (1 MiB with ISA-L) is one strip. For png.c and png_live.c. */
 #ifndef KD_IMAGE_PNG_STRIPS_H
 #define KD_IMAGE_PNG_STRIPS_H
 
 #include "image/deflate.h"
 #include "image/png.h"
 
-/* Appends one chunk. KD_ENOMEM, after which part of it may have been appended. */
+/* Appends one chunk. KD_ENOMEM, after which part of the chunk may have been appended. */
 enum kd_status kd_png_chunk(struct kd_buffer *out, const char type[5], const void *data, size_t size);
 
 /* Working memory, 1 to 2 MiB for each thread that worked concurrently, kept between pictures. One thread at a time

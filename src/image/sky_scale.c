@@ -16,7 +16,7 @@ double kd_sky_scale_bar(const struct kd_sky_scale *scale, uint32_t width)
 
 struct bar {
     char text[24];
-    uint32_t length, wide; /* pixels: of the line; of its text */
+    uint32_t length, wide; /* in pixels: length of the line; width of the text */
 };
 
 static struct bar bar_of(const struct kd_sky_scale *scale, uint32_t width, uint32_t dot)

@@ -1,5 +1,5 @@
-/* Draws the size of a picture on the sky in its upper right corner, as usual in radio astronomy: a bar of a round
- * length, and the beam, a disk with the diameter of its full width at half maximum. Pure functions, any thread. */
+/* Draws the angular scale of a picture in its upper right corner, as usual in radio astronomy: a bar of a round length,
+ * and the beam, a disk with the diameter of its full width at half maximum. Pure functions, any thread. */
 #ifndef KD_IMAGE_SKY_SCALE_H
 #define KD_IMAGE_SKY_SCALE_H
 

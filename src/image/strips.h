@@ -12,7 +12,7 @@ struct kd_strips {
     size_t n;
     /* Appends a strip's bytes. Called on several threads at once. */
     enum kd_status (*encode)(void *user, size_t strip, struct kd_buffer *out);
-    /* Joins a strip to those before: one call at a time, strip 0 first. */
+    /* Joins a strip to the strips before it: one call at a time, strip 0 first. */
     enum kd_status (*join)(void *user, size_t strip, const struct kd_buffer *bytes);
     void *user;
 };

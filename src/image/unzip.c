@@ -19,7 +19,7 @@ static enum kd_status damaged(struct kd_error *error, const char *what)
     return kd_error_set(error, KD_EINVAL, "%s", what);
 }
 
-/* Finds the end record, which only its comment may follow. */
+/* Finds the end record. Only the record's own comment may follow it. */
 static bool find_end(const uint8_t *data, size_t size, size_t *at)
 {
     for (size_t n = END; n <= size && n <= END + COMMENT_MOST; n++)
@@ -68,7 +68,7 @@ static enum kd_status read_end(const uint8_t *data, size_t size, struct director
                                                                 : KD_OK;
 }
 
-/* Takes values that exceed 32 bits from the ZIP64 extra field, where they are in this order (APPNOTE 4.5.3). */
+/* Takes values that exceed 32 bits from the ZIP64 extra field, which has them in this order (APPNOTE 4.5.3). */
 static bool read_long(const uint8_t *extra, size_t size, struct kd_unzip_member *m)
 {
     uint64_t *const wanted[] = { &m->size, &m->packed, &m->at };

@@ -2,7 +2,7 @@
  * thread.
  *
  * Files may be hostile. The directory is read once, and only if it has at most KD_UNZIP_MEMBERS entries. Unpacking a
- * member allocates only as many bytes as the directory gives for it, if these are within the caller's limit. */
+ * member allocates only as many bytes as the directory gives for it, if that is within the caller's limit. */
 #ifndef KD_IMAGE_UNZIP_H
 #define KD_IMAGE_UNZIP_H
 
@@ -15,9 +15,9 @@
 enum { KD_UNZIP_MEMBERS = 1024 };
 
 struct kd_unzip_member {
-    const char *name; /* within the file; not terminated */
+    const char *name; /* points into the file; not terminated */
     size_t name_size;
-    uint64_t size, packed, at; /* at: offset of its own header */
+    uint64_t size, packed, at; /* at: offset of the member's own header */
     uint32_t crc;
     uint16_t method, flags;
 };
@@ -32,11 +32,11 @@ struct kd_unzip {
 /* Reads the directory; the file's bytes must remain valid until kd_unzip_finish. KD_EINVAL with what is wrong, in a
  * sentence that calls the file "it"; KD_ENOMEM. */
 enum kd_status kd_unzip_open(const void *data, size_t size, struct kd_unzip *out, struct kd_error *error);
-void kd_unzip_finish(struct kd_unzip *zip); /* accepts one that could not be opened */
-/* Finds a member; NULL if there is none of this name. The first one if there are several. */
+void kd_unzip_finish(struct kd_unzip *zip); /* accepts a struct that could not be opened */
+/* Finds a member, the first one of this name; NULL if there is none. */
 const struct kd_unzip_member *kd_unzip_find(const struct kd_unzip *zip, const char *name);
-/* Unpacks a member of at most `most` bytes into *out, which must be empty, and stays so on failure. KD_EINVAL with
- * what is wrong, as the end of a sentence: "is longer than ..."; KD_ENOMEM. */
+/* Unpacks a member of at most `most` bytes into *out. *out must be empty, and stays so on failure. KD_EINVAL with what
+ * is wrong, as the end of a sentence: "is longer than ..."; KD_ENOMEM. */
 enum kd_status kd_unzip_take(const struct kd_unzip *zip, const struct kd_unzip_member *member, size_t most,
                              struct kd_buffer *out, struct kd_error *error);
 

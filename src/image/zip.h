@@ -1,5 +1,5 @@
-/* Writes ZIP files (PKWARE APPNOTE 6.3.10) in memory: members stored or deflated, without times, so that the same
- * members give the same bytes. unzip.h reads them. One thread a file. */
+/* Writes ZIP files (PKWARE APPNOTE 6.3.10) in memory. Members are stored or deflated, and have no times, so that the
+ * same members give the same bytes. unzip.h reads such files. One thread a file. */
 #ifndef KD_IMAGE_ZIP_H
 #define KD_IMAGE_ZIP_H
 
@@ -17,7 +17,7 @@ enum kd_status kd_zip_create(struct kd_buffer *out, bool deflated, struct kd_zip
  * *out. KD_ENOMEM. */
 enum kd_status kd_zip_begin(struct kd_zip *zip, const char *name, uint64_t size);
 enum kd_status kd_zip_append(struct kd_zip *zip, const void *data, size_t size);
-/* Counts the missing bytes of the open member as written, without producing them, in order to compute the size of a
+/* Counts the missing bytes of the open member as written, without producing them. This serves to compute the size of a
  * file. KD_ENOMEM. */
 enum kd_status kd_zip_pass_over(struct kd_zip *zip);
 /* Adds a whole member. KD_ENOMEM. */

@@ -16,7 +16,7 @@ struct kd_integral_column {
 struct kd_integral_kind_of {
     const char *title;
     struct kd_integral_column values[KD_INTEGRAL_VALUES],
-        columns[KD_INTEGRAL_COLUMNS];                   /* end with one without a name */
+        columns[KD_INTEGRAL_COLUMNS];                   /* the list ends with a column without a name */
     const char *const *sources, *const *approximations; /* NULL-terminated lists of sentences */
 };
 const struct kd_integral_kind_of *kd_integral_kind_of(enum kd_integral what);
@@ -24,7 +24,8 @@ const struct kd_integral_kind_of *kd_integral_kind_of(enum kd_integral what);
 struct kd_integral_answer {
     const struct kd_integral_request *request;
     double values[KD_INTEGRAL_VALUES];
-    double map_jy;               /* flux of the last map, as its scene has it; NaN: its light has no frequency */
+    double map_jy;               /* flux of the last map, computed from its scene; NaN: the scene's light has no
+                                  * frequency */
     double chi2[2][KD_PRODUCTS]; /* of a comparison: for the map, and for the finer one */
     size_t rows;
     double *columns[KD_INTEGRAL_COLUMNS]; /* each of length `rows`; a single allocation, columns[0] */

@@ -67,7 +67,7 @@ struct kd_integral_request {
     uint64_t seen;            /* bit mask of the fields that were given */
 };
 
-/* True if the integral needs pictures; and if these are maps of light to be Fourier-transformed. */
+/* The first is true if the integral needs pictures, the second if these are maps of light to be Fourier-transformed. */
 static inline bool kd_integral_is_pictured(enum kd_integral what) { return what >= KD_INTEGRAL_VOLUME; }
 static inline bool kd_integral_is_mapped(enum kd_integral what) { return what >= KD_INTEGRAL_VISIBILITY; }
 
@@ -82,7 +82,7 @@ struct kd_integral_field {
     const char *words; /* "a|b". WORD: one of them; WORDS: a set of at least `least` of them; REAL: a word that stands
                           for NaN */
     unsigned of;       /* bit mask of the integrals that have it */
-    bool lacks;        /* may still be without a number in a checked request */
+    bool lacks;        /* may still lack a number in a checked request */
 };
 extern const struct kd_integral_field kd_integral_fields[];
 extern const size_t kd_n_integral_fields;

@@ -152,8 +152,8 @@ void kd_integral_compare_lay_out(struct kd_integral_answer *answer)
         answer->chi2[0][p] = answer->chi2[1][p] = NAN;
 }
 
-/* Factor that scales the model; NaN if it cannot be determined. If the light has no frequency, a map of flux 1 was
- * transformed. */
+/* Factor that scales the model; NaN if it cannot be determined. If the light has no frequency, the map that was
+ * transformed had a flux of 1. */
 static double scale_of(const struct kd_integral_answer *answer, const double (*model)[2])
 {
     const struct kd_integral_request *r = answer->request;

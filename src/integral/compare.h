@@ -6,8 +6,8 @@
 
 /* Fills the columns that do not depend on the model. */
 void kd_integral_compare_lay_out(struct kd_integral_answer *answer);
-/* Takes the model's visibilities (Jy if the scene has a flux), and fills columns and chi^2. For a finer map it fills
- * only chi^2 and the error. */
+/* Takes the model's visibilities (in Jy if the scene has a flux), and fills the columns and chi^2. For a finer map it
+ * fills only chi^2 and the error. */
 void kd_integral_compare_judge(struct kd_integral_answer *answer, double (*model)[2], bool finer);
 /* Write the members of an answer that only comparisons have, and their schemas. */
 void kd_integral_compare_write(struct kd_json *json, const struct kd_integral_answer *answer);

@@ -49,7 +49,7 @@ enum kd_status kd_cached_documents_image(const struct kd_hole *hole, double incl
                                          struct kd_error *error)
 {
     const double spin = hole->a;
-    /* the same from below as from above */
+    /* a disk looks the same from below as from above */
     inclination_deg = inclination_deg > 90 ? 180 - inclination_deg : inclination_deg;
     struct kd_disk_image *image = *out = malloc(sizeof *image);
     if (!image)

@@ -20,8 +20,8 @@ unsigned kd_integral_pictures(const struct kd_integral_request *request);
 struct kd_scene kd_integral_scene(const struct kd_integral_request *request, unsigned picture);
 bool kd_integral_is_finer(const struct kd_integral_request *request, unsigned picture);
 
-/* What is read from each picture. Visibility: maps as floats, total light first, then each image order. Spectrum:
- * the flux in Jy as a double. */
+/* The format in which each picture is read. Visibility: maps as floats, first the total light, then each image order.
+ * Spectrum: the flux in Jy as a double. */
 const struct kd_format *kd_integral_picture_format(enum kd_integral what);
 
 /* Plans a picture's scene. Matter normalised to a flux has the same density in all pictures: that of the requested
@@ -32,7 +32,7 @@ enum kd_status kd_integral_plan(const struct kd_integral_request *request, struc
 /* Replaces the request's scene by the default one. A spectrum becomes that of a volume. */
 enum kd_status kd_integral_make_scene(struct kd_integral_request *request, struct kd_error *error);
 
-/* For such a picture, seen from far away: radians a pixel, and the longest baseline that this pixel size resolves. */
+/* For a picture seen from far away: radians a pixel, and the longest baseline that this pixel size resolves. */
 double kd_integral_pixel(const struct kd_scene *scene);
 double kd_integral_nyquist_gl(const struct kd_scene *scene);
 

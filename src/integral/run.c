@@ -69,7 +69,7 @@ static double total(float *map, size_t n, double *undefined)
     return sum;
 }
 
-/* Flux of a sky with the border's mean brightness over the whole map, as a fraction of the map's sum. */
+/* Flux of a sky that has the border's mean brightness everywhere, as a fraction of the map's sum. */
 static double border_share(const float *map, uint32_t width, uint32_t height, double sum)
 {
     double edge = 0, n = 0;

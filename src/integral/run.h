@@ -3,7 +3,7 @@
  *     struct kd_integral_run run;
  *     kd_integral_run_begin(&run, &request, &error);
  *     while (run.picture < run.pictures) {
- *         ... render kd_integral_scene(&request, run.picture) as kd_integral_picture_format says, to a file ...
+ *         ... render kd_integral_scene(&request, run.picture) to a file in the format kd_integral_picture_format ...
  *         kd_integral_run_take(&run, &file, &scene, &plan, &error);
  *         while (kd_integral_run_step(&run, until_ms)) ...;
  *     }

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Whether a scene has an automatic exposure. Maps of numbers in false colour have none. */
+/* Whether a scene's exposure is automatic. Maps of numbers in false colour have no exposure. */
 static bool takes_one(const struct kd_scene *scene)
 {
     const struct kd_words *layers = &scene->image.layers;
@@ -22,7 +22,7 @@ static bool is_auto(const struct kd_job_spec *spec, unsigned frame)
     return !kd_job_spec_scene(spec, frame, &scene, NULL) && takes_one(&scene);
 }
 
-/* Words are not interpolated between keyframes: a frame is "auto" only if a keyframe is. */
+/* Words are not interpolated between keyframes, so a frame is "auto" only if a keyframe is. */
 static bool any_auto(const struct kd_job_spec *spec)
 {
     for (size_t i = 0; i < spec->timeline.n_keys; i++)

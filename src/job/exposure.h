@@ -1,9 +1,10 @@
 /* Common exposure of all frames of a job whose style.exposure is "auto". Before the first frame, small pictures of some
- * frames are rendered; the median of their exposures is used for all. Each frame's scene then has it as a number, so
- * that it renders the same picture again.
+ * frames are rendered. The median of their exposures becomes the exposure of all frames. Each frame's scene then
+ * contains it as a number, so that the scene renders the same picture again.
  *
  *     n = kd_job_exposure_frames(spec, frames);
- *     for (i < n) kd_job_exposure_plan(spec, frames[i], ...), and render it: stops[i] is the exposure of the picture
+ *     for (i < n) kd_job_exposure_plan(spec, frames[i], ...), and render it: stops[i] is the exposure of the
+ *     picture
  *     spec->exposure = kd_job_exposure_of(stops, n);
  *
  * Pure; any thread. */
@@ -14,17 +15,17 @@
 
 enum { KD_JOB_EXPOSURE_FRAMES = 9, KD_JOB_EXPOSURE_WIDTH = 160 };
 
-/* Chooses the frames to measure: of nine evenly spaced frames, including the first and the last, those whose exposure
- * is "auto"; if there are none, the first frame that is "auto". Returns 0 if the exposure is known, each frame has its
- * own, or no frame is "auto". Maps of numbers have no exposure. */
+/* Chooses the frames to measure. Nine frames at equal intervals are considered, including the first and the last. Those
+ * of them whose exposure is "auto" are chosen; if there are none, the first frame that is "auto". Returns 0 if the
+ * exposure is known, each frame has its own, or no frame is "auto". Maps of numbers have no exposure. */
 unsigned kd_job_exposure_frames(const struct kd_job_spec *spec, unsigned out[KD_JOB_EXPOSURE_FRAMES]);
 
-/* Makes the scene of a frame with at most KD_JOB_EXPOSURE_WIDTH pixels a row and one ray for each pixel, and its
+/* Makes the scene of a frame, at most KD_JOB_EXPOSURE_WIDTH pixels wide and with one ray for each pixel, and its
  * plan. */
 enum kd_status kd_job_exposure_plan(const struct kd_job_spec *spec, unsigned frame, const struct kd_capacity *capacity,
                                     struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error);
 
-/* Median of n >= 1 exposures, rounded to a hundredth of a stop so that scenes stay short. Sorts stops. */
+/* Median of n exposures, n >= 1. It is rounded to a hundredth of a stop, so that scenes stay short. Sorts stops. */
 double kd_job_exposure_of(double *stops, unsigned n);
 
 #endif

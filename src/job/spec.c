@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define VALUES_MAX 400000 /* some 40 fields for each scene */
+#define VALUES_MAX 400000 /* limit of JSON values in a request: some 40 fields for each scene */
 
 enum { ONE, EACH };
 static const char *const exposures[] = { [ONE] = "one", [EACH] = "each" };
@@ -205,8 +205,8 @@ static enum kd_status read_output(struct reader *r)
 
 static bool makes_pictures(const struct kd_job_spec *spec) { return spec->series->frame->carries & KD_CARRIES_PICTURE; }
 
-/* Parses "exposure". Films of playgrounds have no common exposure, because their frames are not known in advance;
- * scenes of axes are independent. */
+/* Parses "exposure". Frames of a film have no common exposure, because they are not known in advance. Scenes of a sweep
+ * are independent. */
 static enum kd_status read_exposure(struct reader *r)
 {
     struct kd_job_spec *spec = r->spec;
@@ -228,7 +228,7 @@ static enum kd_status read_exposure(struct reader *r)
     return KD_OK;
 }
 
-/* What cannot have motion blur, in words; NULL: it can. */
+/* Returns in words what it is that cannot have motion blur; NULL: the request can. */
 static const char *unblurred(const struct reader *r)
 {
     return r->playground              ? "a playground, whose bodies move from frame to frame"

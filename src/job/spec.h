@@ -1,23 +1,24 @@
 /* Job request: what to render. Pure; any thread.
  *
- * {"scene": {...}}                one picture
- * {"scenes": [{...}, ...]}        a picture each
- * {"scene": {...}, "keyframes": [{"frame": 0, "scene": {patch}}, ...], "frames": 240, "interpolation": "smooth"}
- * {"scene": {...}, "axes": {"spacetime.spin": [0, 0.5, 0.9], "camera.inclination_deg": "10:80:15"}}
- * {"playground": {...}, "every": 20, "frames": 150, "scene": {...}, "keyframes": [...]}
+ *     {"scene": {...}}                                                one picture
+ *     {"scenes": [{...}, ...]}                                        several pictures
+ *     {"scene": {...}, "keyframes": [{"frame": 0, "scene": {patch}}, ...], "frames": 240, "interpolation":
+ *     "smooth"}
+ *     {"scene": {...}, "axes": {"spacetime.spin": [0, 0.5, 0.9], "camera.inclination_deg": "10:80:15"}}
+ *     {"playground": {...}, "every": 20, "frames": 150, "scene": {...}, "keyframes": [...]}
  *
- * The last one is a film: frame k shows a playground, in the format of kerrd playground, after k times `every`, or less
- * if its budget of sub-steps does not reach that. "scene" is merged over the default view of the playground, and
- * keyframes move the camera. Keyframes are those of scene/timeline.h; without a keyframe at frame 0, "scene" holds
- * there. Axes are those of scene/sweep.h. With "output": "light-curve" each frame is measured instead of drawn
- * (render/output/series.h).
+ * The last one is a film. Its frame k shows a playground, in the format of kerrd playground, at the time k times
+ * `every`, or earlier if the playground's budget of sub-steps does not reach that time. "scene" is merged over the
+ * default view of the playground, and keyframes move the camera. Keyframes are described in scene/timeline.h; without a
+ * keyframe at frame 0, "scene" is the scene there. Axes are described in scene/sweep.h. With "output": "light-curve"
+ * each frame is measured instead of drawn (render/output/series.h).
  *
- * "motion_blur": {"samples": N, "shutter": S}: the light of frame k is the mean of that of N pictures, at k, k + S/N,
- * ..., k + S (N - 1)/N. The default of S is 0.5. Only for pictures between keyframes.
+ * "motion_blur": {"samples": N, "shutter": S}: the light of frame k is the mean of the light of N pictures, at k, k +
+ * S/N, ..., k + S (N - 1)/N. The default of S is 0.5. Only for pictures between keyframes.
  *
  * "exposure": "one" or "each": whether pictures whose style.exposure is "auto" share one exposure, measured before the
- * first frame is rendered (job/exposure.h), or each has its own. The default is "one" for frames of keyframes, "each"
- * for lists, axes and playgrounds. */
+ * first frame is rendered (job/exposure.h), or each has its own. The default is "one" for frames of keyframes, and
+ * "each" for lists, axes and playgrounds. */
 #ifndef KD_JOB_SPEC_H
 #define KD_JOB_SPEC_H
 
@@ -29,53 +30,54 @@
 #include "scene/timeline.h"
 
 #define KD_JOB_BODY_MAX (4u << 20)
-#define KD_JOB_FILM_MAX (16u << 20) /* with a playground: 200 000 pieces of debris */
-#define KD_JOB_FRAMES_MAX 10000     /* except sweeps: KD_SWEEP_MOST */
+#define KD_JOB_FILM_MAX (16u << 20) /* for a request with a playground: 200 000 pieces of debris */
+#define KD_JOB_FRAMES_MAX 10000     /* limit for all jobs but sweeps, whose limit is KD_SWEEP_MOST */
 
 struct kd_job_spec {
     unsigned frames;
-    struct kd_timeline timeline; /* listed: a key for each frame; else the keyframes */
+    struct kd_timeline timeline; /* listed: a key for each frame; otherwise the keyframes */
     bool listed;
-    struct kd_sweep *sweep;          /* NULL: no axes */
-    double every;                    /* of a film, time between frames, M; 0: not a film */
-    struct kd_dynamic_bodies *first; /* of a film, the bodies at its beginning, for planning; NULL afterwards */
-    const struct kd_series *series;  /* "output": what the job makes of its frames */
-    bool one_exposure;               /* frames whose exposure is "auto" share one */
+    struct kd_sweep *sweep;          /* NULL: the request has no axes */
+    double every;                    /* time between two frames of a film, in M; 0: not a film */
+    struct kd_dynamic_bodies *first; /* the bodies at the beginning of a film, for planning; NULL afterwards */
+    const struct kd_series *series;  /* the request's "output": what the job makes of its frames */
+    bool one_exposure;               /* frames whose exposure is "auto" share one exposure */
     struct {
         unsigned samples;
         double shutter;
-    } blur; /* samples 0: none */
-    /* the common exposure in stops; NAN: each has its own, or it is not measured yet (job/exposure.h) */
+    } blur; /* samples 0: no blur */
+    /* The common exposure in stops. NAN: each frame has its own, or it is not measured yet (job/exposure.h). */
     double exposure;
 };
 
-/* What the scenes of a request are merged over, and changes applied to them. */
+/* What a request's scenes are merged over, and what replaces parts of the request. */
 struct kd_job_base {
-    const char *preset;           /* a preset of scenes; NULL or "": none */
-    const struct kd_scene *scene; /* or a scene; NULL: the defaults, or the default view of the playground */
-    unsigned samples;             /* motion blur in place of the request's */
-    double shutter;               /* part of a frame's time; 0: the request's */
-    /* Changes the scene of a sequence, and each scene of a list, before keyframes are merged over it; NULL: no
+    const char *preset; /* name of a preset of scenes; NULL or "": none */
+    /* a scene instead of a preset; NULL: the defaults, or the default view of the playground */
+    const struct kd_scene *scene;
+    unsigned samples; /* samples of motion blur, in place of the request's; 0: the request's */
+    double shutter;   /* shutter as a fraction of a frame's time; 0: the request's */
+    /* Changes the scene of a sequence, or each scene of a list, before keyframes are merged over it. NULL: no
      * change. */
     enum kd_status (*change)(void *user, struct kd_scene *scene, struct kd_error *error);
     void *user;
 };
 
-/* Parses and validates a request. assets: those that scenes may use; NULL: hashes are not checked. Every scene of a
- * list and every keyframe is valid afterwards. KD_EINVAL with a pointer into the request, or to /preset. */
+/* Parses and validates a request. assets: those that scenes may use; NULL: hashes are not checked. Afterwards every
+ * scene of a list and every keyframe is valid. KD_EINVAL with a pointer into the request, or to /preset. */
 enum kd_status kd_job_spec_parse(const char *text, size_t length, const struct kd_job_base *base,
                                  const struct kd_assets *assets, struct kd_job_spec *out, struct kd_error *error);
 void kd_job_spec_finish(struct kd_job_spec *spec);
 
-/* Makes a film's playground in its initial state from a request that has been validated. KD_EINVAL, KD_ENOMEM. */
+/* Makes a film's playground in its initial state. The request must have been validated. KD_EINVAL, KD_ENOMEM. */
 enum kd_status kd_job_spec_playground(const char *text, size_t length, struct kd_playground **out,
                                       struct kd_error *error);
 
-/* Makes the valid scene of a frame; of a film without its bodies. KD_EINVAL if the scene between two keyframes is not
- * valid. */
+/* Makes the valid scene of a frame. For a film the scene does not have the bodies. KD_EINVAL if the scene between two
+ * keyframes is not valid. */
 enum kd_status kd_job_spec_scene(const struct kd_job_spec *spec, unsigned frame, struct kd_scene *out,
                                  struct kd_error *error);
-/* The same for a sample of a frame with motion blur; sample 0 is the frame's own scene. */
+/* Like kd_job_spec_scene, for one sample of a frame with motion blur; sample 0 is the frame's own scene. */
 enum kd_status kd_job_spec_sample(const struct kd_job_spec *spec, unsigned frame, unsigned sample, struct kd_scene *out,
                                   struct kd_error *error);
 

@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MJD_1960 36934 /* origin of the bins */
+#define MJD_1960 36934 /* modified Julian date at which the bins begin */
 
-/* Bin of a time, which is rounded to 0.1 s because uvfits stores it in single precision. */
+/* Index of the bin in which a time lies. The time is rounded to 0.1 s first, because uvfits stores it in single
+ * precision. */
 static double bin_of(const struct kd_observation *o, double hour, double seconds)
 {
     return floor(((o->mjd - MJD_1960) * 86400 + rint(hour * 36000) / 10) / seconds);

@@ -8,7 +8,7 @@
 
 #define DEG (180 / M_PI)
 
-/* Finds the visibility of two stations at one time. */
+/* Table that finds the visibility of two stations at one time. */
 struct table { uint32_t at[KD_OBSERVATION_STATIONS][KD_OBSERVATION_STATIONS]; /* index plus 1; 0: none */ };
 
 static bool find(const struct table *t, struct kd_comparison_row *row, int k, uint8_t first, uint8_t second)
@@ -21,7 +21,7 @@ static bool find(const struct table *t, struct kd_comparison_row *row, int k, ui
 
 static double snr_of(const struct kd_measured *m) { return hypot(m->re, m->im) / m->sigma; }
 
-/* Phase of the bispectrum. Its variance is the sum over the three phases, each with error 1/snr. */
+/* Phase of the bispectrum. Its variance is the sum of the variances of three phases, each with an error of 1/snr. */
 static bool phase_of(const struct kd_comparison *c, const struct kd_comparison_params *p, struct kd_comparison_row *row)
 {
     double phase = 0, variance = 0;
@@ -36,8 +36,9 @@ static bool phase_of(const struct kd_comparison *c, const struct kd_comparison_p
     return isfinite(variance) && 1 / sqrt(variance) >= p->snr_cut;
 }
 
-/* Log closure amplitude, debiased: noise increases an amplitude's mean, and decreases its logarithm by 1/(2 snr^2) to
- * second order. */
+/* Log closure amplitude. Unless amplitudes are used as measured, two corrections are made for noise. Noise increases
+ * the mean of an amplitude, so the amplitude is debiased. To second order noise decreases the mean of the logarithm of
+ * a debiased amplitude by 1/(2 snr^2), so that is added. */
 static bool amplitude_of(const struct kd_comparison *c, const struct kd_comparison_params *p,
                          struct kd_comparison_row *row)
 {
@@ -91,7 +92,7 @@ done:
     return status;
 }
 
-/* Maximal set: three closure amplitudes for each four stations. */
+/* Maximal set: three closure amplitudes for every four stations. */
 static enum kd_status all_quadrangles(struct kd_comparison *c, const struct table *t,
                                       const struct kd_comparison_params *p, const uint8_t *s, int n,
                                       struct kd_comparison_row *row, struct kd_error *error)
@@ -113,7 +114,7 @@ done:
     return status;
 }
 
-/* Minimal set: the first station, each station from the fourth on, and pairs of those between. */
+/* Minimal set. Each quadrangle has the first station, one from the fourth on, and two of those between. */
 static enum kd_status quadrangles(struct kd_comparison *c, const struct table *t, const struct kd_comparison_params *p,
                                   const uint8_t *s, int n, struct kd_comparison_row *row, struct kd_error *error)
 {
@@ -130,7 +131,8 @@ done:
     return status;
 }
 
-/* Order of stations: alphabetical for the maximal set, that of the list for the minimal set. */
+/* Lists the stations at one time: alphabetically for the maximal set, in the order of the observation for the minimal
+ * set. */
 static int stations_of(const struct kd_observation *o, const struct table *t, bool sorted,
                        uint8_t out[KD_OBSERVATION_STATIONS])
 {

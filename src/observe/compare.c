@@ -30,7 +30,7 @@ enum kd_status kd_comparison_add(struct kd_comparison *c, const struct kd_compar
     return KD_OK;
 }
 
-/* Leaves out short baselines and adds systematic errors to the rest. */
+/* Leaves out short baselines and adds systematic errors to the others. */
 static void prepare(struct kd_comparison *c, const struct kd_comparison_params *p)
 {
     size_t n = 0;
@@ -145,8 +145,8 @@ double kd_comparison_residual(const struct kd_comparison_row *row)
     return (row->product == KD_PRODUCT_CLOSURE_PHASE ? remainder(difference, 360) : difference) / row->error;
 }
 
-/* Contribution of a row to chi^2 (Chael et al. 2018, eqs. C1 to C4). A phase counts by the chord between data and
- * model. */
+/* Contribution of a row to chi^2 (Chael et al. 2018, eqs. C1 to C4). For a phase it uses the chord between data and
+ * model on the unit circle. */
 static double share_of(const struct kd_comparison_row *row)
 {
     const double residual = kd_comparison_residual(row), error = row->error / DEG;
@@ -166,7 +166,7 @@ void kd_comparison_judge(struct kd_comparison *c, const double (*model)[2], doub
         chi2[i] = c->of[i] ? sum[i] / (double)c->of[i] : NAN;
 }
 
-/* Fourier transform along one axis, x turns for each pixel. */
+/* Fourier transform of a pixel's shape along one axis. x: turns for each pixel. */
 static double along(enum kd_pixel_shape pulse, double x)
 {
     const double sinc = fabs(x) < 1e-9 ? 1 : sin(M_PI * x) / (M_PI * x);

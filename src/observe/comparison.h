@@ -1,9 +1,10 @@
-/* Prepares an observation for comparison with a model, and compares them. Definitions are those of ehtim 1.3.2 (A. A.
- * Chael et al. 2018, ApJ 857, 23, 2.2 and appendix C): the same data, errors, sets of closures and chi^2. Any thread.
+/* Prepares an observation for comparison with a model, and compares the two. Definitions are those of ehtim 1.3.2 (A.
+ * A. Chael et al. 2018, ApJ 857, 23, 2.2 and appendix C): the same data, errors, sets of closures and chi^2. Any
+ * thread.
  *
  *     kd_comparison_make(&observation, &params, &c, &error);
- *     ... the model's visibility, Jy, at each c.at[i]: model[i] ...
- *     kd_comparison_judge(&c, model, chi2);        also fills c.row[i].model
+ *     ... fill model[i] with the model's visibility, in Jy, at each c.at[i] ...
+ *     kd_comparison_judge(&c, model, chi2);    also fills c.row[i].model
  *     kd_comparison_finish(&c); */
 #ifndef KD_OBSERVE_COMPARISON_H
 #define KD_OBSERVE_COMPARISON_H
@@ -14,52 +15,57 @@ enum kd_product { KD_PRODUCT_AMPLITUDE, KD_PRODUCT_CLOSURE_PHASE, KD_PRODUCT_LOG
 extern const char *const kd_product_names[KD_PRODUCTS];
 
 struct kd_comparison_params {
-    unsigned products; /* a bit for each enum kd_product */
-    /* Applied in this order. average_s: visibilities are averaged in bins of this length, counted from 1960-01-01; 0:
-     * no averaging. uv_min_gl: shorter baselines are left out. systematic_visibility: this part of the amplitude is
-     * added to the error in quadrature. */
+    unsigned products; /* one bit for each enum kd_product */
+    /* These are applied in this order. average_s: visibilities are averaged in bins of this length, counted from
+     * 1960-01-01; 0: no averaging. uv_min_gl: shorter baselines are left out. systematic_visibility: this fraction of
+     * the amplitude is added to the error in quadrature. */
     double average_s, uv_min_gl, systematic_visibility;
-    double systematic_amplitude;         /* of each station: sqrt 2 times this part is added to an amplitude's error */
+    /* fractional error of each station: sqrt 2 times this fraction is added to an amplitude's error */
+    double systematic_amplitude;
     double systematic_closure_phase_deg; /* added to a closure phase's error */
     double snr_cut;                      /* data with a smaller signal-to-noise ratio are left out */
-    bool measured; /* amplitudes as measured; else debiased, sqrt(|V|^2 - sigma^2), and likewise in closures */
-    bool maximal;  /* all triangles and quadrangles; else a minimal set with the first station */
+    /* amplitudes are used as measured; otherwise they are debiased to sqrt(|V|^2 - sigma^2), and closures are debiased
+     * too */
+    bool measured;
+    /* all triangles and quadrangles are used; otherwise a minimal set, which contains the first station */
+    bool maximal;
 };
 
 /* One datum: |V|, the phase of V1 V2 V3, or log |V1| + log |V2| - log |V3| - log |V4|. */
 struct kd_comparison_row {
     enum kd_product product;
     double hour;
-    uint8_t station[4]; /* 2, 3 or 4 of them; V of baselines 12; 12, 23, 31; or 12, 34, 14, 23 */
-    uint32_t at[4];     /* indices of the visibilities */
-    bool conjugate[4];  /* the visibility is stored for the reverse baseline */
+    uint8_t station[4]; /* 2, 3 or 4 stations; the datum uses V of the baselines 12, or 12, 23, 31, or 12, 34, 14, 23 */
+    uint32_t at[4];     /* indices of the visibilities in `at` of struct kd_comparison */
+    bool conjugate[4];  /* this visibility is stored for the reverse baseline */
     double data, error, model;
 };
 unsigned kd_product_stations(enum kd_product product);
 
 struct kd_comparison {
-    struct kd_measured *at; /* visibilities, averaged, without baselines that are too short */
+    struct kd_measured *at; /* averaged visibilities, without those of baselines that are too short */
     size_t n, too_short;
-    struct kd_comparison_row *row; /* product after product, each by time */
+    struct kd_comparison_row *row; /* sorted by product, and within a product by time */
     size_t rows, room, of[KD_PRODUCTS];
 };
 
 enum { KD_COMPARISON_ROWS = 100000 };
-/* Prepares the data. Returns KD_EINVAL if no data are left or there are too many rows. Finish *out only after
- * success. */
+/* Prepares the data. Returns KD_EINVAL if no data are left or there are too many rows. Call kd_comparison_finish only
+ * after success. */
 enum kd_status kd_comparison_make(const struct kd_observation *observation, const struct kd_comparison_params *params,
                                   struct kd_comparison *out, struct kd_error *error);
 void kd_comparison_finish(struct kd_comparison *comparison);
 
-/* Factor by which the model minimises the chi^2 of amplitudes: the sum of d m / sigma^2 divided by that of m^2 /
- * sigma^2. NaN if there are no amplitudes or the model has no light. */
+/* Factor by which the model must be multiplied to minimise the chi^2 of amplitudes: the sum of d m / sigma^2 divided by
+ * the sum of m^2 / sigma^2, where d is the data and m the model. NaN if there are no amplitudes or the model has no
+ * light. */
 double kd_comparison_scale(const struct kd_comparison *comparison, const double (*model)[2]);
-/* Fills the rows' models and computes chi^2 over the number of data; NaN for a product without data. */
+/* Fills `model` of each row and computes chi^2 divided by the number of data; NaN for a product without data. */
 void kd_comparison_judge(struct kd_comparison *comparison, const double (*model)[2], double chi2[KD_PRODUCTS]);
-/* (data - model) / error; a phase's difference is within 180 degrees. */
+/* (data - model) / error. The difference of two phases is reduced to within 180 degrees. */
 double kd_comparison_residual(const struct kd_comparison_row *row);
 
-/* Fourier transform of a pixel's shape at a baseline, given as turns for each pixel along each axis. */
+/* Fourier transform of a pixel's shape at a baseline. The baseline is given in turns for each pixel along each axis. */
 enum kd_pixel_shape { KD_PULSE_TRIANGLE, KD_PULSE_RECTANGLE, KD_PULSE_POINT };
 double kd_pulse_at(enum kd_pixel_shape pulse, double u_pixel, double v_pixel);
 

@@ -4,7 +4,7 @@
 
 #include "observe/observation.h"
 
-/* csv.c, uvfits.c: fill all members, unsorted. The caller finishes *out, also on failure. */
+/* csv.c, uvfits.c: fill all members, unsorted. The caller must finish *out, even after a failure. */
 enum kd_status kd_observation_read_csv(const char *text, size_t size, struct kd_observation *out,
                                        struct kd_error *error);
 enum kd_status kd_observation_read_uvfits(const uint8_t *data, size_t size, struct kd_observation *out,

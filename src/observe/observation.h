@@ -1,12 +1,12 @@
-/* Observation by an interferometer, read from the EHT's CSV or uvfits (random groups of FITS: E. W. Greisen 2020, AIPS
- * Memo 117). Stokes I only. Any thread; no state between calls.
+/* Observation by an interferometer, read from the EHT's CSV or from uvfits (random groups of FITS: E. W. Greisen 2020,
+ * AIPS Memo 117). Stokes I only. Any thread; no state between calls.
  *
  *     struct kd_observation o = { 0 };
- *     if (kd_observation_read(data, size, &o, &error)) ... KD_EINVAL says what is wrong, KD_ENOMEM ...
+ *     if (kd_observation_read(data, size, &o, &error)) ... KD_EINVAL: the error says what is wrong; KD_ENOMEM ...
  *     kd_observation_finish(&o);
  *
- * V(u, v) of baseline 1-2 is the sum of I exp(+2 pi i (u x + v y)), x to the east and y to the north, as in the EHT's
- * files and in ehtim. */
+ * V(u, v) of the baseline 1-2 is the sum of I exp(+2 pi i (u x + v y)). x points to the east and y to the north, as in
+ * the EHT's files and in ehtim. */
 #ifndef KD_OBSERVE_OBSERVATION_H
 #define KD_OBSERVE_OBSERVATION_H
 
@@ -16,35 +16,36 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_OBSERVATION_BYTES ((size_t)32 << 20) /* largest file */
-#define KD_OBSERVATION_ROWS (1u << 20)          /* most visibilities in a file */
+#define KD_OBSERVATION_BYTES ((size_t)32 << 20) /* limit of a file's size */
+#define KD_OBSERVATION_ROWS (1u << 20)          /* limit of the visibilities in a file */
 #define KD_OBSERVATION_STATIONS 64u
 #define KD_STATION_NAME 12u /* bytes, including NUL */
 
 struct kd_measured {
-    double hour;          /* UTC, since mjd */
-    double u, v;          /* wavelengths */
-    double re, im, sigma; /* Jy */
-    uint8_t station[2];   /* indices of stations, the first below the second */
+    double hour;          /* hours UTC since mjd */
+    double u, v;          /* in wavelengths */
+    double re, im, sigma; /* in Jy */
+    uint8_t station[2];   /* indices of the two stations; the first is lower than the second */
 };
 
 struct kd_observation {
     char source[40];
-    double mjd; /* date at 0 h UTC */
+    double mjd; /* modified Julian date of the observation, at 0 h UTC */
     double frequency_hz;
-    char station[KD_OBSERVATION_STATIONS][KD_STATION_NAME]; /* in the order by which minimal sets are chosen */
+    /* names, in the order in which minimal sets choose stations */
+    char station[KD_OBSERVATION_STATIONS][KD_STATION_NAME];
     uint32_t stations;
-    struct kd_measured *at; /* malloc'd; sorted by time, then stations; one for each time and baseline */
+    struct kd_measured *at; /* malloc'd; sorted by time, then by stations; each time and baseline occurs once */
     size_t n;
-    uint32_t flagged;   /* number without a positive weight */
-    uint32_t duplicate; /* number left out because their time and baseline had occurred */
+    uint32_t flagged;   /* number of visibilities left out because their weight is not positive */
+    uint32_t duplicate; /* number of visibilities left out because their time and baseline had occurred before */
 };
 
 enum kd_observation_kind { KD_OBSERVATION_NONE, KD_OBSERVATION_CSV, KD_OBSERVATION_UVFITS };
 
 /* Recognises a file by its first bytes. */
 enum kd_observation_kind kd_observation_kind_of(const void *data, size_t size);
-/* Reads a file. Finish *out only after success. */
+/* Reads a file. Call kd_observation_finish only after success. */
 enum kd_status kd_observation_read(const void *data, size_t size, struct kd_observation *out, struct kd_error *error);
 void kd_observation_finish(struct kd_observation *observation);
 

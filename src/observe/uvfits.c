@@ -2,8 +2,8 @@
  * 2020, AIPS Memo 117; FITS Standard 4.0, 6 and 7.3). It does not use CFITSIO, because only two HDUs of FITS are needed
  * (docs/decisions/0020-observations-are-read-here.md).
  *
- * Stokes I is the mean of RR and LL, or one of them if the other has no weight. Channels and IFs are averaged by their
- * weights, at the frequency in the table of stations, as in ehtim. */
+ * Stokes I is the mean of RR and LL, or one of them if the other has no weight. As in ehtim, channels and IFs are
+ * averaged by their weights, and the mean is taken to be at the frequency in the table of stations. */
 #include "observe/internal.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@ enum { BLOCK = 2880, CARD = 80, CARDS = 100 * 36, AXES = 7, PARAMETERS = 32, ELE
 
 struct hdu {
     const char *cards;
-    size_t n_cards, begin, size; /* begin, size: of its data, without padding */
+    size_t n_cards, begin, size; /* begin, size: of the HDU's data, without padding */
 };
 
 struct file {
@@ -24,7 +24,7 @@ struct file {
     struct kd_error *error;
 };
 
-/* Returns the value of a card behind "= "; NULL: no such card. */
+/* Returns the value of a card, the text behind "= "; NULL: the HDU has no such card. */
 static const char *find_card(const struct hdu *hdu, const char *key)
 {
     char begin[11];
@@ -56,7 +56,7 @@ static double number_or(const struct hdu *hdu, const char *key, double otherwise
     return read_number(hdu, key, &x) ? x : otherwise;
 }
 
-/* Reads quoted text without trailing blanks; "" if there is none. */
+/* Reads a card's quoted text without trailing blanks; "" if it has none. */
 static void read_text(const struct hdu *hdu, const char *key, char *out, size_t size)
 {
     const char *card = find_card(hdu, key);
@@ -72,7 +72,7 @@ static void read_text(const struct hdu *hdu, const char *key, char *out, size_t 
 /* Makes a keyword with a number, such as NAXIS2; find_card uses its first eight letters. */
 static void numbered(char out[KEY], const char *key, int i) { snprintf(out, KEY, "%.6s%d", key, i); }
 
-/* Reads a card that must be an integer from least to most. */
+/* Reads a card whose value must be an integer from least to most. */
 static enum kd_status read_whole(const struct file *f, const struct hdu *hdu, const char *key, double least,
                                  double most, size_t *out)
 {
@@ -86,7 +86,7 @@ static enum kd_status read_whole(const struct file *f, const struct hdu *hdu, co
     return KD_OK;
 }
 
-/* Finds the cards of the HDU that begins at `at`, up to END; its data begin at the next block. */
+/* Finds the cards of the HDU that begins at `at`, up to END. The HDU's data begin at the next block. */
 static enum kd_status read_header(const struct file *f, size_t at, struct hdu *hdu)
 {
     *hdu = (struct hdu) { .cards = (const char *)f->data + at };
@@ -104,7 +104,7 @@ static enum kd_status read_header(const struct file *f, size_t at, struct hdu *h
 /* ---- the stations ---- */
 
 struct column {
-    size_t at, size; /* within a row; size 0: no such column */
+    size_t at, size; /* position and size within a row; size 0: the table has no such column */
     char type;
 };
 
@@ -162,7 +162,7 @@ static double real(const uint8_t *at, bool is_double)
     return (double)x;
 }
 
-struct stations { uint32_t number[KD_OBSERVATION_STATIONS]; /* NOSTA of each station in the list */ };
+struct stations { uint32_t number[KD_OBSERVATION_STATIONS]; /* NOSTA of each station of the observation */ };
 
 static enum kd_status read_stations(const struct file *f, const struct hdu *hdu, struct kd_observation *o,
                                     struct stations *out)
@@ -173,7 +173,7 @@ static enum kd_status read_stations(const struct file *f, const struct hdu *hdu,
     enum kd_status status;
     KD_TRY(read_whole(f, hdu, "NAXIS1", 1, 1 << 16, &row));
     KD_TRY(read_whole(f, hdu, "NAXIS2", 2, KD_OBSERVATION_STATIONS, &rows));
-    if (row * rows > f->size - hdu->begin) /* NAXIS and BITPIX, which determine the table's length, may be wrong */
+    if (row * rows > f->size - hdu->begin) /* the table's length follows from NAXIS and BITPIX, which may be wrong */
         return kd_error_set(f->error, KD_EINVAL,
                             "the table AIPS AN has %zu rows of %zu bytes; the uvfits must have as many, and ends %zu "
                             "bytes behind its header",
@@ -190,7 +190,8 @@ static enum kd_status read_stations(const struct file *f, const struct hdu *hdu,
         const double here = (sefd.type == 'D' && sefd.size == 8) || (sefd.type == 'E' && sefd.size == 4)
                                 ? real(at + sefd.at, sefd.type == 'D')
                                 : 0;
-        for (; k && noise[k - 1] > here; k--) { /* sorted by noise; equals in the order of the table */
+        /* sorted by noise; stations with equal noise stay in the order of the table */
+        for (; k && noise[k - 1] > here; k--) {
             noise[k] = noise[k - 1], out->number[k] = out->number[k - 1];
             memcpy(o->station[k], o->station[k - 1], sizeof o->station[k]);
         }
@@ -233,7 +234,7 @@ done:
 /* ---- the groups ---- */
 
 struct parameter {
-    size_t at; /* index among the parameters of a group */
+    size_t at; /* index among a group's parameters */
     double scale, zero;
     bool there;
 };
@@ -241,11 +242,12 @@ struct parameter {
 struct groups {
     struct hdu hdu;
     size_t n, parameters, elements, bytes; /* bytes: size of a number */
-    size_t hands, hand_step;               /* number of polarizations in STOKES, and the step between them in numbers */
+    /* hands: number of polarizations in STOKES; hand_step: distance from one to the next, counted in numbers */
+    size_t hands, hand_step;
     size_t channels, channel_step, ifs, if_step;
-    bool circular; /* RR and LL; else I */
+    bool circular; /* the polarizations are RR and LL; otherwise I */
     struct parameter u, v, baseline, date[2];
-    double scale, zero; /* of the data */
+    double scale, zero; /* BSCALE and BZERO of the data */
 };
 
 static void find_parameter(const struct groups *g, const char *name, int which, struct parameter *out)
@@ -340,7 +342,8 @@ static enum kd_status open_groups(const struct file *f, struct groups *g)
     KD_TRY(read_whole(f, &g->hdu, "GCOUNT", 1, KD_OBSERVATION_ROWS, &g->n));
     KD_TRY(find_parameters(f, g));
     g->scale = number_or(&g->hdu, "BSCALE", 1), g->zero = number_or(&g->hdu, "BZERO", 0);
-    const size_t group = (g->parameters + g->elements) * g->bytes; /* no overflow: at most 2^19, times 2^20 groups */
+    /* This and the product below cannot overflow: the size is at most 2^19, and there are at most 2^20 groups. */
+    const size_t group = (g->parameters + g->elements) * g->bytes;
     if ((uint64_t)group * g->n > f->size - g->hdu.begin)
         return kd_error_set(
             f->error, KD_EINVAL,
@@ -356,7 +359,7 @@ static double parameter_of(const struct groups *g, const uint8_t *group, const s
     return p->there ? real(group + p->at * g->bytes, g->bytes == 8) * p->scale + p->zero : 0;
 }
 
-/* Mean of a polarization over channels by their weights. Returns the sum of the weights; 0: no data. */
+/* Mean of one polarization over the channels, weighted by their weights. Returns the sum of the weights; 0: no data. */
 static double mean_of(const struct groups *g, const uint8_t *data, size_t hand, double mean[2])
 {
     double weight = 0;
@@ -376,11 +379,11 @@ static double mean_of(const struct groups *g, const uint8_t *data, size_t hand, 
     return weight;
 }
 
-/* Error of a weight, in single precision like the weights and like ehtim: where an amplitude is about its error, the
- * result of sqrt(|V|^2 - sigma^2) depends on it. */
+/* Error that a weight stands for. It is computed in single precision, as in ehtim; weights are stored in it too. Where
+ * an amplitude is about as large as its error, the result of sqrt(|V|^2 - sigma^2) depends on that precision. */
 static double error_of(double weight) { return (double)(1 / sqrtf((float)weight)); }
 
-/* Reads Stokes I and its error. Returns false without a positive weight. */
+/* Reads Stokes I and its error. Returns false if no weight is positive. */
 static bool read_light(const struct groups *g, const uint8_t *data, struct kd_measured *m)
 {
     double value[2][2], weight[2] = { 0 };
@@ -430,7 +433,7 @@ static enum kd_status read_group(const struct file *f, const struct groups *g, c
                             i + 1, baseline);
     KD_TRY(place_of(f, o, s, i, (uint32_t)baseline / 256, &m.station[0]));
     KD_TRY(place_of(f, o, s, i, (uint32_t)baseline % 256, &m.station[1]));
-    /* Julian date, converted by count_hours */
+    /* Julian date; count_hours converts it. */
     m.hour = parameter_of(g, group, &g->date[0]) + parameter_of(g, group, &g->date[1]);
     m.u = parameter_of(g, group, &g->u) * o->frequency_hz, m.v = parameter_of(g, group, &g->v) * o->frequency_hz;
     if (!(fabs(m.hour) < 1e7))
@@ -441,7 +444,7 @@ done:
     return status;
 }
 
-/* Converts Julian dates to hours of the first day. */
+/* Converts Julian dates to hours since 0 h of the first day. */
 static void count_hours(struct kd_observation *o)
 {
     double first = INFINITY;

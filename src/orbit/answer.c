@@ -11,7 +11,12 @@
 #define SUN_S 4.925490947e-6 /* GM/c^3 of the Sun, IAU 2015 nominal */
 #define CENTURY_S (36525 * 86400.)
 
-enum { PLAIN = 10, COLUMNS = 17, SUMMARY = 15 }; /* columns of an orbit without observer, with one, and of a summary */
+enum {
+    PLAIN = 10,
+    COLUMNS = 17,
+    SUMMARY = 15
+}; /* number of columns: of an orbit without an observer, with one, and
+    * of a summary */
 
 static const char *const columns[COLUMNS] = { "mino",  "tau_proper", "t",     "r",  "theta",
                                               "phi",   "x",          "y",     "z",  "energy_error",
@@ -45,7 +50,7 @@ static void columns_of(const struct kd_orbit_sample *s, double to[COLUMNS])
     memcpy(to, all, sizeof all);
 }
 
-/* Output with a sticky status: after a failure nothing more is written. */
+/* An output that keeps its first failure: after it nothing more is written. */
 struct text {
     struct kd_buffer *out;
     enum kd_status status;

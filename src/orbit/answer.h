@@ -6,9 +6,9 @@
  *              many
  *     NDJSON   {"head": {...}}, {"columns": [...]}, then {"rows": [[...], ...]} and {"progress": 0.25} interleaved,
  *              {"result": {...}}
- *     CSV      the columns' names, then a line a sample; for many without series a line an orbit
- *     NPY      records with the columns' names; for many without series a record an orbit, with series of shape
- *              (orbits, samples)
+ *     CSV      the columns' names, then one line for each sample; for many orbits without series, one for each orbit
+ *     NPY      records with the columns' names; for many orbits without series, one record for each; with series an
+ *              array of shape (orbits, samples)
  *
  * NAN is null in JSON and empty in CSV. */
 #ifndef KD_ORBIT_ANSWER_H
@@ -33,10 +33,10 @@ enum kd_status kd_orbit_answer_end(const struct kd_orbit_run *run, enum kd_orbit
 enum kd_status kd_orbit_answer_many(const struct kd_orbit_run *runs, size_t n, const struct kd_orbit_sample *samples,
                                     enum kd_orbit_format format, struct kd_buffer *out);
 
-/* Name of a column of the series; NULL beyond the last. Without an observer a series has only the first ones. */
+/* Name of a column of the series; NULL beyond the last. Without an observer a series has only the first ten columns. */
 const char *kd_orbit_column(size_t index);
 
-/* Sentences about approximations; NULL beyond the last. */
+/* The sentence with this index about an approximation; NULL beyond the last. */
 const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index);
 
 #endif

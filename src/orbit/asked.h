@@ -18,7 +18,7 @@ const char *kd_orbit_way_name(enum kd_orbit_way way); /* "yoshida6", "rkn6", "cl
 
 struct kd_orbit_spec {
     enum kd_orbit_form form;
-    double spin; /* NAN: that of the request, or of the named case */
+    double spin; /* NAN: the spin of the request, or of the named case */
     double p, e, inclination_deg;
     double energy, momentum, carter, r; /* r: NAN if not given */
     bool outward;
@@ -29,13 +29,13 @@ struct kd_orbit_spec {
 };
 
 struct kd_orbit_params {
-    double spin; /* NAN if not given: 0, or that of the named case */
+    double spin; /* NAN if not given; it is then 0, or that of the named case */
     double periods,
         /* Duration: radial periods (turns, if r is constant), or t in M. At most one is given, the other is NAN. */
         time;
     bool or_end;  /* follow a plunging or escaping orbit, which has no periods, to its end instead of refusing it */
-    double r_max; /* radius at which an escaping orbit ends, 100 */
-    /* Relative error of a radial period, 1e-12; determines the step if `steps` is 0. */
+    double r_max; /* radius at which an escaping orbit ends; 100 by default */
+    /* Relative error allowed in a radial period, 1e-12 by default. It determines the step if `steps` is 0. */
     double tolerance;
     double mass_msun; /* for times in seconds; NAN: not given */
     uint32_t steps;   /* per radial period */

@@ -17,7 +17,7 @@ struct kd_orbit_batch {
     /* private */
     _Atomic size_t next, finished;
     _Atomic bool failed;
-    struct kd_error error; /* of the first orbit that failed, valid once done */
+    struct kd_error error; /* error of the first orbit that failed; valid once the batch is done */
 };
 
 /* Solves every orbit, some microseconds each. The request must outlive the batch. */

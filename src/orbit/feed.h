@@ -15,23 +15,24 @@ struct kd_orbit_feed {
     enum { KD_FEED_START, KD_FEED_SERIES, KD_FEED_DONE } stage;
     struct kd_orbit_run run;     /* for one orbit */
     struct kd_orbit_batch batch; /* for many */
-    uint64_t told;               /* steps done when progress was last written */
+    uint64_t told;               /* number of steps done when progress was last written */
     struct kd_orbit_sample samples[KD_ORBIT_FEED_SAMPLES];
 };
 
-/* The request must have been checked, and must outlive the feed. Every orbit is solved here: KD_EINVAL as
+/* The request must have been checked, and must outlive the feed. This solves every orbit, and fails with KD_EINVAL like
  * kd_orbit_run_init. NDJSON is for one orbit only. */
 enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_orbit_request *request,
                                   enum kd_orbit_format format, struct kd_error *error);
 void kd_orbit_feed_finish(struct kd_orbit_feed *feed);
 
-/* Appends the next piece to `out`; for many orbits nothing until all are done. KD_EINVAL as kd_orbit_run_prepare,
- * before anything is written. */
+/* Appends the next piece to `out`; for many orbits nothing until all are done. Fails with KD_EINVAL like
+ * kd_orbit_run_prepare, before anything is written. */
 enum kd_status kd_orbit_feed_more(struct kd_orbit_feed *feed, struct kd_buffer *out, struct kd_error *error);
 bool kd_orbit_feed_done(const struct kd_orbit_feed *feed);
 double kd_orbit_feed_fraction(const struct kd_orbit_feed *feed);
 
-/* Works on a batch of many orbits, on another thread than kd_orbit_feed_more. False when nothing is left to begin. */
+/* Works on a batch of many orbits, on another thread than kd_orbit_feed_more. Returns false when no orbit is left to
+ * begin. */
 bool kd_orbit_feed_help(struct kd_orbit_feed *feed);
 
 #endif

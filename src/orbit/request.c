@@ -336,7 +336,7 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     return KD_OK;
 }
 
-/* Error that rounding of the constants causes in a whirl: 4 ulp times kd_orbit_whirl. */
+/* Error of a whirl that is caused by rounding of the constants: 4 ulp times kd_orbit_whirl. */
 static double rounding_of(const struct kd_orbit_spec *s, const struct kd_orbit *orbit,
                           const struct kd_orbit_state *start)
 {

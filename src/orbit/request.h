@@ -54,10 +54,10 @@ enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char
 /* Call after the last kd_orbit_request_set: checks that there is a complete orbit. */
 enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, struct kd_error *error);
 
-/* Solves for the motion that a spec describes; KD_EINVAL with the pointer within the request, such as
- * "/orbits/17/p". The result does not include the initial azimuth. *rounding: error, relative to the whole path,
- * caused by rounding of the constants if they lead to a whirl, close to an unstable circular orbit. Above
- * KD_ORBIT_ROUNDING_MAX the orbit is refused. */
+/* Solves for the motion that a spec describes. KD_EINVAL has the pointer within the request, such as "/orbits/17/p".
+ * The result does not include the initial azimuth. *rounding: if the constants lead to a whirl, close to an unstable
+ * circular orbit, their rounding causes this error, relative to the whole path. Above KD_ORBIT_ROUNDING_MAX the orbit
+ * is refused. */
 enum kd_status kd_orbit_request_solve(const struct kd_orbit_request *request, size_t index, struct kd_orbit *orbit,
                                       struct kd_orbit_state *start, double *rounding, struct kd_error *error);
 

@@ -10,9 +10,11 @@
 
 #define LONGEST_TURNS 1000 /* maximum turns of an orbit followed to its end: a whirl next to an unstable circle */
 #define DEFAULT_PERIODS 10
-#define SEARCHES 3      /* after this many samples in a row without an image, a full search is made */
-#define SEARCH_EVERY 64 /* only every so many samples */
-#define HALVINGS 6      /* of the step in the search for an end: each gains a factor of 64, from 1e-10 to rounding */
+/* after this many samples in a row without an image, a full search is no longer made for each, ... */
+#define SEARCHES 3
+#define SEARCH_EVERY 64 /* ... but only for one sample in so many */
+/* halvings of the step in the search for an end; each gains a factor of 64, from 1e-10 to rounding */
+#define HALVINGS 6
 
 const char *kd_orbit_end_name(enum kd_orbit_end end)
 {
@@ -101,8 +103,8 @@ static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before,
     5e6 /* minimum number of steps before giving up, some one second in all: far out the steps may be too short to \
            ever arrive */
 
-/* Finds the end of an unbound path, at the horizon, far away, or when its time is over, by following it once in
- * steps of h. False if it strays, or does not reach the end that was asked for. */
+/* Finds the end of an unbound path by following it once in steps of h. The end is at the horizon, far away, or where
+ * its time is over. Returns false if the path strays, or does not reach the requested end. */
 static bool find_end(struct kd_orbit_run *run, double h)
 {
     const struct kd_orbit *o = &run->orbit;
@@ -127,7 +129,7 @@ static bool find_end(struct kd_orbit_run *run, double h)
             return false;
         double w = path.place[KD_PATH_W].value, rate = path.rate[KD_PATH_W].value;
         bool falls = o->fate == KD_ORBIT_PLUNGE && w >= horizon;
-        /* the turn happened within the step, coming from infinity if E = 1 */
+        /* the path turned within the step; it comes from infinity if E = 1 */
         bool back = before.rate[KD_PATH_W].value < 0 && rate >= 0;
         bool leaves = o->fate == KD_ORBIT_ESCAPE && ((w <= far && rate < 0) || back);
         if (falls || leaves) {
@@ -176,7 +178,7 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
     for (int i = 0; i < HALVINGS; i++, h *= 0.5) {
         if (!find_end(run, h))
             continue;
-        /* for a whirl this is close enough: steps are tried up to this end, and beyond it lies infinity */
+        /* This is close enough for a whirl: steps are tried up to this end, and beyond it is infinity */
         found = true;
         if (!(run->rounding > 1e-12) || fabs(run->mino_end - before) < 1e-9 * run->mino_end)
             return KD_OK;
@@ -240,7 +242,7 @@ static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
     enum kd_status status = cut(run, error);
     if (!status && !run->closed && !isnan(run->aim))
         status = find_end_again(run, error);
-    if (run->rounding > 1e-12) /* smaller errors are negligible */
+    if (run->rounding > 1e-12) /* below this the error is negligible */
         run->error_estimate = fmax(run->error_estimate, run->rounding);
     if (run->start.w_rate == 0 && kd_orbit_radial_slope(&run->orbit, run->start.w) < 0 && !run->orbit.circular) {
         run->periastra = 1;
@@ -331,7 +333,7 @@ static size_t advance_closed(struct kd_orbit_run *run, uint64_t steps, struct kd
     return n;
 }
 
-/* Takes the last step of an unbound path to the end that was found with another step size. It is less than half a
+/* Takes the last step of an unbound path, to the end that was found with another step size. The end is less than half a
  * step away. */
 static void step_to_the_end(struct kd_orbit_run *run)
 {

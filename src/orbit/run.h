@@ -12,14 +12,14 @@ struct kd_orbit_sample {
     struct kd_place_image image; /* its image for the observer; NAN if there is none */
 };
 
-/* params must outlive the run. KD_EINVAL as kd_orbit_request_solve. */
+/* params must outlive the run. Fails with KD_EINVAL like kd_orbit_request_solve. */
 enum kd_status kd_orbit_run_init(struct kd_orbit_run *run, const struct kd_orbit_request *request, size_t index,
                                  struct kd_error *error);
 
 enum kd_orbit_method kd_orbit_run_method(const struct kd_orbit_run *run);
 
-/* Finds the end, and a step that meets the tolerance. Takes up to a second for one run; several are tried side by
- * side. KD_EINVAL, pointer "/duration" or "/method", if that is impossible. */
+/* Finds the end, and a step that meets the tolerance. Takes up to a second for one run; several runs are tried side by
+ * side. KD_EINVAL with pointer "/duration" or "/method": there is no such end or step. */
 enum kd_status kd_orbit_run_prepare(struct kd_orbit_run *const *runs, size_t n, struct kd_error *error);
 
 /* Advances by up to `steps` steps and `room` samples; returns the number of samples written. */

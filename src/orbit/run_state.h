@@ -17,19 +17,19 @@ struct kd_orbit_run {
     double phi;       /* at the start */
     double mass_msun; /* NAN: none */
     double rounding;  /* as kd_orbit_request_solve */
-    bool closed;      /* has a closed form: fate BOUND. Otherwise `bound`, `frequencies` and period are not set */
+    bool closed;      /* has a closed form: fate BOUND. Otherwise `bound`, `frequencies` and `period` are not set */
     struct kd_orbit_bound bound;
     struct kd_orbit_frequencies frequencies;
     double period; /* Mino time of a radial period; of a turn in phi if r is constant */
     /* set by kd_orbit_run_prepare */
     enum kd_orbit_end end;
     double mino_end, h;
-    double aim; /* for an unbound path: 1/r or t of its last place; NAN if it ends when its time is over */
+    double aim; /* for an unbound path: 1/r or t of its last place; NAN if the path ends when its time is over */
     uint64_t steps, done;
     uint32_t samples, sampled;
-    /* Relative error of the place after a period (or the whole path): from a run with half as many steps, or
-     * `rounding` if that is larger. NAN if neither is known: `steps` was given, or the closed form is used, and
-     * there is no whirl. */
+    /* Relative error of the place after a period (or at the end of the whole path). It is estimated from a run with
+     * half as many steps, or is `rounding` if that is larger. NAN if neither is known: `steps` was given, or the closed
+     * form is used, and there is no whirl. */
     double error_estimate;
     /* updated by kd_orbit_run_advance */
     struct kd_orbit_path path;

@@ -26,7 +26,7 @@ struct kd_playground_body {
     /* Tidal pass: mass and radius before it, the largest r_t/r so far, the fraction of the mass that is lost, and
      * the fraction that events have reported (tide.h). whole_mass is 0 outside a pass. */
     double whole_mass, whole_radius, depth, shed, told;
-    uint32_t source;    /* number of its debris' source, valid during a pass */
+    uint32_t source;    /* number of the source of its debris, valid during a pass */
     double radiated;    /* orbital energy lost to gravitational waves */
     bool told_inspiral; /* an event has reported that it is inside 6 M */
 };

@@ -148,7 +148,7 @@ void kd_debris_shed(struct kd_playground_debris *debris, struct kd_debris_source
     debris->haste += shed->n / (r - KD_PLAYGROUND_HORIZON);
 }
 
-/* Counts a piece that came back at time `since` after its source began. */
+/* Counts a piece that has come back, at time `since` after its source began. */
 static void count(struct kd_debris_source *source, struct kd_debris_piece *piece, double since)
 {
     const double bin = floor(KD_DEBRIS_PER_DECADE * log10(fmax(since, 1)));
@@ -256,8 +256,8 @@ struct kd_debris_rate kd_debris_rate(const struct kd_debris_source *source, int 
     };
 }
 
-/* False if a bin is only partly covered in time: the one that contains the present, and the first in which a piece
- * came back. The last bin is unbounded. */
+/* False if a bin is only partly covered in time. That is the bin that contains the present, and the first bin in which
+ * a piece came back. The last bin is unbounded. */
 static bool is_whole(const struct kd_playground_debris *debris, const struct kd_debris_source *source, int bin)
 {
     const double age = debris->t - source->t;

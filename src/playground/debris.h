@@ -1,13 +1,13 @@
 /* Debris torn off bodies by tides: massless pieces that move in the hole's potential alone and do not interact.
  *
- * Pieces are kept in a ring buffer: a new one replaces the oldest. Each is moved between common times with sub-steps
- * of its own, C (r - 2) long. Coordinates are double: far out a float would not move, because a stride's distance is
- * below its resolution. A piece belongs to a source, the tidal pass in which it was torn off.
+ * Pieces are kept in a ring buffer: a new one replaces the oldest. Between two common times each piece is moved with
+ * sub-steps of its own length, C (r - 2). Coordinates are double, because far out the distance moved in a stride is
+ * below the resolution of a float. A piece belongs to a source, which is the tidal pass in which it was torn off.
  *
- * A source counts the pieces that come back. A piece is back at the pericentre after its first apocentre (or when
- * the hole captures it after that). The counts are a histogram over the time since the source's first piece:
- * KD_DEBRIS_BINS bins, sixteen a decade, from 1 M on. They are integers, so that they do not depend on the order of
- * counting. One thread at a time. */
+ * A source counts the pieces that come back. A piece has come back when it is at the pericentre after its first
+ * apocentre (or when the hole captures it after that). The counts are a histogram over the time since the source's
+ * first piece: KD_DEBRIS_BINS bins, sixteen a decade, from 1 M on. They are integers, so that they do not depend on the
+ * order of counting. One thread at a time. */
 #ifndef KD_PLAYGROUND_DEBRIS_H
 #define KD_PLAYGROUND_DEBRIS_H
 
@@ -33,7 +33,7 @@ struct kd_debris_source {
     char name[KD_PLAYGROUND_NAME];
     double t;                /* time of its first piece */
     double piece_mass;       /* of one of its pieces */
-    double worth;            /* size of a piece in whole bodies, for pictures */
+    double worth;            /* weight of a piece for pictures, as a fraction of a whole body */
     double spread;           /* half width of the pieces' energies, R/r_t^2 */
     uint32_t pieces;         /* torn off so far */
     uint32_t captured, lost; /* captured by the hole; overwritten by newer pieces */
@@ -45,7 +45,7 @@ struct kd_playground_debris {
     uint32_t capacity, used, next; /* slots ever used; slot of the next piece */
     uint32_t last_source;          /* number of the newest source; its index is number % KD_DEBRIS_SOURCES */
     uint32_t alive;
-    double haste; /* sum of 1/(r - 2) over the pieces at t, that is, their sub-steps a M, times C */
+    double haste; /* sum of 1/(r - 2) over the pieces at t: C times the number of their sub-steps in 1 M */
     double t;     /* common time of all pieces */
     struct kd_debris_source sources[KD_DEBRIS_SOURCES];
 };
@@ -62,8 +62,8 @@ struct kd_debris_source *kd_debris_source_begin(struct kd_playground_debris *deb
 struct kd_debris_source *kd_debris_source_of(struct kd_playground_debris *debris, uint32_t number);
 
 /* Tears n pieces off a body of this radius at x, v. Their energies are spread evenly within `spread` of the body's:
- * lower ones start nearer to the hole, higher ones farther away. The energies are frozen in, and each piece then
- * moves freely (M. Rees 1988, Nature 333, 523; N. Stone et al. 2013, MNRAS 435, 1809). */
+ * pieces of lower energy start nearer to the hole, pieces of higher energy farther away. After that the energies are
+ * frozen in, and each piece moves freely (M. Rees 1988, Nature 333, 523; N. Stone et al. 2013, MNRAS 435, 1809). */
 struct kd_debris_shed {
     const double *x, *v;
     double radius;
@@ -75,12 +75,12 @@ void kd_debris_shed(struct kd_playground_debris *debris, struct kd_debris_source
 
 /* Moves all pieces to time t. With `feeds`, a piece that comes back is counted and removed, as it joins the disk. */
 void kd_debris_advance(struct kd_playground_debris *debris, double t, double safety, bool feeds);
-/* Longest stride for which all pieces together need no more sub-steps than fit into a fraction of a second; INFINITY
- * if there are none. */
+/* Longest stride in which all pieces together need no more sub-steps than fit into a fraction of a second. INFINITY if
+ * there are no pieces. */
 double kd_debris_stride(const struct kd_playground_debris *debris, double safety);
 
-/* For a bin: its central time and width, the rate at which mass came back, and the rate of Rees for a flat
- * distribution of energies, (m/(2 spread)) (2 pi)^(2/3)/3 t^(-5/3), m being the mass of all its pieces. */
+/* For a bin: its central time and width, and the rate at which mass came back. line: the rate of Rees for a flat
+ * distribution of energies, (m/(2 spread)) (2 pi)^(2/3)/3 t^(-5/3), m being the mass of all pieces of the source. */
 struct kd_debris_rate {
     double t, width, rate, line;
     uint32_t pieces;
@@ -89,7 +89,7 @@ struct kd_debris_rate kd_debris_rate(const struct kd_debris_source *source, int 
 /* Writes the rates of all sources as text/csv: source,t,width,pieces,rate,line,whole. whole is 0 for partly covered
  * bins: the first one in which pieces came back, and the current one. KD_ENOMEM. */
 enum kd_status kd_debris_csv(const struct kd_playground_debris *debris, struct kd_buffer *out);
-/* Writes them as an NPY array of records with these fields. KD_ENOMEM. */
+/* Writes the same as an NPY array of records with these fields. KD_ENOMEM. */
 enum kd_status kd_debris_npy(const struct kd_playground_debris *debris, struct kd_buffer *out);
 
 #endif

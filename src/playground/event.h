@@ -29,7 +29,7 @@ struct kd_playground_event {
     enum kd_playground_event_kind kind;
     uint32_t body, other; /* ids; other 0: none */
     char name[KD_PLAYGROUND_NAME], other_name[KD_PLAYGROUND_NAME];
-    /* Merger: the masses of the two bodies before. Shedding and disruption: mass lost, and mass left. */
+    /* Merger: the masses of the two bodies before it. Shedding and disruption: the mass lost, and the mass left. */
     double mass, other_mass;
     double r, energy;
     double tidal_radius, spread; /* r_t and half width of the debris' energies; NAN for other events */

@@ -1,7 +1,8 @@
-/* The exact timelike Kerr geodesic of a test body, by coordinate time. One thread a geodesic.
+/* The exact timelike Kerr geodesic of a test body, as a function of coordinate time. A geodesic belongs to one thread
+ * at a time.
  *
- * Integrates in Mino time with a fixed step, as physics/orbit/orbit_path.h; the place at a coordinate time is found
- * between two steps. Positions are x = r sin(theta) cos(phi), y = r sin(theta) sin(phi), z = r cos(theta) of the
+ * It is integrated in Mino time with a fixed step, like physics/orbit/orbit_path.h. The place at a coordinate time is
+ * found between two steps. Positions are x = r sin(theta) cos(phi), y = r sin(theta) sin(phi), z = r cos(theta) of the
  * Boyer-Lindquist coordinates. A velocity is measured by the local observer of zero angular momentum along e_r,
  * e_theta, e_phi; its components are combined as if these were directions in flat space. */
 #ifndef KD_PLAYGROUND_GEODESIC_H
@@ -19,21 +20,21 @@ struct kd_playground_geodesic {
     double spin, from_x[3], from_v[3], from_t; /* initial conditions, which give the constants of motion */
     double phi;                                /* initial azimuth */
     double h;                                  /* step in Mino time */
-    struct kd_orbit_path path;                 /* not beyond the last time approached */
+    struct kd_orbit_path path;                 /* state, which is not beyond the time that was last approached */
     struct kd_orbit_path begun;                /* state at the last time reached; kd_geodesic_back returns to it */
 };
 
-/* KD_EINVAL, with the pointer "/position" or "/velocity", if there is no such motion. */
+/* Begins the motion. KD_EINVAL, with the pointer "/position" or "/velocity", if there is no such motion. */
 enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, const struct kd_hole *hole, const double x[3],
                                  const double v[3], double t, struct kd_error *error);
 
-/* Advances up to the step that would pass time t, or until the body is captured or far away. t must not decrease
- * from call to call. Takes at most *steps steps and counts them down. False: no steps are left; the next call
+/* Advances up to the step that would pass time t, or until the body is captured or far away. t must not decrease from
+ * call to call. Takes at most *steps steps and counts them down. Returns false if no steps are left; the next call then
  * continues. */
 bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *steps);
 enum kd_geodesic_fate { KD_GEODESIC_GOES, KD_GEODESIC_CAPTURED, KD_GEODESIC_AWAY };
 void kd_geodesic_back(struct kd_playground_geodesic *g);
-/* Steps in a unit of coordinate time, at the present position. */
+/* Number of steps in a unit of coordinate time, at the present position. */
 double kd_geodesic_pace(const struct kd_playground_geodesic *g);
 /* Position and velocity at time t, which must have been approached. Afterwards kd_geodesic_back cannot return to
  * before t. */

@@ -20,7 +20,7 @@
 
 #define KD_PLAYGROUND_JSON_MAX ((size_t)96 << 20) /* maximum size of a document: a million pieces take 72 MiB */
 
-/* KD_EINVAL with a pointer; without one the text is not JSON. */
+/* Reads a playground. KD_EINVAL with a pointer; if there is no pointer, the text is not JSON. */
 enum kd_status kd_playground_read(const char *text, size_t length, struct kd_playground **out, struct kd_error *error);
 /* Replaces *p; on an error *p is unchanged. */
 enum kd_status kd_playground_patch(struct kd_playground **p, const char *text, size_t length, struct kd_error *error);

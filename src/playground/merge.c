@@ -69,7 +69,7 @@ void kd_playground_merge(struct kd_playground *p, double h)
 {
     double before = 0;
     size_t joined = 0;
-    /* bodies whose position before this step is no longer meaningful */
+    /* marks bodies whose position before this step is no longer meaningful */
     bool grown[KD_PLAYGROUND_BODIES_MAX] = { false };
     for (size_t i = 0; i < p->n; i++) {
         bool again = p->mutual.near[i] > 0 && p->bodies[i].id;
@@ -123,6 +123,6 @@ void kd_playground_capture(struct kd_playground *p)
                                                          body->x[(k + 2) % 3] * body->v[(k + 1) % 3]);
         kd_playground_drop(p, i);
     }
-    if (taken) /* computed once for all captures, because it visits all pairs */
+    if (taken) /* computed once for all captures, because the computation visits all pairs */
         p->spent.captured_energy += before - kd_playground_totals(p).energy;
 }

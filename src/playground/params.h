@@ -12,8 +12,8 @@ enum kd_playground_gravity { KD_GRAVITY_PACZYNSKI_WIITA, KD_GRAVITY_KERR };
 #define KD_PLAYGROUND_BODIES_MAX 4096u
 #define KD_PLAYGROUND_DEBRIS_MAX 1000000u
 
-/* REAL and INT(NAME, default, least, most, help), BOOL(NAME, default, help), WORD(NAME, default, "a|b", help).
- * gravity and spin are fixed when a playground is made. */
+/* REAL and INT(NAME, default, least, most, help), BOOL(NAME, default, help), WORD(NAME, default, "a|b", help). gravity
+ * and spin cannot be changed once a playground is made. */
 #define KD_PLAYGROUND_SETTINGS(REAL, INT, BOOL, WORD) \
     WORD( \
         gravity, KD_GRAVITY_PACZYNSKI_WIITA, "paczynski-wiita|kerr", \

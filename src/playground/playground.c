@@ -80,8 +80,8 @@ static enum kd_status check(const struct kd_playground *p, const struct kd_playg
     return KD_OK;
 }
 
-/* Call before the list of bodies or a body is changed from outside: records the energy, unless an earlier change
- * did. */
+/* Call before the list of bodies, or a body, is changed from outside. Records the energy, unless an earlier change has
+ * done so. */
 static void disturb(struct kd_playground *p)
 {
     if (!p->disturbed && !kerr(p))
@@ -89,7 +89,7 @@ static void disturb(struct kd_playground *p)
     p->disturbed = true;
 }
 
-/* Call after such a change: the next step starts afresh. */
+/* Call after a change from outside: the next step starts afresh. */
 static void begin_anew(struct kd_playground *p)
 {
     p->forced = false;

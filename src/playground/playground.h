@@ -4,8 +4,8 @@
  *     struct kd_playground *p;
  *     kd_playground_create(&params, &p, error);
  *     kd_playground_add(p, &body, &id, error);
- *     kd_playground_advance(p, 1000, &progress);              p->t is 1000 or up to a sub-step more, or less if the
- *       budget was spent
+ *     kd_playground_advance(p, 1000, &progress);   p->t is now 1000, or more by up to a sub-step, or less if the budget
+ *                                                  was spent
  *     kd_playground_destroy(p);
  *
  * Gravity "paczynski-wiita": the hole rests at the origin and attracts by its potential (hole.h), and bodies attract
@@ -13,16 +13,16 @@
  *
  *     h <= min(h_max, C (r - 2) of each body, C (sum of (m_i + m_j)/s^3 over a body's pairs)^(-1/2)).
  *
- * The bounds before and after the step are combined so that a step backwards has the same length: with 1/h = G, the
- * rate that the bound requires, 1/h_n + 1/h_(n-1) = 2 G(x_n) (T. Holder, B. Leimkuhler & S. Reich 2001, Appl. Numer.
- * Math. 39, 367). The method is time-symmetric and so has no drift of energy. Steps are never stretched or cut to
- * meet a requested time: dividing the time into calls differently gives the same bits. Speeds are capped at 1, which
- * only removes energy; `spent` accounts for it.
+ * The step is chosen so that a step backwards has the same length. Let R(x) be 1/h for the largest h that the bound
+ * allows at the positions x; then 1/h_n + 1/h_(n-1) = 2 R(x_n) (T. Holder, B. Leimkuhler & S. Reich 2001, Appl. Numer.
+ * Math. 39, 367). The method is time-symmetric and so has no drift of energy. Steps are never stretched or cut to meet
+ * a requested time: dividing the time into calls differently gives the same bits. Speeds are capped at 1, which only
+ * removes energy; `spent` accounts for it.
  *
- * Gravity "kerr": bodies follow geodesics (geodesic.h) without mutual gravity, tides or waves. Their positions are
- * updated once every h_max, or more often if the budget is short, and for all at the same time. If the budget of an
- * advance is spent in between, no body has moved, and the next advance continues the computation. Such unfinished
- * work is not in a snapshot.
+ * Gravity "kerr": bodies follow geodesics (geodesic.h) without mutual gravity, tides or waves. The positions of all
+ * bodies are updated together, once every h_max, or more often if the budget is short. If the budget of an advance is
+ * spent in between, no body has moved, and the next advance continues the computation. Such unfinished work is not in a
+ * snapshot.
  *
  * Results depend on the state alone, including the seed. They are the same on other machines with IEEE arithmetic,
  * provided that the C library's sqrt, cbrt and pow are. */
@@ -40,12 +40,13 @@
 
 #define KD_PLAYGROUND_TIME 1e12 /* M: end of time, also for scenes */
 
-/* What has left the motion of the bodies since the beginning. With these sums, energy and momentum balance. */
+/* What has been removed from the motion of the bodies since the beginning. With these sums, energy and momentum
+ * balance. */
 struct kd_playground_spent {
     double captured_mass, captured_energy, captured_momentum[3]; /* angular momentum */
     double merged;                                               /* energy that became heat in mergers */
     double capped;                                               /* energy removed by capping speeds at c */
-    double capped_momentum[3];     /* momentum removed likewise, where the pull of other bodies dominated */
+    double capped_momentum[3];     /* momentum removed by capping, where the pull of other bodies dominated */
     double radiated;               /* energy of gravitational waves */
     double torn_mass, torn_energy; /* converted to debris */
     /* Energy added or removed from outside: bodies added, removed or changed, and recomputations of the mutual
@@ -62,7 +63,7 @@ struct kd_playground {
     uint32_t last_id;
     double rate;     /* 1/h of the step before; 0: the next step starts afresh */
     uint64_t random; /* number of random numbers drawn */
-    bool held;       /* the loss to waves has been limited to a tenth of the pull, at some time */
+    bool held;       /* at some time the loss to waves was limited to a tenth of the pull */
     struct kd_playground_spent spent;
     struct kd_playground_events events;
     struct kd_playground_debris debris;
@@ -73,7 +74,8 @@ struct kd_playground {
     bool disturbed;
     double before; /* bodies were changed from outside since the last step; the energy before that */
     double aim;
-    /* Gravity "kerr": the time that geodesics approach, and the number that have arrived. Bodies move when all have. */
+    /* Gravity "kerr": the time that the geodesics approach, and the number of geodesics that have arrived there. Bodies
+     * move when all have arrived. */
     size_t approached;
     bool forced;                  /* `mutual` is up to date */
     double margin;                /* margin that `mutual` was computed with */
@@ -84,8 +86,8 @@ enum kd_status kd_playground_create(const struct kd_playground_params *params, s
                                     struct kd_error *error);
 void kd_playground_destroy(struct kd_playground *p); /* accepts NULL */
 
-/* KD_EINVAL with the pointer "/position", "/velocity", ... if such a body cannot exist; KD_ETOOBIG: there are
- * already KD_PLAYGROUND_BODIES_MAX. body->id is ignored; an empty name becomes "body ID". id may be NULL. */
+/* Adds a body. KD_EINVAL with the pointer "/position", "/velocity", ... if such a body cannot exist; KD_ETOOBIG: there
+ * are already KD_PLAYGROUND_BODIES_MAX. body->id is ignored; an empty name becomes "body ID". id may be NULL. */
 enum kd_status kd_playground_add(struct kd_playground *p, const struct kd_playground_body *body, uint32_t *id,
                                  struct kd_error *error);
 struct kd_playground_body *kd_playground_find(struct kd_playground *p, uint32_t id); /* NULL if there is none */
@@ -135,12 +137,13 @@ struct kd_playground_totals {
     double energy, momentum[3], angular[3];
     double h_plus, h_cross; /* strain times distance, seen along +z: the second derivative of the quadrupole */
     double separation,
-        /* Of the closest bound pair of bodies, otherwise of the innermost body and the hole; NAN without bodies. */
+        /* Both are of the closest bound pair of bodies or, if there is none, of the innermost body and the hole; NAN
+         * without bodies. */
         wave_frequency;
 };
 struct kd_playground_totals kd_playground_totals(struct kd_playground *p);
 
-/* The present values as a row of `series`. */
+/* Writes the present values as a row of `series`. */
 void kd_playground_series_row(struct kd_playground *p, double row[KD_SERIES_N]);
 /* Restarts the series here: over the next `span` M, or open-ended if 0 (series.h), which is the default. */
 void kd_playground_series_begin(struct kd_playground *p, double span);

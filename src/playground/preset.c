@@ -90,7 +90,7 @@ static enum kd_status planets(struct kd_playground *p, struct kd_error *error)
     }
     if (status)
         return status;
-    /* A moon of the last one, at the circular speed of the softened pull. */
+    /* A moon of the planet that was added last, at the circular speed of the softened pull. */
     const double d = 3, e2 = p->params.softening * p->params.softening, v = d * sqrt(body.mass / pow(d * d + e2, 1.5));
     const double out = kd_playground_radius(body.x), speed = kd_playground_radius(body.v);
     struct kd_playground_body moon = { .mass = 1e-7, .radius = 0.1, .temperature_k = 2500 };

@@ -26,8 +26,8 @@ static enum kd_status read_name(struct kd_playground_body *body, const cJSON *it
     return KD_OK;
 }
 
-/* Reads the given fields; others stay. id: set to the member "id"; NULL if a body may not have one. grown: factor on
- * the largest mass and radius of a new body, since mergers add up. */
+/* Reads the given fields; the others keep their values. id: set to the member "id"; NULL if a body may not have one.
+ * grown: factor on the largest mass and radius of a new body, since mergers add up. */
 static enum kd_status read_body(struct kd_playground_body *body, const cJSON *item, const char *pointer, uint32_t *id,
                                 double grown, struct kd_error *error)
 {
@@ -104,7 +104,7 @@ static enum kd_status do_one(struct kd_playground *p, enum list what, const cJSO
             return kd_error_field(error, pointer, "there is no body with this id, or it is there no more");
         body = *old;
         if (cJSON_HasObjectItem(item, "mass") || cJSON_HasObjectItem(item, "radius"))
-            body.whole_mass = 0; /* it is now another star, whose tidal pass starts afresh */
+            body.whole_mass = 0; /* the changed body counts as another star, whose tidal pass starts afresh */
     }
     KD_TRY(read_body(&body, item, pointer, what == CHANGE ? &id : NULL, 1, error));
     if (isnan(body.x[0]))

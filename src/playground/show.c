@@ -13,7 +13,7 @@
 #define LIMB 0.6    /* the default of bodies.limb_darkening */
 #define PER_CELL 6. /* minimum mean number of pieces in occupied cells */
 
-/* Factor from a Newtonian velocity to that past the observer of zero angular momentum. */
+/* Factor from a Newtonian velocity to the velocity relative to the observer of zero angular momentum (show.h). */
 static double slower(const double v[3], bool approximate)
 {
     const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
@@ -90,7 +90,7 @@ static bool take(const struct kd_show_place *places, size_t n, struct taken *out
     return seen;
 }
 
-/* The range of columns outside the widest empty gap: first column and count. */
+/* The range of columns that remains when the widest empty gap is left out: first column and count. */
 static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, uint32_t *count)
 {
     uint32_t widest = 0, run = 0;
@@ -107,9 +107,9 @@ static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, u
     *count = KD_SHOW_TURN_LEAST - widest;
 }
 
-/* Chooses the smallest cells that leave enough pieces in each occupied cell. The estimate is from the coarsest grid;
- * a stream of debris is narrower than its cells, and so fills fewer small ones. A grid that does not go all round
- * has one more column of nodes at its end. */
+/* Chooses the smallest cells that leave enough pieces in each occupied cell. Their number is estimated from the
+ * coarsest grid. A stream of debris is narrower than the cells of that grid, and so fills fewer small ones. A grid that
+ * does not go all round has one more column of nodes at its end. */
 void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_dynamic_bodies_debris *out)
 {
     struct taken taken;
@@ -144,7 +144,7 @@ static void add(float *left, float *right, float share, float worth, float vr, f
     }
 }
 
-/* Velocity past the observer of zero angular momentum, along e_r and e_phi. */
+/* Velocity relative to the observer of zero angular momentum, along e_r and e_phi. */
 static void seen_velocity(const struct kd_debris_piece *p, bool approximate, float out[2])
 {
     const float x[3] = { (float)p->x[0], (float)p->x[1], (float)p->x[2] },

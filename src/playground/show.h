@@ -1,14 +1,15 @@
-/* Makes the crowd (scene/crowd.h) that shows a playground's present state in a picture of a scene. Call on the
+/* Makes the bodies (scene/dynamic_bodies.h) that show a playground's present state in a picture of a scene. Call on the
  * thread that owns the playground.
  *
- * A body's r, theta, phi are used as Boyer-Lindquist coordinates (body.h). With gravity "kerr" they are, and
- * velocities are relative to the observer of zero angular momentum. The potential of Paczynski and Wiita has a
- * Newtonian velocity u of any size up to c. Since its kinetic energy is u^2/2, u is taken for gamma v, so that v =
- * u/sqrt(1 + u^2) relative to that observer. For comparison, circular orbits have (gamma v)^2 = 1/(r - 3) in
- * Schwarzschild's metric, and u^2 = r/(r - 2)^2.
+ * A body's r, theta, phi are used as Boyer-Lindquist coordinates (body.h). With gravity "kerr" they are, and velocities
+ * are relative to the observer of zero angular momentum. The potential of Paczynski and Wiita has a Newtonian velocity
+ * u of any size up to c. Since its kinetic energy is u^2/2, u is taken for gamma v, so that v = u/sqrt(1 + u^2)
+ * relative to that observer. For comparison, circular orbits have (gamma v)^2 = 1/(r - 3) in Schwarzschild's metric,
+ * and u^2 = r/(r - 2)^2 here.
  *
- * Debris is projected onto the plane of the disk at its r and phi, as a density (kd_dynamic_bodies_debris). A piece
- * counts as its share of its body's mass, according to the number of pieces a body split into when it was torn off. */
+ * Debris is projected onto the plane of the disk at its r and phi, as a density (kd_dynamic_bodies_debris). A piece has
+ * the weight of its share of its body's mass. The share follows from the number of pieces into which the body split
+ * when the piece was torn off. */
 #ifndef KD_PLAYGROUND_SHOW_H
 #define KD_PLAYGROUND_SHOW_H
 
@@ -21,7 +22,7 @@
 enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_dynamic_bodies **out,
                                   struct kd_error *error);
 
-/* The same, with the hash of the state, for files of pictures. */
+/* The same, with the hash of the state, which files of pictures contain. */
 enum kd_status kd_playground_show_named(struct kd_playground *p, struct kd_dynamic_bodies **out,
                                         struct kd_error *error);
 
@@ -32,7 +33,8 @@ enum kd_status kd_playground_may_show(const struct kd_playground *p, const struc
 /* Widens a scene at infinity until it shows all bodies and nine pieces of debris in ten. */
 enum kd_status kd_playground_widen(const struct kd_playground *p, struct kd_scene *scene, struct kd_error *error);
 
-/* Makes a suitable scene of 640 x 360: that of its preset, or, if preset is NULL, one wide enough for its bodies. */
+/* Makes a suitable scene of 640 x 360: the scene of the preset or, if preset is NULL, one that is wide enough for the
+ * playground's bodies. */
 enum kd_status kd_playground_usual_scene(const struct kd_playground_preset *preset, const struct kd_playground *p,
                                          struct kd_scene *out, struct kd_error *error);
 

@@ -33,8 +33,8 @@ static double demanded(const struct kd_playground *p)
     return rate;
 }
 
-/* Caps the speed at 1. `others`: mutual gravity exceeds the hole's. Capping speed that the hole gave changes no
- * momentum balance, because the hole has no momentum. */
+/* Caps the speed at 1. others: the pull of other bodies exceeds that of the hole. If the hole gave the speed, capping
+ * it changes no momentum balance, because the hole has no momentum. */
 static void hold(struct kd_playground *p, struct kd_playground_body *body, bool others)
 {
     const double v = kd_playground_radius(body->v);
@@ -200,7 +200,7 @@ void kd_playground_series_begin(struct kd_playground *p, double span)
     kd_series_begin(&p->series, row, span, p->params.h_max);
 }
 
-/* Saves the present row if a step of at most `longest` may pass the next row of the series. */
+/* Saves the present row if a step of at most `longest` could pass the time of the next row of the series. */
 static void record_before(struct kd_playground *p, double longest)
 {
     p->last_row[KD_SERIES_t] = NAN;
@@ -230,8 +230,8 @@ static void advance_debris(struct kd_playground *p)
         kd_debris_advance(debris, p->t, p->params.safety, p->params.feeds);
 }
 
-/* One sub-step and its consequences. If only debris is left, the longest stride that it allows. False: h is below
- * the resolution of t. */
+/* Takes one sub-step, with its consequences. If only debris is left, the step is the longest stride that the debris
+ * allows. Returns false if h is below the resolution of t. */
 static bool go(struct kd_playground *p)
 {
     record_before(p, p->params.h_max); /* no step is longer */
@@ -266,7 +266,8 @@ void kd_playground_begin(struct kd_playground *p, double time, struct kd_playgro
         kd_playground_series_begin(p, 0);
     if (p->params.gravity != KD_GRAVITY_KERR || !(p->aim > run->end))
         return;
-    for (size_t i = 0; i < p->n; i++) /* the current stride leads beyond the end of this run: return to its start */
+    for (size_t i = 0; i < p->n; i++) /* the current stride leads beyond the end of this run, so the bodies return to
+                                       * its start */
         kd_geodesic_back(&p->geodesics[i]);
     p->aim = p->t;
 }

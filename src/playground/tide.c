@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#define TOLD 0.1 /* further fraction of its mass that a star sheds between two events */
+#define TOLD 0.1 /* further fraction of its mass that a star must shed before the next event */
 
 double kd_tide_radius(double mass, double radius) { return radius * cbrt(1 / mass); }
 
@@ -58,12 +58,12 @@ static void tell(struct kd_playground *p, const struct kd_playground_body *body,
     kd_playground_event_add(&p->events, event);
 }
 
-/* Sheds what is due. True: nothing is left of the star. */
+/* Sheds the mass that is lost at the present depth. Returns true if nothing is left of the star. */
 static bool shed(struct kd_playground *p, struct kd_playground_body *body)
 {
     struct kd_debris_source *source = kd_debris_source_of(&p->debris, body->source);
     const double share = kd_tide_share(body->depth);
-    if (!source) { /* its source was dropped for newer ones: end the pass; another may begin */
+    if (!source) { /* newer sources have replaced its source: this pass ends, and another may begin */
         end(body);
         return false;
     }

@@ -22,7 +22,7 @@ static void add_body(struct kd_playground_totals *sum, const struct kd_playgroun
     sum->h_cross += 2 * m * (2 * v[0] * v[1] + x[0] * a[1] + x[1] * a[0]);
 }
 
-/* Distance, and twice the orbital frequency, |x v'|/(pi d^2). */
+/* Sets the distance, and the frequency of the waves, which is twice the orbital frequency: |x v'|/(pi d^2). */
 static void pair(struct kd_playground_totals *sum, const double x[3], const double v[3])
 {
     const double c[3] = { x[1] * v[2] - x[2] * v[1], x[2] * v[0] - x[0] * v[2], x[0] * v[1] - x[1] * v[0] },

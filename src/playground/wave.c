@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-#define MOST 0.1 /* maximum loss over the pull: beyond it there is no orbit, and the formula might add energy */
+/* maximum of the loss over the pull: beyond it there is no orbit, and the formula might add energy */
+#define MOST 0.1
 
 /* The reaction for m1 m2 = product and the total mass m. */
 static bool react(double product, double m, const double x[3], const double v[3], double amplification, double a[3])
@@ -72,8 +73,8 @@ void kd_wave_partners(const struct kd_playground_body *bodies, size_t n, double 
             }
         }
     }
-    /* A bound pair keeps its partners; all other bodies have none. Chains (i to j, j to k) end in pairs, which are
-     * compared as pairs. */
+    /* A pair keeps its partners if it is bound; all other bodies have none. A chain (i to j, j to k) ends in a pair,
+     * which is checked like the others */
     for (size_t i = 0; i < n; i++) {
         const size_t j = partners[i];
         if (j < n && i < j && partners[j] == i && !bound(&bodies[i], &bodies[j], softening2))

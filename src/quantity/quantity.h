@@ -32,8 +32,8 @@ enum {
     KD_QUANTITY_POINTS = 100000, /* maximum for one answer */
 };
 
-/* A parameter is a number in its range, or `word` (INFINITY for the function), or one of `words` ("a|b|c": its
- * index). */
+/* A parameter is one of three: a number in its range; `word`, which is INFINITY for the function; or one of `words`
+ * ("a|b|c"), which is given as its index. */
 struct kd_parameter {
     const char *name, *unit, *help; /* unit "1": a pure number */
     const char *initial;            /* default, as text of a request; may be a range */
@@ -62,8 +62,8 @@ struct kd_quantity {
      * a value is outside the domain. */
     enum kd_status (*evaluate)(const double *in, double *out, void *memory, bool fresh, struct kd_error *error);
     size_t memory_size;
-    /* Maximum time on one core of 2020, in microseconds, including the text of the answer: for each point, and in
-     * addition for each fresh one. */
+    /* Maximum time on a core of 2020, in microseconds, including the text of the answer: for each point, and
+     * additionally for each fresh point. */
     double point_us, fresh_us;
     bool sound; /* one point can be played as sound: quantity/sound.h */
 };

@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* At a horizon E, L and Delta p_r are no longer independent (tetrad.h), so a camera this close to it (in M) is
- * treated as one just beside it. */
+/* At a horizon E, L and Delta p_r are no longer independent (tetrad.h). So a camera that is closer to it than this, in
+ * M, is treated as if it were at this distance. */
 static const double BESIDE = 1e-7;
 
 static struct kd_vantage beside_horizon(struct kd_vantage at)
@@ -31,7 +31,7 @@ static struct kd_covector straight_out(const struct kd_vantage *at)
     return (struct kd_covector) { 1, a * at->s, 0, at->r * at->r + a * a * at->u * at->u };
 }
 
-/* A photon that arrives from that direction: it flies the opposite way. */
+/* Makes a photon that arrives from that direction; it flies the opposite way. */
 static bool arriving(const struct kd_aim *aim, const struct kd_scene *scene, const struct kd_vantage *at,
                      struct kd_covector *out)
 {
@@ -77,7 +77,7 @@ void kd_aim_between(const double from[3], const double to[3], double t, double l
     double aside[3] = { to[0] - along * from[0], to[1] - along * from[1], to[2] - along * from[2] };
     double sine = sqrt(aside[0] * aside[0] + aside[1] * aside[1] + aside[2] * aside[2]);
     const double angle = t * atan2(sine, along), flat = hypot(from[0], from[2]);
-    if (sine < 1e-9) { /* parallel or opposite */
+    if (sine < 1e-9) { /* the directions are parallel or opposite */
         aside[0] = flat > 0 ? from[2] / flat : 1;
         aside[1] = 0;
         aside[2] = flat > 0 ? -from[0] / flat : 0;

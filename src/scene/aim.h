@@ -1,30 +1,31 @@
-/* Where a camera looks while it moves: at the hole, at a place, or in a direction. Takes the aberration of the
- * observer's motion into account, but not the bending of light. Double precision, pure, any thread. */
+/* Where a camera looks while it moves: at the hole, at a place, or in a direction. The aberration of light by the
+ * observer's motion is taken into account, the bending of light is not. Double precision, pure, any thread. */
 #ifndef KD_SCENE_AIM_H
 #define KD_SCENE_AIM_H
 
 #include "scene/scene.h"
 
-/* HOLE: towards light that flies straight out, along the outgoing principal null direction: E = 1, L = a
- * sin^2(theta), p_theta = 0, Sigma p^r = Sigma (Chandrasekhar 1983, The Mathematical Theory of Black Holes, section
- * 62). Without spin that is straight ahead for an observer in radial motion.
+/* HOLE: towards light that flies straight out, along the outgoing principal null direction: E = 1, L = a sin^2(theta),
+ * p_theta = 0, Sigma p^r = Sigma (Chandrasekhar 1983, The Mathematical Theory of Black Holes, section 62). Without spin
+ * that is straight ahead for an observer in radial motion.
  *
- * PLACE: along the straight line in flat space from the camera to (r, theta, phi), both taken as spherical
- * coordinates, phi as camera.azimuth_deg. r = INFINITY: in that direction. The camera sees light that arrives along
- * this line in the frame of zero angular momentum, or, for an infalling observer, in the rain frame, whose space is
- * flat without spin. */
+ * PLACE: along the straight line in flat space from the camera to (r, theta, phi). Both points are read as spherical
+ * coordinates, and phi is measured like camera.azimuth_deg. r = INFINITY: in that direction. The camera sees light that
+ * arrives along this line in the frame of zero angular momentum. For an infalling observer it is the rain frame
+ * instead, whose space is flat if there is no spin. */
 struct kd_aim {
     enum kd_aim_kind { KD_AIM_FREE, KD_AIM_HOLE, KD_AIM_PLACE } kind; /* FREE: yaw and pitch decide */
     double r, theta_deg, phi_deg;
 };
 
-/* Gives the viewing direction of a camera with this aim: a unit vector with components right, up and inwards, as yaw
- * and pitch define them. The scene must be valid. KD_EINVAL if its camera is at infinity, or at the place itself. */
+/* Computes the viewing direction of a camera with this aim. It is a unit vector with components right, up and inwards,
+ * as yaw and pitch define them. The scene must be valid. KD_EINVAL if its camera is at infinity, or at the place
+ * itself. */
 enum kd_status kd_aim_look(const struct kd_aim *aim, const struct kd_scene *scene, double look[3],
                            struct kd_error *error);
 
-/* Interpolates between two directions along the great circle, t in [0, 1]. Opposite directions are joined through a
- * direction at their side. */
+/* Interpolates between two directions along the great circle, t in [0, 1]. If they are opposite, the path goes through
+ * a direction perpendicular to both. */
 void kd_aim_between(const double from[3], const double to[3], double t, double look[3]);
 
 /* Sets the camera's yaw and pitch to this direction. */

@@ -20,7 +20,7 @@ bool kd_asset_is_name(const char *text)
            strspn(text, LETTERS DIGITS "._-") == length;
 }
 
-/* Checks that the asset is of the kind that the field takes. */
+/* Checks that the asset is of the kind that the field requires. */
 static enum kd_status suits(const struct kd_scene *scene, const char *path, const char *pointer,
                             const struct kd_asset_found *found, struct kd_error *error)
 {

@@ -1,6 +1,6 @@
-/* Assets are files of bytes that a scene refers to but does not contain. A document names one by the SHA-256 of its
- * bytes, or by a name known to the reader of the document. A name is resolved to the hash before the scene is used,
- * so that the identity of a scene, and of its picture, depends on the content only. Names never cause a download.
+/* Assets are files of bytes that a scene refers to but does not contain. A document names an asset by the SHA-256 of
+ * its bytes, or by a name that the reader of the document knows. A name is replaced by the hash before the scene is
+ * used, so that the identity of a scene, and of its picture, depends on the content only. Names never cause a download.
  * Any thread. */
 #ifndef KD_SCENE_ASSET_H
 #define KD_SCENE_ASSET_H
@@ -11,42 +11,44 @@
 
 /* A hash is 64 hexadecimal digits, lower case. */
 bool kd_asset_is_hash(const char *text);
-/* A name is a letter and up to 62 letters, digits, dots, dashes and underscores; "null" is not a name. */
+/* A name is a letter, followed by up to 62 letters, digits, dots, dashes and underscores. "null" is not a name. */
 bool kd_asset_is_name(const char *text);
 
-/* What is known of an asset: a picture, or a grid of matter (render/emit/matter_grid.h). */
+/* What is known about an asset. It is a picture, or a grid of matter (render/emit/matter_grid.h). */
 struct kd_asset_found {
     char hash[KD_ASSET_NAME];
-    uint32_t width, height; /* of a picture; 0: it is not a picture */
-    uint32_t nodes[3];      /* of a grid, in r, theta and phi; 0: it is not a grid */
-    double spin;            /* spin that a grid was made for */
+    uint32_t width, height; /* size of a picture; 0: the asset is not a picture */
+    uint32_t nodes[3];      /* nodes of a grid in r, theta and phi; 0: the asset is not a grid */
+    double spin;            /* spin for which a grid was made */
 };
-/* Bytes of an asset, unchanged until they are given back. */
+/* Bytes of an asset. They stay unchanged until they are given back. */
 struct kd_asset_bytes {
     const uint8_t *data;
     size_t size;
     void *held; /* private to the asset provider */
 };
-/* Asset provider: a server's store, or the files of a command line. It outlives its users. Its functions may be
- * called by any thread. */
+/* Asset provider: the store of a server, or the files of a command line. It must outlive its users. Any thread may call
+ * its functions. */
 struct kd_assets {
-    /* Finds an asset by name or hash; false if there is none. */
+    /* Finds an asset by name or hash. Returns false if there is none. */
     bool (*find)(void *user, const char *name, struct kd_asset_found *out);
-    bool (*take)(void *user, const char *hash, struct kd_asset_bytes *out); /* false: no longer available */
+    /* returns false if the asset is no longer available */
+    bool (*take)(void *user, const char *hash, struct kd_asset_bytes *out);
     void (*give_back)(void *user, struct kd_asset_bytes *bytes);
-    const char *allowed; /* what a field may name, for a message: "names of --asset NAME=FILE" */
+    const char *allowed; /* what a field may name, for messages, such as "names of --asset NAME=FILE" */
     void *user;
 };
 
-/* Replaces each name by the hash, and checks that each hash exists. KD_EINVAL with the field's pointer, and *scene
- * unchanged, if an asset is missing or of the wrong kind. sky.image is a picture twice as wide as high, of
- * KD_PANORAMA_LEAST to KD_PANORAMA_MOST rows. volume.grid is a grid of matter round a hole of the scene's spin. */
+/* kd_scene_resolve replaces each name by the hash, and checks that each hash exists. If an asset is missing or of the
+ * wrong kind it returns KD_EINVAL with the field's pointer, and *scene stays unchanged. sky.image must be a picture
+ * that is twice as wide as high and has KD_PANORAMA_LEAST to KD_PANORAMA_MOST rows. volume.grid must be a grid of
+ * matter around a hole of the scene's spin. */
 enum { KD_PANORAMA_LEAST = 16, KD_PANORAMA_MOST = 4096 };
 static inline bool kd_asset_is_panorama(uint32_t width, uint32_t height)
 {
     return width == 2 * (uint64_t)height && height >= KD_PANORAMA_LEAST && height <= KD_PANORAMA_MOST;
 }
-/* KD_EINVAL at /volume/grid if a grid made for this spin does not fit the scene's. */
+/* Returns KD_EINVAL at /volume/grid if a grid that was made for this spin does not fit the scene's spin. */
 enum kd_status kd_asset_check_grid(double spin, const struct kd_scene *scene, struct kd_error *error);
 enum kd_status kd_scene_resolve(struct kd_scene *scene, const struct kd_assets *assets, struct kd_error *error);
 

@@ -2,8 +2,9 @@
 
 #include <math.h>
 
-#define ALONE 0.2   /* where only the sky shines */
-#define BEHIND 0.01 /* keeps bright stars beside a disk from making the whole sky white */
+#define ALONE 0.2 /* sky.brightness "auto" for a grid, or if nothing but the sky shines */
+/* sky.brightness "auto" otherwise; keeps bright stars beside a disk from making the whole sky white */
+#define BEHIND 0.01
 
 static bool shines_before(const struct kd_scene *scene)
 {
@@ -20,7 +21,8 @@ double kd_scene_sky_brightness(const struct kd_scene *scene)
     return scene->sky.model != KD_SKY_GRID && shines_before(scene) ? BEHIND : ALONE;
 }
 
-#define DARK 0.25 /* largest brightness of the sky's unit over white, so that space stays black between stars */
+/* largest brightness of the sky's unit as a fraction of white, so that space between the stars stays black */
+#define DARK 0.25
 
 double kd_scene_exposure_most(const struct kd_scene *scene)
 {

@@ -5,16 +5,16 @@
 
 #include <string.h>
 
-/* State of a difference being written: base with the fields written so far applied. */
+/* State while a difference is written: `base` with all fields applied that are written so far. */
 struct telling {
     const struct kd_scene *scene;
     struct kd_scene made;
     char between;
-    size_t before; /* bytes of *out before the difference */
+    size_t before; /* size of *out before the difference */
     struct kd_buffer *out, value;
 };
 
-/* Turns a document's value into the form of --set: without quotes and brackets. */
+/* Converts a value from the form of a document to that of --set, without quotes and brackets. */
 static void strip(char *text)
 {
     char *to = text;
@@ -24,7 +24,7 @@ static void strip(char *text)
     *to = 0;
 }
 
-/* Compares values before they are written as text, which would be most of the work: a link compares 30 presets. */
+/* Compares values themselves. Comparing them as text would be most of the work: a link compares 30 presets. */
 static bool same(const struct kd_scene *a, const struct kd_scene *b, const struct kd_field *field, size_t index)
 {
     if (field->kind == KD_FIELD_ASSET)
@@ -66,7 +66,8 @@ static enum kd_status tell(struct telling *t, const struct kd_field *field, size
     return status ? status : kd_buffer_printf(t->out, "%s=%s", path, value);
 }
 
-/* An element that the base lacks is written even if it has all defaults: its first field creates it. */
+/* Writes the fields of a section or list element that differ. An element that the base lacks is written even if it has
+ * all defaults: its first field creates it. */
 static enum kd_status tell_fields(struct telling *t, const struct kd_section *section, size_t index)
 {
     enum kd_status status = KD_OK;
@@ -79,7 +80,7 @@ static enum kd_status tell_fields(struct telling *t, const struct kd_section *se
     return status;
 }
 
-/* The style first: as in a document, it sets other fields. */
+/* Writes the style first, because it sets other fields, as in a document. */
 static enum kd_status tell_all(struct telling *t)
 {
     enum kd_status status = KD_OK;

@@ -1,16 +1,16 @@
-/* Describes one scene by its difference from another, in the form of --set and of queries. Pure, any thread. */
+/* Describes a scene by its difference from another one, in the form of --set and of queries. Pure, any thread. */
 #ifndef KD_SCENE_DIFFERENCE_H
 #define KD_SCENE_DIFFERENCE_H
 
 #include "scene/scene.h"
 
-/* Appends the difference as "style.name=film spacetime.spin=0.99 camera.r=40", with `between` as separator. Applied
- * in this order to *base, these fields give *scene. KD_EINVAL, with *out unchanged, if that is impossible: a list of
- * *base is longer, or *scene names an asset by an unresolved name. KD_ENOMEM. */
+/* Appends the difference, such as "style.name=film spacetime.spin=0.99 camera.r=40", with `between` as separator. If
+ * these fields are applied in this order to *base, the result is *scene. KD_EINVAL if that is impossible: a list of
+ * *base is longer, or *scene names an asset by an unresolved name; *out is then unchanged. KD_ENOMEM. */
 enum kd_status kd_scene_difference(const struct kd_scene *base, const struct kd_scene *scene, char between,
                                    struct kd_buffer *out);
 
-/* Appends the difference from the default scene, separated by blanks, or "the default scene". */
+/* Appends the difference from the default scene, separated by blanks. If there is none, appends "the default scene". */
 enum kd_status kd_scene_line(const struct kd_scene *scene, struct kd_buffer *out);
 
 #endif

@@ -1,28 +1,29 @@
-/* The table of scene fields, version 1 of the scene document: one row a field, in sections and lists of sections.
+/* The table of scene fields, version 1 of the scene document. Each row is a field; rows are grouped in sections and in
+ * lists of sections.
  *
- * Each row expands to the struct member, the default, the JSON parser, --set, the query parameter, the JSON Schema
- * and docs/scene.md. Add a field here and nowhere else.
+ * Each row expands to the struct member, the default, the JSON parser, --set, the query parameter, the JSON Schema and
+ * docs/scene.md. A new field is added here and nowhere else.
  *
  *     REAL(section, name, nature, place, default, minimum, maximum, unit, help)
  *     WORD(section, name, nature, place, default, minimum, maximum, unit, help, word)
- *          a real, or the word (stored as INFINITY)
+ *          a real number, or the word, which is stored as INFINITY
  *     INT (section, name, nature, place, default, minimum, maximum, unit, help)
  *     BOOL(section, name, nature, place, default, help)
  *     ENUM(section, name, nature, place, default, help, words)
- *          words "a|b|c": the value is the index
+ *          words "a|b|c": the value is the index of one of them
  *     ASSET(section, name, nature, place, help)
- *          bytes by their SHA-256, or none (scene/asset.h)
+ *          bytes that are named by their SHA-256, or none (scene/asset.h)
  *     WORDS(section, name, nature, place, help, words)
  *          a set of words of "a|b_N|c", in any order; b_N stands for b, b_0, b_1, ...; default: the first word
  *
- * The nature says what a reader may conclude from a picture in which the field was changed. It is mandatory.
- *     PHYSICS   an exact consequence of general relativity or radiative transfer, or its numerical accuracy
- *     MODEL     chooses a model of matter or of a source, or a parameter of one
- *     LOOK      changes the picture, not the physics
- * The place is where the page shows the field: FRONT among the few that most visitors use, REST among the others.
- * The group of a section (LOOK, GAS, HOLE, CAMERA or MORE) is the page's group for its fields.
+ * The nature tells what a reader may conclude from a picture in which the field was changed. It is mandatory.
+ *     PHYSICS  an exact consequence of general relativity or radiative transfer, or its numerical accuracy
+ *     MODEL    chooses a model of matter or of a source, or a parameter of the model
+ *     LOOK     changes the picture, not the physics
+ * The place tells where the page shows the field: FRONT among the few that most visitors use, REST among the others.
+ * The group of a section (LOOK, GAS, HOLE, CAMERA or MORE) is the group in which the page shows its fields.
  *
- * Bounds are inclusive. Lengths are in M = GM/c^2; the unit "1" is a pure number. The order here is that of the
+ * Bounds are inclusive. Lengths are in M = GM/c^2; the unit "1" means a pure number. The order here is that of the
  * canonical form and of the reference. */
 #ifndef KD_SCENE_FIELDS_H
 #define KD_SCENE_FIELDS_H
@@ -184,7 +185,7 @@
          "g^(3 + index)") \
     REAL(spots, temperature_k, MODEL, REST, 9000.0, 300.0, 1e9, "K", \
          "colour: that of a black body of this temperature, shifted by g")
-#define KD_SPOTS 16 /* maximum; the kernels have room for this many */
+#define KD_SPOTS 16 /* limit of the number of spots; the kernels have room for this many */
 
 #define KD_BODIES_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(bodies, radius, MODEL, FRONT, 0.0, 0.0, 1e6, "M", "radius of the sphere in its own frame; 0: no body") \
@@ -212,7 +213,7 @@
          "surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark") \
     REAL(bodies, limb_darkening, MODEL, REST, 0.6, 0.0, 1.0, "1", \
          "fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none")
-#define KD_SCENE_BODIES 8 /* maximum */
+#define KD_SCENE_BODIES 8 /* limit of the number of bodies */
 
 #define KD_VOLUME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(volume, model, MODEL, FRONT, KD_VOLUME_NONE, \
@@ -482,8 +483,8 @@
 #define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(top, time, PHYSICS, FRONT, 0.0, -1e12, 1e12, "M", "coordinate time of the picture")
 
-/* The sections, in order. SECTION(name, rows, group, help): one object. LIST(name, element, rows, group, most,
- * help): up to `most` elements, each with these rows. The rows of "top" are members of the document itself. */
+/* The sections, in order. SECTION(name, rows, group, help) is one object. LIST(name, element, rows, group, most, help)
+ * is a list of up to `most` elements, each with these rows. The rows of "top" are members of the document itself. */
 #define KD_SCENE_SECTIONS(SECTION, LIST) \
     SECTION(spacetime, KD_SPACETIME_FIELDS, HOLE, "the hole") \
     SECTION(camera, KD_CAMERA_FIELDS, CAMERA, "where the observer is and what it looks at") \
@@ -509,18 +510,19 @@
     SECTION(accuracy, KD_ACCURACY_FIELDS, MORE, "how closely the rays are followed") \
     SECTION(top, KD_TOP_FIELDS, CAMERA, "members of the document itself")
 
-/* Sections nested in another section of the document: PART(s, name, section). s is passed through. */
+/* Sections that are nested in another section of the document: PART(s, name, section). s is passed through. */
 #define KD_SCENE_PARTS(PART, s) PART(s, gas, disk) PART(s, tile, image)
 
-/* Styles. A document that names one in style.name sets these fields, except those that it sets itself
- * (scene/style.h). ROW(section, name, values): one value for each word of style.name but "none", in the form that
- * kd_field_put takes, for fields of sections that are not lists. NAN: the style leaves the field unchanged.
+/* Styles. A document that names one in style.name sets these fields, except those that it sets itself (scene/style.h).
+ * ROW(section, name, values) has one value for each word of style.name but "none". Values have the form that
+ * kd_field_put accepts, and the fields belong to sections that are not lists. NAN: the style leaves the field
+ * unchanged.
  *
- * film: a bright scene seen by the eye through a lens. raw: light without post-processing. dngr: as in Interstellar,
- * whose disk lacks the frequency shifts of its gas, and with lens flare (O. James et al. 2015, section 4.3). eht: as
- * the Event Horizon Telescope shows its pictures, at its resolution of about 20 microarcseconds (EHT Collaboration
- * 2019, ApJL 875, L4). starless: no disk, and a synthetic sky, lensed; after R. Antonelli's ray tracer of that name
- * (2015). */
+ * film: a bright scene that is seen by the eye through a lens. raw: light without post-processing. dngr: as in
+ * Interstellar, whose disk lacks the frequency shifts of its gas, with lens flare (O. James et al. 2015, section 4.3).
+ * eht: as the Event Horizon Telescope shows its pictures, at its resolution of about 20 microarcseconds (EHT
+ * Collaboration 2019, ApJL 875, L4). starless: no disk, but a synthetic sky, lensed; after R. Antonelli's ray tracer of
+ * that name (2015). */
 #define KD_STYLES 5
 #define KD_SCENE_STYLES(ROW) \
     /*                      film               raw                dngr               eht                starless */ \
@@ -536,14 +538,14 @@
     ROW(style, colour_bar, 0, 0, 0, 1, 0) \
     ROW(style, dither, 1, 0, 1, 1, 1)
 
-/* Sky models with diffuse light between the stars, or with a picture of it. */
+/* Sky models that have diffuse light between the stars, or a picture of that light. */
 /* clang-format off */
 #define KD_WITH_SPREAD_(WITH, path) \
     WITH(path, "model", KD_SKY_STARS) WITH(path, "model", KD_SKY_CATALOGUE) WITH(path, "model", KD_SKY_IMAGE)
 /* clang-format on */
 
-/* Controls of the page (scene/control.h), by the fields' paths, without index for lists. Rows of a section are
- * adjacent. */
+/* Controls of the page (scene/control.h). Fields are named by their paths, without an index for lists. Rows of one
+ * section are adjacent. */
 /* clang-format off */
 #define KD_SCENE_CONTROLS(SPAN, FIRST, SWITCH, WITH, VARIES, BUTTON) \
     SPAN("spacetime.spin", -0.998, 0.998) \
@@ -655,7 +657,7 @@
     SPAN("time", -1000, 1000) VARIES("time", "moves_with_time|dims_with_time")
 /* clang-format on */
 
-/* Obsolete names of list elements: OLD(name, list, index). They are still read, and never written. */
+/* Obsolete names of list elements: OLD(name, list, index). They are still read, but never written. */
 #define KD_SCENE_OLD_NAMES(OLD) OLD(spot1, spots, 0) OLD(spot2, spots, 1) OLD(spot3, spots, 2)
 
 enum kd_projection {
@@ -702,6 +704,6 @@ enum kd_profile {
     KD_PROFILE_HIGH,
     KD_PROFILE_REFERENCE,
 };
-enum { KD_ENGINE_WORD_AUTO, KD_PRECISION_WORD_AUTO = 0 }; /* further words: render/accuracy/engine.h */
+enum { KD_ENGINE_WORD_AUTO, KD_PRECISION_WORD_AUTO = 0 }; /* the further words are in render/accuracy/engine.h */
 
 #endif

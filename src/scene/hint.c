@@ -15,7 +15,7 @@ static void known_names(const struct kd_section *section, char out[HINT_SIZE])
     const char *separator = "";
     bool whole = !*section->name;
     for (size_t i = 0; whole && i + 1 < KD_SECTION_COUNT && used < HINT_SIZE; i++, separator = ", ") {
-        if (strchr(kd_sections[i].name, '.')) /* nested in another section */
+        if (strchr(kd_sections[i].name, '.')) /* the section is nested in another one */
             continue;
         used += (size_t)snprintf(out + used, HINT_SIZE - used, "%s%s", separator, kd_sections[i].name);
     }
@@ -30,7 +30,8 @@ static void hint(const char *section, size_t index, const char *name, char out[H
     char meant[KD_PATH_SIZE] = "";
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
         const struct kd_field *field = &kd_fields[i];
-        /* Another section adds one: the same name there is as near as a misspelt name here. */
+        /* A different section counts as one edit: the same name in another section is as near as a misspelt name in
+         * this one. */
         int score = kd_spelling_score(name, field->name) + (strcmp(section, field->section) ? 1 : 0) +
                     (kd_spelling_distance(section, field->section) > 2 ? 1 : 0);
         if (score < best) {

@@ -5,7 +5,7 @@
 #include "physics/spacetime/hole.h"
 #include "scene/scene.h"
 
-/* For use as an argument: lives until the end of the enclosing block. */
+/* For use as an argument. The value lives until the end of the enclosing block. */
 #define kd_scene_hole(scene) kd_hole((scene)->spacetime.spin)
 
 #endif

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#define TOLD 4 /* maximum number of changes listed in a preview */
+#define TOLD 4 /* limit of the changes that a preview lists */
 
 enum kd_status kd_scene_link_check(const struct kd_scene *scene, struct kd_error *error)
 {
@@ -23,7 +23,7 @@ enum kd_status kd_scene_link_check(const struct kd_scene *scene, struct kd_error
     return KD_OK;
 }
 
-/* The preset at index i; after the last one, the default scene. */
+/* Gets the preset at index i; after the last preset, the default scene. */
 static enum kd_status base_of(size_t i, struct kd_scene *base, struct kd_buffer *text)
 {
     const char *name = kd_scene_preset_name(i);
@@ -79,7 +79,8 @@ done:
     return status;
 }
 
-/* Writes "inclination" for camera.inclination_deg; the unit follows the value. */
+/* Writes the name and value of one field: "inclination" for camera.inclination_deg, because the unit follows the
+ * value. */
 static enum kd_status tell_one(const struct kd_scene_changed *one, struct kd_buffer *out)
 {
     static const char degrees[] = "_deg";
@@ -114,8 +115,8 @@ enum kd_status kd_scene_link_tell(const struct kd_scene_changed *changed, size_t
     return status || n == told ? status : kd_buffer_printf(out, " and %zu more", n - told);
 }
 
-/* Presets are composed for 16:9. A wider picture gets a wider field, so that the vertical one stays, as in the page
- * (clients/web/fit.js). */
+/* Presets are composed for 16:9. A wider picture gets a wider field, so that the vertical field stays the same, as in
+ * the page (clients/web/fit.js). */
 static void fit(struct kd_scene *scene, double by)
 {
     static const double widest_deg = 150, widest_m = 1e4, degree = 3.14159265358979323846 / 180;

@@ -1,24 +1,24 @@
-/* Links to scenes. A link is the difference from a preset: "preset=gargantua&spacetime.spin=0.5", as in the query of
- * GET /v1/render and the address of the page. The size of the picture is not part of it. Pure, any thread. */
+/* Links to scenes. A link is the difference from a preset, "preset=gargantua&spacetime.spin=0.5", in the form of the
+ * query of GET /v1/render and of the page's address. The size of the picture is not part of it. Pure, any thread. */
 #ifndef KD_SCENE_LINK_H
 #define KD_SCENE_LINK_H
 
 #include "scene/scene.h"
 
-/* Appends the shortest link over all presets and the default scene, and a NUL that out->size does not count. Equal
- * scenes give equal links; the default scene gives "". KD_EINVAL with a pointer: the scene names an asset.
- * KD_ENOMEM. */
+/* Appends the shortest link, out of those from each preset and from the default scene, and a NUL that out->size does
+ * not count. Equal scenes give equal links; the default scene gives "". KD_EINVAL with a pointer: the scene names an
+ * asset. KD_ENOMEM. */
 enum kd_status kd_scene_link(const struct kd_scene *scene, struct kd_buffer *out, struct kd_error *error);
 
-/* Checks that a scene names no asset: the server of the reader may not have it. */
+/* Checks that a scene names no asset, because the server that the reader uses may not have it. */
 enum kd_status kd_scene_link_check(const struct kd_scene *scene, struct kd_error *error);
 
-/* Describes n changed fields of a link for people: "camera inclination 60°, camera r 30 M and 3 more". */
+/* Describes n changed fields of a link for people, as in "camera inclination 60°, camera r 30 M and 3 more". */
 struct kd_scene_changed { const char *path, *value; };
 enum kd_status kd_scene_link_tell(const struct kd_scene_changed *changed, size_t n, struct kd_buffer *out);
 
-/* Turns the scene of a link into that of its preview, of this size in pixels: one eye, no tile, 2 x 2 rays a pixel,
- * 8 bits a channel, and no lower than the presets' aspect. */
+/* Turns the scene of a link into that of its preview: one eye, no tile, 2 x 2 rays for each pixel, 8 bits for each
+ * channel. width and height are in pixels; width / height must be at least 16 / 9, the aspect of the presets. */
 void kd_scene_link_preview(struct kd_scene *scene, int32_t width, int32_t height);
 
 #endif

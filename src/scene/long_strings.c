@@ -7,10 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MARK '\xff' /* placeholder of a long string; never a byte of UTF-8, so that no text or escape contains it */
+#define MARK '\xff' /* placeholder for a long string; never a byte of UTF-8, so no text or escape contains it */
 #define PIECE ((size_t)1 << 20)
 
-/* Index of the closing quote of the string whose first byte is at `at`; *escapes: whether it contains escapes. */
+/* Returns the index of the closing quote of the string whose first byte is at `at`. *escapes: whether the string
+ * contains escapes. */
 static size_t end_of(const char *text, size_t length, size_t at, bool *escapes)
 {
     const char *quote = memchr(text + at, '"', length - at);
@@ -81,7 +82,7 @@ static unsigned digits(const char *text)
     return (unsigned)strtoul(four, NULL, 16);
 }
 
-/* RFC 3629, section 3. */
+/* Encodes a character by RFC 3629, section 3. */
 static char *put_utf8(char *to, unsigned code)
 {
     if (code < 0x80) {
@@ -95,7 +96,7 @@ static char *put_utf8(char *to, unsigned code)
     return to;
 }
 
-/* Decodes one escape, which the scan has validated. Returns what follows it. */
+/* Decodes one escape, which the scan has validated. Returns what follows the escape. */
 static const char *unescape(const char *from, char **to)
 {
     static const char names[] = "bfnrt", are[] = "\b\f\n\r\t";
@@ -105,7 +106,7 @@ static const char *unescape(const char *from, char **to)
         return from + 2;
     }
     const unsigned unit = digits(from + 2);
-    const bool pair = unit >= 0xd800 && unit < 0xdc00; /* RFC 8259, section 7: the other half follows */
+    const bool pair = unit >= 0xd800 && unit < 0xdc00; /* RFC 8259, section 7: the other half of the pair follows */
     *to = put_utf8(*to, pair ? 0x10000 + ((unit - 0xd800) << 10) + (digits(from + 8) - 0xdc00) : unit);
     return from + (pair ? 12 : 6);
 }
@@ -124,7 +125,7 @@ static char *copy_unescaped(char *to, const char *from, size_t n)
     return to;
 }
 
-/* State of the tree walk: the next string to insert. */
+/* State of the walk through the tree: the next string to insert. */
 struct fill {
     const struct kd_long_strings *strings;
     size_t next;
@@ -146,7 +147,7 @@ static bool put(struct fill *f, char **string)
     return true;
 }
 
-/* Inserts in document order. The document is at most 32 levels deep. */
+/* Inserts the strings in the order of the document, which is at most 32 levels deep. */
 static bool fill(struct fill *f, cJSON *item)
 {
     for (; item && f->next < f->strings->n; item = item->next) {

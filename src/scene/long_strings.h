@@ -1,6 +1,6 @@
-/* Handles long strings of a JSON document, such as a playground's debris, which cJSON would read without a pause in
- * up to 200 ms. They are cut out before cJSON reads the rest, and inserted into its tree afterwards. The document
- * must have been scanned (scan.h), so that all escapes are complete. Any thread. */
+/* Handles long strings of a JSON document, such as a playground's debris. cJSON would read them without a pause, for up
+ * to 200 ms. They are cut out before cJSON reads the rest, and inserted into its tree afterwards. The document must
+ * have been scanned (scan.h), so that all escapes are complete. Any thread. */
 #ifndef KD_SCENE_LONG_STRINGS_H
 #define KD_SCENE_LONG_STRINGS_H
 
@@ -9,23 +9,23 @@
 #include <cjson/cJSON.h>
 #include <stdbool.h>
 
-#define KD_LONG_STRING ((size_t)4 << 20) /* minimum length of a long string, bytes */
+#define KD_LONG_STRING ((size_t)4 << 20) /* a string of at least so many bytes is long */
 
 struct kd_long_strings {
-    const char *text; /* of the whole document */
-    size_t n, length; /* number of strings found; length of the text without them */
+    const char *text; /* text of the whole document */
+    size_t n, length; /* number of long strings, and length of the text without them */
     struct {
         size_t start, end;
         bool escapes;
-    } at[32]; /* further long strings stay in the text */
+    } at[32]; /* the long strings; if there are more, the others stay in the text */
 };
 
 void kd_long_strings_find(struct kd_long_strings *strings, const char *text, size_t length);
-/* Copies the text without them. out has room for strings->length bytes. */
+/* Copies the text without the long strings. out has room for strings->length bytes. */
 void kd_long_strings_cut(const struct kd_long_strings *strings, size_t length, char *out);
 /* Converts an offset in the cut text to the offset in the document. */
 size_t kd_long_strings_place(const struct kd_long_strings *strings, size_t at);
-/* Inserts the strings into the tree of the cut text. KD_ENOMEM. */
+/* Inserts the long strings into the tree that was made from the cut text. KD_ENOMEM. */
 enum kd_status kd_long_strings_fill(const struct kd_long_strings *strings, cJSON *root, struct kd_error *error);
 
 #endif

@@ -1,5 +1,5 @@
-/* Reads the known members of a JSON object in a request, each at most once. Errors name the member, its value and
- * what is allowed, with the pointer into the request. Any thread. */
+/* Reads the known members of a JSON object in a request. Each may occur at most once. Errors name the member, its value
+ * and what is allowed, and have the pointer into the request. Any thread. */
 #ifndef KD_SCENE_MEMBERS_H
 #define KD_SCENE_MEMBERS_H
 
@@ -10,24 +10,24 @@
 
 struct kd_member {
     const char *name;
-    const cJSON **to; /* set to the member; must be NULL before, and stays NULL if it is missing */
+    const cJSON **to; /* is set to the member; it must be NULL before, and stays NULL if the member is missing */
 };
-/* pointer: that of the object. KD_EINVAL for a member that is unknown or given twice. */
+/* pointer: that of the object. Returns KD_EINVAL for a member that is unknown or occurs twice. */
 enum kd_status kd_members_read(const cJSON *object, const char *pointer, const struct kd_member *members, size_t n,
                                struct kd_error *error);
 
-/* Returns KD_EINVAL: the item is not `allowed`, a description in words. */
+/* Returns KD_EINVAL, because the item is not what `allowed` describes in words. */
 enum kd_status kd_member_refuse(const cJSON *item, const char *pointer, const char *allowed, struct kd_error *error);
 
 /* Reads an integer from `least` to `most`. */
 enum kd_status kd_member_whole(const cJSON *item, const char *pointer, unsigned least, unsigned most, unsigned *out,
                                struct kd_error *error);
 
-/* Reads one of n words as its index. If item is NULL, *out stays unchanged. */
+/* Reads one of n words and stores its index. If item is NULL, *out stays unchanged. */
 enum kd_status kd_member_word(const cJSON *item, const char *pointer, const char *const *words, size_t n, unsigned *out,
                               struct kd_error *error);
 
-/* Prepends the pointer of a part to that of the error; returns the status. */
+/* Prepends the pointer of a part of the document to the pointer of the error. Returns the status. */
 enum kd_status kd_member_inside(enum kd_status status, const char *pointer, struct kd_error *error);
 
 #endif

@@ -1,14 +1,14 @@
-/* Explains the commonest mistakes of hand-written JSON and says what to write instead. Pure, any thread. */
+/* Explains the most common mistakes in hand-written JSON, and says what to write instead. Pure, any thread. */
 #ifndef KD_SCENE_MISTAKE_H
 #define KD_SCENE_MISTAKE_H
 
 #include <stddef.h>
 
-/* Explains the invalid JSON at offset `at`; NULL: none of the known mistakes. before: the last syntax character
- * before it, 'v' for the end of a value, 0 at the beginning. */
+/* Explains why the JSON is not valid at offset `at`; NULL: it is none of the known mistakes. before: the last syntax
+ * character in front of it; 'v' stands for the end of a value, 0 for the beginning. */
 const char *kd_json_mistake(const char *text, size_t length, size_t at, char before);
 
-/* Guesses the encoding of text that is not UTF-8: "UTF-16" or "UTF-32"; NULL: neither. */
+/* Guesses the encoding of text that is not UTF-8: "UTF-16" or "UTF-32"; NULL: it is neither. */
 const char *kd_json_encoding(const char *text, size_t length);
 
 #endif

@@ -8,7 +8,7 @@
 #include "physics/waves/qnm.h"
 #include "physics/waves/ringdown.h"
 
-#define TIME_END 1e12 /* limit of `time` in fields.h, either sign */
+#define TIME_END 1e12 /* limit of `time` in fields.h, for both signs */
 
 static void turn(struct kd_scene *scene, double degrees)
 {
@@ -38,7 +38,7 @@ void kd_scene_advance(struct kd_scene *scene, double seconds)
         kd_scene_go_on(scene, scene->motion.proper_time_rate * seconds);
 }
 
-/* True if the observer moves along its own path. */
+/* Whether the observer moves along its own path. */
 static bool goes_on(const struct kd_scene *scene)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
@@ -134,14 +134,16 @@ struct kd_observer_motion kd_body_motion(const struct kd_body *body)
     return motion;
 }
 
-/* m counts about the hole's own axis. With spin a < 0 the disk turns against the hole, which rings as for |a|. */
+/* m counts around the hole's own axis. If the spin a is negative the disk turns against the hole, and the hole rings as
+ * for |a|. */
 bool kd_scene_ringdown(const struct kd_scene *scene, double *wave)
 {
     double t = scene->top.time - scene->style.ringdown_time;
     struct kd_qnm mode;
     if (!(scene->style.ringdown > 0) || t < 0)
         return false;
-    kd_qnm_find(2, 2, 0, kd_hole(fabs(scene->spacetime.spin)), &mode); /* a valid scene's spin is in the domain */
+    /* succeeds: the spin of a valid scene is within the range of the modes */
+    kd_qnm_find(2, 2, 0, kd_hole(fabs(scene->spacetime.spin)), &mode);
     *wave = kd_ringdown_wave(mode.omega, t);
     return true;
 }

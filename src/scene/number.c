@@ -7,7 +7,7 @@
 
 struct kd_number_locale kd_number_locale_enter(void)
 {
-    /* libc keeps this locale ready: it allocates nothing. */
+    /* libc has this locale ready, so nothing is allocated. */
     locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     return (struct kd_number_locale) { c, uselocale(c) };
 }
@@ -26,7 +26,7 @@ static size_t digits(const char *text, size_t i, size_t length)
     return i;
 }
 
-/* Skips the exponent, if there is one; 0 if it has no digits. */
+/* Returns the position after the exponent, or i if there is no exponent; 0 if the exponent has no digits. */
 static size_t exponent(const char *text, size_t i, size_t length)
 {
     if (i >= length || (text[i] != 'e' && text[i] != 'E'))
@@ -38,7 +38,7 @@ static size_t exponent(const char *text, size_t i, size_t length)
     return end > i ? end : 0;
 }
 
-/* Length of the number at the beginning of text. open: one side of the decimal point may be empty. */
+/* Length of the number at the beginning of text. open: on one side of the decimal point the digits may be missing. */
 static size_t span(const char *text, size_t length, bool open)
 {
     size_t start = length && text[0] == '-', point = digits(text, start, length), end = point, whole = point - start,

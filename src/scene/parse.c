@@ -12,16 +12,17 @@
 #include <string.h>
 
 struct reader {
-    struct kd_scene scene;      /* working copy, handed over when the whole document is valid */
-    bool given[KD_FIELD_COUNT]; /* fields given by the document, in sections that are not lists */
+    struct kd_scene scene;      /* working copy; it becomes the result when the whole document is valid */
+    bool given[KD_FIELD_COUNT]; /* fields that the document has, in sections that are not lists */
     bool seen_section[KD_SECTION_COUNT], seen_version;
-    const struct kd_old_name *old[KD_SECTION_COUNT]; /* old name by which an element of the list was given */
+    /* for each list: an old name by which the document has named one of its elements */
+    const struct kd_old_name *old[KD_SECTION_COUNT];
     bool seen_old[KD_OLD_NAME_COUNT];
-    bool patch; /* merge patch: null resets a field or a section to its default */
+    bool patch; /* the document is a merge patch: null resets a field or a section to its default */
     struct kd_error *error;
 };
 
-/* The object being read: a section, an element of a list, or the document itself. */
+/* The object that is being read: a section, an element of a list, or the document itself. */
 struct object {
     const struct kd_section *section;
     size_t index;
@@ -29,7 +30,7 @@ struct object {
     bool seen[KD_FIELD_COUNT];
 };
 
-/* Rejects a repeated name, which would silently win. */
+/* Rejects a name that occurs twice, because one of the values would be ignored without notice. */
 static enum kd_status once(struct reader *reader, bool *seen, const char *pointer)
 {
     if (!*seen) {
@@ -57,7 +58,7 @@ static enum kd_status not_a(struct reader *reader, const cJSON *item, const char
 
 static enum kd_status read_section(struct reader *reader, const struct kd_section *section, const cJSON *item);
 
-/* The first item that is not a word of the field, is repeated, or exceeds the room; NULL: all are fine. */
+/* Returns the first item that is not a word of the field, occurs twice, or exceeds the room; NULL: there is none. */
 static const cJSON *read_words(const struct kd_field *field, const cJSON *array, struct kd_words *out)
 {
     *out = (struct kd_words) { 0 };
@@ -134,7 +135,7 @@ static enum kd_status read_object(struct reader *reader, const struct kd_section
     return status;
 }
 
-/* Reads an element, and creates it if necessary; null does not create one. */
+/* Reads an element, and creates it if it does not exist; null does not create one. */
 static enum kd_status read_element(struct reader *reader, const struct kd_section *list, size_t index,
                                    const cJSON *item, bool patch)
 {
@@ -148,7 +149,7 @@ static enum kd_status read_element(struct reader *reader, const struct kd_sectio
     return read_object(reader, list, index, pointer, item, patch);
 }
 
-/* An array replaces the whole list. */
+/* Reads an array, which replaces the whole list. */
 static enum kd_status read_array(struct reader *reader, const struct kd_section *list, const cJSON *array)
 {
     size_t index = 0;
@@ -161,7 +162,8 @@ done:
     return status;
 }
 
-/* {"0": {...}} changes elements by index, in any order. New elements must follow the list without a gap. */
+/* Reads {"0": {...}}, which changes elements by index, in any order. New elements must continue the list without a
+ * gap. */
 static enum kd_status read_indices(struct reader *reader, const struct kd_section *list, const cJSON *object)
 {
     size_t before = kd_section_size(&reader->scene, list), last = before;
@@ -225,7 +227,8 @@ static enum kd_status read_section(struct reader *reader, const struct kd_sectio
                          : read_object(reader, section, 0, pointer, item, reader->patch);
 }
 
-/* An old name may stand for an element beyond the next free index; the elements between are created with defaults. */
+/* Reads an element by an old name. It may lie beyond the next free index; then the elements in between are created with
+ * defaults. */
 static enum kd_status read_old(struct reader *reader, const struct kd_old_name *old, const cJSON *item)
 {
     const struct kd_section *list = kd_section_find(old->section);

@@ -12,7 +12,7 @@
     "{\"disk\":{\"emission_opacity\":0,\"peak_temperature_k\":5600,\"gas\":{\"amplitude\":0}},\"style\":{\"name\":" \
     "\"none\",\"bloom\":0}}"
 
-/* R. Gold et al. 2020 (ApJ 897, 148), 3.2: the picture is 30 M wide and high. */
+/* A scene of R. Gold et al. 2020 (ApJ 897, 148), 3.2: the picture is 30 M wide and high. */
 #define GOLD(spin, rest) \
     "{\"spacetime\":{\"spin\":" spin ",\"mass_msun\":4.063e6,\"distance_pc\":7778}," \
     "\"camera\":{\"inclination_deg\":60,\"field_m\":30}," \
@@ -21,9 +21,9 @@
     "\"style\":{\"name\":\"raw\",\"palette\":\"heat\"}," \
     "\"image\":{\"width\":512,\"height\":512}}"
 
-/* Coordinates: M87* from S. B. Lambert & A.-M. Gontier 2009 (A&A 493, 317), Sagittarius A* from M. J. Reid & A.
- * Brunthaler 2004 (ApJ 616, 872). Dates of the pictures that the Event Horizon Telescope published: 11 and 7 April
- * 2017 (ApJL 875, L1; ApJL 930, L12). */
+/* Coordinates of M87*: S. B. Lambert & A.-M. Gontier 2009 (A&A 493, 317); of Sagittarius A*: M. J. Reid & A. Brunthaler
+ * 2004 (ApJ 616, 872). The dates are those of the pictures that the Event Horizon Telescope has published: 11 and 7
+ * April 2017 (ApJL 875, L1; ApJL 930, L12). */
 #define M87_(rest) "\"source\":{\"name\":\"m87\",\"ra_deg\":187.7059308,\"dec_deg\":12.3911233" rest "},"
 #define SGRA_(rest) "\"source\":{\"name\":\"sgra\",\"ra_deg\":266.4168371,\"dec_deg\":-29.0078106" rest "},"
 #define M87 M87_("")
@@ -47,7 +47,7 @@ const struct kd_preset kd_presets[] = {
       "\"camera\":{\"r\":74.1,\"inclination_deg\":86.56,\"fov_deg\":38},"
       "\"disk\":{\"inner\":9.26,\"outer\":18.7,\"taper\":0.15,\"peak_temperature_k\":14000},"
       "\"image\":{\"samples\":2}}" },
-    /* These two have the same scale, 214 microarcseconds across. */
+    /* These two have the same scale: 214 microarcseconds across. */
     { "m87", "M87*",
       "The hole of M87 through a beam of 20 microarcseconds, north up, brightness in false colour: as the Event "
       "Horizon Telescope "
@@ -55,7 +55,7 @@ const struct kd_preset kd_presets[] = {
       true,
       "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6}," M87_2017
       "\"camera\":{\"inclination_deg\":163,\"field_m\":56,\"roll_deg\":108},"
-      /* the approaching jet at a position angle of 288 degrees */
+      /* puts the approaching jet at a position angle of 288 degrees */
       "\"disk\":{\"outer\":15},"
       "\"style\":{\"name\":\"eht\"},"
       "\"image\":{\"samples\":2}}" },
@@ -217,7 +217,7 @@ const struct kd_preset kd_presets[] = {
       "Test 5 of those by which programs for the radiation of holes are compared: a thin layer (h = 100/3), orbiting, "
       "optically thick (A = 1e6); 230 GHz",
       true, GOLD("0.9", "\"gold_flattening\":33.333333333333336,\"gold_momentum\":1,\"gold_absorption\":1e6") },
-    /* 200 microarcseconds wide, as in ipole's model/riaf. */
+    /* The picture is 200 microarcseconds wide, as in ipole's model/riaf. */
     { "riaf", "A hot flow at 223 GHz",
       "A hot, thin flow with the mass and the distance of Sagittarius A*: its synchrotron light at 223 GHz, as the "
       "program ipole has it",
@@ -259,8 +259,8 @@ static enum kd_status unknown(const char *name, struct kd_error *error)
 
 void kd_scene_smooth(struct kd_scene *scene)
 {
-    /* Repeats SMOOTH, which a test compares: parsing it could run out of memory, and others build upon this
-     * function. */
+    /* Repeats SMOOTH; a test compares the two. Parsing SMOOTH could run out of memory, and other functions rely on this
+     * one. */
     kd_scene_defaults(scene);
     scene->disk.emission_opacity = 0;
     scene->disk.peak_temperature_k = 5600;

@@ -6,8 +6,9 @@
 #include <stddef.h>
 
 struct kd_preset {
-    const char *name, *label, *title; /* label: human-readable name; title: one sentence without a full stop */
-    bool smooth;                      /* merged over the preset "smooth", otherwise over the defaults */
+    const char *name, *label, *title; /* label: name for people; title: one sentence without a full stop */
+    /* true: the preset is merged over the preset "smooth"; false: over the defaults */
+    bool smooth;
     const char *json;
 };
 extern const struct kd_preset kd_presets[];

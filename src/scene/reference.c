@@ -61,7 +61,7 @@ static void write_field(struct kd_writer *w, const struct kd_field *field)
              field->kind == KD_FIELD_INT && field->words ? "whole number or word" : types[field->kind]);
     kd_write_value(w, field, field->initial);
     kd_write(w, "` | ");
-    const char *whole = "a whole number from "; /* redundant: the type column says "integer" */
+    const char *whole = "a whole number from "; /* left out, because the type column already says "whole number" */
     write_escaped(w, strncmp(allowed, whole, strlen(whole)) ? allowed : allowed + strlen(whole));
     kd_write(w, " | ");
     write_escaped(w, field->help);

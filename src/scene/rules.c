@@ -21,7 +21,7 @@ static struct shown show(double value)
     return s;
 }
 
-/* Rounds a computed bound up to a number short enough to type, so that it is accepted when typed. */
+/* Rounds a computed bound up to a number that is short enough to type, and that is accepted when it is typed. */
 static struct shown show_bound(double value) { return show(ceil(value * 1e9) / 1e9); }
 
 #define WORD_OF_NEAR(projection) \
@@ -29,7 +29,7 @@ static struct shown show_bound(double value) { return show(ceil(value * 1e9) / 1
      : (projection) == KD_PROJECTION_FULLDOME      ? "fulldome" \
                                                    : "pinhole")
 
-/* True for projections of a camera at a finite radius. */
+/* Whether the projection is that of a camera at a finite radius. */
 static bool is_near(enum kd_projection projection)
 {
     return projection == KD_PROJECTION_PINHOLE || projection == KD_PROJECTION_EQUIRECTANGULAR ||
@@ -45,7 +45,7 @@ enum { BITS = 8, STEPS = 4, BEAM_WIDTHS = 1000 };
 
 static enum kd_status bit_depth(const struct kd_scene *scene, struct kd_error *error)
 {
-    if (scene->image.bit_depth % BITS == 0) /* its range is 8 to 16 */
+    if (scene->image.bit_depth % BITS == 0) /* the field's range is 8 to 16 */
         return KD_OK;
     return kd_error_field(error, "/image/bit_depth", "image.bit_depth is %d; it must be 8 or 16 bits",
                           scene->image.bit_depth);
@@ -71,7 +71,8 @@ static enum kd_status projection(const struct kd_scene *scene, struct kd_error *
     return KD_OK;
 }
 
-/* Fields without effect are an error: otherwise the user would turn a knob that does nothing. */
+/* A field that is set but has no effect is an error. Otherwise the user would change a value and nothing would
+ * happen. */
 static enum kd_status aim(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_camera *camera = &scene->camera;
@@ -136,7 +137,7 @@ static enum kd_status motion(const struct kd_scene *scene, struct kd_error *erro
     return isfinite(scene->camera.r) ? kd_observer_check_numbers(&observer_names, &m, &at, error) : KD_OK;
 }
 
-/* As in aim(): numbers that have no effect are an error. */
+/* As in aim(), numbers that have no effect are an error. */
 static enum kd_status idle_motion(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_camera *c = &scene->camera;
@@ -165,7 +166,7 @@ static enum kd_status idle_motion(const struct kd_scene *scene, struct kd_error 
     return KD_OK;
 }
 
-/* An observer on its own path determines azimuth and time. */
+/* An observer on its own path determines azimuth and time, so neither may advance by itself. */
 static enum kd_status path(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_motion *m = &scene->motion;
@@ -240,7 +241,7 @@ static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *
                           show(scene->disk.outer).text, show_bound(least).text, isco ? ", which is the ISCO" : "");
 }
 
-#define LEAST_HEIGHT 1e-5 /* below it, single precision does not resolve positions within the disk's height */
+#define LEAST_HEIGHT 1e-5 /* at lower heights single precision does not resolve positions within the disk */
 static enum kd_status height(const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->disk.height > 0 && scene->disk.height < LEAST_HEIGHT)
@@ -297,8 +298,7 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
 }
 
 #define JETS_GROWTH \
-    60 /* maximum, in octaves of brightness, from the inner to the outer edge; more overflows single-precision floats \
-        */
+    60 /* limit of the growth of a jet's brightness between its edges, in octaves; more overflows single precision */
 static enum kd_status jets(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_jets *j = &scene->jets;
@@ -334,9 +334,9 @@ static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error
     return KD_OK;
 }
 
-#define BODIES_CLEAR 1.05 /* minimum radius over the horizon's */
+#define BODIES_CLEAR 1.05 /* a body's smallest radius as a multiple of the horizon's */
 
-/* Error for a field of a body: its value and what is allowed. */
+/* Error for a field of a body. It has the field's value and what is allowed. */
 static enum kd_status body_field(const char *name, size_t index, const char *is, const char *allowed,
                                  struct kd_error *error)
 {
@@ -418,7 +418,7 @@ static enum kd_status field_uas(const struct kd_scene *scene, struct kd_error *e
 static enum kd_status beam(const struct kd_scene *scene, struct kd_error *error)
 {
     const double width = kd_scene_width_uas(scene), most = BEAM_WIDTHS * width;
-    if (scene->style.beam_uas == 0 || scene->style.beam_uas <= most) /* false for NAN */
+    if (scene->style.beam_uas == 0 || scene->style.beam_uas <= most) /* the comparisons are false for NAN */
         return KD_OK;
     if (isnan(width))
         return kd_error_field(error, "/style/beam_uas",
@@ -432,7 +432,7 @@ static enum kd_status beam(const struct kd_scene *scene, struct kd_error *error)
         show(scene->style.beam_uas).text, show(most).text, BEAM_WIDTHS);
 }
 
-/* A colour bar has a meaning only for the heat palette with the sRGB tone map. */
+/* A colour bar is possible only for the heat palette with the sRGB tone map. */
 static enum kd_status colour_bar(const struct kd_scene *scene, struct kd_error *error)
 {
     const bool heat = scene->style.palette == KD_PALETTE_HEAT;
@@ -444,7 +444,7 @@ static enum kd_status colour_bar(const struct kd_scene *scene, struct kd_error *
         "\"srgb\": else brightness has no one colour, or no even scale");
 }
 
-/* Other rules of accuracy.* depend on the device: render/accuracy/engine.h. */
+/* The other rules about accuracy.* depend on the device: render/accuracy/engine.h. */
 static enum kd_status steps(const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->accuracy.steps % STEPS == 0)
@@ -453,7 +453,7 @@ static enum kd_status steps(const struct kd_scene *scene, struct kd_error *error
                           scene->accuracy.steps);
 }
 
-/* A tile lies within its picture. Effects that need the whole picture are refused when a plan is made
+/* A tile must lie within its picture. Effects that need the whole picture are refused when a plan is made
  * (render/plan/tile.h). */
 static enum kd_status tile(const struct kd_scene *scene, struct kd_error *error)
 {
@@ -481,7 +481,8 @@ static enum kd_status tile(const struct kd_scene *scene, struct kd_error *error)
     return KD_OK;
 }
 
-/* Polarised transfer needs a magnetic field, and no other light source, since the others have no polarisation. */
+/* Polarised transfer needs a magnetic field. It permits no other source of light, because the others have no
+ * polarisation. */
 static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->polarization.model != KD_POLARIZATION_TRANSFER)

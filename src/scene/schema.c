@@ -1,4 +1,4 @@
-/* Writes the JSON Schema of the scene document from the table of fields. */
+/* Writes the JSON Schema of the scene document. It is made from the table of fields. */
 #include "scene/control.h"
 #include "scene/rules.h"
 #include "scene/style.h"
@@ -44,7 +44,8 @@ static void write_words(struct kd_writer *w, const struct kd_field *field)
     kd_write(w, "]");
 }
 
-/* numbered: the words that may be followed by a number, as a group of the pattern; otherwise the other words. */
+/* Writes alternatives of a pattern. numbered true: the words that may be followed by a number, as an open group; false:
+ * the other words. */
 static void write_pattern(struct kd_writer *w, const struct kd_field *field, bool numbered)
 {
     const char *before = numbered ? "(" : "";
@@ -104,9 +105,9 @@ static void write_type(struct kd_writer *w, const struct kd_field *field)
         return;
     case KD_FIELD_WORDS: write_many(w, field); return;
     }
-    /* The word comes first: client generators use the first type that fits a default, and "infinity" parses as a
-     * number. It is also given as an enumeration: for a const within a union they generate code that accepts nothing
-     * else. */
+    /* The word comes first, because client generators use the first type that fits a default, and "infinity" parses as
+     * a number. It is also given as an enumeration. If it were only a const within a union, they would generate code
+     * that accepts nothing else. */
     kd_write(w, "\"anyOf\":[{\"type\":\"string\",\"const\":");
     kd_write_string(w, field->words);
     kd_write(w, ",\"enum\":[");
@@ -121,7 +122,7 @@ static void write_group(struct kd_writer *w, const struct kd_section *section)
     kd_write(w, ",\"x-group\":\"%s\"", kd_groups[section->group]);
 }
 
-/* Writes the fields that each style sets, by path. */
+/* Writes the fields that each style sets. They are named by path. */
 static void write_styles(struct kd_writer *w, const struct kd_field *names)
 {
     kd_write(w, ",\"x-sets\":{");
@@ -152,7 +153,7 @@ static void write_list(struct kd_writer *w, const char *text)
     kd_write(w, "]");
 }
 
-/* Writes one value, or an array of several. */
+/* Writes the value of a control, or an array if it has several. */
 static void write_with(struct kd_writer *w, const struct kd_field *field, const struct kd_control *control)
 {
     const struct kd_field *other = kd_field_find(field->section, control->text);
@@ -234,7 +235,7 @@ static void write_fields(struct kd_writer *w, const struct kd_section *section)
 
 static void write_section(struct kd_writer *w, const struct kd_section *section);
 
-/* Writes the rest of an object's schema after its description, and closes it. */
+/* Writes the part of an object's schema that follows the description, and closes it. */
 static void write_object(struct kd_writer *w, const struct kd_section *section)
 {
     kd_write(w, "\"type\":\"object\",\"additionalProperties\":false,\"properties\":{");
@@ -260,7 +261,7 @@ static void write_section(struct kd_writer *w, const struct kd_section *section)
         kd_write(w, "}");
 }
 
-/* Writes an old name; x-now is the present path. */
+/* Writes the schema of an old name; x-now is the present path. */
 static void write_old_name(struct kd_writer *w, const struct kd_old_name *old)
 {
     kd_write(w, ",\"%s\":{\"description\":\"an old name of %s.%zu\",\"deprecated\":true,\"x-now\":\"%s.%zu\",",
@@ -268,7 +269,7 @@ static void write_old_name(struct kd_writer *w, const struct kd_old_name *old)
     write_object(w, kd_section_find(old->section));
 }
 
-/* Writes the values of x-nature and x-group: natures with their meanings, groups in the order of the page. */
+/* Writes the possible values of x-nature and x-group: natures with their meanings, groups in the order of the page. */
 static void write_words_of_fields(struct kd_writer *w)
 {
     kd_write(w, "\"x-natures\":{");
@@ -293,10 +294,10 @@ enum kd_status kd_scene_schema(struct kd_buffer *out)
     kd_write(w,
              "\"properties\":{"
              "\"version\":{\"type\":\"integer\",\"enum\":[%d],\"const\":%d,\"description\":\"version of this document "
-             "format\"}", /* both: client generators mishandle numbers given as const only */
+             "format\"}", /* both forms, because client generators mishandle a number that is given only as a const */
              KD_SCENE_VERSION, KD_SCENE_VERSION);
     for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
-        if (strchr(kd_sections[i].name, '.')) /* nested sections are written with their parent */
+        if (strchr(kd_sections[i].name, '.')) /* a nested section is written with its parent */
             continue;
         kd_write(w, ",");
         if (*kd_sections[i].name)

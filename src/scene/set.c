@@ -1,4 +1,4 @@
-/* Sets one field by its dotted path: --set and query parameters. */
+/* Sets one field by its dotted path, for --set and query parameters. */
 #include "scene/element.h"
 #include "scene/hint.h"
 #include "scene/sky_scale.h"
@@ -9,12 +9,13 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A parsed path without its field: the section ("" for the document itself), and the element if that is a list. */
+/* A parsed path: the section ("" for the document itself), its element if the section is a list, and the name that
+ * follows. */
 struct place {
     const struct kd_section *section;
     size_t index;
-    const char *name; /* the rest of the path */
-    bool old;         /* an old name of an element, which may lie beyond the next free index */
+    const char *name; /* the part of the path after section and index */
+    bool old;         /* the path uses an old name of an element, which may lie beyond the next free index */
 };
 
 static enum kd_status whole_section(const struct kd_section *section, struct kd_error *error)
@@ -37,7 +38,8 @@ static enum kd_status whole_element(const struct kd_section *list, size_t index,
                           path);
 }
 
-/* Splits the path's token before the next dot, "" if there is none or it is too long; *rest is what follows. */
+/* Copies the part of the path before the next dot; "" if there is no dot or the part is too long. *rest is what follows
+ * the dot. */
 static void next_token(const char **rest, char out[KD_PATH_SIZE])
 {
     const char *dot = strchr(*rest, '.');
@@ -84,7 +86,7 @@ static enum kd_status find_place(const char *path, struct place *place, struct k
     return place->section->most ? in_list(place, error) : KD_OK;
 }
 
-/* Replaces an old name in the path by its list and index. */
+/* If the path uses an old name, replaces it by its list and index. */
 static void renew(const char *path, char out[2 * KD_PATH_SIZE])
 {
     char token[KD_PATH_SIZE];

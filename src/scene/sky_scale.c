@@ -20,7 +20,7 @@ void kd_scene_settle(struct kd_scene *scene, const bool *given)
         scene->camera.field_m = width;
 }
 
-/* At a finite radius: the width spanned by the field of view at the hole's distance. */
+/* Width in M that the field of view of a camera at a finite radius spans at the hole. */
 static double width_m(const struct kd_camera *camera)
 {
     return isfinite(camera->r) ? 2 * camera->r * tan(0.5 * camera->fov_deg * (M_PI / 180)) : camera->field_m;

@@ -1,4 +1,4 @@
-/* Computes the positions of the two eyes of a stereo pair. */
+/* Computes where the two eyes of a stereo pair are. */
 #include "scene/scene.h"
 
 #include "physics/math/angle.h"
@@ -15,7 +15,7 @@ static struct vec mix(double a, struct vec p, double b, struct vec q)
 
 static double dot(struct vec p, struct vec q) { return p.x[0] * q.x[0] + p.x[1] * q.x[1] + p.x[2] * q.x[2]; }
 
-/* Local directions e_r, e_theta, e_phi in flat space, in Cartesian coordinates about the hole. */
+/* The local directions e_r, e_theta, e_phi in flat space, in Cartesian coordinates around the hole. */
 struct basis { struct vec r, theta, phi; };
 
 static struct basis basis_at(double u, double s, double azimuth)
@@ -29,8 +29,8 @@ static struct vec outwards(const struct basis *b, const double local[3])
     return mix(1, mix(local[0], b->r, local[1], b->theta), local[2], b->phi);
 }
 
-/* Viewing direction of the camera, and the picture's right and up, in (e_r, e_theta, e_phi), as in
- * render/view/camera.c. */
+/* Viewing direction of the camera, and the picture's right and up, as components along (e_r, e_theta, e_phi). They
+ * agree with render/view/camera.c. */
 struct view { double ahead[3], right[3], up[3]; };
 
 static struct view view_of(const struct kd_camera *c)
@@ -47,10 +47,10 @@ static struct view view_of(const struct kd_camera *c)
 }
 
 /* Converts a unit length along a leg of the tetrad to coordinates: dr, r dtheta, r sin(theta) dphi. For a falling
- * observer the azimuth is that of ingoing Kerr-Schild coordinates. From p_mu by Sigma p^r, Sigma p^theta = p_theta
- * and Sigma p^phi = L/sin^2 - a E + a (P + w)/Delta with P = E (r^2 + a^2) - a L, and w = Sigma p^r for a falling
- * observer, 0 for others. At the horizon, where the last term is 0/0 for a falling observer, it is evaluated next to
- * it. */
+ * observer the azimuth is that of ingoing Kerr-Schild coordinates. The conversion starts from p_mu and uses Sigma p^r,
+ * Sigma p^theta = p_theta and Sigma p^phi = L/sin^2 - a E + a (P + w)/Delta. Here P = E (r^2 + a^2) - a L; w = Sigma
+ * p^r for a falling observer, and w = 0 for others. At the horizon the last term is 0/0 for a falling observer, so it
+ * is evaluated next to the horizon. */
 static void along(const struct kd_vantage *at, const struct kd_covector *leg, bool falls, double out[3])
 {
     const double a = at->spin, r = at->r, s = at->s, sigma = r * r + a * a * at->u * at->u, w2 = r * r + a * a;

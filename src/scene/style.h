@@ -1,19 +1,20 @@
-/* Styles: presets of fields selected by style.name, from the table KD_SCENE_STYLES of scene/fields.h. A document
- * that names a style sets these fields to the style's values, except those that it sets itself. The canonical form
- * contains the resulting fields, and nothing else reads the name. Constant data and pure functions, any thread. */
+/* Styles: presets of fields, selected by style.name, from the table KD_SCENE_STYLES of scene/fields.h. A document that
+ * names a style sets these fields to the style's values, except those that it sets itself. The canonical form contains
+ * the resulting fields, and nothing else reads the style's name. Constant data and pure functions, any thread. */
 #ifndef KD_SCENE_STYLE_H
 #define KD_SCENE_STYLE_H
 
 #include "scene/table.h"
 
 struct kd_style_row {
-    const char *section, *name; /* of a field in a section that is not a list */
-    double values[KD_STYLES];   /* as kd_field_put takes them; NAN: the style leaves the field unchanged */
+    const char *section, *name; /* section and name of the field; the section is not a list */
+    /* values in the form that kd_field_put accepts; NAN: the style leaves the field unchanged */
+    double values[KD_STYLES];
 };
 extern const struct kd_style_row kd_style_rows[];
 extern const size_t kd_style_row_count;
 
-/* The row of style.name; NULL if the table of fields has none. */
+/* The row of the field style.name; NULL if the table of fields has none. */
 const struct kd_field *kd_style_field(void);
 /* Applies the scene's style. given: fields to leave unchanged, by their index in kd_fields; NULL: none. */
 void kd_style_apply(struct kd_scene *scene, const bool *given);

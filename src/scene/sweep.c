@@ -39,7 +39,7 @@ static enum kd_status set(const struct kd_sweep *sweep, unsigned scene, bool sty
     return status;
 }
 
-/* Writes "spacetime.spin 0.9 and disk.inner 2", for messages. */
+/* Writes the values of a scene for messages, such as "spacetime.spin 0.9 and disk.inner 2". */
 static void tell(const struct kd_sweep *sweep, unsigned scene, char *out, size_t size)
 {
     for (size_t i = 0, n = 0; i < sweep->n_axes && n < size; i++)

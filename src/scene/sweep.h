@@ -1,16 +1,16 @@
-/* A sweep is a scene with axes. An axis is a field with a list of values, and the sweep has a scene for every
- * combination. A sweep is immutable once read: any thread may use it.
+/* A sweep is a scene with axes. An axis is a field with a list of values. The sweep has one scene for every combination
+ * of values. A sweep is immutable once it is read; any thread may use it.
  *
- *     {"spacetime.spin": [0, 0.5, 0.9], "camera.inclination_deg": "10:80:15", "disk.model": ["novikov-thorne",
- *          "particles"]}
+ *     {"spacetime.spin": [0, 0.5, 0.9], "camera.inclination_deg": "10:80:15",
+ *      "disk.model": ["novikov-thorne", "particles"]}
  *
- * Scenes are numbered from 0 in the order of the axes, the last one fastest, as the elements of an array in C. A
- * field is named by its path, as for kd_scene_set. The axes are applied in order, except that a style comes first,
- * since it sets many fields.
+ * Scenes are numbered from 0. The last axis changes fastest, as the last index of an array in C. A field is named by
+ * its path, as for kd_scene_set. The axes are applied in order, except that a style is applied first, because it sets
+ * many fields.
  *
- * A range START:STOP:STEP is START, START + STEP, ... up to STOP, which is included if a whole number of steps
- * reaches it: "10:80:15" is 10, 25, 40, 55, 70, and "10:70:15" is the same. START:STOP/N is N evenly spaced values
- * including both ends. Values of ranges are rounded to 15 digits. */
+ * A range START:STOP:STEP is START, START + STEP, ... up to STOP. STOP is included if a whole number of steps reaches
+ * it: "10:80:15" is 10, 25, 40, 55, 70, and so is "10:70:15". START:STOP/N is N evenly spaced values, which include
+ * both ends. Values of ranges are rounded to 15 digits. */
 #ifndef KD_SCENE_SWEEP_H
 #define KD_SCENE_SWEEP_H
 
@@ -21,17 +21,18 @@
 #include <cjson/cJSON.h>
 
 enum { KD_SWEEP_AXES = 8 };
-#define KD_SWEEP_MOST 100000 /* maximum number of scenes, which bounds lists of them; renderers limit the cost */
+/* limit of the number of scenes, so that lists of scenes are bounded; renderers limit the cost */
+#define KD_SWEEP_MOST 100000
 
 struct kd_sweep_axis {
-    char *path;       /* "camera.inclination_deg" */
-    const char *unit; /* of the field: "deg"; "1": a pure number; "": none */
+    char *path;       /* path of the field, such as "camera.inclination_deg" */
+    const char *unit; /* unit of the field: "deg"; "1": a pure number; "": none */
     bool numeric;     /* all values are numbers */
     bool even;        /* the values are evenly spaced, to 1e-12 of the larger end */
     size_t n;
     struct kd_sweep_value {
-        char *text;    /* as kd_scene_set takes it; for an asset its hash, once resolved */
-        double number; /* NAN if it is not a number */
+        char *text;    /* in the form that kd_scene_set accepts; for an asset its hash, once the name is resolved */
+        double number; /* NAN if the value is not a number */
     } *values;
 };
 
@@ -42,29 +43,29 @@ struct kd_sweep {
     unsigned scenes;
 };
 
-/* Reads an object of axes over a valid scene. Each value is checked against its field; kd_sweep_scene checks whether
- * a combination is valid. assets: where names are looked up; NULL: hashes are not looked up. KD_EINVAL with the
+/* Reads an object of axes over a valid scene. Each value is checked against its field; whether a combination is valid
+ * is checked by kd_sweep_scene. assets: where names are looked up; NULL: hashes are not looked up. KD_EINVAL with the
  * pointer /axes/FIELD/NUMBER, KD_ENOMEM. Free *out with kd_sweep_free. */
 enum kd_status kd_sweep_read(const cJSON *axes, const struct kd_scene *base, const struct kd_assets *assets,
                              struct kd_sweep **out, struct kd_error *error);
 
-/* The same from a command line: n texts FIELD=VALUE,VALUE,... or FIELD=RANGE. */
+/* Like kd_sweep_read, from a command line: n texts FIELD=VALUE,VALUE,... or FIELD=RANGE. */
 enum kd_status kd_sweep_typed(const char *const *axes, size_t n, const struct kd_scene *base,
                               const struct kd_assets *assets, struct kd_sweep **out, struct kd_error *error);
 void kd_sweep_free(struct kd_sweep *sweep); /* accepts NULL */
 
-/* The value of an axis in a scene. */
+/* The value that an axis has in a scene. */
 const struct kd_sweep_value *kd_sweep_at(const struct kd_sweep *sweep, unsigned scene, size_t axis);
-/* Makes a valid scene. KD_EINVAL at /axes, with the values, if the combination is invalid. */
+/* Makes a valid scene. If the combination is not valid, returns KD_EINVAL at /axes with the values. */
 enum kd_status kd_sweep_scene(const struct kd_sweep *sweep, unsigned scene, struct kd_scene *out,
                               struct kd_error *error);
 
 /* Writes a value as JSON; KD_ENOMEM. */
 enum kd_status kd_sweep_value_json(const struct kd_sweep_value *value, struct kd_buffer *out);
-/* Writes a member: the axes as kd_sweep_read takes them, each as a list. */
+/* Writes a member with the axes in the form that kd_sweep_read accepts, each as a list. */
 void kd_sweep_axes_json(const struct kd_sweep *sweep, struct kd_json *json, const char *name);
-/* Writes the name of a scene's file without extension: "000012 spin=0.9 inclination_deg=40". Characters unsuitable
- * for file names become "_"; a long name is cut. */
+/* Writes the name of a scene's file without its extension, such as "000012 spin=0.9 inclination_deg=40". Characters
+ * that are unsuitable for file names become "_". A name that is too long is cut. */
 enum { KD_SWEEP_NAME = 160 };
 void kd_sweep_name(const struct kd_sweep *sweep, unsigned scene, char out[KD_SWEEP_NAME]);
 

@@ -10,16 +10,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HITS 1e-9 /* in steps: a range that comes this close to its end has reached it */
+#define HITS 1e-9 /* a range has reached its end if it comes this close to it, as a fraction of a step */
 #define EVEN 1e-12
 
 struct reader {
     struct kd_sweep *sweep;
     const struct kd_assets *assets;
     struct kd_error *error;
-    /* the axis being read, the last one of the sweep */
+    /* The axis that is being read. It is the last one of the sweep. */
     const struct kd_field *field;
-    size_t index; /* of the list element that holds the field */
+    size_t index; /* index of the list element that has the field */
     char pointer[100];
 };
 
@@ -59,13 +59,13 @@ static enum kd_status begin(struct reader *r, const char *path)
     return KD_OK;
 }
 
-/* The text of a value as the scene stores it: an asset by its hash. */
+/* Text of a value in the form in which the scene stores it: an asset by its hash. */
 static const char *resolved(const struct reader *r, const struct kd_scene *scene, const char *text)
 {
     return r->field->kind == KD_FIELD_ASSET ? kd_field_asset(scene, r->field, r->index) : text;
 }
 
-/* Appends a value to the axis. at: its pointer. */
+/* Appends a value to the axis. at: the value's pointer. */
 static enum kd_status add(struct reader *r, const char *text, const char *at)
 {
     struct kd_sweep_axis *axis = last(r);
@@ -78,7 +78,7 @@ static enum kd_status add(struct reader *r, const char *text, const char *at)
         return kd_error_field(r->error, at, "%.440s", inner.message);
     if (axis->n >= KD_SWEEP_MOST)
         return too_many(r, (double)axis->n + 1);
-    if (!(axis->n & (axis->n - 1))) { /* grow to twice the room */
+    if (!(axis->n & (axis->n - 1))) { /* the array is full: doubles it */
         struct kd_sweep_value *more = realloc(axis->values, (axis->n ? 2 * axis->n : 1) * sizeof *more);
         if (!more)
             return no_memory(r);
@@ -103,7 +103,7 @@ static enum kd_status add_number(struct reader *r, double value, const char *at)
     return add(r, text, at);
 }
 
-/* A parsed range. by: ':' a step, '/' a count, 0: not a range. */
+/* A parsed range. by: ':' if it has a step, '/' if it has a count, 0 if the text is not a range. */
 struct range {
     double from, to, step;
     char by;
@@ -177,7 +177,7 @@ static enum kd_status refuse_twins(struct reader *r)
     return status;
 }
 
-/* Finishes the axis: checks and classifies its values. */
+/* Completes the axis: checks its values and finds out whether they are numbers and evenly spaced. */
 static enum kd_status end(struct reader *r)
 {
     struct kd_sweep *s = r->sweep;
@@ -217,7 +217,7 @@ static enum kd_status finish(struct reader *r, enum kd_status status, struct kd_
     return status;
 }
 
-/* Joins the words of an image.layers value that is an array: "a,b". */
+/* Joins the words of a value of image.layers, which is an array, to "a,b". */
 static enum kd_status join(struct reader *r, const cJSON *words, struct kd_buffer *out)
 {
     enum kd_status status = KD_OK;
@@ -288,7 +288,7 @@ done:
     return finish(&r, status, out);
 }
 
-/* Adds the values of "a,b" one by one. */
+/* Adds the values of a text "a,b" one after another. */
 static enum kd_status add_typed(struct reader *r, char *values)
 {
     enum kd_status status = KD_OK;
@@ -304,7 +304,7 @@ static enum kd_status add_typed(struct reader *r, char *values)
     return status;
 }
 
-/* Reads FIELD=VALUES; modifies text. */
+/* Reads a text FIELD=VALUES, which is modified. */
 static enum kd_status read_typed(struct reader *r, char *text)
 {
     char *values = strchr(text, '=');

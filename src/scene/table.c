@@ -3,12 +3,13 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Members of "top" belong to the document itself; nested sections are named "disk.gas". */
+/* Names of sections: "" for "top", whose members belong to the document itself, and "disk.gas" for a nested section. */
 #define PART_NAME(s, part, whole) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, part) ? #whole "." #part:
 #define SECTION_NAME(s) \
     (KD_SCENE_PARTS(PART_NAME, s) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, top) ? "" : #s)
 
-/* For each section: the type of its rows, their offset in the scene, and the stride of list elements. */
+/* These hold, for each section, the type of its rows, their offset in the scene, and the distance from one list element
+ * to the next. */
 #define PLACE(name, ROWS, group, help) \
     struct rows_of_##name { KD_M_ROWS(ROWS) }; \
     enum { BASE_##name = offsetof(struct kd_scene, name), STRIDE_##name = 0 };
@@ -193,7 +194,7 @@ void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t i
     void *at = (char *)scene + field->offset + index * field->stride;
     switch (field->kind) {
     case KD_FIELD_REAL:
-    case KD_FIELD_WORD: *(double *)at = value == 0 ? 0 : value; break; /* no -0: equal scenes give equal text */
+    case KD_FIELD_WORD: *(double *)at = value == 0 ? 0 : value; break; /* no -0, so that equal scenes give equal text */
     case KD_FIELD_INT:
     case KD_FIELD_ENUM: *(int32_t *)at = isinf(value) ? 0 : (int32_t)value; break;
     case KD_FIELD_BOOL: *(bool *)at = value != 0; break;
@@ -210,7 +211,7 @@ const char *kd_field_asset(const struct kd_scene *scene, const struct kd_field *
     return (const char *)scene + field->offset + index * field->stride;
 }
 
-/* Clears all bytes of the name, so that equal scenes have equal bytes. */
+/* All bytes after the name are set to 0, so that equal scenes have equal bytes. */
 void kd_field_put_asset(struct kd_scene *scene, const struct kd_field *field, size_t index, const char *text)
 {
     char *at = (char *)scene + field->offset + index * field->stride;
@@ -274,7 +275,7 @@ int kd_field_word_index(const struct kd_field *field, const char *text)
     return -1;
 }
 
-/* Writes a field's section, list index and name, separated by `mark`. */
+/* Writes a field's section, list index and name, with `mark` between them. */
 static void spell(const struct kd_field *field, size_t index, const char *mark, char out[KD_PATH_SIZE])
 {
     char element[24] = "";
@@ -294,12 +295,12 @@ void kd_field_pointer(const struct kd_field *field, size_t index, char out[KD_PA
     spell(field, index, "/", path);
     snprintf(out, KD_PATH_SIZE, "/%.*s", KD_PATH_SIZE - 2, path);
     for (char *c = out; *c; c++)
-        *c = *c == '.' ? '/' : *c; /* separator of nested sections */
+        *c = *c == '.' ? '/' : *c; /* the separator of nested sections */
 }
 
 void kd_scene_defaults(struct kd_scene *scene)
 {
-    /* Also clears the padding, so that equal scenes have equal bytes. */
+    /* This also clears the padding, so that equal scenes have equal bytes. */
     memset(scene, 0, sizeof *scene);
     for (size_t s = 0; s < KD_SECTION_COUNT; s++)
         for (size_t i = 0; i < (kd_sections[s].most ? kd_sections[s].most : 1); i++)

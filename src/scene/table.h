@@ -1,5 +1,5 @@
-/* The rows of scene/fields.h as data: everything about scenes is generated from this table. Internal to src/scene
- * and its tests. Constant data and pure functions, any thread. */
+/* The rows of scene/fields.h as data. Everything about scenes is generated from this table. Internal to src/scene and
+ * its tests. Constant data and pure functions, any thread. */
 #ifndef KD_SCENE_TABLE_H
 #define KD_SCENE_TABLE_H
 
@@ -22,31 +22,31 @@ enum kd_section_group { KD_GROUP_LOOK, KD_GROUP_GAS, KD_GROUP_HOLE, KD_GROUP_CAM
 enum { KD_NATURE_COUNT = KD_FIELD_LOOK + 1, KD_GROUP_COUNT = KD_GROUP_MORE + 1 };
 
 struct kd_field {
-    const char *section; /* "" for a member of the document itself */
+    const char *section; /* "" for members of the document itself */
     const char *name;
     enum kd_field_kind kind;
     enum kd_field_nature nature;
     enum kd_field_place place;
-    /* Offset in struct kd_scene, for a list that of the first element. The type is double, int32_t (INT, ENUM),
-     * bool, text (ASSET) or struct kd_words. */
+    /* Offset in struct kd_scene; for a list, that of the first element's field. The type there is double, int32_t (INT,
+     * ENUM), bool, text (ASSET) or struct kd_words. */
     size_t offset;
-    size_t stride; /* bytes between elements of a list; 0 for other sections */
+    size_t stride; /* bytes from one element of a list to the next; 0 for other sections */
     double initial, minimum, maximum;
-    const char *unit; /* "1": a pure number; "" for BOOL, ENUM, ASSET and WORDS */
+    const char *unit; /* "1": a pure number; "": BOOL, ENUM, ASSET and WORDS have none */
     const char *help;
-    /* WORD: the word for INFINITY. INT: likewise, stored as 0, or NULL. ENUM and WORDS: "a|b|c". Otherwise NULL. */
+    /* WORD: the word for INFINITY. INT: the word for 0, or NULL. ENUM and WORDS: "a|b|c". Otherwise NULL. */
     const char *words;
 };
 
 struct kd_nature { const char *word, *help; };
 
 struct kd_section {
-    const char *name; /* "" for the document itself, which is last; "disk.gas" for a nested section */
+    const char *name; /* "" for the document itself, which is the last section; "disk.gas" for a nested section */
     const char *help;
     enum kd_section_group group;
-    size_t first, count; /* rows in kd_fields */
-    size_t most;         /* maximum number of elements of a list; 0: not a list */
-    size_t size_at;      /* for a list: offset in struct kd_scene of its number of elements, a size_t */
+    size_t first, count; /* the section's rows in kd_fields */
+    size_t most;         /* limit of the elements of a list; 0: the section is not a list */
+    size_t size_at;      /* for a list: offset in struct kd_scene of the number of its elements, a size_t */
 };
 
 /* An old name of a list element. */
@@ -64,7 +64,7 @@ enum {
     KD_OLD_NAME_COUNT = 0 KD_SCENE_OLD_NAMES(KD_ONE),
 };
 
-/* KD_LIST_MOST is the largest maximum length of a list. */
+/* KD_LIST_MOST is the limit of the longest list. */
 #define KD_NO_ROOM(name, ROWS, group, help)
 #define KD_ROOM(name, element, ROWS, group, most, help) char name[most];
 union kd_list_room {
@@ -73,18 +73,20 @@ union kd_list_room {
 };
 enum { KD_LIST_MOST = sizeof(union kd_list_room) };
 
-/* A list has its rows once. Functions on fields therefore take the index of the element too; it is 0 for other
- * sections. */
+/* The rows of a list exist once, so functions on fields also take the index of the element. For other sections it is
+ * 0. */
 extern const struct kd_nature kd_natures[KD_NATURE_COUNT];
 extern const char *const kd_groups[KD_GROUP_COUNT]; /* "look", "gas", ... */
 extern const struct kd_field kd_fields[KD_FIELD_COUNT];
 extern const struct kd_section kd_sections[KD_SECTION_COUNT];
 extern const struct kd_old_name kd_old_names[KD_OLD_NAME_COUNT];
 
-/* Find by name, NULL if there is none; "" is the document itself. Names are case-sensitive. */
+/* Both find an entry by name; NULL if there is none. The section "" is the document itself. Names are
+ * case-sensitive. */
 const struct kd_section *kd_section_find(const char *section);
-/* Nested sections: finds the section `name` within `section`, NULL if there is none; tells whether `section` is
- * nested in `whole`; gives its name within the parent, and its JSON pointer. */
+/* Nested sections. kd_section_part finds the section `name` within `section`; NULL if there is none. kd_section_is_part
+ * tells whether `section` is nested in `whole`. kd_section_member returns its name within the parent,
+ * kd_section_pointer its JSON pointer. */
 enum { KD_PATH_SIZE = 80 };
 const struct kd_section *kd_section_part(const struct kd_section *section, const char *name);
 bool kd_section_is_part(const struct kd_section *section, const struct kd_section *whole);
@@ -93,22 +95,23 @@ void kd_section_pointer(const struct kd_section *section, char out[KD_PATH_SIZE]
 const struct kd_field *kd_field_find(const char *section, const char *name);
 const struct kd_old_name *kd_old_name_find(const char *name);
 
-/* The number of elements of a list; 1 for other sections. Resizing resets the elements that are removed or added to
- * the defaults. */
+/* kd_section_size: number of elements of a list; 1 for other sections. kd_section_resize resets the elements that it
+ * removes or adds to their defaults. */
 size_t kd_section_size(const struct kd_scene *scene, const struct kd_section *section);
 void kd_section_resize(struct kd_scene *scene, const struct kd_section *section, size_t size);
 /* Sets all fields of one element to their defaults. */
 void kd_section_reset(struct kd_scene *scene, const struct kd_section *section, size_t index);
-/* Removes elements that have all defaults from the end of a list, down to `least`. The old name of an element does
- * not say whether it exists. */
+/* Removes elements that have all defaults from the end of a list, but keeps at least `least`. It is needed because the
+ * old name of an element does not tell whether the element exists. */
 void kd_section_trim(struct kd_scene *scene, const struct kd_section *list, size_t least);
 
-/* Read and write a field of any kind as a double: exact for int32_t, 0 or 1 for bool, the index for ENUM. ASSET: 1
- * if there is one; writing 0 removes it. WORDS: the index of the word if there is just one, otherwise NAN. */
+/* Read and write a field of any kind as a double: int32_t exactly, bool as 0 or 1, ENUM as the index of the word. ASSET
+ * is 1 if there is an asset; writing 0 removes it. WORDS is the index of the word if there is just one, otherwise
+ * NAN. */
 double kd_field_get(const struct kd_scene *scene, const struct kd_field *field, size_t index);
 void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t index, double value);
 
-/* Read and write the text of an ASSET, "" for none. The text must be shorter than KD_ASSET_NAME. */
+/* Read and write the text of an ASSET; "": none. The text must be shorter than KD_ASSET_NAME. */
 const char *kd_field_asset(const struct kd_scene *scene, const struct kd_field *field, size_t index);
 void kd_field_put_asset(struct kd_scene *scene, const struct kd_field *field, size_t index, const char *text);
 
@@ -117,24 +120,24 @@ const struct kd_words *kd_field_words(const struct kd_scene *scene, const struct
 void kd_field_put_words(struct kd_scene *scene, const struct kd_field *field, size_t index,
                         const struct kd_words *words);
 
-/* True if value may be stored in field: in range, an integer where the kind requires it, INFINITY where that is a
- * word. */
+/* Whether a field may have this value: it is in range, an integer if the kind requires one, INFINITY only if that
+ * stands for a word. */
 bool kd_field_holds(const struct kd_field *field, double value);
 
-/* Words of an ENUM or WORDS field. The text of a word is not NUL-terminated: print it with %.*s. */
+/* Words of an ENUM or WORDS field. The text of a word is not NUL-terminated, so print it with %.*s. */
 struct kd_word {
     const char *text;
     int length;
 };
 int kd_field_word_count(const struct kd_field *field);
 struct kd_word kd_field_word(const struct kd_field *field, int index);
-int kd_field_word_index(const struct kd_field *field, const char *text); /* -1: not a word of the field */
+int kd_field_word_index(const struct kd_field *field, const char *text); /* -1: the text is not a word of the field */
 
-/* Finds a field by its dotted path, as kd_scene_set does, and the index of its element, which need not exist yet.
+/* Finds a field by its dotted path, in the way of kd_scene_set, and the index of its element, which need not exist yet.
  * KD_EINVAL with a pointer. */
 enum kd_status kd_field_at(const char *path, const struct kd_field **out, size_t *index, struct kd_error *error);
 
-/* Write a field's path and JSON pointer: "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and
+/* Write a field's path and its JSON pointer: "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and
  * "/spots/3/r"; "disk.gas.seed" and "/disk/gas/seed". */
 void kd_field_path(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);
 void kd_field_pointer(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);

@@ -23,7 +23,7 @@ void kd_text_clip(char *out, size_t size, const char *text)
         used += plain ? n : 1;
         i += step;
         if (used + 3 < size)
-            whole = used; /* the last character end that leaves room for the dots */
+            whole = used; /* the last end of a character after which there is room for the dots */
     }
     out[used] = 0;
 }
@@ -53,7 +53,7 @@ struct kd_text_place kd_text_place_of(const char *text, size_t at)
     for (size_t i = 0; i < at; i++) {
         if (text[i] == '\n')
             place = (struct kd_text_place) { place.line + 1, 1 };
-        else if (((unsigned char)text[i] & 0xc0) != 0x80) /* not a continuation byte */
+        else if (((unsigned char)text[i] & 0xc0) != 0x80) /* the byte is not a continuation byte */
             place.column++;
     }
     return place;

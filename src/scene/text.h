@@ -4,18 +4,18 @@
 
 #include <stddef.h>
 
-/* Copies text for display: control characters and invalid UTF-8 become '?', and what does not fit becomes "...".
- * size is at least 8. */
+/* Copies text for display. Control characters and invalid UTF-8 become '?'. If the text is too long, its end is
+ * replaced by "...". size is at least 8. */
 void kd_text_clip(char *out, size_t size, const char *text);
 
-/* The separator before item i of n in "a, b or c". */
+/* Returns the separator that precedes item i of n in "a, b or c". */
 const char *kd_text_or(size_t i, size_t n);
 
-/* Appends "/token" to a JSON pointer (RFC 6901: ~ and / escaped). A token that does not fit is left out, so that the
- * pointer still names its parent. */
+/* Appends "/token" to a JSON pointer (RFC 6901: ~ and / are escaped). A token that does not fit is left out, so that
+ * the pointer names its parent. */
 void kd_text_pointer(char *pointer, size_t size, const char *token);
 
-/* Line and column of a byte of a text, both from 1; columns count characters. */
+/* Line and column of a byte in a text, both counted from 1. Columns count characters. */
 struct kd_text_place { size_t line, column; };
 struct kd_text_place kd_text_place_of(const char *text, size_t at);
 

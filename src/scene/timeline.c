@@ -21,14 +21,14 @@ static bool continuous(const struct kd_field *field)
     return field->kind == KD_FIELD_REAL || field->kind == KD_FIELD_WORD;
 }
 
-/* A number that every key has: a field, or the proper time if field is NULL. */
+/* A number that every key has: a field, or the proper time if `field` is NULL. */
 struct column {
     const struct kd_timeline *timeline;
     const struct kd_field *field;
     size_t index;
-    size_t from; /* the key that t counts from; whole turns of other keys are counted from it */
-    bool ratios; /* interpolated logarithmically */
-    bool turns;  /* an angle that takes the shorter way from key to key */
+    size_t from; /* the key at which t is 0; whole turns of other keys are counted from this one */
+    bool ratios; /* it is interpolated logarithmically */
+    bool turns;  /* it is an angle that takes the shorter way from key to key */
     enum kd_interpolation by;
 };
 
@@ -38,7 +38,7 @@ static double given(const struct column *c, size_t key)
     return c->field ? kd_field_get(&k->scene, c->field, c->index) : k->proper_time;
 }
 
-/* Slopes need values at most two keys beyond the interval. */
+/* The value at a key. Slopes need values that are at most two keys away from the interval. */
 static double value_at(const struct column *c, size_t key)
 {
     double value = given(c, c->turns ? c->from : key);
@@ -54,18 +54,18 @@ static double apart(const struct column *c, size_t key)
     return c->timeline->keys[key + 1].at - c->timeline->keys[key].at;
 }
 
-/* Slope of the straight line from a key to the next; NAN if there is no next, or a value is a word. */
+/* Slope of the straight line from a key to the next. NAN if there is no next key, or if one of the values is a word. */
 static double secant(const struct column *c, size_t key)
 {
     if (key + 1 >= c->timeline->n_keys)
         return NAN;
-    double rise = value_at(c, key + 1) - value_at(c, key); /* inf - inf is NAN too */
+    double rise = value_at(c, key + 1) - value_at(c, key); /* this is NAN for inf - inf too */
     return isfinite(rise) ? rise / apart(c, key) : NAN;
 }
 
-/* Monotone slope at a key: the weighted harmonic mean of the secants, 0 at a turning point (Fritsch & Butland, SIAM
- * J. Sci. Stat. Comput. 5 (1984) 300, with the weights of Brodlie, as in SLATEC's PCHIM). The value is at rest at
- * both ends. */
+/* Monotone slope at a key: the weighted harmonic mean of the secants, or 0 at a turning point (Fritsch & Butland, SIAM
+ * J. Sci. Stat. Comput. 5 (1984) 300, with the weights of Brodlie, as in SLATEC's PCHIM). At both ends of the timeline
+ * it is 0. */
 static double monotone_slope(const struct column *c, size_t key, double before, double after)
 {
     if (!(before * after > 0))
@@ -74,7 +74,8 @@ static double monotone_slope(const struct column *c, size_t key, double before, 
     return (w0 + w1) / (w0 / before + w1 / after);
 }
 
-/* Slope of the parabola through a key and its neighbours; with only one neighbour, of the straight line to it. */
+/* Slope of the parabola through a key and its two neighbours. If there is only one neighbour, slope of the straight
+ * line to it. */
 static double parabola_slope(const struct column *c, size_t key, double before, double after)
 {
     if (isnan(before) || isnan(after))
@@ -103,7 +104,7 @@ static double between(const struct column *c, size_t key, double t)
         return c->ratios ? exp(from) : from;
     double value = c->by == KD_LINEAR ? from + t * (to - from) : cubic(c, key, t, from, to);
     if (c->by != KD_CATMULL_ROM)
-        /* the monotone cubic lies between them, but rounding may exceed */
+        /* the monotone cubic lies between the two values, but rounding may exceed them */
         value = fmax(fmin(from, to), fmin(fmax(from, to), value));
     if (c->turns && !(value >= c->field->minimum && value <= c->field->maximum))
         value = remainder(value, 360);
@@ -121,7 +122,8 @@ static bool is_turn(const struct kd_field *field)
     return !strcmp(field->unit, "degrees") && field->maximum - field->minimum >= 360;
 }
 
-/* True if a field keeps its value between two keys. Catmull and Rom's cubic may move even then. */
+/* Whether a field keeps its value between two keys. Catmull and Rom's cubic may change it even if both keys have the
+ * same value. */
 static bool stays(const struct kd_timeline *timeline, size_t key, const struct kd_field *field, size_t index)
 {
     const struct kd_scene *from = &timeline->keys[key].scene, *to = &timeline->keys[key + 1].scene;
@@ -129,7 +131,8 @@ static bool stays(const struct kd_timeline *timeline, size_t key, const struct k
            kd_field_get(from, field, index) == kd_field_get(to, field, index);
 }
 
-/* An element that only one of two keyframes has counts as having all defaults in the other. */
+/* Interpolates a section. An element of a list that only one of the two keyframes has counts in the other as having all
+ * defaults. */
 static void section_between(const struct kd_timeline *timeline, size_t key, double t, const struct kd_section *section,
                             struct kd_scene *out)
 {
@@ -184,7 +187,7 @@ static bool same_aim(const struct kd_aim *a, const struct kd_aim *b)
            (a->kind != KD_AIM_PLACE || (a->r == b->r && a->theta_deg == b->theta_deg && a->phi_deg == b->phi_deg));
 }
 
-/* Turns the camera as the keyframes aim it. to: the next keyframe, or NULL. */
+/* Turns the camera to where the keyframes aim it. to: the next keyframe, or NULL. */
 static enum kd_status aim(struct kd_scene *scene, const struct kd_timeline_key *from, const struct kd_timeline_key *to,
                           double t, struct kd_error *error)
 {
@@ -203,7 +206,7 @@ done:
     return status;
 }
 
-/* The last key at or before a place, by bisection, since a list of scenes has a key for each. */
+/* The last key at or before a place. It is found by bisection, because a list of scenes has a key for each scene. */
 static size_t key_before(const struct kd_timeline *timeline, double at)
 {
     size_t key = 0, end = timeline->n_keys;
@@ -233,7 +236,7 @@ enum kd_status kd_timeline_scene(const struct kd_timeline *timeline, double at, 
         t = eased(to->ease, (at - from->at) / (to->at - from->at));
         for (size_t i = 0; i < KD_SECTION_COUNT; i++)
             section_between(timeline, key, t, &kd_sections[i], out);
-        if (isinf(to->scene.camera.field_uas)) /* the two keys use different units: interpolate in M */
+        if (isinf(to->scene.camera.field_uas)) /* the two keys use different units, so the interpolation is in M */
             out->camera.field_uas = INFINITY;
         kd_scene_settle(out, NULL);
         proper_time = between(&clock, key, t);

@@ -1,35 +1,37 @@
-/* Timelines: scenes animated by keyframes, for jobs frame by frame and for sessions by the second. Pure; any thread.
+/* Timelines: scenes animated by keyframes. Jobs use them by frame, sessions by the second. Pure; any thread.
  *
  *     "keyframes": [{"frame": 24, "scene": {patch}, "proper_time": 5, "ease": "in-out", "look_at": "hole"}, ...],
- *     "interpolation": "smooth", "distances": "geometric", "angles": "shorter", "ease": "out", "look_at":
- *          {"theta_deg": 90, "phi_deg": 30}
+ *     "interpolation": "smooth", "distances": "geometric", "angles": "shorter", "ease": "out",
+ *     "look_at": {"theta_deg": 90, "phi_deg": 30}
  *
- * A keyframe's scene is a merge patch on the keyframe before. Real numbers are interpolated between keyframes;
- * everything else keeps the value of the keyframe before. After the last keyframe nothing changes.
+ * A keyframe's scene is a merge patch on the scene of the keyframe before. Real numbers are interpolated between
+ * keyframes; everything else keeps the value of the keyframe before. After the last keyframe nothing changes.
  *
- * "smooth" is a monotone cubic: at rest at both ends and at turning points, and never beyond the given values.
- * "catmull-rom" passes through the keyframes without stopping. It is Hermite's cubic; the slope at a key is that of
- * the parabola through it and its two neighbours, at either end that of the straight line to the next (E. Catmull &
- * R. Rom 1974, in Computer Aided Geometric Design, 317; P. Barry & R. Goldman 1988, SIGGRAPH Comput. Graph. 22, 199,
- * with the keys' places as knots; for evenly spaced keys it is the uniform one). It may overshoot the given values.
+ * "smooth" is a monotone cubic: it is at rest at both ends and at turning points, and never goes beyond the given
+ * values. "catmull-rom" passes through the keyframes without stopping, and may go beyond the given values. It is
+ * Hermite's cubic. Its slope at a key is that of the parabola through the key and its two neighbours; at either end it
+ * is that of the straight line to the neighbour (E. Catmull & R. Rom 1974, in Computer Aided Geometric Design, 317; P.
+ * Barry & R. Goldman 1988, SIGGRAPH Comput. Graph. 22, 199, with the keys' places as knots; for evenly spaced keys it
+ * is the uniform one).
  *
- * "ease" replaces the fraction t of [0, 1] by t^2 ("in"), 1 - (1 - t)^2 ("out") or 3 t^2 - 2 t^3 ("in-out"). A
- * keyframe's ease applies to the interval that leads to it. The timeline's applies to the whole: keyframes are
- * reached when its eased clock is at their places.
+ * "ease" replaces the fraction t of [0, 1] by t^2 ("in"), 1 - (1 - t)^2 ("out") or 3 t^2 - 2 t^3 ("in-out"). The ease
+ * of a keyframe applies to the interval that ends at the keyframe. The ease of the timeline applies to the whole: a
+ * keyframe is reached when the eased clock is at the keyframe's place.
  *
- * With "angles": "shorter", angles of a full-turn field take the shorter way from key to key: from 350 to 10 through
- * 0.
+ * With "angles": "shorter", an angle whose field covers a full turn takes the shorter way from key to key: from 350 to
+ * 10 through 0.
  *
- * "look_at" aims the camera (scene/aim.h) at "hole" or at a place, and overrides yaw and pitch; "free": yaw and
- * pitch decide. A keyframe without it inherits that of the keyframe before, the first one the timeline's. Between
- * two different aims the camera turns along a great circle.
+ * "look_at" aims the camera (scene/aim.h) at "hole" or at a place, and overrides yaw and pitch. With "free" yaw and
+ * pitch decide. A keyframe without it inherits that of the keyframe before; the first keyframe inherits that of the
+ * timeline. Between two different aims the camera turns along a great circle.
  *
- * "proper_time" moves the observer along its own path (physics/spacetime/worldline.h) from its place in the scene.
- * It is the proper time since the beginning, in M, or, for a falling observer, "horizon" or "end": the time at which
- * it reaches the outer horizon, or the last place that a camera can have. A keyframe without it inherits that of the
- * keyframe before; the first has 0. It is interpolated as other numbers are, but for "catmull-rom" by the monotone
- * cubic; the resulting place is exact. With "distances": "geometric", camera.r, camera.field_m and camera.field_uas
- * are interpolated logarithmically. */
+ * "proper_time" moves the observer along its own path (physics/spacetime/worldline.h), from its place in the scene. It
+ * is the proper time since the beginning, in M. For a falling observer it may also be "horizon" or "end": the time at
+ * which the observer reaches the outer horizon, or the last place that a camera can have. A keyframe without it
+ * inherits that of the keyframe before; the first has 0. It is interpolated like other numbers, but with "catmull-rom"
+ * by the monotone cubic; the resulting place is exact.
+ *
+ * With "distances": "geometric", camera.r, camera.field_m and camera.field_uas are interpolated logarithmically. */
 #ifndef KD_SCENE_TIMELINE_H
 #define KD_SCENE_TIMELINE_H
 
@@ -41,8 +43,8 @@
 
 #define KD_TIMELINE_KEYS_MAX 1000
 
-/* Words of requests, in the order of the enumerators. W(word), separated by C: KD_WORD_OF and KD_COMMA make an array
- * of them. */
+/* Words of requests, in the order of the enumerators: W(word), with C between them. KD_WORD_OF and KD_COMMA make an
+ * array of them. */
 #define KD_INTERPOLATIONS(W, C) W("linear") C W("smooth") C W("catmull-rom")
 enum kd_interpolation { KD_LINEAR, KD_SMOOTH, KD_CATMULL_ROM };
 #define KD_EASES(W, C) W("none") C W("in") C W("out") C W("in-out")
@@ -53,34 +55,34 @@ enum kd_ease { KD_EASE_NONE, KD_EASE_IN, KD_EASE_OUT, KD_EASE_IN_OUT };
 #define KD_WORD_OF(word) word
 #define KD_COMMA ,
 
-/* Largest r of a place to look at, M. */
+/* Largest r of a place to look at, in M. */
 #define KD_LOOK_AT_FAR 1e12
 
 struct kd_timeline_key {
-    double at; /* frame, or seconds */
+    double at; /* a frame, or seconds */
     double proper_time;
-    enum kd_ease ease; /* of the interval before it */
+    enum kd_ease ease; /* ease of the interval before the key */
     struct kd_aim aim;
     struct kd_scene scene;
 };
 
 struct kd_timeline {
-    struct kd_timeline_key *keys; /* the first at 0, ascending; n_keys 0: no timeline */
+    struct kd_timeline_key *keys; /* in ascending order, the first at 0; n_keys 0: there is no timeline */
     size_t n_keys;
     enum kd_interpolation interpolation;
-    enum kd_ease ease; /* of the whole timeline */
+    enum kd_ease ease; /* ease of the whole timeline */
     bool geometric, shorter;
 };
 void kd_timeline_finish(struct kd_timeline *timeline);
 
-/* How a request calls the places of keyframes, and their range. */
+/* How a request names the places of keyframes, and the range of these places. */
 struct kd_timeline_form {
-    const char *place; /* "frame" */
+    const char *place; /* name of the member, such as "frame" */
     double most;
     bool whole;
 };
 
-/* The members of a request that make a timeline; NULL: missing. */
+/* The members of a request that make up a timeline; NULL: the member is missing. */
 struct kd_timeline_items { const cJSON *keyframes, *interpolation, *distances, *angles, *ease, *look_at; };
 #define KD_TIMELINE_MEMBERS(items) \
     { "keyframes", &(items).keyframes }, { "interpolation", &(items).interpolation }, \
@@ -89,21 +91,21 @@ struct kd_timeline_items { const cJSON *keyframes, *interpolation, *distances, *
         "look_at", &(items).look_at \
     }
 
-/* The name of the first member given besides "keyframes"; NULL: none. */
+/* Returns the name of the first of these members, other than "keyframes", that the request has; NULL: it has none. */
 const char *kd_timeline_manner(const struct kd_timeline_items *items);
 
-/* Reads a timeline. Its first key is *first, a valid scene; each key of *out is valid then. assets: where names are
- * looked up; NULL: hashes are not looked up. KD_EINVAL with the pointer into the request. Free *out with
+/* Reads a timeline. Its first key is *first, which must be a valid scene; then each key of *out is valid. assets: where
+ * names are looked up; NULL: hashes are not looked up. KD_EINVAL with the pointer into the request. Free *out with
  * kd_timeline_finish. */
 enum kd_status kd_timeline_read(const struct kd_timeline_items *items, const struct kd_timeline_form *form,
                                 const struct kd_assets *assets, const struct kd_scene *first, struct kd_timeline *out,
                                 struct kd_error *error);
 
-/* The place of the last keyframe. */
+/* Returns the place of the last keyframe. */
 double kd_timeline_end(const struct kd_timeline *timeline);
 
-/* The valid scene at a place of 0 or more. KD_EINVAL, with a pointer to the keyframes, if the interpolated scene is
- * invalid. */
+/* Makes the valid scene at a place, which is 0 or more. If the interpolated scene is not valid it returns KD_EINVAL
+ * with a pointer to the keyframes. */
 enum kd_status kd_timeline_scene(const struct kd_timeline *timeline, double at, struct kd_scene *out,
                                  struct kd_error *error);
 

@@ -22,7 +22,7 @@ struct reader {
 
 static struct kd_timeline_key *last(const struct reader *r) { return &r->out->keys[r->out->n_keys - 1]; }
 
-/* Reads a keyframe's place, which must exceed that of the key before. */
+/* Reads a keyframe's place, which must be greater than the place of the key before. */
 static enum kd_status read_place(struct reader *r, const cJSON *item, const char *pointer, bool first, double *out)
 {
     unsigned frame = 0;
@@ -44,7 +44,8 @@ static enum kd_status read_place(struct reader *r, const cJSON *item, const char
     return kd_member_refuse(item, pointer, allowed, r->error);
 }
 
-/* The proper time of "horizon" or "end" for a falling observer; its infall parameters are those of the keyframe. */
+/* The proper time that "horizon" or "end" means for a falling observer. The infall parameters are those of the
+ * keyframe. */
 static double proper_time_to(const struct kd_scene *scene, const char *word)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
@@ -102,7 +103,7 @@ static const char *const interpolations[] = { KD_INTERPOLATIONS(KD_WORD_OF, KD_C
 #define READ_WORD(r, item, pointer, words, out) \
     kd_member_word(item, pointer, words, sizeof words / sizeof *words, out, (r)->error)
 
-/* Reads a number of a place to look at; `usual` is the default; NAN: none. */
+/* Reads a number of a place to look at. usual: its default; NAN: it has none. */
 static enum kd_status read_number(struct reader *r, const cJSON *item, const char *pointer, const char *name,
                                   double usual, double least, double most, double *out)
 {
@@ -162,7 +163,7 @@ static enum kd_status read_key(struct reader *r, const cJSON *item, size_t index
                               r->form->place, place ? "scene" : r->form->place));
     snprintf(at, sizeof at, "%s/%s", pointer, r->form->place);
     KD_TRY(read_place(r, place, at, index == 0, &where));
-    if (where > 0) { /* a keyframe at 0 replaces the first */
+    if (where > 0) { /* a keyframe at place 0 replaces the first key */
         r->out->keys[r->out->n_keys] = *last(r);
         r->out->keys[r->out->n_keys++].at = where;
     }

@@ -29,18 +29,19 @@ cJSON *kd_tree_read(const char *text, size_t length, bool *starved)
     struct kd_number_locale locale = kd_number_locale_enter();
     errno = 0;
     cJSON *root = cJSON_ParseWithLength(text, length);
-    *starved = !root && errno == ENOMEM; /* cJSON does not distinguish this from invalid JSON; malloc does */
+    /* cJSON does not distinguish this from text that is not JSON, but malloc does */
+    *starved = !root && errno == ENOMEM;
     kd_number_locale_leave(locale);
     return root;
 }
 
-/* Lets other requests run first while this thread reads or frees a large tree, which takes cJSON up to a second. */
+/* While this thread reads or frees a large tree, other requests may run first. cJSON takes up to a second for that. */
 static _Thread_local bool shares;
 static _Thread_local uint64_t allocations;
 
 static void pause_if_large(uint64_t n)
 {
-    const int kept = errno; /* the caller reads errno for ENOMEM */
+    const int kept = errno; /* restored below, because the caller checks errno for ENOMEM */
     if (shares && (n >= 65536 || ++allocations % 64 == 0))
         kd_pause();
     errno = kept;
@@ -58,7 +59,7 @@ static void give_back(void *memory)
     free(memory);
 }
 
-/* Runs before other threads start: cJSON's hooks are global. */
+/* Runs before other threads start, because cJSON's hooks are global. */
 __attribute__((constructor)) static void hook(void)
 {
     cJSON_InitHooks(&(cJSON_Hooks) { .malloc_fn = allocate, .free_fn = give_back });
@@ -71,7 +72,8 @@ void kd_tree_free(cJSON *root)
     shares = false;
 }
 
-/* text: without its long strings; a NUL that length does not count must follow, because cJSON reads one byte beyond. */
+/* Parses text without its long strings. A NUL that length does not count must follow the text, because cJSON reads one
+ * byte beyond the end. */
 static enum kd_status parse(const char *text, size_t length, const struct kd_long_strings *strings, cJSON **out,
                             struct kd_error *error)
 {
@@ -81,7 +83,7 @@ static enum kd_status parse(const char *text, size_t length, const struct kd_lon
     shares = true;
     cJSON *root = cJSON_ParseWithLengthOpts(text, length + 1, &end, 0);
     shares = false;
-    bool starved = !root && errno == ENOMEM; /* as in kd_tree_read */
+    bool starved = !root && errno == ENOMEM; /* see kd_tree_read */
     kd_number_locale_leave(locale);
     if (starved)
         return kd_error_set(error, KD_ENOMEM, "out of memory for a document of %zu bytes", length);

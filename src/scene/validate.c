@@ -1,4 +1,4 @@
-/* Validates scenes: every field's range, and the rules that tie fields together. */
+/* Validates scenes: the range of every field, and the rules about several fields. */
 #include "scene/asset.h"
 #include "scene/element.h"
 #include "scene/number.h"
@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-/* An unresolved name of an asset is an error. */
+/* Checks that an asset is named by its hash. A name that is not resolved is an error. */
 static enum kd_status asset(const struct kd_scene *scene, const struct kd_field *field, size_t index,
                             struct kd_error *error)
 {
@@ -22,7 +22,7 @@ static enum kd_status asset(const struct kd_scene *scene, const struct kd_field 
         error, pointer, "%s is \"%.64s\", which is no SHA-256, and no name of an asset that is known here", path, name);
 }
 
-/* Ranges are checked here too, because a scene that was filled in by hand has passed no parser. */
+/* Checks a field's range. The parser checks it too, but a scene that a caller has filled in has passed no parser. */
 static enum kd_status range(const struct kd_scene *scene, const struct kd_field *field, size_t index,
                             struct kd_error *error)
 {

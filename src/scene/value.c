@@ -59,7 +59,7 @@ static void list_words(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
     }
 }
 
-/* Writes "1 to 3 of a, b_N and c, each once". */
+/* Writes what a WORDS field allows, such as "1 to 3 of a, b_N and c, each once". */
 static void list_many(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
 {
     int count = kd_field_word_count(field),
@@ -106,7 +106,7 @@ void kd_value_allowed(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
     }
 }
 
-/* Converts the value to the field's double; NAN if it has another type or is not one of the words. */
+/* Converts the value to the double of its field; NAN if the value has another type or is not one of the words. */
 static double convert(const struct kd_field *field, const struct kd_value *value)
 {
     bool string = value->kind == KD_VALUE_STRING, number = value->kind == KD_VALUE_NUMBER;
@@ -123,12 +123,13 @@ static double convert(const struct kd_field *field, const struct kd_value *value
         if (value->kind == KD_VALUE_NULL || (string && !*value->text))
             return 0;
         return string && (kd_asset_is_hash(value->text) || kd_asset_is_name(value->text)) ? 1 : NAN;
-    case KD_FIELD_WORDS: return NAN; /* not representable as one number */
+    case KD_FIELD_WORDS: return NAN; /* words cannot be represented by one number */
     }
     return NAN;
 }
 
-/* True if a number was expected. If the field also takes a word, only a quoted number was meant as a number. */
+/* Whether the user meant to give a number. If the field also accepts a word, a string counts as a number only if its
+ * text is one. */
 static bool wants_number(const struct kd_field *field, const struct kd_value *value)
 {
     if (field->kind != KD_FIELD_ENUM && field->words)

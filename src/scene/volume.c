@@ -7,13 +7,13 @@
 
 #include <math.h>
 
-/* Minimum inner edge over the horizon's radius: matter at rest closer in is no longer visible, and the path length
- * to there is finite. */
+/* Smallest inner edge as a multiple of the horizon's radius. Matter at rest that is closer to the hole is no longer
+ * visible, and the path length to there is finite. */
 #define CLEAR 1.01
 #define CLEAR_RADIO \
     1.0005 /* for a radio frequency, whose energy in the matter's frame grows as 1/sqrt(distance to the horizon) */
 
-#define TORUS 0.5 /* inner edge over the radius of largest pressure, as in common simulations */
+#define TORUS 0.5 /* ratio of the inner edge to the radius of the largest pressure, as in common simulations */
 
 bool kd_scene_is_radio(const struct kd_scene *scene) { return scene->volume.model > KD_VOLUME_UNIFORM; }
 

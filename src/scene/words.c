@@ -13,7 +13,7 @@ int kd_words_length(const struct kd_field *field, int index, bool *numbered)
     return word.length - (*numbered ? mark : 0);
 }
 
-/* Parses "_0" to "_99" without leading zeros; -1 if the text is anything else. */
+/* Parses "_0" to "_99" without leading zeros; -1 if the text is something else. */
 static int number_of(const char *text, size_t length)
 {
     if (length < 2 || length > 3 || text[0] != '_' || (length == 3 && text[1] == '0'))

@@ -64,7 +64,7 @@ void kd_write_value(struct kd_writer *writer, const struct kd_field *field, doub
         word = kd_field_word(field, (int)value);
         kd_write(writer, "\"%.*s\"", word.length, word.text);
         return;
-    case KD_FIELD_ASSET: kd_write(writer, "null"); return; /* a present asset is not representable as one number */
+    case KD_FIELD_ASSET: kd_write(writer, "null"); return; /* an asset cannot be represented by one number */
     case KD_FIELD_WORDS: write_words(writer, field, &(struct kd_words) { 1, { { (int16_t)value, -1 } } }); return;
     }
 }
@@ -80,7 +80,8 @@ void kd_write_field(struct kd_writer *writer, const struct kd_scene *scene, cons
         kd_write_value(writer, field, kd_field_get(scene, field, index));
         return;
     }
-    if (!kd_asset_is_hash(asset)) /* a name may mean other content elsewhere: it is no identity */
+    /* a name may stand for other content elsewhere, so it does not identify the content */
+    if (!kd_asset_is_hash(asset))
         writer->status = writer->status ? writer->status : KD_EINVAL;
     kd_write_string(writer, asset);
 }
@@ -127,7 +128,7 @@ enum kd_status kd_scene_to_json(const struct kd_scene *scene, struct kd_buffer *
     kd_write(&writer, "{\"version\":%d", KD_SCENE_VERSION);
     for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
         const struct kd_section *section = &kd_sections[i];
-        if (strchr(section->name, '.')) /* nested sections are written with their parent */
+        if (strchr(section->name, '.')) /* a nested section is written with its parent */
             continue;
         if (*section->name) {
             write_section(&writer, section, scene);

@@ -27,7 +27,7 @@
 
 #define BODIES_TOO_MANY "too many bodies are being received"
 #define BODIES_OF_CLIENT "too many bytes of your request bodies are being received at once (limit for one client)"
-/* bytes of a body for which the basic deadline is enough: 32 kB/s for the default of 30 s */
+/* size of a body that the basic deadline is enough for: 32 kB/s for the default of 30 s */
 #define PACE ((size_t)960000)
 
 static int socket_of(struct MHD_Connection *mhd)
@@ -52,7 +52,7 @@ void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_
         kd_library_works_on(socket);
         *socket_context = kd_connections_find(server->connections, socket);
         if (kd_connection_is_health(*socket_context))
-            kd_sched_short_slices(); /* no earlier code of ours runs on a daemon's thread */
+            kd_sched_short_slices(); /* called here, because no earlier code of ours runs on a daemon's thread */
     } else {
         kd_connections_remove(server->connections, *socket_context);
         *socket_context = NULL;
@@ -64,9 +64,9 @@ static void stage(struct kd_request *request, enum kd_stage to)
     kd_connections_stage(request->server->connections, request->connection, to, 0);
 }
 
-/* libmicrohttpd 0.9.75 parses the query itself, into memory of the connection; some hundred parameters exhaust it, and
- * the connection then hangs. At this point it has not begun yet, and without "&" it finds one parameter; target.c
- * parses the query from our copy. */
+/* libmicrohttpd 0.9.75 parses the query itself, into memory of the connection. Some hundred parameters exhaust that
+ * memory, and the connection then hangs. When this runs, the library has not parsed yet. Without "&" it finds one
+ * parameter only; target.c parses the query from our copy. */
 static void hide_pairs(const char *uri)
 {
     union {
@@ -89,7 +89,7 @@ void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
     request->mhd = mhd;
     request->connection = connection_of(mhd);
     request->close = kd_connection_is_health(
-        request->connection); /* the next request on the connection may belong to the other daemon */
+        request->connection); /* only here, because the next request on the connection may belong to the other daemon */
     kd_client_of(mhd, request->client);
     request->raw = strdup(uri);
     if (request->raw && kd_target_origin(request->raw, &request->authority)) {
@@ -147,7 +147,7 @@ static struct most {
     case KD_TAKES_RAYS: return (struct most) { "a body of rays", KD_RAYS_BODY_MAX };
     case KD_TAKES_ORBITS: return (struct most) { "a body of orbits", KD_ORBIT_BODY_MAX };
     case KD_TAKES_INTEGRAL: return (struct most) { "a body of an integral", KD_INTEGRAL_BODY_MAX };
-    /* with axes, the body is that of a job */
+    /* with axes of a sweep, the body is that of a job */
     case KD_TAKES_PLAN: return (struct most) { "a body of a job", KD_JOB_BODY_MAX };
     case KD_TAKES_JOB: return (struct most) { "a body of a job with a playground", KD_JOB_FILM_MAX };
     case KD_TAKES_PLAYGROUND: return (struct most) { "a playground's document", KD_PLAYGROUND_JSON_MAX };
@@ -195,7 +195,7 @@ static bool media_type_fault(const struct kd_request *request, bool patch, struc
            !kd_media_type_is(type, all[i].other);
 }
 
-/* Whether the announced body must be refused; *problem may point into text. */
+/* Whether the announced body must be refused. *problem may point into text. */
 static bool body_fault(const struct kd_request *request, char text[TOO_LARGE], struct kd_problem *problem)
 {
     bool patch = !strcmp(request->method, "PATCH");
@@ -220,7 +220,8 @@ static bool body_fault(const struct kd_request *request, char text[TOO_LARGE], s
 }
 
 /* Whether a page of another site has made the browser send this request (Fetch Metadata, W3C). Such a page could use
- * the visitor's access to this server, so the request is refused, unless it is a visit, such as a link to a picture. */
+ * the visitor's access to this server, so the request is refused. A navigation is allowed, such as a link to a
+ * picture. */
 static bool is_foreign(const struct kd_request *request)
 {
     const char *site = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Site");
@@ -248,8 +249,8 @@ static bool find_route(struct kd_request *request, struct kd_problem *problem)
     return found;
 }
 
-/* Whether the request creates an object whose address is not known before, so that If-Match cannot hold. For objects
- * with an address the handler compares it. */
+/* Whether the request creates an object whose address is not known before, so that If-Match cannot hold. If the object
+ * has an address already, the handler evaluates If-Match. */
 static bool makes_something(const struct kd_request *request)
 {
     return !request->route->question && !strchr(request->route->path, '{') &&
@@ -258,14 +259,14 @@ static bool makes_something(const struct kd_request *request)
 
 static bool is_options(const struct kd_request *request) { return !strcmp(request->method, "OPTIONS"); }
 
-/* OPTIONS for the whole server: of "*", or of an address without a path (RFC 9112 3.2.4). */
+/* Whether OPTIONS concerns the whole server: its target is "*", or an address without a path (RFC 9112 3.2.4). */
 static bool asks_of_all(const struct kd_request *request)
 {
     return is_options(request) && !request->body_announced &&
            (!strcmp(request->raw, "*") || (request->authority && !strcmp(request->raw, "/")));
 }
 
-/* Decides whether the request is handled. Returns false with *result if it has been answered. */
+/* Decides whether the request is handled. Returns false if it has been answered; *result is then what to return. */
 static bool choose(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_problem problem;
@@ -318,7 +319,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
     return false;
 }
 
-/* Reads traceparent. Several lines are malformed, so they are ignored. */
+/* Reads traceparent. If there are several such lines, they are malformed and ignored. */
 static void read_trace(struct kd_request *request)
 {
     struct kd_buffer value = kd_reply_header_list(request, "traceparent");
@@ -326,8 +327,8 @@ static void read_trace(struct kd_request *request)
     kd_buffer_finish(&value);
 }
 
-/* Handles the complete header. Announced bodies are refused here if possible. libmicrohttpd closes the connection after
- * an answer at this point, so requests without a body are answered in the next call. */
+/* Handles the complete header. If the announced body must be refused, it is refused here. libmicrohttpd closes the
+ * connection after an answer at this point, so requests without a body are answered in the next call. */
 static enum MHD_Result begin(struct kd_request *request, const char *version)
 {
     struct kd_server *server = request->server;
@@ -354,8 +355,8 @@ static enum MHD_Result begin(struct kd_request *request, const char *version)
     return MHD_YES;
 }
 
-/* Refuses in the middle of a body. libmicrohttpd cannot answer then, so the answer is written to the socket and the
- * connection closed. */
+/* Refuses a request in the middle of its body. libmicrohttpd cannot answer then, so the answer is written to the socket
+ * and the connection closed. */
 static enum MHD_Result cut_body(struct kd_request *request, enum kd_problem_type type, const char *detail)
 {
     request->status = kd_problem_status(type);
@@ -385,7 +386,7 @@ static enum MHD_Result receive(struct kd_request *request, const char *data, siz
     }
     kd_once_take(request, data, *size);
     *size = 0;
-    if (all - request->body_mark >= PACE) { /* it is fast enough; the next part gets the same time */
+    if (all - request->body_mark >= PACE) { /* the body arrives fast enough; its next part gets the same time */
         request->body_mark = all;
         stage(request, KD_STAGE_BODY);
     }

@@ -12,12 +12,12 @@
 #include <unistd.h>
 
 #define TICK_MS 100          /* interval of checks for deadlines and disconnected clients */
-#define LAST_ANSWERS_MS 10e3 /* time for sending the last answers, and limit of waiting for a hanging driver */
+#define LAST_ANSWERS_MS 10e3 /* time for sending the last answers, and for waiting for a driver that may hang */
 
 static void sleep_a_tick(struct kd_server *server)
 {
     struct pollfd p = { .fd = server->stop_fd, .events = POLLIN };
-    /* The eventfd stays readable, so during the shutdown poll would not wait for it. */
+    /* The eventfd stays readable, so poll would return at once during the shutdown. */
     if (atomic_load(&server->phase) == KD_SERVING)
         poll(&p, 1, TICK_MS);
     else
@@ -46,7 +46,7 @@ static bool cut_short(struct kd_server *server)
     return atomic_load(&server->abandon) || hangs(server) || kd_render_queue_lost(server->renders, NULL);
 }
 
-/* Counts unfinished work; a request may consist of several pieces. */
+/* Counts unfinished work. A request may count several times. */
 static unsigned unfinished(struct kd_server *server)
 {
     return kd_render_queue_unfinished(server->renders) + kd_scheduler_unfinished(server->rays) +
@@ -81,7 +81,7 @@ static void end_the_rest(struct kd_server *server)
     cancel_all(server);
 }
 
-/* Advances the shutdown by one check; *since is the start of the present phase. Returns true when all is done. */
+/* Advances the shutdown by one check. *since: when the present phase began. Returns true when all is done. */
 static bool step_down(struct kd_server *server, double *since)
 {
     double age = kd_clock_ms() - *since;
@@ -111,7 +111,7 @@ static bool step_down(struct kd_server *server, double *since)
         enter(server, KD_CLOSING, since);
         return false;
     default:
-        kd_thumbnails_cancel(server->thumbnails); /* requests that came meanwhile */
+        kd_thumbnails_cancel(server->thumbnails); /* requests that arrived in the meantime */
         kd_connections_cut_stalled(server->connections);
         return !atomic_load(&server->requests) || age >= LAST_ANSWERS_MS || atomic_load(&server->abandon);
     }
@@ -130,7 +130,7 @@ void *kd_reaper_main(void *user)
         kd_playground_sessions_sweep(server->plays);
         kd_jobs_sweep(server->jobs);
     } while (!step_down(server, &since));
-    if (!hangs(server)) { /* no connection is suspended: the queues are empty and closed */
+    if (!hangs(server)) { /* no connection is suspended, because the queues are empty and closed */
         stop_listening(server);
         MHD_stop_daemon(server->daemon);
         MHD_stop_daemon(server->health_daemon);

@@ -4,7 +4,8 @@
 
 #include "server/http/service.h"
 
-/* For pthread_create; the argument is the struct kd_server. Returns when the server has stopped. */
+/* Main function of the thread, for pthread_create. The argument is the struct kd_server. Returns when the server has
+ * stopped. */
 void *kd_reaper_main(void *server);
 
 #endif

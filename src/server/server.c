@@ -39,7 +39,7 @@ static bool add_host(struct kd_server *server, size_t *n, const char *name)
 }
 
 /* Collects the accepted Host names: loopback by name and number; the listening address, or on a wildcard address the
- * machine's own addresses and name; the host of the public URL; and those of the caller. */
+ * machine's own addresses and name; the host of the public URL; and the names in `more`. */
 static enum kd_status collect_hosts(struct kd_server *server, const char *listen, const char *public_host,
                                     const char *const *more, struct kd_error *error)
 {
@@ -68,7 +68,7 @@ static enum kd_status collect_hosts(struct kd_server *server, const char *listen
     return good && server->hosts ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory");
 }
 
-/* Computes what a picture depends on besides its scene. */
+/* Computes the part of a picture's ETag that does not depend on the scene. */
 static void set_etag_tail(struct kd_server *server)
 {
     const char *device = kd_render_queue_device_name(server->renders);
@@ -87,7 +87,7 @@ static struct MHD_Daemon *start_daemon(struct kd_server *server, unsigned connec
         kd_request_connection, server, MHD_OPTION_END);
 }
 
-/* The daemons' own limits are above ours, so that they never close a connection without an answer. */
+/* The daemons' own limits are above ours, because a daemon at its limit closes a connection without an answer. */
 static enum kd_status start_http(struct kd_server *server, int listener, unsigned connections, struct kd_error *error)
 {
     server->daemon = start_daemon(server, 2 * kd_connections_most(connections));
@@ -255,11 +255,12 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(start_sessions(server, params, error));
     KD_TRY(start_plays(server, params, error));
     KD_TRY(start_jobs(server, params, error));
-    if (params->state) /* after the jobs, which lock the folder, and before kd_jobs_begin, since jobs may use assets */
+    /* opened after the jobs, because they lock the folder; before kd_jobs_begin, because jobs may use assets */
+    if (params->state)
         KD_TRY(kd_asset_store_open(server->assets, params->state, error));
     kd_jobs_begin(server->jobs);
     const int listening = fd;
-    fd = -1; /* from here on closed by the front */
+    fd = -1; /* from here on the front closes it */
     KD_TRY(start_http(server, listening, connections, error));
     KD_TRY(start_reaper(server, error));
 done:
@@ -296,7 +297,7 @@ void kd_server_stop(struct kd_server *server)
     uint64_t one = 1;
     atomic_compare_exchange_strong(&server->phase, &serving, KD_DRAINING);
     if (write(server->stop_fd, &one, sizeof one) < 0) {
-        /* The counter is full, so the reaper has been woken. */
+        /* The write failed because the counter is full; then the reaper has been woken already. */
     }
 }
 
@@ -335,7 +336,7 @@ void kd_server_destroy(struct kd_server *server)
     kd_scheduler_destroy(server->rays);
     kd_thumbnails_destroy(server->thumbnails);
     kd_render_queue_destroy(server->renders);
-    kd_sessions_destroy(server->sessions); /* after the queue, whose last frames refer to sessions */
+    kd_sessions_destroy(server->sessions); /* destroyed after the queue, whose last frames refer to sessions */
     kd_jobs_destroy(server->jobs);
     kd_asset_store_close(server->assets);
     kd_connections_destroy(server->connections);

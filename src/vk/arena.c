@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* n allocations leave at most n + 1 gaps. */
+/* Makes room for a number of gaps: n allocations leave at most n + 1. */
 static bool reserve(struct kd_vk_arena *arena, size_t gaps)
 {
     if (gaps <= arena->capacity)

@@ -1,5 +1,5 @@
-/* Arena: records which bytes of a range are free. Offsets only, no memory. First fit in address order; neighbours
- * coalesce. Not thread-safe. */
+/* Arena: records which bytes of a range are free. It deals with offsets only, not with memory. It takes the first gap
+ * that fits, in order of addresses; adjacent gaps are merged. Not thread-safe. */
 #ifndef KD_VK_ARENA_H
 #define KD_VK_ARENA_H
 
@@ -10,17 +10,18 @@
 struct kd_vk_span { uint64_t begin, end; };
 
 struct kd_vk_arena {
-    struct kd_vk_span *free; /* sorted; spans never touch one another */
+    struct kd_vk_span *free; /* sorted; no two of them touch */
     size_t n_free, capacity;
     size_t live; /* number of allocations */
     uint64_t size;
 };
 
-bool kd_vk_arena_init(struct kd_vk_arena *arena, uint64_t size); /* false: out of host memory */
+bool kd_vk_arena_init(struct kd_vk_arena *arena, uint64_t size); /* returns false when out of host memory */
 void kd_vk_arena_finish(struct kd_vk_arena *arena);
 /* Takes a range. alignment is a power of two. Returns false if no gap is large enough, or out of host memory. */
 bool kd_vk_arena_take(struct kd_vk_arena *arena, uint64_t size, uint64_t alignment, uint64_t *offset);
-/* Returns exactly the range that was taken. Cannot fail: take has reserved room for the span. */
+/* Returns exactly the range that was taken. This cannot fail, because kd_vk_arena_take has reserved room for the
+ * span. */
 void kd_vk_arena_give(struct kd_vk_arena *arena, uint64_t offset, uint64_t size);
 
 #endif

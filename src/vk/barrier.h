@@ -1,4 +1,4 @@
-/* Records pipeline barriers; no other file does. */
+/* Records pipeline barriers. No other file records any. */
 #ifndef KD_VK_BARRIER_H
 #define KD_VK_BARRIER_H
 

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Header of the file, before the driver's data. Drivers do not check these data sufficiently, so damage is detected
+/* Header of the file, before the driver's data. Drivers do not check their data sufficiently, so damage is detected
  * here. */
 struct envelope {
     char magic[8];
@@ -23,7 +23,7 @@ static const char magic[8] = "kdpipe1";
 #define SUFFIX ".pipelines"
 #define FILE_MAX ((size_t)256 << 20) /* drivers store some MiB; a larger file is not ours */
 
-/* Whether the data are for this device and driver, by Vulkan's VkPipelineCacheHeaderVersionOne. */
+/* Whether the data belong to this device and driver, by Vulkan's VkPipelineCacheHeaderVersionOne. */
 static bool header_fits(const struct kd_vk *vk, const uint8_t *data, size_t size)
 {
     const VkPhysicalDeviceProperties *device = &vk->physical.properties;
@@ -36,7 +36,7 @@ static bool header_fits(const struct kd_vk *vk, const uint8_t *data, size_t size
            words[3] == device->deviceID && !memcmp(data + sizeof words, device->pipelineCacheUUID, VK_UUID_SIZE);
 }
 
-/* Returns NULL if there is to be no file, or no folder for it. */
+/* Makes the path of the cache file. Returns NULL if no file is wanted, or if there is no folder for it. */
 static char *path_of(const struct kd_vk *vk, const char *dir)
 {
     const VkPhysicalDeviceProperties *device = &vk->physical.properties;
@@ -45,7 +45,7 @@ static char *path_of(const struct kd_vk *vk, const char *dir)
     int n;
     if (dir)
         n = snprintf(base, sizeof base, "%s", dir);
-    else if (xdg && xdg[0] == '/') /* the XDG specification says to ignore relative paths */
+    else if (xdg && xdg[0] == '/') /* the XDG specification requires that relative paths are ignored */
         n = snprintf(base, sizeof base, "%s/kerrd", xdg);
     else if (home && home[0])
         n = snprintf(base, sizeof base, "%s/.cache/kerrd", home);

@@ -13,7 +13,7 @@ static void list_names(const struct kd_vk_info *infos, size_t count, char *out, 
                                  infos[i].missing[0] ? " (unusable)" : "");
 }
 
-/* Among devices of one type prefers double precision, then wider subgroups. */
+/* Whether a is better than b, which has the same type: double precision first, then the wider subgroup. */
 static bool better(const struct kd_vk_info *a, const struct kd_vk_info *b)
 {
     if (a->type != b->type)
@@ -23,7 +23,8 @@ static bool better(const struct kd_vk_info *a, const struct kd_vk_info *b)
     return a->subgroup_size > b->subgroup_size;
 }
 
-/* Finds the best usable device whose name contains `part` ("": any), the first of equals; count if there is none. */
+/* Finds the best usable device whose name contains `part`; "" matches any name. Among equals it is the first. Returns
+ * count if there is none. */
 static size_t best(const struct kd_vk_info *infos, size_t count, const char *part, size_t *matches)
 {
     size_t found = count;
@@ -47,7 +48,7 @@ static enum kd_status by_index(const struct kd_vk_info *infos, size_t count, con
                                struct kd_error *error)
 {
     char names[320];
-    unsigned long n = strtoul(wish, NULL, 10); /* saturates: still out of range */
+    unsigned long n = strtoul(wish, NULL, 10); /* saturates; the result is out of range in any case */
     list_names(infos, count, names, sizeof names);
     if (n >= count)
         return kd_error_set(error, KD_EINVAL, "there is no device %s, only %s", wish, names);

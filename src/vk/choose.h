@@ -4,10 +4,10 @@
 
 #include "vk/vk.h"
 
-/* wish: "auto" (or NULL), an index, or part of a name. Among several matches it prefers the highest type, then double
- * precision, then the widest subgroup, then the first. On KD_OK *index is an index into infos and `why` one sentence. A
- * wish without a match is KD_EINVAL, with a list of the devices; an unusable device is KD_EDEVICE, with what it
- * lacks. */
+/* Chooses a device. wish: "auto" (or NULL), an index, or part of a name. Among several matches the highest type goes
+ * first, then double precision, then the widest subgroup, then the lowest index. On KD_OK *index is an index into infos
+ * and `why` one sentence. If nothing matches the wish it returns KD_EINVAL with a list of the devices. If the device is
+ * not usable it returns KD_EDEVICE with what the device lacks. */
 enum kd_status kd_vk_choose(const struct kd_vk_info *infos, size_t count, const char *wish, size_t *index, char *why,
                             size_t why_size, struct kd_error *error);
 

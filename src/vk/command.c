@@ -10,9 +10,9 @@
 
 #include <inttypes.h>
 
-enum { COUNTS_BYTES = 12 }; /* of an indirect dispatch */
+enum { COUNTS_BYTES = 12 }; /* size of the counts of an indirect dispatch */
 
-/* Bytes of a binding; of texels only complete ones. */
+/* Bytes of a binding. For texels only complete ones count. */
 static uint64_t size_of(const struct kd_vk_binding *binding, enum kd_vk_kind kind)
 {
     uint64_t size = binding->size ? binding->size : binding->buffer->size - binding->offset;
@@ -25,7 +25,7 @@ static bool inside(const struct kd_vk_buffer *buffer, uint64_t offset, uint64_t 
     return offset <= buffer->size && size <= buffer->size - offset;
 }
 
-/* Largest binding of a kind on this device, in bytes. */
+/* Size in bytes of the largest binding of a kind on this device. */
 static uint64_t most_of(const struct kd_vk *vk, enum kd_vk_kind kind)
 {
     const struct kd_vk_info *info = &vk->physical.info;
@@ -33,7 +33,7 @@ static uint64_t most_of(const struct kd_vk *vk, enum kd_vk_kind kind)
     return texel ? info->max_texels * texel : kind == KD_VK_UNIFORM ? info->max_uniform_bytes : info->max_binding_bytes;
 }
 
-/* Checks the rules that differ between kinds. */
+/* Checks the rules that differ from kind to kind. */
 static enum kd_status check_kind(const struct kd_vk *vk, const char *pass, uint32_t index,
                                  const struct kd_vk_binding *binding, enum kd_vk_kind kind, struct kd_error *error)
 {
@@ -179,7 +179,7 @@ enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dis
         vk->fn.CmdPushConstants(slot->commands, pipeline->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, pipeline->push_bytes,
                                 dispatch->push);
     dispatch_groups(vk, slot->commands, dispatch);
-    /* const for callers only; the layer may write it */
+    /* The pipeline is const for callers only; this layer may write it. */
     ((struct kd_vk_pipeline *)pipeline)->retired.ticket = kd_vk_current(vk);
 done:
     return status;

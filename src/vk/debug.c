@@ -64,6 +64,6 @@ void kd_vk_debug_name(struct kd_vk *vk, VkObjectType type, uint64_t handle, cons
                                                  .objectHandle = handle,
                                                  .pObjectName = name };
     kd_vk_loader_lock();
-    vk->fn.SetDebugUtilsObjectNameEXT(vk->device, &info); /* a name that is lost costs nothing */
+    vk->fn.SetDebugUtilsObjectNameEXT(vk->device, &info); /* failure is ignored: a missing name does no harm */
     kd_vk_loader_unlock();
 }

@@ -11,16 +11,16 @@ struct kd_vk;
 
 struct kd_vk_debug {
     VkDebugUtilsMessengerEXT messenger;
-    atomic_uint messages; /* number of warnings and errors; layers may report from any thread */
+    atomic_uint messages; /* number of warnings and errors; layers may report them from any thread */
 };
 
 VkDebugUtilsMessengerCreateInfoEXT kd_vk_debug_messenger(struct kd_vk_debug *debug);
-/* Returns KD_EDEVICE without VK_EXT_debug_utils, because no message would be received. */
+/* Starts counting messages. Returns KD_EDEVICE without VK_EXT_debug_utils, because no message would be received. */
 enum kd_status kd_vk_debug_listen(struct kd_vk_debug *debug, const struct kd_vk_functions *fn, VkInstance instance,
                                   struct kd_error *error);
 void kd_vk_debug_finish(struct kd_vk_debug *debug, const struct kd_vk_functions *fn, VkInstance instance);
 
-/* Names an object for messages and captures; no effect without validation. */
+/* Names an object for messages and captures. Has no effect without validation. */
 void kd_vk_debug_name(struct kd_vk *vk, VkObjectType type, uint64_t handle, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 #define KD_VK_HANDLE(handle) ((uint64_t)(handle))

@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 
-/* Adds a pool. Each pool has room for KD_VK_SETS_PER_POOL of the largest sets, so that counting sets shows when it is
- * full. */
+/* Adds a pool. Each pool has room for KD_VK_SETS_PER_POOL sets of the largest size. So it is full when it has that
+ * number of sets, whatever their size. */
 static enum kd_status grow(struct kd_vk *vk, struct kd_vk_descriptors *descriptors, struct kd_error *error)
 {
     enum kd_status status;

@@ -11,8 +11,8 @@ struct kd_vk;
 #define KD_VK_SETS_PER_POOL 64
 
 struct kd_vk_descriptors {
-    VkDescriptorPool *pools; /* as many as the largest submission has needed */
-    size_t n_pools, used;    /* used: sets in all pools */
+    VkDescriptorPool *pools; /* enough for the largest submission so far */
+    size_t n_pools, used;    /* used: number of sets in all pools */
 };
 
 enum kd_status kd_vk_descriptors_take(struct kd_vk *vk, struct kd_vk_descriptors *descriptors,

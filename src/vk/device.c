@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Devices that were hanging when they were destroyed. They are not freed, because a driver may crash when a device is
- * closed that still works (lavapipe does). The list keeps them reachable for leak checkers. */
+/* Devices that were hanging when they were destroyed. They are not freed, because a driver may crash if a device is
+ * closed while it works; lavapipe does. The list keeps them reachable for leak checkers. */
 static struct kd_vk *graveyard;
 
 enum kd_status kd_vk_alive(const struct kd_vk *vk, struct kd_error *error)
@@ -65,7 +65,8 @@ static void destroy(struct kd_vk *vk)
     kd_vk_loader_unlock();
 }
 
-/* Enables the required features and all optional ones that exist; users check kd_vk_info before relying on these. */
+/* Enables the required features, and all optional features that exist. Users must check kd_vk_info before they rely on
+ * an optional one. */
 static enum kd_status open_device(struct kd_vk *vk, struct kd_error *error)
 {
     enum kd_status status;
@@ -106,7 +107,7 @@ done:
         return KD_OK;
     if (vk->device && vk->fn.DestroyDevice)
         destroy(vk);
-    vk->device = VK_NULL_HANDLE; /* later code relies on this: a device has all its functions */
+    vk->device = VK_NULL_HANDLE; /* later code relies on this: if there is a device, all its functions are loaded */
     return status;
 }
 
@@ -142,15 +143,16 @@ done:
     return status;
 }
 
-#define IDLE_TRIES 3 /* retried when out of memory, since leaving the device open would leak all its memory */
+/* number of attempts when out of memory, because a device that stays open would leak all its memory */
+#define IDLE_TRIES 3
 
-/* Whether the objects may be destroyed. By the specification, those of a lost device may be once vkDeviceWaitIdle has
- * returned; those of a hanging one never. */
+/* Whether the objects may be destroyed. By the specification, objects of a lost device may be destroyed once
+ * vkDeviceWaitIdle has returned. Those of a hanging device may never be destroyed. */
 static bool is_idle(struct kd_vk *vk)
 {
     if (vk->pipelines_only)
         return true;
-    const enum kd_status waited = kd_vk_wait(vk, 0, NULL); /* has a deadline, so closing cannot hang */
+    const enum kd_status waited = kd_vk_wait(vk, 0, NULL); /* it has a deadline, so closing cannot hang */
     if (vk->hangs)
         return false;
     VkResult idle = vk->fn.DeviceWaitIdle(vk->device);

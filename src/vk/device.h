@@ -1,4 +1,4 @@
-/* struct kd_vk, for the files of this layer and for tests that inject faults. */
+/* struct kd_vk, for the files of this layer and for tests that simulate failures. */
 #ifndef KD_VK_DEVICE_H
 #define KD_VK_DEVICE_H
 
@@ -13,7 +13,7 @@
 #include "vk/timing.h"
 #include "vk/vk.h"
 
-/* Objects of one submission, which are reused. */
+/* Objects of one submission. They are reused for later submissions. */
 struct kd_vk_slot {
     VkCommandPool pool;
     VkCommandBuffer commands;
@@ -22,37 +22,39 @@ struct kd_vk_slot {
     uint64_t submitted_ns;
 };
 
-/* One more than the limit of submissions under way, for the one being recorded. */
+/* One more than the limit of submissions under way, for the one that is being recorded. */
 #define KD_VK_SLOTS (KD_VK_IN_FLIGHT + 1)
 
 struct kd_vk {
-    struct kd_vk_functions fn; /* complete; instance.fn lacks the device's part */
+    struct kd_vk_functions fn; /* the complete table; instance.fn lacks the functions of the device */
     struct kd_vk_instance instance;
     struct kd_vk_physical physical;
     char choice[640];
-    bool compiles_only, pipelines_only; /* as in kd_vk_params */
+    bool compiles_only, pipelines_only; /* see kd_vk_params */
     VkDevice device;
     VkQueue queue;
 
     struct kd_vk_heap heap;
     struct kd_vk_cache cache;
-    struct kd_vk_retired *retired; /* objects that the caller has destroyed and the device may still use */
-    struct kd_vk_buffer *mapped;   /* buffers mapped in memory that is not coherent */
+    struct kd_vk_retired *retired; /* objects that the caller has destroyed but the device may still use */
+    struct kd_vk_buffer *mapped;   /* buffers that are mapped in memory that is not coherent */
     uint64_t next_buffer_id;
     uint32_t n_buffers;
-    atomic_uint n_pipelines; /* alive; for the warning at the end */
+    atomic_uint n_pipelines; /* number of pipelines that exist; for the warning at the end */
 
     VkSemaphore timeline;
     struct kd_vk_slot slots[KD_VK_SLOTS];
     bool recording;
-    uint64_t submitted, done; /* timeline values: of the latest submission, and of the latest known to be finished */
-    uint64_t progress_ns;     /* when `done` last increased; the next submission's deadline counts from then */
+    /* timeline values: of the latest submission, and of the latest that is known to be finished */
+    uint64_t submitted, done;
+    /* when `done` last increased; the deadline of the next submission counts from this time */
+    uint64_t progress_ns;
     uint64_t deadline_ns;
-    struct kd_vk_hazards hazards, hazards_before; /* present state, and state when recording began */
+    struct kd_vk_hazards hazards, hazards_before; /* present state, and the state when recording began */
     struct kd_vk_timing timing;
 
-    char lost[256]; /* why the device is lost; "" if it is not */
-    bool hangs;     /* lost because a deadline has passed: work under way may never end */
+    char lost[256]; /* why the device is lost; "" if it is not lost */
+    bool hangs;     /* the device is lost because a deadline has passed: work under way may never end */
     struct kd_vk *next_lost;
 };
 

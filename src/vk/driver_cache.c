@@ -1,4 +1,4 @@
-/* Finds where lavapipe stores compiled kernels, by the rules of Mesa's src/util/disk_cache_os.c
+/* Finds where lavapipe stores compiled kernels. The rules are those of Mesa's src/util/disk_cache_os.c
  * (disk_cache_generate_cache_dir, disk_cache_enabled) in versions 22 to 25. */
 #include "base/hash.h"
 #include "vk/device.h"
@@ -32,7 +32,8 @@ static void find_folder(char dir[DIR_BYTES])
         *dir = 0;
 }
 
-/* Whether files can be created in the folder, or in its nearest existing parent: Mesa makes the rest. */
+/* Whether files can be created in the folder. If it does not exist, its nearest existing parent counts, because Mesa
+ * makes the missing folders. */
 static bool is_writable(const char *dir)
 {
     char path[DIR_BYTES];

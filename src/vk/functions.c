@@ -36,7 +36,7 @@ enum kd_status kd_vk_functions_load(struct kd_vk_functions *fn, struct kd_error 
     memcpy(&fn->GetInstanceProcAddr, &symbol, sizeof symbol);
     fn->EnumerateInstanceVersion =
         (PFN_vkEnumerateInstanceVersion)fn->GetInstanceProcAddr(NULL, "vkEnumerateInstanceVersion");
-    uint32_t version = VK_API_VERSION_1_0; /* a loader without that function has version 1.0 */
+    uint32_t version = VK_API_VERSION_1_0; /* a loader that lacks the function has version 1.0 */
     if (fn->EnumerateInstanceVersion) {
         enum kd_status status =
             kd_vk_result_error(error, fn->EnumerateInstanceVersion(&version), "vkEnumerateInstanceVersion");

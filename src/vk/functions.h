@@ -1,8 +1,8 @@
 /* Table of Vulkan entry points, loaded at run time from libvulkan.so.1.
  *
  * All calls of this layer go through a struct kd_vk_functions, so that a test can replace a member to imitate a failing
- * driver. The library stays loaded until the process ends, because drivers leave threads and thread-local data behind
- * that outlive a dlclose. */
+ * driver. The library stays loaded until the process ends, because drivers leave threads and thread-local data that
+ * outlive a dlclose. */
 #ifndef KD_VK_FUNCTIONS_H
 #define KD_VK_FUNCTIONS_H
 
@@ -108,26 +108,26 @@ struct kd_vk_functions {
 #undef KD_VK_MEMBER
 };
 
-/* Three steps, in this order. KD_EDEVICE names what is missing. */
+/* The three steps of loading, in this order. KD_EDEVICE names what is missing. */
 enum kd_status kd_vk_functions_load(struct kd_vk_functions *fn, struct kd_error *error);
 enum kd_status kd_vk_functions_instance(struct kd_vk_functions *fn, VkInstance instance, struct kd_error *error);
 enum kd_status kd_vk_functions_device(struct kd_vk_functions *fn, VkDevice device, struct kd_error *error);
 
-/* Held by all threads while they create or destroy an instance or a device, load its functions, or name an object.
- * Vulkan lets an application do these at once on different devices; the loader does not: it keeps one list of all
- * devices of the process, which it changes without a lock (KhronosGroup/Vulkan-Loader issue 2018, up to 1.4.341 at
+/* Every thread holds this lock while it creates or destroys an instance or a device, loads its functions, or names an
+ * object. Vulkan permits an application to do these at once on different devices, but the loader does not: it changes
+ * its one list of all devices of the process without a lock (KhronosGroup/Vulkan-Loader issue 2018, up to 1.4.341 at
  * least). */
 void kd_vk_loader_lock(void);
 void kd_vk_loader_unlock(void);
 
-/* For tests only: called after each step to replace members (tests/gpu/fake_device.h). Otherwise NULL. */
+/* For tests only, otherwise NULL. It is called after each step, and may replace members (tests/gpu/fake_device.h). */
 extern void (*kd_vk_functions_hook)(struct kd_vk_functions *fn);
 
 const char *kd_vk_result_name(VkResult result); /* such as "VK_ERROR_DEVICE_LOST"; never NULL */
 /* Returns KD_OK for a success, KD_ENOMEM for the two out-of-memory results, KD_EDEVICE for all others. */
 enum kd_status kd_vk_result_error(struct kd_error *error, VkResult result, const char *call);
 
-/* Calls fn->name(...); on failure fills the `error` in scope and leaves like KD_TRY. */
+/* Calls fn->name(...). On failure it fills the `error` in scope and jumps to `done`, like KD_TRY. */
 #define KD_VK_TRY(fn, name, ...) KD_TRY(kd_vk_result_error(error, (fn)->name(__VA_ARGS__), "vk" #name))
 
 #endif

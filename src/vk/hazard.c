@@ -20,7 +20,8 @@ static VkAccessFlags writes(VkPipelineStageFlags stages)
            (stages & VK_PIPELINE_STAGE_TRANSFER_BIT ? VK_ACCESS_TRANSFER_WRITE_BIT : 0u);
 }
 
-/* For reads only the stage matters: write-after-read needs ordering, not a flush. */
+/* Makes a barrier against all listed accesses. For reads only the stage matters, because a write after a read needs
+ * ordering but no flush. */
 static struct kd_vk_barrier everything(const struct kd_vk_hazards *hazards)
 {
     struct kd_vk_barrier barrier = {
@@ -37,7 +38,7 @@ static struct kd_vk_barrier everything(const struct kd_vk_hazards *hazards)
     return barrier;
 }
 
-/* Extends an entry that touches the access, or appends one. The union of touching ranges is exact, so that tiles
+/* Extends an entry that touches the access, or appends a new one. If ranges touch, their union is exact, so that tiles
  * written side by side remain one entry. */
 static void enter(struct kd_vk_hazards *hazards, const struct kd_vk_access *access)
 {

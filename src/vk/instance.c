@@ -8,7 +8,7 @@
 
 #define VALIDATION_LAYER "VK_LAYER_KHRONOS_validation"
 
-#ifndef VK_EXT_layer_settings /* headers before 1.3.272, such as Debian 12's */
+#ifndef VK_EXT_layer_settings /* headers before 1.3.272, such as those of Debian 12 */
 #define VK_EXT_LAYER_SETTINGS_EXTENSION_NAME "VK_EXT_layer_settings"
 #define VK_STRUCTURE_TYPE_LAYER_SETTINGS_CREATE_INFO_EXT ((VkStructureType)1000496000)
 #define VK_LAYER_SETTING_TYPE_BOOL32_EXT 0
@@ -40,7 +40,7 @@ static bool has_layer(const struct kd_vk_functions *fn, const char *name)
     return found;
 }
 
-/* Whether an extension exists: of a layer, or with layer NULL of the loader and drivers. */
+/* Whether a layer has an extension; layer NULL: whether the loader or a driver has it. */
 static bool has_extension(const struct kd_vk_functions *fn, const char *layer, const char *name)
 {
     uint32_t n = 0;
@@ -79,7 +79,7 @@ static enum kd_status create(struct kd_vk_instance *instance, const VkInstanceCr
 }
 
 /* Checks that there is enough address space, because a driver that runs out of it kills the process (lavapipe, LLVM).
- * Measured with lavapipe: pictures and volumes fail below 0.8 GiB and work with 1.2 GiB on two cores; each further
+ * Measured with lavapipe on two cores: pictures and volumes fail below 0.8 GiB and work with 1.2 GiB. Each further
  * thread reserves a stack of 8 MiB and a heap of 64 MiB. */
 static enum kd_status check_address_space(struct kd_error *error)
 {
@@ -121,14 +121,15 @@ enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validat
     const VkApplicationInfo application = { .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                             .pApplicationName = "kerrd",
                                             .apiVersion = VK_API_VERSION_1_2 };
-    /* When chained, the messenger also receives messages from vkCreateInstance and vkDestroyInstance. */
+    /* Because it is chained here, the messenger also receives the messages of vkCreateInstance and
+     * vkDestroyInstance. */
     VkDebugUtilsMessengerCreateInfoEXT messenger = kd_vk_debug_messenger(&instance->debug);
     const VkValidationFeatureEnableEXT enable = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     const VkValidationFeaturesEXT features = { .sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
                                                .pNext = debug_utils ? &messenger : NULL,
                                                .enabledValidationFeatureCount = 1,
                                                .pEnabledValidationFeatures = &enable };
-    /* Newer layers (such as Debian 13's 1.4) exclude shader accesses from synchronisation validation by default. All
+    /* By default newer layers (such as Debian 13's 1.4) exclude shader accesses from synchronisation validation. All
      * our hazards involve a shader. */
     const VkBool32 yes = VK_TRUE;
     const VkLayerSettingEXT heuristic = { VALIDATION_LAYER, "syncval_shader_accesses_heuristic",

@@ -1,4 +1,4 @@
-/* Creates a Vulkan instance with its function table and optionally the validation layer. */
+/* Creates a Vulkan instance with its function table and, if wanted, the validation layer. */
 #ifndef KD_VK_INSTANCE_H
 #define KD_VK_INSTANCE_H
 
@@ -11,8 +11,8 @@ struct kd_vk_instance {
     struct kd_vk_debug debug;
 };
 
-/* validate without an installed layer is KD_EDEVICE, because missing messages would be taken for success. The struct
- * must not move afterwards: the messenger points into it. */
+/* If validate is true and no layer is installed it returns KD_EDEVICE, because the absence of messages would be taken
+ * for success. Afterwards the struct must not move, because the messenger refers to it. */
 enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validate, struct kd_error *error);
 void kd_vk_instance_finish(struct kd_vk_instance *instance);
 

@@ -1,4 +1,4 @@
-/* The Vulkan types and flags of each kind of binding. Pure. */
+/* The Vulkan types and flags for each kind of binding. Pure. */
 #ifndef KD_VK_KIND_H
 #define KD_VK_KIND_H
 
@@ -7,12 +7,12 @@
 
 struct kd_vk_kind_info {
     VkDescriptorType descriptor;
-    /* of texels; every device supports these formats for uniform texel buffers (Vulkan 1.2, table 61) */
+    /* Format of texels. Every device supports these formats for uniform texel buffers (Vulkan 1.2, table 61). */
     VkFormat format;
-    uint32_t texel_bytes; /* 0: not texels */
+    uint32_t texel_bytes; /* 0: the binding is not texels */
 };
 
-/* Returns NULL for an unknown kind. */
+/* Returns the types and flags of a kind; NULL if the kind is unknown. */
 const struct kd_vk_kind_info *kd_vk_kind_info(enum kd_vk_kind kind);
 
 #endif

@@ -27,7 +27,8 @@ void kd_vk_mapped_use(struct kd_vk *vk, struct kd_vk_buffer *buffer, bool write)
         buffer->written = kd_vk_current(vk);
 }
 
-/* Offset and size are multiples of every nonCoherentAtomSize, because of KD_VK_ALIGNMENT in heap_take. */
+/* Part of the memory that a buffer occupies. Offset and size are multiples of every nonCoherentAtomSize, because
+ * heap_take uses KD_VK_ALIGNMENT. */
 static VkMappedMemoryRange range_of(const struct kd_vk_buffer *buffer)
 {
     return (VkMappedMemoryRange) { .sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE,
@@ -36,7 +37,7 @@ static VkMappedMemoryRange range_of(const struct kd_vk_buffer *buffer)
                                    .size = buffer->slice.size };
 }
 
-/* Skips READBACK buffers: the host does not write to them, and its stale copy must not overwrite what the device
+/* Skips READBACK buffers. The host does not write to them, and the host's old copy must not overwrite what the device
  * wrote. */
 VkResult kd_vk_mapped_flush(struct kd_vk *vk, uint64_t value)
 {

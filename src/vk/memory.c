@@ -10,17 +10,17 @@
 #define COHERENT VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
 #define CACHED VK_MEMORY_PROPERTY_HOST_CACHED_BIT
 
-/* Whether the memory type has ordinary flags only. Types that need a feature (AMD's uncached ones, protected, lazily
- * allocated) are never used. */
+/* Whether a memory type has ordinary flags only. Types that need a feature are never used: AMD's uncached ones,
+ * protected ones, lazily allocated ones. */
 static bool plain(VkMemoryPropertyFlags flags)
 {
     return !(flags & ~(VkMemoryPropertyFlags)(LOCAL | VISIBLE | COHERENT | CACHED));
 }
 
-/* Score of a memory type, -1 if it is unsuitable. The host reads uncached memory ten times more slowly, so for READBACK
- * cached memory is worth the invalidation that it may need. For UPLOAD, which bypasses the cache, coherent memory is
- * better. Host memory is preferred outside the device's: on a discrete card the mappable part of its memory may be as
- * small as 256 MiB. */
+/* Score of a memory type; -1 if it is unsuitable. READBACK: the host reads uncached memory ten times more slowly, so
+ * cached memory is better, even if it needs invalidation. UPLOAD bypasses the cache, so coherent memory is better. Host
+ * memory outside the device's is preferred, because on a discrete card only 256 MiB of the device's memory may be
+ * mappable. */
 static int points(VkMemoryPropertyFlags flags, enum kd_vk_memory memory, bool host_near)
 {
     bool visible = flags & VISIBLE, local = flags & LOCAL, cached = flags & CACHED, coherent = flags & COHERENT;
@@ -48,7 +48,8 @@ int kd_vk_memory_type(const VkPhysicalDeviceMemoryProperties *properties, uint32
     return best;
 }
 
-/* Every buffer has the same usage, hence the same allowed types, which are queried once with a small buffer. */
+/* Finds the allowed memory types. Every buffer has the same usage and therefore the same allowed types, so they are
+ * queried once, with a small buffer. */
 static enum kd_status allowed_types(struct kd_vk *vk, uint32_t *allowed, struct kd_error *error)
 {
     enum kd_status status;
@@ -89,7 +90,7 @@ static void block_free(struct kd_vk *vk, struct kd_vk_block *block)
 {
     struct kd_vk_heap *heap = &vk->heap;
     heap->used[heap->properties.memoryTypes[block->type].heapIndex] -= block->arena.size;
-    vk->fn.FreeMemory(vk->device, block->memory, NULL); /* unmaps as well */
+    vk->fn.FreeMemory(vk->device, block->memory, NULL); /* this also unmaps the memory */
     kd_vk_arena_finish(&block->arena);
     free(block);
 }
@@ -121,7 +122,7 @@ done:
     return status;
 }
 
-/* Appends a block to the list: buffers are taken from the oldest block with room, so that the latest blocks become
+/* Appends a block to the list. Buffers are taken from the oldest block with room, so that the latest blocks become
  * empty. */
 static enum kd_status block_create(struct kd_vk *vk, uint32_t type, uint64_t size, struct kd_error *error)
 {
@@ -160,8 +161,8 @@ static bool take(struct kd_vk *vk, uint32_t type, uint64_t size, uint64_t alignm
     return false;
 }
 
-/* Takes a slice from a block with room, else from a new block of the usual size, or if that fails of just the size
- * needed. */
+/* Takes a slice from a block with room, else from a new block of the usual size. If that cannot be allocated, the new
+ * block has just the size that is needed. */
 static enum kd_status take_or_grow(struct kd_vk *vk, uint32_t type, uint64_t size, uint64_t alignment,
                                    struct kd_vk_slice *out, struct kd_error *error)
 {
@@ -190,7 +191,7 @@ enum kd_status kd_vk_heap_take(struct kd_vk *vk, enum kd_vk_memory memory, uint6
     size = size > UINT64_MAX - alignment ? size : (size + KD_VK_ALIGNMENT - 1) & ~(uint64_t)(KD_VK_ALIGNMENT - 1);
     enum kd_status status = take_or_grow(vk, type, size, alignment, out, &why);
     if (status == KD_ENOMEM && vk->retired && !kd_vk_wait(vk, 0, NULL))
-        status = take_or_grow(vk, type, size, alignment, out, &why); /* try again with the memory of retired buffers */
+        status = take_or_grow(vk, type, size, alignment, out, &why); /* once more, with the memory of retired buffers */
     if (!status)
         return KD_OK;
     return kd_error_set(error, status, "%.2f MiB of %s memory: %.200s (%.2f MiB are held, the heap has %.0f MiB)",

@@ -1,4 +1,4 @@
-/* Device memory: a few large blocks, divided among buffers. */
+/* Device memory: a few large blocks, from which buffers get their slices. */
 #ifndef KD_VK_MEMORY_H
 #define KD_VK_MEMORY_H
 
@@ -6,11 +6,11 @@
 #include "vk/functions.h"
 #include "vk/vk.h"
 
-/* Vulkan guarantees 4096 allocations; with blocks of this size far fewer are needed. A larger buffer gets a block of
+/* Vulkan guarantees 4096 allocations. With blocks of this size far fewer are needed. A larger buffer gets a block of
  * its own. */
 #define KD_VK_BLOCK_BYTES (UINT64_C(64) << 20)
-/* At least any nonCoherentAtomSize (Vulkan 1.2, table 53), so that buffers share no atom; and at least any
- * min{Storage,Uniform,Texel}BufferOffsetAlignment, so that bindings of all kinds may start at each multiple. */
+/* Not less than any nonCoherentAtomSize (Vulkan 1.2, table 53), so that no two buffers share an atom. Not less than any
+ * min{Storage,Uniform,Texel}BufferOffsetAlignment either, so that bindings of all kinds may start at each multiple. */
 #define KD_VK_ALIGNMENT 256
 #define KD_VK_BUFFER_USAGE \
     (VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | \
@@ -22,13 +22,13 @@ struct kd_vk_block {
     VkDeviceMemory memory;
     uint32_t type;
     struct kd_vk_arena arena;
-    uint8_t *map; /* NULL: not visible to the host */
+    uint8_t *map; /* address of the block for the host; NULL: the host does not see the block */
     bool coherent;
 };
 
 struct kd_vk_heap {
     VkPhysicalDeviceMemoryProperties properties;
-    uint32_t types[3]; /* memory type by enum kd_vk_memory */
+    uint32_t types[3]; /* index of the memory type for each enum kd_vk_memory */
     struct kd_vk_block *blocks;
     uint64_t used[VK_MAX_MEMORY_HEAPS]; /* bytes allocated from each heap */
 };
@@ -44,8 +44,8 @@ enum kd_status kd_vk_heap_take(struct kd_vk *vk, enum kd_vk_memory memory, uint6
                                struct kd_vk_slice *out, struct kd_error *error);
 void kd_vk_heap_give(struct kd_vk *vk, const struct kd_vk_slice *slice);
 
-/* Chooses the best memory type among `allowed` (a bit each), or -1. Pure. host_near: the device's memory is the host's
- * memory (CPU, integrated GPU), so that mapping costs nothing. */
+/* Chooses the best memory type among `allowed`, which has one bit for each; -1: none. Pure. host_near: the device's
+ * memory is the host's (CPU, integrated GPU), so that mapping costs nothing. */
 int kd_vk_memory_type(const VkPhysicalDeviceMemoryProperties *properties, uint32_t allowed, enum kd_vk_memory memory,
                       bool host_near);
 

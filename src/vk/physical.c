@@ -35,8 +35,9 @@ static void lacks(struct kd_vk_info *info, const char *what)
     snprintf(info->missing + used, sizeof info->missing - used, "%s%s", used ? ", " : "", what);
 }
 
-/* Score of a queue family. It must compute. Timestamps are preferred, then the lack of graphics, because in such a
- * queue our work and the desktop's frames do not wait for each other. The first of equals is taken. */
+/* Score of a queue family. It must compute. A family with timestamps is better, and among equals one without graphics,
+ * because there our work and the desktop's frames do not wait for each other. Among equal families the first is
+ * used. */
 static int family_points(const VkQueueFamilyProperties *family)
 {
     if (!(family->queueFlags & VK_QUEUE_COMPUTE_BIT) || !family->queueCount)
@@ -104,7 +105,7 @@ static void read_heaps(const struct kd_vk_functions *fn, struct kd_vk_physical *
         }
 }
 
-/* Only a 1.2 device supports the structures used here. */
+/* Reads the properties of a device of version 1.2; only such a device supports the structures used here. */
 static void read_1_2(const struct kd_vk_functions *fn, struct kd_vk_physical *device)
 {
     struct kd_vk_info *info = &device->info;
@@ -127,11 +128,12 @@ static void read_1_2(const struct kd_vk_functions *fn, struct kd_vk_physical *de
     device->subgroup_extended_types = f12.shaderSubgroupExtendedTypes;
     if (!f12.timelineSemaphore)
         lacks(info, "timeline semaphores");
-    if (!f12.uniformBufferStandardLayout) /* required by Vulkan 1.2, as are the semaphores */
+    if (!f12.uniformBufferStandardLayout) /* Vulkan 1.2 requires it, as well as the semaphores */
         lacks(info, "uniform buffers of standard layout");
 }
 
-/* VK_KHR_portability_subset must be enabled where it is listed, as by layered drivers (Vulkan over Metal). */
+/* VK_KHR_portability_subset must be enabled if a device lists it. Layered drivers do, such as those for Vulkan on top
+ * of Metal. */
 static void read_extensions(const struct kd_vk_functions *fn, struct kd_vk_physical *device)
 {
     uint32_t n = 0;
@@ -170,7 +172,7 @@ enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance 
 {
     enum kd_status status;
     VkPhysicalDevice handles[64];
-    uint32_t n = 64; /* with more devices the result is VK_INCOMPLETE, a success code */
+    uint32_t n = 64; /* if there are more devices the result is VK_INCOMPLETE, which is a success code */
     struct kd_vk_physical *list;
 
     KD_VK_TRY(fn, EnumeratePhysicalDevices, instance, &n, handles);

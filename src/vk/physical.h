@@ -5,7 +5,7 @@
 #include "vk/functions.h"
 #include "vk/vk.h"
 
-/* Defined in vulkan_beta.h, whose inclusion needs a macro. */
+/* Defined in vulkan_beta.h, which needs a macro to be included. */
 #define KD_VK_PORTABILITY_SUBSET "VK_KHR_portability_subset"
 
 struct kd_vk_physical {
@@ -13,9 +13,9 @@ struct kd_vk_physical {
     struct kd_vk_info info;
     VkPhysicalDeviceProperties properties;
     uint32_t family;         /* queue family for submissions */
-    uint32_t timestamp_bits; /* valid bits; 0: no timestamps */
+    uint32_t timestamp_bits; /* number of valid bits of a timestamp; 0: there are no timestamps */
     bool int64, host_query_reset, subgroup_extended_types;
-    bool portability_subset, memory_budget; /* the extension is listed */
+    bool portability_subset, memory_budget; /* the device lists this extension */
 };
 
 /* Lists the physical devices of the instance; *out is malloc'd. KD_EDEVICE if there is none. */

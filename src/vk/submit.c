@@ -51,19 +51,19 @@ void kd_vk_submit_finish(struct kd_vk *vk)
         struct kd_vk_slot *slot = &vk->slots[i];
         kd_vk_descriptors_finish(vk, &slot->descriptors);
         kd_vk_timing_finish(vk, &slot->stamps);
-        vk->fn.DestroyCommandPool(vk->device, slot->pool, NULL); /* frees its buffer as well */
+        vk->fn.DestroyCommandPool(vk->device, slot->pool, NULL); /* this also frees its command buffer */
     }
     vk->fn.DestroySemaphore(vk->device, vk->timeline, NULL);
 }
 
-/* Fails with the call's result; if that is a device error, marks the device as lost. */
+/* Returns the error of a failed call. If it is a device error, marks the device as lost. */
 static enum kd_status failed(struct kd_vk *vk, struct kd_error *error, VkResult result, const char *call)
 {
     enum kd_status status = kd_vk_result_error(error, result, call);
     return status == KD_EDEVICE ? kd_vk_lose(vk, error, "%s: %s", call, kd_vk_result_name(result)) : status;
 }
 
-/* The timeline has reached this value: collects the finished submissions. */
+/* Called when the timeline has reached a value. Collects the submissions that have finished. */
 static enum kd_status reached(struct kd_vk *vk, uint64_t value, struct kd_error *error)
 {
     if (value <= vk->done)
@@ -87,20 +87,20 @@ static enum kd_status poll_timeline(struct kd_vk *vk, struct kd_error *error)
     return reached(vk, value < vk->submitted ? value : vk->submitted, error);
 }
 
-/* grace time after a deadline: in a stopped virtual machine the wait may end before the result is checked */
+/* Time added to a deadline. When a virtual machine was stopped, the wait may end before the result has been checked. */
 #define GRACE_NS 1000000000u
-#define STARVED 8 /* deadlines after which a software device with little processor time is given up */
+#define STARVED 8 /* number of deadlines after which a software device with little processor time is given up */
 
-/* Processor time of this process; 0 if unknown. */
+/* Processor time of this process; 0 if it is unknown. */
 static uint64_t processor_ns(void)
 {
     struct timespec t;
     return clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t) ? 0 : (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
 }
 
-/* Waits once. On a busy machine a software device, whose threads belong to this process, may take longer than a
- * deadline to compile a kernel. So a deadline does not count if the process had the processor for less than half of it,
- * up to STARVED times. */
+/* Waits once. The threads of a software device belong to this process, so that on a busy machine it may need more than
+ * a deadline to compile a kernel. Therefore a deadline does not count if the process had the processor for less than
+ * half of it. That happens at most STARVED times. */
 static VkResult wait_for(struct kd_vk *vk, const VkSemaphoreWaitInfo *info, uint64_t timeout)
 {
     VkResult result = VK_TIMEOUT;
@@ -113,7 +113,7 @@ static VkResult wait_for(struct kd_vk *vk, const VkSemaphoreWaitInfo *info, uint
     return result;
 }
 
-/* Waits for the next unfinished submission. Its deadline counts from when it could first start. */
+/* Waits for the next unfinished submission. Its deadline counts from the time at which it could first start. */
 static enum kd_status wait_one(struct kd_vk *vk, uint64_t value, struct kd_error *error)
 {
     uint64_t start = slot_of(vk, value)->submitted_ns, now = now_ns();
@@ -163,7 +163,7 @@ enum kd_status kd_vk_submit_slot(struct kd_vk *vk, struct kd_vk_slot **out, stru
         status = kd_error_set(error, KD_EINTERNAL, "the device was opened for pipelines alone");
     if (status || vk->recording)
         return status;
-    /* kd_vk_submit has waited until this slot's last submission had finished. */
+    /* kd_vk_submit has waited until the last submission from this slot had finished. */
     const VkCommandBufferBeginInfo begin = { .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                              .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT };
     KD_VK_TRY(&vk->fn, ResetCommandPool, vk->device, slot->pool, 0);
@@ -227,7 +227,7 @@ void kd_vk_discard(struct kd_vk *vk)
     if (!vk->recording)
         return;
     vk->recording = false;
-    vk->hazards = vk->hazards_before; /* its barriers are dropped as well */
+    vk->hazards = vk->hazards_before; /* the barriers of the discarded commands are dropped as well */
     kd_vk_mapped_discard(vk);
     for (struct kd_vk_retired *object = vk->retired; object; object = object->next)
         if (object->ticket > vk->submitted)

@@ -12,8 +12,8 @@ double kd_vk_timing_ms(uint64_t from, uint64_t to, uint32_t bits, double period_
     return (double)((to - from) & mask) * period_ns * 1e-6;
 }
 
-/* Row of a pass name. The name is copied, since totals outlive the caller's string. When all rows are used the last one
- * collects the rest. */
+/* Row of a pass name. The name is copied, because the totals outlive the caller's string. When all rows are used, the
+ * last row collects all other names. */
 static uint32_t row_of(struct kd_vk_timing *timing, const char *pass)
 {
     char name[sizeof timing->names[0]];
@@ -47,7 +47,7 @@ static bool add_pool(struct kd_vk *vk, struct kd_vk_stamps *stamps)
     return true;
 }
 
-/* Writes a timestamp. On failure work continues untimed. */
+/* Writes a timestamp. If that fails, work continues without being timed. */
 static void stamp(struct kd_vk *vk, struct kd_vk_stamps *stamps, VkCommandBuffer commands)
 {
     size_t pool = stamps->n / KD_VK_STAMPS_PER_POOL;
@@ -94,7 +94,7 @@ void kd_vk_timing_pass(struct kd_vk *vk, struct kd_vk_stamps *stamps, VkCommandB
         stamps->capacity = capacity;
     }
     if (stamps->n_spans)
-        stamp(vk, stamps, commands); /* end of the span before */
+        stamp(vk, stamps, commands); /* this ends the span before */
     stamps->spans[stamps->n_spans++] = (struct kd_vk_stamp_span) { row, 1 };
 }
 

@@ -1,5 +1,5 @@
-/* Texel views of a buffer. A buffer caches the views that it was bound with, since most are bound repeatedly, and frees
- * them with itself. */
+/* Texel views of a buffer. A buffer caches the views with which it was bound, because most of them are used again. It
+ * frees them when it is destroyed. */
 #ifndef KD_VK_VIEW_H
 #define KD_VK_VIEW_H
 
@@ -11,20 +11,20 @@ struct kd_vk;
 struct kd_vk_buffer;
 
 struct kd_vk_view {
-    struct kd_vk_view *next; /* of the same buffer */
+    struct kd_vk_view *next; /* next view of the same buffer */
     VkBufferView handle;
     VkFormat format;
     uint64_t offset, range;
-    uint64_t ticket; /* last submission that uses it, recorded or submitted */
+    uint64_t ticket; /* the last submission that uses the view, recorded or submitted */
 };
 
-/* When a buffer has more views than this, an idle one is replaced. */
+/* If a buffer has this many views, a new one replaces one that is idle. */
 #define KD_VK_VIEWS_KEPT 8
 
 /* Returns a view of these bytes for the submission being recorded. */
 enum kd_status kd_vk_view_get(struct kd_vk *vk, struct kd_vk_buffer *buffer, VkFormat format, uint64_t offset,
                               uint64_t range, VkBufferView *out, struct kd_error *error);
-/* Frees the views before the buffer is destroyed; the device no longer uses it. */
+/* Frees all views before the buffer is destroyed. The device must not use them any more. */
 void kd_vk_views_finish(struct kd_vk *vk, struct kd_vk_buffer *buffer);
 
 #endif

@@ -1,4 +1,4 @@
-"""Tests of kerrd bench accuracy, run once on a real device: its table must be plausible, stored, and used by the
+"""Tests of kerrd bench accuracy, run once on a real device. Its table must be plausible, stored, and used by the
 server."""
 
 import json
@@ -18,7 +18,7 @@ SETS = ["bulk", "near-critical", "near-axis", "edge-on", "near-extremal"]
 
 
 def serve(cache, path):
-    """Status and document of one GET from a daemon started for it."""
+    """Status and document of one GET request to a server that is started for it."""
     daemon = subprocess.Popen(
         [KERRD, "serve", "--port", "0"], stdout=subprocess.PIPE, env={**os.environ, "XDG_CACHE_HOME": cache}
     )
@@ -42,7 +42,8 @@ class Accuracy(unittest.TestCase):
         cls.cache = folder.name
         cls.before = serve(cls.cache, "v1/accuracy")
         files = [os.path.join(folder.name, name) for name in ("table.json", "table.md")]
-        # Meson makes malloc fill freed memory: with the buffers of a thousand submissions that takes most of the time.
+        # Meson makes malloc fill freed memory. With the buffers of a thousand submissions that would take most of the
+        # time.
         done = run(
             "bench",
             "accuracy",
@@ -106,8 +107,8 @@ class Accuracy(unittest.TestCase):
         self.assertLessEqual(bulk["r"]["median"], 2e-7)
         self.assertLessEqual(bulk["phi"]["median"], 2e-7)
         self.assertEqual(bulk["differ"], 0)
-        # Single precision holds b to 6e-8: next to the critical curve the fate of a ray cannot be told, and such rays
-        # count as errors. A fifth of the set is 1e-6 away from the curve.
+        # Single precision resolves b to 6e-8. Next to the critical curve it cannot decide the fate of a ray, and such
+        # rays count as errors. A fifth of the set is 1e-6 away from the curve.
         near = self.rows["mino-rkn6", "f32", 16]["near-critical"]
         self.assertLess(near["differ"], near["rays"] / 4)
 
@@ -120,7 +121,8 @@ class Accuracy(unittest.TestCase):
         self.assertLessEqual(bulk["delay"]["median"], 1e-10)
         for name in SETS:
             self.assertEqual(self.rows["mino-rkn6", "f64", 64][name]["differ"], 0, name)
-        # Order 6 and order 4: the errors of most rays fall by at least half of 2^order.
+        # Engines of order 6 and of order 4: when the steps are halved, the errors of most rays fall by at least half of
+        # 2^order.
         for engine, coarse, ratio in (
             ("mino-rkn6", 8, 32),
             ("mino-rkn4", 16, 8),
@@ -134,7 +136,7 @@ class Accuracy(unittest.TestCase):
             )
 
     def test_mino_time_pays(self):
-        """Printed, not asserted: a time is no criterion to pass."""
+        """The times are printed, not asserted, because a time must not decide whether a test passes."""
 
         def fastest(engine, precisions, bound):
             return max(
@@ -167,8 +169,8 @@ class Accuracy(unittest.TestCase):
         self.assertIn("damaged", problem["detail"])
 
     def test_planned_by(self):
-        """A plan looks up a tolerance in the device's table, which the renderer owns: freed memory is filled, so
-        that a use after free would show."""
+        """A plan looks up a tolerance in the device's table, which the renderer owns. Freed memory is filled, so that a
+        use after free would show."""
         done = run(
             "plan",
             "--set",

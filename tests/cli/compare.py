@@ -1,5 +1,5 @@
-"""Tests of kerrd compare: chi^2 of scenes against M87* as it was observed, compared with numbers by ehtim; fitted
-values; both files of one observation; refusals."""
+"""Tests of kerrd compare: chi^2 of scenes for the observation of M87*, compared with ehtim's numbers; fitted values;
+both files of one observation; refusals."""
 
 import csv
 import io
@@ -15,8 +15,8 @@ class Compare(Case):
         return json.loads(self.good("compare", *args))
 
     def test_chi2_is_that_of_ehtim(self):
-        """To 1e-5: tests/cli/ehtim_reads.py compares the same picture with ehtim to 1e-6, but this one may be by
-        another driver's single precision."""
+        """chi^2 agrees to 1e-5. tests/cli/ehtim_reads.py compares the same picture with ehtim to 1e-6, but here the
+        picture may come from another driver's single precision."""
         for at, case in enumerate(compared.CASES):
             ours = self.told(*compared.options(case))
             self.assertEqual(ours["n"], case["ehtim"]["n"], at)
@@ -52,8 +52,8 @@ class Compare(Case):
         self.assertEqual(len(file) - start, 12 * 8 * len(table))
 
     def test_the_flux_that_fits_best(self):
-        """No other flux has a smaller chi^2; for a thin disk, whose light has no frequency, the flux is fitted
-        without being asked for."""
+        """No other flux has a smaller chi^2. For a thin disk, whose light has no frequency, the flux is fitted even if
+        this is not requested."""
         options = [
             "--observation",
             compared.CSV,

@@ -12,7 +12,7 @@ from support import KERRD
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CLEAN = {name: value for name, value in os.environ.items() if not name.startswith("KERRD_")}
-# For each option a value that is allowed, and one that is not: as text, and as in the file.
+# For each option a value that is allowed and one that is not, as text and as in the file.
 GOOD = {
     "listen": ("127.0.0.2", "127.0.0.2"),
     "port": ("9", 9),
@@ -173,8 +173,8 @@ class Config(support.Case):
         self.assertEqual(self.shown(env={"KERRD_VALIDATE": "0"}), self.shown())
 
     def test_links_of_kubernetes_are_none(self):
-        """Kubernetes puts each Service of a namespace into the environment of its pods; one called kerrd sets these
-        variables."""
+        """Kubernetes puts each Service of a namespace into the environment of its pods. A Service called kerrd sets
+        these variables, which are ignored."""
         links = {
             "KERRD_PORT": "tcp://10.0.0.1:8080",
             "KERRD_SERVICE_HOST": "10.0.0.1",

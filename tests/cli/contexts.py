@@ -15,11 +15,11 @@ def contexts():
 
 
 def told(context):
-    """The options in --help, short and long, and their arguments: {"--output": "=FILE", "--trace": "[=steps|path",
+    """The options in --help, short and long, and their arguments: {"--output": "=FILE", "--trace": "[=steps|path]",
     "-o": ""}."""
     text = run(
         *context, "--help", env={**os.environ, "ARGP_HELP_FMT": "rmargin=900,opt-doc-col=60"}
-    ).stdout.decode()  # a line each
+    ).stdout.decode()  # one option a line
     options = {}
     for line in re.findall(r"^ {2,}(-.*)", text, re.M):
         for option, argument in re.findall(r"(?:^|, )(--?[a-zA-Z?][a-z0-9-]*)(\[?=[^\s\]]+)?", line.split("   ")[0]):

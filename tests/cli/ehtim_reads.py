@@ -1,5 +1,5 @@
-"""Tests that ehtim and astropy, in a virtual environment of their own, read a FITS file of numbers: pixels to the
-bit, the total flux to 1e-6, the angular scale."""
+"""Tests that ehtim and astropy read a FITS file of numbers: pixels to the bit, the total flux to 1e-6, the angular
+scale. Both are in a virtual environment of their own."""
 
 import json
 import math
@@ -50,15 +50,16 @@ class Ehtim(support.Case):
         return found
 
     def test_the_hole_of_m87(self):
-        """Blurred by a beam; as many microarcseconds across as mass, distance and field give."""
+        """The picture is blurred by a beam. It is as many microarcseconds wide as mass, distance and field imply."""
         found = self.read_by_ehtim("-p", "m87", "--size", "128x128")
         field = json.loads(self.good("scene", "-p", "m87"))["camera"]["field_m"]
         self.assertEqual(found["size"], [128, 128])
         self.assertAlmostEqual(128 * found["pixel_uas"] / (field * M_UAS), 1, delta=1e-4)
 
     def test_visibilities(self):
-        """kerrd visibility against ehtim's direct transform of the file, whose phase centre is the middle of the
-        picture too. ehtim 1.3.2 transforms by exp(+2 pi i), kerrd by exp(-2 pi i): each is the other's conjugate."""
+        """kerrd visibility is compared with ehtim's direct transform of the file, whose phase centre is the centre of
+        the picture too. ehtim 1.3.2 transforms by exp(+2 pi i), kerrd by exp(-2 pi i), so that each result is the
+        complex conjugate of the other."""
         code = """
 import json, sys
 import ehtim, numpy
@@ -118,7 +119,7 @@ print(json.dumps([[z.real, z.imag] for z in v]))
                 self.assertAlmostEqual(imaginary / columns["re"][0], -theirs_im, delta=1e-5)
 
     def test_flux_and_polarisation(self):
-        """Stokes I, Q, U and V in Jy a pixel, each in its place; the flux is the one stated in the file."""
+        """Stokes I, Q, U and V are in Jy a pixel, each in its place. The flux is the one stated in the file."""
         code = """
 import json, sys
 import ehtim, numpy
@@ -135,7 +136,7 @@ print(json.dumps({"flux": float(image.total_flux() / told), "off": off, "angles"
                   "fraction": float(abs(image.lin_polfrac())), "rate": image.rf / fits.getheader(sys.argv[1])["FREQ"]}))
 """
         scene = ["-p", "riaf", "--size", "64x64", "--set", "polarization.model=transfer"]
-        self.good("render", *scene, "-o", self.path("a.fits"))  # without image.layers: as it comes
+        self.good("render", *scene, "-o", self.path("a.fits"))  # the preset's default, without image.layers
         layers = "image.layers=stokes_q,stokes_u,stokes_v,intensity"
         self.good("render", *scene, "--set", layers, "-o", self.path("a.npz"))
         done = subprocess.run(
@@ -167,8 +168,8 @@ print(json.dumps({"flux": float(image.total_flux() / told), "off": off, "angles"
         )
 
     def test_numbers_that_are_compared_where_ehtim_is_not(self):
-        """tests/cli/files.py uses these numbers: flux, polarisation, and the centroid of the light, east to the
-        left."""
+        """tests/cli/files.py uses these numbers: flux, polarisation, and the centroid of the light (east is to the
+        left)."""
         code = """
 import json, sys
 import ehtim
@@ -189,8 +190,8 @@ print(json.dumps({"flux_jy": float(image.total_flux()), "linear": float(abs(imag
             self.assertAlmostEqual(found[name] / value, 1, delta=1e-5, msg=name)
 
     def test_chi2(self):
-        """kerrd compare against ehtim's chisq for the file of the same picture and the same observation; and ehtim
-        still gives the numbers that tests/cli/compare.py uses where ehtim is not installed."""
+        """kerrd compare is compared with ehtim's chisq for the same picture and the same observation. Also ehtim must
+        still give the numbers that tests/cli/compare.py uses where ehtim is not installed."""
         code = """
 import json, sys
 import ehtim

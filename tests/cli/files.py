@@ -1,5 +1,5 @@
-"""Tests of files of numbers: the same to the bit in NPY, NPZ, FITS and EXR, as numpy, astropy and OpenEXR read them;
-units, world coordinates, the embedded scene."""
+"""Tests of files of numbers. They are equal to the bit in NPY, NPZ, FITS and EXR, as numpy, astropy and OpenEXR read
+them. Also units, world coordinates, and the embedded scene."""
 
 import json
 import math
@@ -76,14 +76,15 @@ class Files(support.Case):
         self.assertEqual(set(apart), {*LAYERS, "notes.json"})
         self.assertEqual(set(channels), {"R", "G", "B"} | {"kerrd." + name for name in LAYERS if name != "rgb"})
         for name, unit in zip(LAYERS, units):
-            rows = unit.data[..., ::-1, :]  # the lowest row comes first
+            rows = unit.data[..., ::-1, :]  # FITS stores the lowest row first
             other = (
                 numpy.dstack([channels[c].pixels for c in "RGB"]) if name == "rgb" else channels["kerrd." + name].pixels
             )
             for found in (apart[name], numpy.moveaxis(rows, 0, -1) if name == "rgb" else rows, other):
                 self.assertTrue(numpy.array_equal(bits(found), bits(whole[name])), name)
         self.assertTrue(numpy.isnan(whole["r"]).any() and numpy.nanmin(whole["r"]) > 1 and whole["intensity"].max() > 0)
-        self.assertFalse(numpy.array_equal(bits(whole["intensity"]), bits(whole["intensity"][::-1])))  # up is not down
+        # the picture is not symmetric between top and bottom
+        self.assertFalse(numpy.array_equal(bits(whole["intensity"]), bits(whole["intensity"][::-1])))
 
     def test_a_file_makes_itself_again(self):
         for end in ("fits", "exr", "npz"):
@@ -110,8 +111,8 @@ class Files(support.Case):
             self.bad(2, words, "render", "--from", self.path("cut." + end), "-o", self.path("d.png"))
 
     def test_red_green_and_blue_come_first_in_an_exr_file(self):
-        """OpenImageIO sorts channels without regard to case, those without a layer first: it shows the first three
-        of a file."""
+        """OpenImageIO sorts channels without regard to case, those without a layer first, and shows the first three of
+        a file."""
         path = self.shot("a.exr", layers=["r", "g", "rgb"])
         names = OpenEXR.File(path, separate_channels=True).channels()
         order = {"r": 0, "g": 1, "b": 2}
@@ -122,7 +123,7 @@ class Files(support.Case):
         self.assertEqual(len({name.lower() for name in names}), len(names))
 
     def test_an_exr_file_whose_channels_have_no_layer(self):
-        """As kerrd wrote them until November 2026."""
+        """kerrd wrote such files until November 2026."""
         old = os.path.join(os.path.dirname(os.path.abspath(__file__)), "names_without_layer.exr")
         self.assertEqual(set(OpenEXR.File(old, separate_channels=True).channels()), {"R", "G", "B", "r", "g"})
         self.good("render", "--from", old, "-o", self.path("new.exr"))
@@ -132,7 +133,8 @@ class Files(support.Case):
             self.assertTrue(numpy.allclose(numbers, before.channels()[name].pixels, rtol=1e-4, equal_nan=True), name)
         scene, written = (json.loads(file.header()["kerrd:scene"]) for file in (now, before))
         self.assertEqual(scene.pop("version"), written.pop("version"))
-        self.assertEqual(scene["polarization"].pop("rotation"), "shcherbakov")  # fields since then, at their defaults
+        # fields that were added since then have their defaults
+        self.assertEqual(scene["polarization"].pop("rotation"), "shcherbakov")
         self.assertEqual(scene["camera"].pop("field_uas"), "none")
         self.assertEqual(scene.pop("source"), {"name": "none", "ra_deg": 0, "dec_deg": 0, "mjd": "none"})
         self.assertEqual(scene, written)
@@ -157,7 +159,8 @@ class Files(support.Case):
         self.assertIn("sampled=", header["KDACCUR"])
 
     def test_world_coordinates(self):
-        """Computed by hand: half a width of pixels from the middle, east to the left, north up."""
+        """The coordinates are computed by hand: half a width of pixels from the centre, with east to the left and north
+        up."""
         header = self.opened(
             self.shot("a.fits", "--set", "camera.field_m=32", "--set", "camera.centre_alpha=4", layers=["r"])
         )[0].header
@@ -171,7 +174,7 @@ class Files(support.Case):
         header = self.opened(self.shot("e.fits", *rolled, layers=["r"]))[0].header
         alpha, beta = WCS(header, key="A").pixel_to_world_values(
             0, 35
-        )  # 15.75 left of the middle and 8.75 above: what is up looks along alpha
+        )  # 15.75 pixels left of the centre and 8.75 above it; the camera is rolled, so that upwards is along alpha
         self.assertAlmostEqual(float(alpha), 4 + 8.75, places=9)
         self.assertAlmostEqual(float(beta), 15.75, places=9)
         east, north = WCS(header).pixel_to_world_values(0, 35)
@@ -193,7 +196,7 @@ class Files(support.Case):
         self.assertAlmostEqual(float(up), 45, places=6)
 
     def test_a_field_in_microarcseconds(self):
-        """The picture is that of the same width in M, to the byte; the file's coordinates give the width in
+        """The picture equals that of the same width in M, to the byte. The file's coordinates give the width in
         microarcseconds."""
         hole = ["--set", "spacetime.mass_msun=6.5e9", "--set", "spacetime.distance_pc=16.8e6"]
         on_sky = self.shot("a.fits", "--set", "camera.field_uas=200", *hole, layers=["r"])
@@ -210,7 +213,7 @@ class Files(support.Case):
         self.assertEqual(json.loads(again)["camera"], camera)
 
     def test_janskys_of_each_pixel(self):
-        """They add up to the stated flux; Stokes Q, U and V have the same unit, in FITS only."""
+        """The pixels add up to the stated flux. Stokes Q, U and V have the same unit, in FITS only."""
         layers = ["jy_per_pixel", "stokes_q", "stokes_u", "stokes_v", "intensity", "specific_intensity", "r"]
         hot = ["-p", "riaf", "--size", "48x40", "--set", "polarization.model=transfer"]
         for end in ("fits", "npz"):
@@ -229,7 +232,7 @@ class Files(support.Case):
             self.assertGreater(abs(units[i].data).max(), 0)
             numpy.testing.assert_allclose(units[i].data[::-1] / factor, arrays[layers[i]], rtol=1e-4, atol=1e-12)
         self.assertEqual([header[key] for key in ("TELESCOP", "OBJECT")], ["kerrd", "SGRA"])
-        place = [266.4168371, -29.0078106]  # which a preset of Sagittarius A* has
+        place = [266.4168371, -29.0078106]  # the position that a preset of Sagittarius A* has
         self.assertEqual([header[key] for key in ("OBSRA", "OBSDEC")], place)
         self.assertEqual([unit.header[key] for unit in units for key in ("CRVAL1", "CRVAL2")], place * len(units))
         self.assertNotIn("MJD", header)
@@ -245,8 +248,8 @@ class Files(support.Case):
         )
 
     def test_a_radio_source_begins_with_janskys(self):
-        """Without image.layers the file has janskys, so that ehtim reads a preset's file as it is; with image.layers
-        it has those layers."""
+        """Without image.layers the file contains janskys, so that ehtim reads a preset's file directly. With
+        image.layers it contains the given layers."""
         hot = ["render", "-p", "riaf", "--size", "24x20"]
         polarised = ["--set", "polarization.model=transfer"]
         jansky, stokes = "jy_per_pixel", ["stokes_q", "stokes_u", "stokes_v"]
@@ -269,8 +272,8 @@ class Files(support.Case):
         self.assertEqual(self.read("a.fits"), self.read("b.fits"))
 
     def test_ehtim_would_say_the_same(self):
-        """Computed by hand from the arrays and compared with ehtim's numbers for the same picture: their sums, the
-        direction of polarisation, north over east, and the offset of the light's centroid from the middle."""
+        """Sums, the direction of polarisation (from north towards east) and the offset of the light's centroid from the
+        centre are computed from the arrays, and compared with ehtim's numbers for the same picture."""
         fixture = json.loads(pathlib.Path(__file__).with_name("ehtim_numbers.json").read_text())
         self.good("render", *fixture["scene"], "-o", self.path("a.fits"))
         units = self.opened(self.path("a.fits"))
@@ -291,8 +294,8 @@ class Files(support.Case):
             self.assertAlmostEqual(ours[name] / value, 1, delta=1e-4, msg=name)
 
     def test_the_day(self):
-        """The date of observation that a scene gives by hand, with the fraction of a day; astropy reads the same day
-        from both formats."""
+        """A scene gives the date of observation with a fraction of a day. astropy reads the same day from both
+        formats."""
         day = ["source.ra_deg=10.5", "source.dec_deg=-3.25", "source.mjd=57854.25"]
         header = self.opened(self.shot("e.fits", *(word for pair in day for word in ("--set", pair)), layers=["r"]))[
             0
@@ -306,7 +309,7 @@ class Files(support.Case):
         self.bad(2, "source.dec_deg is 91", "plan", "--set", "source.dec_deg=91")
 
     def test_the_standard(self):
-        """Checked by the standard's own tool; and the sum of the pixels by astropy equals that by numpy."""
+        """The standard's own tool accepts the files. astropy and numpy get the same sum of the pixels."""
         path = self.files["fits"]
         light = numpy.load(self.files["npy"])["intensity"].astype(float).sum()
         self.assertAlmostEqual(self.opened(path)["intensity"].data.astype(float).sum() / light, 1, delta=1e-9)

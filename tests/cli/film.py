@@ -1,6 +1,8 @@
-"""Tests of films by the command line: frames equal those of `kerrd render`, one exposure, the folder of frames and
-its continuation, refusals. With FFMPEG=real (suite `film`) also the output of the program ffmpeg, as ffprobe and
-ffmpeg read it."""
+"""Tests of films by the command line.
+
+Frames equal those of `kerrd render`, with one exposure; the folder of frames and its continuation; refusals. With
+FFMPEG=real (suite `film`) also the output of the program ffmpeg, as ffprobe and ffmpeg read it.
+"""
 
 import json
 import os
@@ -22,7 +24,7 @@ except ImportError as missing:
     print(f"left out: {missing}; scripts/setup --browser installs it")
     sys.exit(77)
 
-PSNR = 46  # dB; measured 50: what 4:2:0 leaves of colours at edges, and H.264 at its quality
+PSNR = 46  # dB; 50 was measured: the loss by 4:2:0 at edges of colours, and by H.264 at its quality
 REAL = os.environ.get("FFMPEG") == "real"
 SIZE = {"width": 96, "height": 54}
 TURN = {
@@ -68,7 +70,7 @@ def as_shown(light):
 
 class Case(support.Case):
     def film(self, name, request, *options, code=0):
-        """Runs kerrd film; returns the output of --stats, or the error message."""
+        """Runs kerrd film; returns the --stats, or the error message."""
         done = support.run(
             "film", "-", "-o", self.path(name), "-t", *options, stdin=json.dumps(request).encode(), seconds=280
         )
@@ -89,7 +91,7 @@ class Case(support.Case):
         return self.read("again.png")
 
     def killed(self, name, request, folder, frames, *options):
-        """Kills a run when that many frames exist."""
+        """Starts a run and kills it when this many frames exist."""
         self.write("request.json", json.dumps(request))
         process = subprocess.Popen(
             [support.KERRD, "film", self.path("request.json"), "-o", self.path(name), "--state", folder, *options],
@@ -166,8 +168,8 @@ class Pictures(Case):
             self.assertEqual(self.again(frames[k]), frames[k], k)
 
     def test_one_exposure(self):
-        """The exposure of the film is the median of that of nine frames, measured at 160 pixels, unless each frame
-        is to have its own, or a keyframe gives a number."""
+        """The film has one exposure, the median of those of nine frames, measured at 160 pixels. Exceptions: the
+        request gives each frame its own, or a keyframe gives a number."""
         stats = self.film("a.zip", TURN)
         scenes = [self.scene_of(png) for png in self.frames("a.zip")]
         self.assertEqual((stats["exposure_frames"], {s["style"]["exposure"] for s in scenes}), (9, {stats["exposure"]}))
@@ -225,8 +227,8 @@ class Pictures(Case):
         return numpy.load(self.path("light.npz"))["rgb"].astype(float)
 
     def test_motion_blur(self):
-        """A frame is the mean of the light of five pictures, computed here from five files of light, not the mean of
-        encoded pictures."""
+        """A frame is the mean of the light of five pictures, computed here from five files of light. It is not the mean
+        of encoded pictures."""
         stats = self.film("a.zip", self.BLURRED)
         self.assertEqual(stats["lens_maps_traced"], 4 * 5 + 1, "of the last frame all pictures are the same")
         frame = self.frames("a.zip")[1]
@@ -244,7 +246,7 @@ class Pictures(Case):
             self.assertGreater(numpy.abs(shown - other).max(), 1000)
 
     def test_motion_blur_in_bands(self):
-        """The same for a picture made in two parts, from the top down."""
+        """The same for a picture that is rendered in two bands, from the top down."""
         image = {"width": 320, "height": 180, "samples": 8}
         request = {
             **self.BLURRED,
@@ -276,8 +278,8 @@ class Pictures(Case):
         self.assertEqual(text_of(self.frames("e.zip")[0], b"kerrd:motion_blur"), "samples=2 shutter=0.5")
 
     def test_motion_blur_of_what_is_refined(self):
-        """With rays refined by the pixel's displayed value and an exposure for each frame, also with glare and a
-        beam, the mean is of the same light."""
+        """Rays are refined by the pixel's displayed value, and each frame has its own exposure. The mean is of the same
+        light, also with glare and a beam."""
         request = {
             "scene": {
                 "image": {**SIZE, "samples": "auto"},
@@ -362,12 +364,12 @@ class Pictures(Case):
         )
 
     def test_a_playground(self):
-        """Same frames as `kerrd playground --every`, also if some of them exist already."""
+        """The frames equal those of `kerrd playground --every`, also if some of them exist already."""
         document = {
             "preset": "white-dwarf",
             "debris_per_body": 200,
             "budget": 40,
-        }  # so few sub-steps that they end before a frame's time has gone by
+        }  # so few sub-steps that they are used up before a frame's time has passed
         request = {"playground": document, "every": 200, "frames": 4, "scene": {"image": SIZE}}
         self.film("a.zip", request, "--state", self.path("kept"))
         whole = self.read("a.zip")
@@ -402,7 +404,7 @@ class Pictures(Case):
         return text
 
     def test_goes_on(self):
-        """After a killed run the existing frames stay, the rest is rendered, and the whole equals that of an
+        """After a killed run the existing frames stay and the rest is rendered. The whole equals that of an
         uninterrupted run."""
         folder = self.path("kept")
         there = self.killed("b.zip", LONG, folder, 3)
@@ -549,8 +551,8 @@ class Films(Case):
         return numpy.frombuffer(done.stdout, numpy.uint8).astype(float)
 
     def test_ten_seconds(self):
-        """240 frames of 1280 x 720, from a run that is killed and continued, equal those of an uninterrupted run, to
-        the byte; and the film shows them."""
+        """240 frames of 1280 x 720 from a run that is killed and continued equal those of an uninterrupted run, to the
+        byte. The film shows these frames."""
         request = {
             "scene": {"image": {"width": 1280, "height": 720}, "disk": {"gas": {"amplitude": 0}}},
             "keyframes": [{"frame": 239, "scene": {"camera": {"azimuth_deg": 90}, "time": 60}}],

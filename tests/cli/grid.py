@@ -1,5 +1,5 @@
-"""Tests of volume.model "grid": the torus sampled by docs/examples/torus_grid.py against the torus itself, also
-polarised; a flow with a vertical field; and files that are refused."""
+"""Tests of volume.model "grid". The torus sampled by docs/examples/torus_grid.py is compared with the torus itself,
+also polarised. Other tests: a flow with a vertical field, and files that are refused."""
 
 import json
 import os
@@ -64,8 +64,8 @@ class Grid(Case):
         )
 
     def test_a_dump(self):
-        """A converter of B and u of a simulation gives the field b in the frame of the matter from which B was
-        computed, using the metric as a matrix."""
+        """Converts B and u of a simulation's dump. The result is the field b in the frame of the matter from which B
+        was computed; the converter uses the metric as a matrix."""
         random, a, rho_unit = numpy.random.default_rng(3), 0.9, 2e-18
         r, theta, phi = (
             numpy.geomspace(1.2, 40, 24),
@@ -92,12 +92,12 @@ class Grid(Case):
         lapse, scale = 1 / numpy.sqrt(1 + h), numpy.sqrt(numpy.abs(numpy.einsum("aa...->a...", g)))
         still = numpy.array([1 / lapse, -lapse * h, 0 * h, 0 * h]) * numpy.ones(
             shape
-        )  # at rest in the slices, g_ab still^b = (-lapse, 0, 0, 0)
+        )  # an observer at rest in the slices, g_ab still^b = (-lapse, 0, 0, 0)
         push = numpy.array([numpy.zeros(shape), *(random.normal(size=(3, *shape)) / scale[1:])])
         u = still * numpy.sqrt(1 + times(push, push)) + push
         self.assertLess(abs(times(u, u) + 1).max(), 1e-9)
         b = random.normal(size=(4, *shape)) / scale
-        b += u * times(b, u)  # across u
+        b += u * times(b, u)  # b is perpendicular to u
         rho, te = random.uniform(0.1, 1, shape), random.uniform(1e10, 1e11, shape)
         numpy.savez(
             self.path("dump.npz"),
@@ -160,8 +160,8 @@ class Grid(Case):
         self.assertTrue(all(3 < coarse / fine < 5.5 for coarse, fine in zip(*off)), off)
 
     def test_a_vertical_field(self):
-        """Against the model riaf outside the ISCO: components of the field in r and theta, and how the motion
-        changes them."""
+        """Outside the ISCO the result equals that of the model riaf: components of the field in r and theta, and how
+        the motion changes them."""
         self.layers = "intensity,stokes_q,stokes_u,stokes_v"
         a, mp, c = 0.5, 1.67262192369e-24, 2.99792458e10
         r, theta = numpy.geomspace(5, 25, 128)[:, None], ((numpy.arange(96) + 0.5) * numpy.pi / 96)[None, :]

@@ -1,4 +1,4 @@
-"""Tests of the manual pages and of bash completion against the program itself: each option of --help is in both,
+"""Tests of the manual pages and of bash completion against the program itself. Each option of --help is in both, the
 examples run, and the listed words are accepted."""
 
 import json
@@ -12,7 +12,7 @@ import sys
 from contexts import contexts, told
 from support import KERRD, Case, main, run
 
-MADE = pathlib.Path(sys.argv.pop(1))  # where the build has made them
+MADE = pathlib.Path(sys.argv.pop(1))  # where the build has put them
 SOURCES = pathlib.Path(__file__).parents[2] / "src"
 
 
@@ -41,7 +41,8 @@ class Manual(Case):
         self.assertEqual(set(pages()), names)
         listed = plain(pages()["kerrd.1"])
         for name in names - {"kerrd.1"}:
-            self.assertEqual(listed.count(f".BR {name[:-2]} (1)"), 2, name)  # among the commands, and to be seen also
+            # in the list of commands, and under SEE ALSO
+            self.assertEqual(listed.count(f".BR {name[:-2]} (1)"), 2, name)
 
     def test_sections(self):
         for name, text in pages().items():
@@ -140,8 +141,8 @@ class Examples(Case):
         self.assertGreater(seen, 20)
 
     def environment(self, line, env):
-        """An environment without stored tables: a table measured while other tests run must not decide which engines
-        are used."""
+        """An environment without stored tables, because a table measured while other tests run must not decide which
+        engines are used."""
         if not line.startswith("kerrd bench"):
             return env
         shaders = env.get("MESA_SHADER_CACHE_DIR") or env.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
@@ -169,7 +170,7 @@ class Examples(Case):
 
 class Words(Case):
     def test_words_of_help(self):
-        """The words that --help lists as a|b|c are those that the program accepts: a wrong word is refused, and the
+        """The words that --help lists as a|b|c are those that the program accepts. A wrong word is refused, and the
         message lists each of them."""
         seen = 0
         for context in contexts():
@@ -267,7 +268,8 @@ class Bash(Case):
             fields.add(name[:-1])
         self.assertIn("camera.inclination_deg", fields)
         self.assertGreater(len(fields), 100)
-        for field in fields:  # the document's own names, but for elements of lists, which it has none of
+        # all fields have the document's names except elements of lists, which the document does not name
+        for field in fields:
             self.assertIn(f'"{field.split(".")[-1]}"', document) if ".0." not in field else None
         self.assertEqual(self.complete("kerrd scene --set camera.incl"), ["camera.inclination_deg="])
         self.assertEqual(self.complete("kerrd scene --set=camera.incl"), ["camera.inclination_deg="])
@@ -284,8 +286,8 @@ class Bash(Case):
         self.assertEqual(self.complete("kerrd scene --set camera.r="), ["infinity"])
 
     def test_words_of_fields_are_taken(self):
-        """Each word proposed for a field is a value of it: it may be refused in combination with other fields, but
-        not for itself."""
+        """Each word proposed for a field is a value of the field. It may be refused in combination with other fields,
+        but not by itself."""
         complaint = lambda field, word: run("scene", "--set", field + word).stderr.decode()
         words = 0
         for field in [name for name in self.complete("kerrd scene --set ") if ".0." not in name]:

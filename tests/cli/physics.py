@@ -79,7 +79,7 @@ class Physics(Case):
             ("parameters are options", "0.5"),
             ("json, csv or wav", "-f", "npy"),
         ):
-            done = run("physics", "kerr", *args)  # argp's hint that follows takes two lines
+            done = run("physics", "kerr", *args)  # the hint that argp adds takes two lines
             self.assertEqual((done.returncode, done.stdout), (2, b""))
             self.assertIn(words, done.stderr.decode().splitlines()[0])
         for option, value, words in (

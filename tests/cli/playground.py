@@ -65,8 +65,8 @@ class Playground(Case):
         self.assertLess(separations[-1], 0.5 * separations[0])
 
     def test_all_that_happens_is_told(self):
-        """If there are more events than are stored at once none is lost while the motion goes on; if there are more
-        in a single sub-step the lost ones are reported."""
+        """If there are more events than are stored at once, none is lost while the motion goes on. If there are more in
+        a single sub-step, the lost ones are reported."""
         events, document = self.path("events.ndjson"), self.path("many.json")
         ring = [
             {
@@ -127,7 +127,8 @@ class Playground(Case):
             return [{name: float(text or "nan") for name, text in row.items()} for row in csv.DictReader(file)]
 
     def test_the_documented_chirp(self):
-        """The inspiral reaches its end; the series is even from the beginning to the requested time."""
+        """The inspiral reaches its end. The rows of the series are evenly spaced from the beginning to the requested
+        time."""
         path = self.path("chirp.csv")
         done = run("playground", "--preset", "emri", "--time", "20000", "--series", path, "-o", "-")
         self.assertEqual((done.returncode, done.stderr), (0, b""))
@@ -142,7 +143,7 @@ class Playground(Case):
         self.assertTrue(all(math.isnan(row["separation"]) for row in rows[len(falling) :]))
 
     def test_rows_between_sub_steps(self):
-        """A circle at 20 M stays one between its sub-steps: h+ is 4 m v^2 cos(2 phi), as with short steps."""
+        """Between its sub-steps a circle at 20 M stays a circle: h+ is 4 m v^2 cos(2 phi), as with short steps."""
         path, document = self.path("circle.csv"), self.path("circle.json")
         speed = math.sqrt(20) / 18
         with open(document, "w") as file:
@@ -169,8 +170,8 @@ class Playground(Case):
         self.assertIn(b"time ends at 1e+12 M", done.stderr)
 
     def test_momentum_that_is_lost_at_c_is_told(self):
-        """Bodies smaller than 2 (m1 + m2) accelerate each other beyond c; their speed is limited to c, and the
-        momentum lost by that is reported."""
+        """Bodies smaller than 2 (m1 + m2) accelerate each other beyond c. Their speed is limited to c, and the momentum
+        lost by this is reported."""
         document = self.path("small.json")
         for radius, told in (1.0, False), (0.2, True):
             with open(document, "w") as file:

@@ -133,17 +133,17 @@ class Rays(Case):
     def test_no_device_is_asked_for(self):
         self.good("rays", "--ray", "1,2", "--device", "no such device")
         done = run("rays", "--ray", "1,2", "--device", "no such device", "--engine", "mino-rkn6")
-        self.assertIn(done.returncode, (1, 2))  # none at all, or none of that name
+        self.assertIn(done.returncode, (1, 2))  # there is no device, or none with this name
         self.assertTrue(done.stderr.startswith(b"kerrd: "), done.stderr)
 
     def test_a_tolerance_is_held_ray_by_ray(self):
-        """On a device: values of five orders next to the critical curve that 32 bits cannot give to the tolerance
-        are traced again; those that double precision cannot give either are marked."""
+        """On a device: next to the critical curve, values of five orders that 32 bits cannot resolve to the tolerance
+        are traced again. Those that double precision cannot resolve either are marked."""
         near = [
             "--ray=5.8396981340323952,-2.9198490670161976",
             "--ray=5.8438,-2.9219",
             "--ray=-7,1",
-        ]  # 1e-6 and 1e-3 from it
+        ]  # 1e-6 and 1e-3 from the curve
         for tolerance, beyond in ((1e-5, 0), (1e-12, 1)):
             done = run(
                 "rays",

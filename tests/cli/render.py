@@ -47,14 +47,14 @@ class Pictures(Case):
         self.assertEqual(text(png)[b"kerrd:scene"] + b"\n", self.good("scene", *SMALL))
         self.assertEqual(text(png)[b"kerrd:hash"] + b"\n", self.good("scene", "--hash", *SMALL))
         pixels = zlib.decompress(b"".join(body for kind, body in chunks(png) if kind == b"IDAT"))
-        self.assertGreater(len(set(pixels)), 20)  # no black picture
+        self.assertGreater(len(set(pixels)), 20)  # the picture is not black
         self.assertEqual(os.listdir(self.folder), ["a.png"])
         mask = os.umask(0)
         os.umask(mask)
         self.assertEqual(stat.S_IMODE(os.stat(self.path("a.png")).st_mode), 0o666 & ~mask)
 
     def test_the_eht_style(self):
-        """False colours, with scales where there is room; options given after the style override it."""
+        """False colours, with scales where there is room. Options given after the style override it."""
         eht = "--preset", "m87", "--set", "style.name=eht", "--set", "image.samples=1"
         self.good("render", *eht, "--size=320x180", "-o", self.path("a.png"))
         style = json.loads(text(self.read("a.png"))[b"kerrd:scene"])["style"]
@@ -165,7 +165,7 @@ class Pictures(Case):
         alone = self.good("render", *SMALL, "--set", "sky.model=image", "-o", "-")
         self.assertEqual(
             self.good("render", *named, "--set", "sky.image=null", "-o", "-"), alone
-        )  # the latter of the two holds
+        )  # the later of the two is used
         self.bad(
             2, "image.width is null where a number is wanted", "render", *SMALL, "--set", "image.width=null", "-o", "-"
         )
@@ -184,8 +184,8 @@ class Pictures(Case):
             self.assertEqual(self.read(name), self.read("a.fits"), name)
 
     def test_a_limit_of_the_size_of_a_file(self):
-        """A picture that grows past it is an error, not a signal, and leaves no half file. What the device's library
-        keeps in files of its own stays out of it."""
+        """A picture that would exceed the limit is an error, not a signal, and leaves no partial file. The limit does
+        not count files that the device's library keeps."""
 
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
@@ -208,8 +208,8 @@ class Pictures(Case):
         self.assertIn(b'"spin":0.1,', text(other)[b"kerrd:scene"])
 
     def test_layers_are_numbers(self):
-        """NumPy's header and records, read by hand: NaN where there is no disk, and the picture's light is that of
-        the layer."""
+        """NumPy's header and records are read by hand. Values are NaN where there is no disk, and the picture's light
+        equals that of the layer."""
         self.good("render", *SMALL, "--set", "image.layers=r,rgb,intensity", "-o", self.path("a.npy"))
         file = self.read("a.npy")
         (length,) = struct.unpack("<H", file[8:10])
@@ -380,7 +380,7 @@ class Pictures(Case):
         names = [line.split()[0] for line in self.good("presets").decode().splitlines()]
         plans = {self.good("plan", *SMALL, "--preset", name) for name in names}
         self.assertGreater(len(names), 10)
-        self.assertGreater(len(plans), len(names) / 2)  # what only shines otherwise has the same plan
+        self.assertGreater(len(plans), len(names) / 2)  # presets that differ only in what shines have the same plan
         self.assertTrue(all(json.loads(plan)["rays"] > 0 for plan in plans))
         self.good("render", *SMALL, "--preset", "luminet1979", "-o", self.path("a.png"))
 
@@ -413,7 +413,7 @@ class Outputs(Case):
         self.assertEqual(self.read("a.png")[:4], b"\x89PNG")
 
     def test_pipes_stay(self):
-        # Not /dev/null: if this test failed as root, the whole machine would lose it.
+        # not /dev/null: if this test failed as root, the whole machine would lose it
         os.mkfifo(self.path("pipe"))
         read = threading.Thread(target=lambda: self.assertEqual(self.read("pipe")[:4], b"\x89PNG"), daemon=True)
         read.start()
@@ -432,7 +432,7 @@ class Outputs(Case):
         reader, writer = os.pipe()
         os.close(reader)
         done = run("render", *SMALL, "-o", "-", stdout=writer)
-        self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""))  # as cat and the like
+        self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""))  # as cat and similar tools end
         os.close(writer)
 
     def test_nowhere_to_write(self):
@@ -473,7 +473,7 @@ class Devices(Case):
         self.bad(2, "nonesuch", "render", *SMALL, "--device", "nonesuch", "-o", self.path("a.png"))
         environment = dict(os.environ, KERRD_DEVICE="nonesuch")
         self.bad(2, "nonesuch", "plan", env=environment)
-        self.good("plan", "--device", "auto", env=environment)  # the option wins
+        self.good("plan", "--device", "auto", env=environment)  # the option overrides the environment
         self.bad(2, "there is no device", "plan", "--device", "99")
         self.assertEqual(os.listdir(self.folder), [])
 

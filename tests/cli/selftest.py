@@ -1,5 +1,5 @@
-"""Tests of kerrd doctor --selftest: the table, the same as JSON, and its exit codes. That a wrong number is noticed
-is tested by tests/gpu/test_selftest.c."""
+"""Tests of kerrd doctor --selftest: the table, the same as JSON, and its exit codes. tests/gpu/test_selftest.c tests
+that a wrong number is noticed."""
 
 import json
 import re

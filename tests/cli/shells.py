@@ -1,5 +1,5 @@
-"""Tests of completions in zsh and fish themselves, and of manual pages in mandoc and man. Suite `shells`:
-scripts/setup --shells installs the programs."""
+"""Tests of completions in zsh and fish themselves, and of manual pages in mandoc and man. Suite `shells`: scripts/setup
+--shells installs these programs."""
 
 import fcntl
 import os
@@ -18,7 +18,7 @@ import unittest
 from contexts import contexts, told
 from support import KERRD, Case, run
 
-MADE = pathlib.Path(sys.argv.pop(1))  # where the build has made them
+MADE = pathlib.Path(sys.argv.pop(1))  # where the build has put them
 NEEDED = ["zsh", "fish", "mandoc", "man"]
 
 # Writes the proposals, one whole word to a line, instead of displaying them.
@@ -57,7 +57,7 @@ print ready >> $CAPTURE
 
 
 class Completes:
-    """Tests for each shell, by its own complete(line); folder_completed: how the shell writes a completed folder."""
+    """Tests for each shell, by its own complete(line). folder_completed: how the shell writes a completed folder."""
 
     def test_commands(self):
         self.assertEqual(self.complete("kerrd ren"), ["render"])
@@ -120,7 +120,7 @@ class Zsh(Completes, Case):
             os.execvpe("zsh", ["zsh", "-o", "no_global_rcs", "-i"], env)
         fcntl.ioctl(
             self.fd, termios.TIOCSWINSZ, struct.pack("HHHH", 1000, 200, 0, 0)
-        )  # or it would ask whether to show so many
+        )  # otherwise the shell would ask whether to show that many
         self.reader = threading.Thread(target=self.drain, daemon=True)
         self.reader.start()
         self.addCleanup(self.end)
@@ -189,7 +189,7 @@ class Read(Case):
             self.assertEqual((done.returncode, done.stderr.decode()), (0, ""), name)
 
     def lint(self, path):
-        """Neither program has anything to say about a page."""
+        """Neither program reports anything about a page."""
         mandoc = subprocess.run(["mandoc", "-Tlint", "-W", "warning", path], capture_output=True, text=True)
         env = {**os.environ, "LC_ALL": "C.UTF-8", "MANROFFSEQ": "", "MANWIDTH": "80"}  # as Debian's lintian reads them
         man = subprocess.run(
@@ -208,7 +208,7 @@ class Read(Case):
             self.assertEqual(self.lint(path), ("", ""), path.name)
 
     def test_bad_page(self):
-        """Both programs do report a bad page."""
+        """Both programs report a bad page."""
         page = (MADE / "kerrd.1").read_text()
         mandoc, man = self.lint(
             self.write("bad.1", page.replace(".SH OPTIONS", ".SH\n.XX\n.ft NONE\nOPTIONS\\[nothing]"))

@@ -1,6 +1,9 @@
-"""A photographed panorama, as scripts/sky makes it: M42, omega Cen and M31 are within a pixel of their catalogue places
-in it and in what kerrd shows of it, and it is aligned to the catalogue's stars, 37 000 of them (bench/sky_places.py,
-which measures it and knows where SIMBAD has them)."""
+"""Tests of a photographed panorama as scripts/sky makes it.
+
+In the panorama, and in kerrd's picture of it, M42, omega Cen and M31 are within a pixel of their places in the
+catalogue. The panorama is aligned with 37 000 stars of the catalogue. bench/sky_places.py measures this; it has the
+places by SIMBAD.
+"""
 
 import importlib.util
 import os
@@ -11,7 +14,7 @@ import support
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PANORAMA = ROOT / "venv/sky-gaia.png"
-TEXEL = 0.5  # of the panorama, 4096 across, in the pixels of sky_places.py, 0.176 degrees
+TEXEL = 0.5  # a texel of the panorama, which is 4096 wide, in pixels of sky_places.py, which are 0.176 degrees
 
 try:
     spec = importlib.util.spec_from_file_location("sky_places", ROOT / "bench/sky_places.py")
@@ -38,8 +41,8 @@ class Sky(support.Case):
                 self.assertLess(places.length(where), TEXEL, (name, off))
 
     def test_the_panorama_and_the_catalogue_are_aligned(self):
-        """The panorama has light where the catalogue has stars, far more than elsewhere; in the centre, as much as a
-        picture of the catalogue has."""
+        """At the catalogue's stars the panorama is far brighter than elsewhere. In the centre of the summed stars it is
+        as bright as a picture of the catalogue."""
         for row in places.aligned(self.seen, places.shown(support.KERRD, None, *places.STARS_ALONE)):
             self.assertGreater(row.peak, 10, row)
             self.assertLess(places.length(row.panorama), 0.1, row)

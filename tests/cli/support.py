@@ -34,7 +34,7 @@ class Case(unittest.TestCase):
             return file.read()
 
     def good(self, *args, **kwargs):
-        """Exit code 0 and nothing on stderr; returns stdout."""
+        """Checks that the exit code is 0 and that nothing is on stderr; returns stdout."""
         done = run(*args, **kwargs)
         self.assertEqual((done.returncode, done.stderr.decode()), (0, ""), args)
         return done.stdout

@@ -1,4 +1,4 @@
-"""Tests of sweeps: a cube as astropy and numpy read it, equal to the bit to single renders; axes, world coordinates,
+"""Tests of sweeps: a cube as astropy and numpy read it, equal to single renders to the bit; axes, world coordinates,
 tables; pictures and light by axes; refusals."""
 
 import csv
@@ -73,8 +73,8 @@ class Sweep(support.Case):
         return units
 
     def test_planned(self):
-        """What a plan states for all scenes together is what the sweep then does: scenes, lens maps, and the time
-        with shared maps counted once."""
+        """The plan's figures for all scenes together agree with the sweep: scenes, lens maps, and the time, in which
+        shared maps count once."""
         plan = json.loads(self.good("plan", *SCENE, "--set", "image.layers=" + ",".join(LAYERS), *ARGUMENTS))
         self.assertEqual((plan["scenes"], plan["lens_maps"]), (self.stats["scenes"], self.stats["lens_maps_traced"]))
         self.assertEqual({path: [str(value) for value in values] for path, values in plan["axes"].items()}, AXES)
@@ -93,10 +93,10 @@ class Sweep(support.Case):
         self.bad(2, "scene 1", "plan", *SCENE, "-x", "image.width=64,9000", "--set", "image.height=9000")
 
     def test_a_cube_is_its_scenes(self):
-        """In both formats, against a file of each single scene."""
+        """A cube in both formats equals a file of each single scene."""
         self.assertEqual(
             (self.stats["scenes"], self.stats["lens_maps_traced"]), (12, 6)
-        )  # three inclinations, of two disks that need different things of a map
+        )  # three inclinations, of two disks that need different quantities of a lens map
         units, arrays = self.opened("cube.fits"), numpy.load(self.path("cube.npz"))
         self.assertEqual([unit.header["EXTNAME"] for unit in units], [*LAYERS, *AXES, "SCENES"])
         hashes = units["SCENES"].data["hash"].reshape(SHAPE)
@@ -165,7 +165,7 @@ class Sweep(support.Case):
         self.assertIn("differ from scene to scene", str(header["COMMENT"]))
 
     def test_cards_leave_out_what_of_the_source_is_swept(self):
-        """A property of the source that is swept is on the axis; one that is the same in all scenes has its card."""
+        """A property of the source that is swept is on the axis. One that is the same in all scenes has a card."""
         cards = {
             "source.name": ["OBJECT"],
             "source.ra_deg": ["OBSRA"],
@@ -184,7 +184,7 @@ class Sweep(support.Case):
             axis = ["-x", path + "=" + ",".join(map(str, values))]
             for name in "a.fits", "a.npz":
                 stats = self.swept(name, *source, layers=["r"], axes=axis)
-                self.assertEqual(stats["lens_maps_traced"], 1)  # where the hole is changes no ray
+                self.assertEqual(stats["lens_maps_traced"], 1)  # the position of the hole on the sky changes no ray
             units, arrays = self.opened("a.fits"), numpy.load(self.path("a.npz"))
             header = units[0].header
             for other, keys in cards.items():
@@ -220,8 +220,8 @@ class Sweep(support.Case):
         return json.loads(done.stderr)
 
     def test_a_cube_of_a_radio_source_has_the_layers_that_are_asked_for(self):
-        """A cube has the requested layers, not janskys instead of the picture as a FITS file has: with a sky these
-        are undefined."""
+        """A cube has the requested layers. It does not have janskys instead of the picture, as a FITS file has, because
+        with a sky these are undefined."""
         for name in ("a.fits", "a.npz"):
             sky = ["-x", "sky.model=none,grid"]
             done = support.run("sweep", "-p", "riaf", "--size", "12x12", *sky, "-o", self.path(name))
@@ -230,8 +230,8 @@ class Sweep(support.Case):
         self.assertEqual(numpy.load(self.path("a.npz"))["rgb"].shape, (2, 12, 12, 3))
 
     def test_frequencies(self):
-        """Maps at a list of frequencies: each plane is the picture at its frequency, astropy finds the frequency of
-        each, and each has its own flux."""
+        """Maps at a list of frequencies. Each plane is the picture at its frequency; astropy finds each frequency; and
+        each plane has its own flux."""
         layers, given = ["rgb", "brightness_temperature", "specific_intensity"], [345, 86, 230]
         axes = ["-x", "camera.inclination_deg=30,60", "-x", "volume.frequency_ghz=" + ",".join(map(str, given))]
         stats = self.radio("a.fits", *axes, layers=",".join(layers))
@@ -273,13 +273,13 @@ class Sweep(support.Case):
             pixels = [[0] * axis + [j] + [0] for j in range(3)]
             self.assertEqual((world.wcs.ctype[axis], str(world.wcs.cunit[axis])), ("FREQ-TAB", "Hz"))
             self.assertEqual([*world.all_pix2world(pixels, 0)[:, axis]], [f * 1e9 for f in given])
-            first = WCS(units[name].header)  # which needs no file
+            first = WCS(units[name].header)  # this needs no file
             self.assertEqual([*first.all_pix2world(pixels, 0)[:, axis]], [1, 2, 3])
             self.assertEqual([*first.celestial.wcs.ctype], [*world.celestial.wcs.ctype])
             self.assertEqual([*first.celestial.wcs.cdelt], [*world.celestial.wcs.cdelt])
 
     def test_frequencies_that_are_even(self):
-        """Evenly spaced frequencies become an axis FREQ in Hz of the usual world coordinates; a sweep of other
+        """Evenly spaced frequencies become an axis FREQ in Hz with ordinary world coordinates. A sweep of other
         pictures states no flux."""
         for text, expected in (
             ("86:230:72", [86e9, 158e9, 230e9]),
@@ -311,7 +311,7 @@ class Sweep(support.Case):
         self.assertNotIn("FREQ", units[0].header)
 
     def test_every_credit_is_told(self):
-        """For two photographs of the sky, by different authors, both are credited; one name is long."""
+        """Two photographs of the sky, by different authors: both are credited. One name is long."""
         names = ["Ada " + "of Somewhere " * 12, "Bo"]
         for name, text, grey in zip("ab", names, (90, 200)):
             parts = (
@@ -367,7 +367,7 @@ class Sweep(support.Case):
             self.assertIn("0 warning(s) and 0 error(s)", done.stdout)
 
     def test_style_and_disk_take_one_lens_map(self):
-        """A hundred scenes."""
+        """A hundred scenes use one lens map."""
         axes = ["-x", "disk.outer=15:24:1", "-x", "style.exposure=-1:1/5", "-x", "camera.azimuth_deg=0,90"]
         self.assertEqual(self.swept("a.npz", layers=["rgb"], axes=axes)["lens_maps_traced"], 1)
         self.assertEqual(numpy.load(self.path("a.npz"))["rgb"].shape, (10, 5, 2, 36, 64, 3))

@@ -1,5 +1,5 @@
-"""Tests of kerrd rays --trace: one ray step by step and as a path, equal in all formats; the case of its roots by
-numpy."""
+"""Tests of kerrd rays --trace: one ray step by step and as a path, equal in all formats. The case of its roots is
+compared with numpy's."""
 
 import csv
 import io
@@ -51,8 +51,8 @@ class Trace(Case):
                 )
 
     def test_the_case_of_its_roots(self):
-        """R(r) = (r^2 + a^2 - a lambda)^2 - Delta K, by its residues at the roots given; theta by the zeros of the
-        polar potential."""
+        """The radial potential R(r) = (r^2 + a^2 - a lambda)^2 - Delta K is evaluated at the given roots; theta is
+        compared with the zeros of the polar potential."""
         cases = set()
         for a, i, alpha, beta in (
             (0.9, 70, -3.75, 1),

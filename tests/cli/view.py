@@ -1,5 +1,5 @@
-"""Tests of kerrd view in a simulated terminal, which answers like kitty, like one with sixel, like one with neither,
-or not at all; the pictures sent to it are decoded again."""
+"""Tests of kerrd view in a simulated terminal. It answers like kitty, like a terminal with sixel, like one with
+neither, or not at all. The pictures sent to it are decoded again."""
 
 import base64
 import fcntl
@@ -21,7 +21,7 @@ KITTY, SIXEL, NEITHER = b"\x1b_Gi=31;OK\x1b\\\x1b[?62;c", b"\x1b[?62;4;22c", b"\
 
 
 class Terminal:
-    """Runs kerrd with a pseudo-terminal; answers all queries at once after the last has come."""
+    """Runs kerrd in a pseudo-terminal. All queries are answered at once, after the last one has come."""
 
     def __init__(self, *args, answer=b"", columns=80, rows=24, pixels=(640, 384), env=None, cwd=None, keys=b""):
         master, slave = pty.openpty()
@@ -52,7 +52,7 @@ class Terminal:
         reader.join()
         os.close(master)
         self.queries, _, self.sent = self.got.partition(b"\x1b[c")
-        self.sent = self.sent.replace(b"\r\n", b"\n")  # as the terminal's driver has made of a newline
+        self.sent = self.sent.replace(b"\r\n", b"\n")  # the terminal's driver converts newlines
 
     def talk(self, master):
         answered = False
@@ -61,7 +61,7 @@ class Terminal:
                 self.got += data
                 if b"\x1b[c" in self.got and not answered:
                     answered = True
-                    for piece in (self.keys, self.answer[:5], self.answer[5:]):  # not all at once
+                    for piece in (self.keys, self.answer[:5], self.answer[5:]):  # sent in several parts
                         time.sleep(0.02)
                         os.write(master, piece) if piece else None
         except OSError:
@@ -69,7 +69,7 @@ class Terminal:
 
 
 def kitty(sent):
-    """The controls of the first command and the bytes of the picture; and the output outside the commands."""
+    """The controls of the first command and the bytes of the picture, and the output outside the commands."""
     commands = re.findall(rb"\x1b_G([^;]*);([^\x1b]*)\x1b\\", sent)
     for i, (controls, text) in enumerate(commands):
         last = i + 1 == len(commands)
@@ -83,7 +83,7 @@ def kitty(sent):
 
 
 def sixel(sent):
-    """Width, height and rows of (r, g, b) from 0 to 255; and the output after the picture."""
+    """Width, height and rows of (r, g, b) from 0 to 255, and the output after the picture."""
     body, _, rest = sent.partition(b"\x1bP")[2].partition(b"q")[2].partition(b"\x1b\\")
     head = re.match(rb'"1;1;(\d+);(\d+)', body)
     width, height = int(head[1]), int(head[2])
@@ -151,7 +151,8 @@ class View(Case):
 
     def test_kitty_before_sixel(self):
         self.assertEqual(kitty(Terminal(*SMALL, answer=KITTY[:12] + SIXEL).sent)[1], self.rendered(*SMALL))
-        shown = Terminal(*SMALL, answer=SIXEL + KITTY[:12])  # too late: it answers something else
+        # kitty's answer comes too late, after that of sixel
+        shown = Terminal(*SMALL, answer=SIXEL + KITTY[:12])
         self.assertIn(b"\x1bP", shown.sent)
 
     def test_sixel(self):
@@ -161,8 +162,8 @@ class View(Case):
         self.assertEqual((width, height, rest), (192, 108, b"\n"))
         _, _, wanted = pixels(self.rendered("--size", "192x108"))
         self.assertNotIn(None, [pixel for row in rows for pixel in row])
-        # A palette of 256 colours of this picture, in steps of 1/100, dithered: 2.55 / 2 comes from the steps, the rest
-        # from the palette.
+        # A palette of 256 colours of this picture, dithered, in steps of 1/100. The steps contribute 2.55 / 2, the
+        # palette the rest.
         errors = [abs(a - b) for mean, want in zip(block_means(rows), block_means(wanted)) for a, b in zip(mean, want)]
         self.assertLess(max(errors), 12)
         self.assertLess(sum(errors) / len(errors), 2)
@@ -184,7 +185,8 @@ class View(Case):
             self.assertTrue(shown.kept)
             self.assertGreaterEqual(shown.seconds, seconds)
         self.assertIn("or tmux", Terminal(*SMALL, answer=NEITHER, env={**os.environ, "TMUX": "/tmp/x,1,0"}).stderr)
-        self.assertNotEqual(Terminal(*SMALL, answer=NEITHER.replace(b"6", b"44;64")).code, 0)  # not a 4 among them
+        # "44" and "64" are not a 4 in the list
+        self.assertNotEqual(Terminal(*SMALL, answer=NEITHER.replace(b"6", b"44;64")).code, 0)
 
     def test_typed_meanwhile(self):
         self.assertEqual(Terminal(*SMALL, answer=KITTY, keys=b"ls").code, 0)
@@ -193,7 +195,7 @@ class View(Case):
 
     def test_no_terminal(self):
         self.bad(1, "standard output is no terminal", "view", *SMALL)
-        self.bad(2, "(at /image/width)", "view", "--set", "image.width=0")  # that comes first
+        self.bad(2, "(at /image/width)", "view", "--set", "image.width=0")  # this is checked first
         self.bad(2, "kitty or sixel", "view", "--protocol", "iterm")
         _, png, rest = kitty(self.good("view", *SMALL, "--protocol", "kitty"))
         self.assertEqual((png, rest), (self.rendered(*SMALL), b"\n"))
@@ -208,17 +210,17 @@ class View(Case):
 
     def test_size(self):
         wide = ["--size", "320x180"]
-        self.assertEqual(self.size(*wide, answer=KITTY), (320, 180))  # there is room
+        self.assertEqual(self.size(*wide, answer=KITTY), (320, 180))  # the terminal is large enough
         self.assertEqual(self.size(*wide, answer=KITTY, pixels=(160, 384)), (160, 90))
         self.assertEqual(
             self.size(*wide, answer=KITTY, pixels=(640, 96)), (163, 92)
-        )  # of 24 lines one is left for what comes next
+        )  # of 24 lines one stays free for the next output
         self.assertEqual(self.size(*wide, answer=KITTY, pixels=(640, 384), columns=0, rows=0), (320, 180))
         self.assertEqual(self.size(*SMALL, "--enlarge", answer=KITTY, pixels=(128, 384)), (128, 72))
         self.assertEqual(self.size("--size", "100x1", answer=KITTY, pixels=(20, 384)), (20, 1))
         shown = Terminal(
             *wide, answer=b"\x1b[4;384;80t" + NEITHER, pixels=(0, 0)
-        )  # it tells what the system does not know
+        )  # the terminal reports its size, which the system does not know
         self.assertIn(b"\x1b[14t", shown.queries)
         self.assertEqual(self.size(*wide, answer=KITTY[:12] + b"\x1b[4;384;80t" + NEITHER, pixels=(0, 0)), (80, 45))
         self.assertEqual(self.size(*wide, answer=KITTY, pixels=(0, 0)), (320, 180))
@@ -240,7 +242,7 @@ class View(Case):
         png = self.rendered(*given)
         shown = Terminal(
             "same.png", answer=KITTY, cwd=self.folder, env={**os.environ, "VK_DRIVER_FILES": "/dev/null"}
-        )  # no device is needed
+        )  # needs no device
         self.assertEqual((shown.code, shown.stderr), (0, ""))
         controls, sent, rest = kitty(shown.sent)
         self.assertEqual(sent, png)

@@ -1,5 +1,5 @@
-"""Tests of kerrd visibility and kerrd spectrum of a scene, against a Fourier transform of the map that kerrd render
-writes, the universal signature of photon rings, and fluxes in closed form."""
+"""Tests of kerrd visibility and kerrd spectrum of a scene. They are compared with a Fourier transform of the map that
+kerrd render writes, with the universal signature of photon rings, and with fluxes in closed form."""
 
 import cmath
 import csv
@@ -10,12 +10,12 @@ import struct
 
 from support import Case, main, run
 
-M_UAS = 1476.625 / 3.0856775814913673e16 * math.degrees(1) * 3.6e9  # of a solar mass at a parsec
+M_UAS = 1476.625 / 3.0856775814913673e16 * math.degrees(1) * 3.6e9  # a solar mass at a parsec, in microarcseconds
 GIGA_UAS = 1e9 * math.radians(1) / 3.6e9
 
 
 def fft(row):
-    """Recursion by halves (Cooley & Tukey 1965)."""
+    """Fast Fourier transform by recursive halving (Cooley & Tukey 1965)."""
     if len(row) == 1:
         return row
     even, odd = fft(row[::2]), fft(row[1::2])
@@ -44,7 +44,8 @@ class Visibility(Case):
         start = 10 + struct.unpack("<H", file[8:10])[0]
         light = struct.unpack(f"<{n * n}f", file[start:])
         pixel = 39.11063 / n * 4.3e6 / 8300 * M_UAS * math.radians(1) / 3.6e9
-        # rows, then columns; index k is k/(n pixel) wavelengths, and the first pixel is 15.5 pixels from the middle
+        # First the rows, then the columns. Index k is k/(n pixel) wavelengths, and the first pixel is 15.5 pixels from
+        # the centre.
         rows = [fft([complex(x) for x in light[n * j : n * (j + 1)]]) for j in range(n)]
         columns = [fft([row[k] for row in rows]) for k in range(n)]
         ks = [(a, b) for a in range(0, n // 2, step // 2) for b in range(0, n // 2, step // 2)]
@@ -65,15 +66,15 @@ class Visibility(Case):
         flux = sum(light) * pixel**2
         self.assertAlmostEqual(told["values"]["flux_jy"] / flux, 1, delta=1e-6)
         for (a, b), re, im in zip(ks, told["columns"]["re"], told["columns"]["im"]):
-            # indices grow to the right and down, x and y to the left and up: therefore u and v are negative
+            # Indices grow to the right and down, x and y to the left and up, so that u and v are negative.
             want = columns[a][b] * pixel**2 * cmath.exp(2j * math.pi * (a + b) * (n - 1) / 2 / n)
             self.assertLess(abs(complex(re, im) - want), 1e-6 * flux, (a, b))
         rows = list(csv.DictReader(io.StringIO(self.good("visibility", *options, "-f", "csv").decode())))
         self.assertEqual([float(row["amplitude"]) for row in rows], told["columns"]["amplitude"])
 
     def test_rings_ring(self):
-        """Of a ring of diameter d the visibility goes as J0(pi d u): it has zeros 1/d apart (Johnson et al. 2020).
-        Light of order 2 about a hole without spin has d = 2 sqrt(27) M, within half a percent."""
+        """The visibility of a ring of diameter d is J0(pi d u), with zeros 1/d apart (Johnson et al. 2020). For light
+        of order 2 about a hole without spin d = 2 sqrt(27) M, within half a percent."""
         document = {
             "preset": "smooth",
             "scene": {
@@ -114,8 +115,8 @@ class Visibility(Case):
             self.assertAlmostEqual(part, all_, delta=1e-5)
 
     def test_spectra(self):
-        """The flux of a picture, and that of a sphere in flat space: R = 100 GM/c^2, the hole too small to bend its
-        light, and far too thin to absorb: F = j V/D^2, with j by Pandya's fit."""
+        """The flux of a picture, and that of a sphere in flat space: R = 100 GM/c^2, where the hole is too small to
+        bend its light, and far too thin to absorb. F = j V/D^2, with j by Pandya's fit."""
         self.good(
             "render", "-p", "riaf", "--size", "48x48", "-o", self.path("a.png"), "--set", "camera.inclination_deg=45"
         )
@@ -179,7 +180,7 @@ class Visibility(Case):
 
     def test_a_spectrum_of_a_given_flux(self):
         """The density that gives 2 Jy at the scene's 223 GHz holds at all frequencies: the spectrum equals that of a
-        scene with that density."""
+        scene with this density."""
         settings = ("--set", "camera.inclination_deg=45", "--set", "volume.normalise_to_jy=2")
         told = json.loads(
             run("render", "-p", "riaf", "--size", "48x48", *settings, "--stats", "-o", self.path("n.png")).stderr

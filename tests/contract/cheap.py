@@ -1,12 +1,13 @@
-"""Makes the requests of schemathesis cheap: valid values become smaller valid ones, so that a case stays as valid,
-or as wrong, as it was."""
+"""Makes the requests of schemathesis cheap. Valid values are replaced by smaller valid ones, so that a valid case stays
+valid and an invalid one stays invalid."""
 
 import re
 
 RANGE = re.compile(r"^([^:]+):([^:]+):(\d+)$")
 WIDTH, HEIGHT = 40, 24
 
-# The largest value of a member that is a number, or the largest length of a list, wherever it is in a body.
+# The largest value of a number, or the largest length of a list, by the member's name, wherever the member is in a
+# body.
 NUMBERS = {
     "bins": 8,
     "rings": 3,
@@ -41,11 +42,11 @@ DURATIONS = {"periods": 3, "time": 1e4}
 def is_count(value):
     return (isinstance(value, int) and not isinstance(value, bool)) or (
         isinstance(value, float) and value.is_integer()
-    )  # 8.0 is a whole number of JSON
+    )  # JSON counts 8.0 as a whole number
 
 
 def smaller_image(image):
-    """Reduces an object only, and only sizes that are missing or valid."""
+    """Makes an image smaller. Changes only objects, and in them only sizes that are missing or valid."""
     if not isinstance(image, dict):
         return
     for name, most in (("width", WIDTH), ("height", HEIGHT)):
@@ -57,7 +58,8 @@ def smaller_image(image):
 
 
 def smaller_scene(scene, whole):
-    """whole: pictures of it must not have the default size, so that it gets a size where it has none."""
+    """Makes a scene smaller. whole: a size is added if there is none, because pictures of the scene must not have the
+    default size."""
     if not isinstance(scene, dict):
         return
     if whole:
@@ -66,7 +68,7 @@ def smaller_scene(scene, whole):
 
 
 def smaller_duration(duration):
-    """The duration of an orbit."""
+    """Makes the duration of an orbit shorter."""
     if isinstance(duration, dict):
         for name, most in DURATIONS.items():
             if (
@@ -78,7 +80,7 @@ def smaller_duration(duration):
 
 
 def smaller(value, name=""):
-    """The same for everything inside a valid body: there is then no number that is too large."""
+    """Applies the limits to everything inside a valid body, so that no number in it is too large."""
     if isinstance(value, list):
         if name in LISTS and len(value) > LISTS[name]:
             del value[LISTS[name] :]
@@ -123,8 +125,8 @@ def smaller_job(path, value):
 
 
 def body(path, value, sound):
-    """Changes the body. sound: it is valid by the schema; in one that is not, only pictures are made smaller,
-    because a list that is too long must stay so."""
+    """Makes a body smaller. sound: the body is valid by the schema. In an invalid one only pictures are made smaller,
+    because a list that is too long must stay too long."""
     if not isinstance(value, dict):
         return
     if sound:
@@ -138,7 +140,7 @@ def body(path, value, sound):
 
 
 def query(path, value):
-    """Changes the query, a mapping of names to values."""
+    """Makes a query smaller; it is a mapping of names to values."""
     for name, one in value.items():
         match = RANGE.match(one) if isinstance(one, str) else None
         if match and 3 < int(match[3]) <= 100000:

@@ -1,5 +1,8 @@
-"""Hooks of schemathesis for kerrd: cases are made cheap, what they create is deleted again, answers are counted, and
-an additional check finds headers that openapi.json does not name."""
+"""Hooks of schemathesis for kerrd.
+
+Cases are made cheap, what they create is deleted again, and answers are counted. An additional check finds headers that
+openapi.json does not name.
+"""
 
 import atexit
 import collections
@@ -21,11 +24,11 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import cheap  # noqa: E402
 import known  # noqa: E402
 
-# the number of sessions, playgrounds, jobs and assets of each kind that are left alive, so that stateful cases find
-# what they have made
+# the number of sessions, playgrounds, jobs and assets of each kind that are not deleted, so that stateful cases find
+# what earlier cases created
 KEPT = 24
 ENDLESS = ("multipart/x-mixed-replace", "application/x-kerrd-frames")
-# Headers of HTTP itself, of caches, proxies and browsers, that any answer may have: openapi.json names all others.
+# Headers of HTTP itself, and of caches, proxies and browsers, which any answer may have. openapi.json names all others.
 OF_ANY = {
     "date",
     "connection",
@@ -55,11 +58,11 @@ plain_send = HTTPAdapter.send
 
 
 def send(self, request, **more):
-    """Streams that end only with their client are read up to their first bytes."""
+    """Sends a request. A stream that ends only with its client is read up to its first bytes."""
     response = plain_send(self, request, **{**more, "stream": True})
     if response.headers.get("Content-Type", "").startswith(ENDLESS):
         response._content = response.raw.read1(65536)
-        response.raw.close()  # first: a connection whose stream goes on is of no use to others
+        response.raw.close()  # close it first: a connection whose stream continues cannot be reused
         response._content_consumed = True
     return response
 
@@ -79,7 +82,8 @@ def before_call(context, case, kwargs):
         case.query = copy.copy(case.query)
         cheap.query(path, case.query)
     if case.headers and "Range" in case.headers:
-        del case.headers["Range"]  # a part of a JSON document, or of its gzip, is neither: tests/http/ranges.py asks
+        # a part of a JSON document, or of its gzip, is neither JSON nor gzip; tests/http/ranges.py tests Range
+        del case.headers["Range"]
 
 
 def kind_of(sentence):
@@ -102,7 +106,7 @@ def delete(base, path, token):
 
 
 def remember(case, response):
-    """Deletes the oldest of a kind if there are more than needed."""
+    """Remembers what a case created, and deletes the oldest of its kind if there are more than needed."""
     try:
         one = response.json()
         path = f"{case.operation.path}/{one.get('id') or one['sha256']}", one["token"]

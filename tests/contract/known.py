@@ -1,5 +1,5 @@
-"""Failures of schemathesis' checks that are due to the protocol: each for some operations, one check and a text in
-the answer, with the reason. Any other failure fails the run."""
+"""Failures of schemathesis' checks that are due to the protocol. Each is known by some operations, one check and a text
+in the answer, and has its reason here. Any other failure fails the run."""
 
 import pathlib
 import re
@@ -13,7 +13,7 @@ CONVERSION = re.compile(r"%(?:\.\*|\.\d+)?(?:ll|z|h)?([a-zA-Z])")
 
 
 def words(sentence):
-    """A regular expression for the output of a format of C."""
+    """A regular expression for what a format of C may produce."""
     parts, at = [], 0
     for one in CONVERSION.finditer(sentence):
         parts += [re.escape(sentence[at : one.start()].replace("%%", "%")), ".*?" if one[1] == "s" else r"[-+.\deinf]+"]
@@ -30,11 +30,12 @@ RULES = [
     for operation, sentences in TOGETHER
 ]
 BEFORE = re.compile("(?:" + "|".join(words(one) for one in AMONG) + ")", re.DOTALL)
-RANGE = re.compile(r'\w+ is "[^"]*(:\d+|\.\.\.)"; ')  # as it is quoted: a long one is cut
+RANGE = re.compile(r'\w+ is "[^"]*(:\d+|\.\.\.)"; ')  # a range, as messages quote it: long ones are truncated
 
 
 def together(label, sentence):
-    """The listed sentence for values that do not fit together to which a refusal belongs; None if there is none."""
+    """The sentence of TOGETHER that this refusal matches, or None. These are refusals of values that do not fit
+    together."""
     for operation, sentences in RULES:
         if operation.match(label):
             for name, one in sentences:
@@ -45,8 +46,8 @@ def together(label, sentence):
 
 
 def of_an_axis(label, problem):
-    """Whether a value of a sweep's axis is refused. It is a value of the axis' field, and its schema depends on the
-    axis' name: the document would have to repeat each of its 331."""
+    """True if a value of a sweep's axis is refused. Such a value is one of the axis' field, so that its schema depends
+    on the axis' name: the document would have to repeat each of its 331."""
     name = re.match(r"/axes/([^/]+)(/\d+)?$", problem.get("pointer", ""))
     return (
         label in ("POST /v1/jobs", "POST /v1/plan")
@@ -58,17 +59,19 @@ def of_an_axis(label, problem):
 
 
 def refused(label, problem):
-    """Why the refusal of a request that fits the document is due to the protocol; None: it is not."""
+    """The reason why a refusal of a request that fits the document is due to the protocol, or None."""
     sentence, pointer = problem.get("detail", ""), problem.get("pointer", "")
-    if problem.get("status") == 400:  # U+0000 is JSON, and in no text of kerrd: a schema would have to say so of each
+    # U+0000 is valid JSON, but no text of kerrd may contain it; the schema of each text would have to say so
+    if problem.get("status") == 400:
         return "NUL in a text" if "NUL in a string" in sentence else None
     if problem.get("status") != 422:
         return None
     if (
         problem.get("type") == "urn:kerrd:problem:too-large"
-    ):  # more than this server, on this device, does for one request
+    ):  # the request needs more than this server, on this device, does for one request
         return "more than this server does"
-    if problem.get("type") == "urn:kerrd:problem:invalid-asset":  # a CSV is a text, and a schema says no more of it
+    # a CSV file is a text, and a schema can say no more about it
+    if problem.get("type") == "urn:kerrd:problem:invalid-asset":
         return "the bytes of an asset"
     if problem.get("type") == "urn:kerrd:problem:idempotency-key-reused":
         return "a key that came before with another request"
@@ -77,17 +80,17 @@ def refused(label, problem):
     state = {"POST /v1/playground": "/state", "POST /v1/jobs": "/playground/state"}.get(label)
     if state and (pointer + "/").startswith(
         state + "/"
-    ):  # of a snapshot, to be given back as it came: nobody else can make one
+    ):  # a member of a snapshot, which clients give back unchanged and cannot make themselves
         return "the state of a snapshot"
     if label.startswith("GET /v1/physics/") and sentence.endswith(
         " of these"
-    ):  # a range is a text, whose numbers no pattern bounds
+    ):  # a range is a text, and no pattern can bound the numbers in it
         return "the numbers of a range" if RANGE.match(sentence) else None
     return together(label, sentence)
 
 
 def has_a_list_by_index(value):
-    """Whether a list of a scene is written as an object: {"0": {...}} changes elements by their index."""
+    """True if a list of a scene is written as an object: {"0": {...}} changes elements by their index."""
     if isinstance(value, list):
         return any(has_a_list_by_index(one) for one in value)
     return isinstance(value, dict) and any(
@@ -98,8 +101,8 @@ def has_a_list_by_index(value):
 
 
 def is_null(body, found):
-    """Whether the value named in a message, as in body - scene -> spots -> 0 -> r, is null: by RFC 7396 that resets
-    a value."""
+    """True if the value that a message names, as in body - scene -> spots -> 0 -> r, is null; by RFC 7396 null resets a
+    value."""
     for name in found[1].split(" -> ") if found else []:
         body = (
             body.get(name, 0)
@@ -112,14 +115,15 @@ def is_null(body, found):
 
 
 def why(failure, case, response):
-    """Why a failure is due to the protocol; None: it is not."""
+    """The reason why a failure is due to the protocol, or None."""
     label, status, kind = case.operation.label, response.status_code, type(failure).__name__
     if kind == "RejectedPositiveData":
         return refused(label, response.json())
-    if kind == "ServerError" and status in (501, 503, 507):  # no ffmpeg; a server, or its disk, that is full
+    # 501: there is no ffmpeg; 503 and 507: the server, or its disk, is full
+    if kind == "ServerError" and status in (501, 503, 507):
         return "what this server lacks"
-    # docs/scene.md describes this form for a document over a preset, and for a patch; the schema is that of a whole
-    # scene, which answers have as well.
+    # docs/scene.md describes this form, for a document applied over a preset and for a patch. The schema is that of a
+    # whole scene, which answers contain as well.
     if (
         kind == "AcceptedNegativeData"
         and re.match(OF_SCENES, label)
@@ -133,13 +137,13 @@ def why(failure, case, response):
         and is_null(case.body, re.search(r"in body - (.*): Incorrect type", failure.message))
     ):
         return "null in a scene that lies over another"
-    # An empty list or object disappears in a query: the request is as valid as without the parameter.
+    # An empty list or object disappears from a query, so that the request is as valid as without the parameter.
     named = re.search(r"parameter `([^`]+)` in query", failure.message) if kind == "AcceptedNegativeData" else None
     if named and named[1] not in urllib.parse.parse_qs(
         urllib.parse.urlsplit(response.request.url).query, keep_blank_values=True
     ):
         return "a parameter that is not in the request"
-    # OpenAPI 3.1 has the schema of the whole stream, a text; schemathesis applies it to each event.
+    # OpenAPI 3.1 has one schema for the whole stream, as a text; schemathesis applies it to each event.
     if (
         failure.title == "SSE event violates schema"
         and status == 200
@@ -158,7 +162,7 @@ def why(failure, case, response):
 
 
 def gone():
-    """Sentences of TOGETHER that are no longer in the source."""
+    """The sentences of TOGETHER that are no longer in the source."""
     text = re.sub(r'"\s*\n\s*"', "", "\n".join(file.read_text() for file in sorted(SOURCE.rglob("*.c")))).replace(
         '\\"', '"'
     )

@@ -1,12 +1,13 @@
-"""Refusals of values that are sound each by itself and do not go together, so that no schema of OpenAPI 3.1 can say so:
-their sentences, by the operations that give them, as they stand in the source.
+"""Refusals of values that are valid each by itself but not together, which no schema of OpenAPI 3.1 can express. They
+are listed by the operations that give them, as they are written in the source.
 
-A sentence is a format of the C source as it is written there; in front of a bar, if there is one, stands the format
-round it. The test contract_sentences sees that each is in the source. What a schema can say (a bound, a word, a member
-that another one takes or excludes) has no place here: a case that fits the document and is refused for it has found a
-mistake of the document."""
+A sentence is a format string of the C source, verbatim. If it contains a bar, the part before the bar is the format
+into which the rest is inserted. The test contract_sentences checks that each sentence is in the source. A rule that a
+schema can express (a bound, a word, a member that requires or excludes another) does not belong here: if a case fits
+the document and is refused for such a rule, the document is wrong.
+"""
 
-# What an observer cannot be, with the names of the fields that a scene, rays or physics have for it.
+# Invalid combinations of an observer's values, with the names of these fields in a scene, in rays and in physics.
 OBSERVER = (
     '%s%s |is %s M; for %s%s "infall" it must be more than %s M, the inner horizon, where the model ends',
     '%s%s |is %s M; for %s%s "%s" at this inclination it must be more than %s M, %s; %s%s %s can be inside',
@@ -17,8 +18,8 @@ OBSERVER = (
     "%sinfall_momentum |is %s M, with which the observer turns outside %s%s %s M; it must be nearer to 0",
 )
 
-# Fields of a scene that depend on each other. A document is applied over a preset, and a patch over the present scene,
-# so that a member that is not in the request has a value all the same, which counts.
+# Fields of a scene that depend on each other. A document is applied over a preset, and a patch over the present scene.
+# So a member that is missing in the request still has a value, which counts.
 SCENE = (
     "there is no %s.%zu: the list has %zu element%s, and the next free index is %zu",
     "%s is an old name of %s.%zu, and %s is given too; only one of them may be given",
@@ -107,7 +108,7 @@ SCENE = (
     'volume.grid is "%s", and the bytes of this asset are not here; it must be %s',
     'sky.image is "%s", and the bytes of this asset are not here; it must be %s',
 )
-# By a device, or by the table of a driver: depends on the engine and its precision.
+# These depend on the engine and its precision, and on the device or the table of its driver.
 ENGINE = (
     'the closed engine works in double precision: precision must be "f64", or the engine another one',
     "the closed engine takes no steps: steps must be 0, or the engine another one",
@@ -117,7 +118,7 @@ ENGINE = (
     'precision is f64, which this device has not: it must be f32, or the engine "closed"',
     "the accuracy table of this device has no row that can be relied on for what was asked; `kerrd bench accuracy` makes a new one",
 )
-# Whether a scene can be given in a format.
+# Reasons why a scene cannot be given in a format.
 PICTURE = (
     "image.layers holds %d; in a file of the format %s it must hold one; fits, exr, npz and npy hold all",
     'sky.model is not "catalogue": the stars of no other sky have names',
@@ -132,7 +133,7 @@ TIMELINE = (
     "proper_time is %.9g M; it must be 0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
     "%s follows a keyframe at %.9g, the last place that there may be",
     "%s is given with motion.proper_time_rate; only one of them may be given",
-    "keyframes/%zu/at is %s; it must be |a number %s %.9g to %.9g",  # each behind the one before it
+    "keyframes/%zu/at is %s; it must be |a number %s %.9g to %.9g",  # each keyframe is later than the one before it
     "keyframes/%zu/frame is %s; it must be |a whole number from %u to %u",
     "frames is %s; it must be |a whole number from %u to %u",
     'keyframes/%zu/proper_time is %s; it must be |0 to 1000000000000 M, or "horizon" or "end" of an observer that falls from further out without leaving its latitude',
@@ -365,7 +366,7 @@ TOGETHER = [
     ),
     ("GET /v1/physics/(shadow|sky)$", ("there is no critical curve for this observer",)),
     ("GET /v1/physics/", ("the ranges make more than %d points together",)),
-    # A scene of a sweep, or between two keyframes, with its own message.
+    # The refusal of a scene of a sweep, or of one between two keyframes, inside a message of its own.
     (
         "POST /v1/(jobs|plan)",
         (
@@ -394,8 +395,8 @@ TOGETHER = [
             "velocity is %.9g c; it must be %s",
             "position is %.9g M from the hole; it must be more than %g M: closer in all is the hole's",
             "there is no such body in a snapshot: it is the hole's, or faster than c",
-            "name is no string of up to %zu bytes",  # a schema counts characters
-            "r is %.16g; it must be above the horizon at %.9g",  # this and what follows: of gravity kerr
+            "name is no string of up to %zu bytes",  # a schema counts characters, not bytes
+            "r is %.16g; it must be above the horizon at %.9g",  # this and what follows: with gravity "kerr"
             "%s at r = %.16g, inside %s, which ends at %.9g here: use %s",
             "the motion from r = %.16g cannot be followed in double precision",
         ),
@@ -416,5 +417,5 @@ TOGETHER = [
         ),
     ),
 ]
-# If there are several scenes, the scene is named before its sentence.
+# If there are several scenes, the sentence is preceded by a name of the scene.
 AMONG = ("scene %u: ", "frame %u: ", "with %s: ", "between keyframes, frame %.9g is no valid scene: ")

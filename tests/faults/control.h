@@ -29,7 +29,7 @@ struct kd_faults {
     /* 1: record each stack of an allocation in `stacks`. Another value except 0: fail_at counts only allocations by
      * that stack. */
     _Atomic int64_t by_stack;
-    _Atomic int64_t by_library;  /* of those, requested by libmicrohttpd, which then closes the connection */
+    _Atomic int64_t by_library;  /* of those, how many libmicrohttpd requested; it closes the connection then */
     _Atomic int64_t failed_from; /* caller of the last failed one, as in `blocks` */
     _Atomic int64_t files_mask;  /* bit mask of the file operations that are counted */
     _Atomic int64_t files_at;    /* operations before one fails; negative: none fails */
@@ -39,7 +39,7 @@ struct kd_faults {
     _Atomic int64_t files_failed;
     /* 1: opening a file for reading blocks until this is 0 again. 2: so do fsync and unlink. */
     _Atomic int64_t files_slow;
-    _Atomic int64_t files_waiting;  /* number of threads blocked by that */
+    _Atomic int64_t files_waiting;  /* number of threads blocked by files_slow */
     _Atomic int64_t wall_s;         /* offset of the wall clock, s */
     _Atomic int64_t steady_ms;      /* offset of the monotonic clock, ms */
     _Atomic int64_t steady_step_ms; /* its increase at each reading */

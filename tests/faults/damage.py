@@ -1,11 +1,13 @@
-"""Files that are not as they were left, and disks of a real size: what a server keeps, cut off, emptied, zeroed or full
-of noise; a small tmpfs that fills up and one that is read-only.
+"""Damaged files and full disks.
 
-    damage.py FAULTS SERVER                 a file of each kind
-    KD_WHOLE=1 damage.py FAULTS SERVER      every file
+What a server keeps is cut off, emptied, zeroed or filled with noise; a small tmpfs fills up, and another is read-only.
 
-A disk of its own takes a mount namespace, which not every machine lets a user have: then that part says so and is left
-out."""
+damage.py FAULTS SERVER                 a file of each kind
+KD_WHOLE=1 damage.py FAULTS SERVER      every file
+
+A disk of its own needs a mount namespace, which some machines do not permit to users. Then that part is skipped with a
+message.
+"""
 
 import collections
 import os
@@ -31,7 +33,7 @@ NEW = {
 
 
 class Damage(state.Case):
-    """A start continues with what it can read, and changes nothing else."""
+    """A server starts, continues with what it can read, and changes nothing else."""
 
     def setUp(self):
         super().setUp()
@@ -105,8 +107,8 @@ class Damage(state.Case):
             return f.read()
 
     def outcome(self, name, unseen):
-        """A word for the effect on what the file belongs to; everything else is unchanged. Unseen: damage that only
-        the reader of the content can find, as by the checksums of a PNG."""
+        """A word for the effect on the thing that the file belongs to; everything else must be unchanged. unseen: only
+        a reader of the content can find the damage, as by the checksums of a PNG."""
         with open(os.path.join(self.folder, "told"), "wb") as told:
             server = self.start(by=lambda *options: daemon.Daemon("--log", 1, *options, stderr=told))
         word = "whole"
@@ -122,7 +124,7 @@ class Damage(state.Case):
                 word = "made again"
             got = server.get(self.at(job, "/result"))
             if mine and name.endswith("request.json") and got.status == 200 and got.body != result:
-                self.assertIs(job, self.done[-1])  # whose table has columns for what the request varies
+                self.assertIs(job, self.done[-1])  # the last job's table has columns for what the request varies
                 word = "whole, without the columns of its axes"
                 continue
             if mine and unseen:
@@ -143,10 +145,11 @@ class Damage(state.Case):
 
 
 class Disk(state.Case):
-    """A file system of the server's own, which others reach through its process."""
+    """The server has a file system of its own, which other processes reach through the server's process."""
 
     def in_a_namespace(self, script, *options):
-        """A server started after a line of shell, in a mount namespace of its own; None where none is permitted."""
+        """A server started after a line of shell, in a mount namespace of its own; None if namespaces are not
+        permitted."""
         wrap = (
             ["unshare", "--mount", "--propagation", "private"]
             if os.geteuid() == 0
@@ -162,8 +165,8 @@ class Disk(state.Case):
         return server
 
     def test_it_fills_up(self):
-        """Jobs wait, new ones and assets are refused, other requests are answered; everything continues when there
-        is room again."""
+        """While the disk is full, jobs wait, new jobs and assets are refused, and other requests are answered.
+        Everything continues when there is room again."""
         server = self.in_a_namespace(
             f"mount -t tmpfs -o size=512k none {self.folder}", "--state", self.folder + "/state"
         )
@@ -190,8 +193,8 @@ class Disk(state.Case):
         self.assertEqual(server.stop(), 0)
 
     def test_it_is_read_only(self):
-        """A folder that cannot be written cannot be the state folder, and the start says so; if it becomes
-        unwritable later the server goes on, and refuses jobs until it can store them."""
+        """A folder that cannot be written cannot be the state folder, and the server says so at the start. If the
+        folder becomes unwritable later, the server continues, and refuses jobs until it can store them."""
         script = (
             f"mount -t tmpfs none {self.folder} && mkdir {self.folder}/state && mount -o remount,ro none {self.folder}"
         )

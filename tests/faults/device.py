@@ -1,9 +1,11 @@
-"""The program itself, on a device: memory and files fail it as a server and as `kerrd render`, its caches are damaged,
-its pipes are closed, its clocks jump. What a Vulkan driver wants of memory for itself is given to it:
-docs/faults-vulkan.md has faults of drivers.
+"""Faults beneath the real program on a device, as a server and as `kerrd render`.
 
-    device.py FAULTS KERRD serve                 some of each series
-    KD_WHOLE=1 device.py FAULTS KERRD serve      all of them"""
+Memory and files fail, caches are damaged, pipes are closed, clocks jump. Allocations of the Vulkan driver itself never
+fail here; docs/faults-vulkan.md has the faults of drivers.
+
+device.py FAULTS KERRD serve                 some faults of each series
+KD_WHOLE=1 device.py FAULTS KERRD serve      all of them
+"""
 
 import collections
 import concurrent.futures
@@ -62,7 +64,7 @@ class Memory(sweep.Case):
                     answer = self.ask("GET", at + "/frame.png?wait_ms=20000")
                     answer.body = (
                         answer.body if answer.status != 200 else answer.body[:16]
-                    )  # how fine it is depends on the time it took
+                    )  # its quality depends on the time it took
             finally:
                 self.faults.mend()
                 self.assertEqual(self.server.request("DELETE", at, headers=owner).status, 204)
@@ -98,7 +100,7 @@ class Memory(sweep.Case):
 
 
 class Drawing:
-    """kerrd render -o FILE, repeatedly."""
+    """Runs kerrd render -o FILE repeatedly."""
 
     def __init__(self, case):
         folder = tempfile.TemporaryDirectory()
@@ -106,8 +108,8 @@ class Drawing:
         self.case, self.folder, self.out = case, folder.name, os.path.join(folder.name, "a.png")
         self.faults = faults.Faults()
         case.addCleanup(self.faults.close)
-        case.assertEqual(self.draw().returncode, 0)  # what it learns of the device, it knows from now on
-        self.calm = self.faults.live  # blocks that it does not free
+        case.assertEqual(self.draw().returncode, 0)  # what the first run learns about the device is stored
+        self.calm = self.faults.live  # blocks that a run without faults does not free
         with open(self.out, "rb") as f:
             self.good = f.read()
 
@@ -117,7 +119,7 @@ class Drawing:
             *wrap,
             "env",
             *(f"{name}={value}" for name, value in self.faults.environment().items()),
-        ]  # of kerrd alone
+        ]  # allocations of kerrd alone
         return subprocess.run(
             [*wrap, daemon.COMMAND[0], "render", *DRAW, *(options or ("-o", self.out))],
             stderr=subprocess.PIPE,
@@ -126,8 +128,8 @@ class Drawing:
         )
 
     def judge(self, done, n):
-        """A word for how it ended: the old file is unchanged, or the new one is complete, there are no other files,
-        and no memory leaked."""
+        """A word for how it ended. Either the old file is unchanged or the new one is complete, there are no other
+        files, and no memory leaked."""
         case = self.case
         case.assertEqual(os.listdir(self.folder), ["a.png"], n)
         with open(self.out, "rb") as f:
@@ -145,7 +147,7 @@ class Drawing:
         return "exit code 1 with a reason"
 
     def memory(self, stack, n, count=1):
-        """The outcome when the n-th allocation requested by this stack of calls fails; stack 0: of all."""
+        """The outcome when the n-th allocation by this stack of calls fails; stack 0: the n-th of all."""
         failed = self.faults.failed
         self.faults.set("by_stack", stack)
         self.faults.memory(n, count)
@@ -168,8 +170,8 @@ class CommandMemory(unittest.TestCase):
         self.one = Drawing(self)
 
     def test_memory(self):
-        """Most of the allocations come from a few places, again and again: each place fails at the first, the second
-        and the last call. A place is a stack of calls."""
+        """Most allocations come from a few stacks of calls. Each stack fails at its first, its second and its last
+        allocation."""
         self.one.faults.set("by_stack", 1)
         self.one.draw()
         stacks = self.one.faults.stacks()
@@ -225,8 +227,8 @@ class Command(unittest.TestCase):
                 faults.record(errno.errorcode[number], "kerrd render", outcomes, count + 1)
 
     def test_a_cache_that_is_read_only(self):
-        """What is learnt about a device is not stored, and nothing else suffers. A disk of its own takes a mount
-        namespace, which not every machine lets a user have."""
+        """What is learnt about a device cannot be stored, and nothing else suffers. The disk needs a mount namespace,
+        which some machines do not permit to users."""
         wrap = (
             ["unshare", "--mount", "--propagation", "private"]
             if os.geteuid() == 0
@@ -242,7 +244,8 @@ class Command(unittest.TestCase):
         faults.record("EROFS", "kerrd render, caches of a device", ["whole picture"])
 
     def test_a_machine_that_was_held(self):
-        """Ten minutes between two readings of the steady clock are not taken for a lost device."""
+        """A machine that was suspended: ten minutes between two readings of the monotonic clock are not taken for a
+        lost device."""
         clocks = self.one.faults
         clocks.set("steady_step_ms", 600_000)
         self.assertEqual(self.one.judge(self.one.draw(), "held"), "whole picture")
@@ -255,8 +258,8 @@ class Command(unittest.TestCase):
         )
 
     def test_pipes(self):
-        """If nobody reads the picture, it ends by SIGPIPE without a message, as other tools do. If nobody reads its
-        messages, the picture is made."""
+        """If nobody reads the picture, kerrd ends by SIGPIPE without a message, as other tools do. If nobody reads its
+        messages, it still makes the picture."""
         read, write = os.pipe()
         os.close(read)
         done = self.one.draw("-o", "-", stdout=write)
@@ -282,7 +285,7 @@ class Command(unittest.TestCase):
         )
 
     def test_caches(self):
-        """What is cached about a device can be made again: after damage it is."""
+        """What is cached about a device can be made again, and is made again after damage."""
         folder = os.path.join(CACHES.name, "kerrd")
         names = sorted(os.listdir(folder))
         self.assertTrue([name for name in names if name.endswith(".pipelines")], names)
@@ -306,7 +309,7 @@ class Command(unittest.TestCase):
 
 class Streams(unittest.TestCase):
     def test_nobody_reads_what_a_server_says(self):
-        """Standard output and error are closed pipes, with all that it logs."""
+        """The server's standard output and error are closed pipes, and it logs everything."""
         read, write = os.pipe()
         os.close(read)
         server = daemon.Daemon("--log-level", "debug", stderr=write)
@@ -319,8 +322,8 @@ class Streams(unittest.TestCase):
         faults.record("EPIPE", "a server's standard output and error", ["serves"])
 
     def test_streams_that_are_not_open(self):
-        """Neither a client's connection nor a file of the state folder gets the number of a standard stream, where
-        messages would go into it."""
+        """If standard streams are closed at the start, neither a client's connection nor a file of the state folder
+        gets the descriptor of a standard stream, into which messages would be written."""
         port = daemon.free_port()
         with tempfile.TemporaryDirectory() as folder:
             process = subprocess.Popen(

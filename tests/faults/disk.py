@@ -1,8 +1,10 @@
-"""Disks that are full, fail, or are slow, in front of a renderer without a device: what was accepted is done when there
-is room again, what was refused has left nothing.
+"""Disks that are full, fail, or are slow, with a renderer without a device.
+
+What was accepted is done when there is room again; what was refused leaves nothing behind.
 
 disk.py FAULTS SERVER                 some operations of each series
-KD_WHOLE=1 disk.py FAULTS SERVER      all of them"""
+KD_WHOLE=1 disk.py FAULTS SERVER      all of them
+"""
 
 import collections
 import errno
@@ -47,7 +49,7 @@ class Case(state.Case):
         return server.post("/v1/jobs", {"scenes": [{**SCENE, "time": 1}, {**SCENE, "time": 2}]})
 
     def outcome(self, answer, number, good):
-        """A word for an answer to a request during which operations on files failed with this errno."""
+        """A word for the answer to a request during which operations on files failed with this errno."""
         if answer.status in good:
             return "whole"
         problem = self.assertProblem(answer, *REASONS[number])
@@ -57,8 +59,8 @@ class Case(state.Case):
         return str(answer.status)
 
     def reached(self, word, failed):
-        """The word for an outcome, given the number of failures before, if there are more now. Without a failure
-        everything is as usual."""
+        """The word for an outcome if more operations have failed than the `failed` before. If none has, everything must
+        be as usual."""
         if self.faults.files_failed > failed:
             return word
         self.assertIn(word, ("whole", "started"))
@@ -69,8 +71,8 @@ class Operations(Case):
     """Only the n-th operation on files fails: a disk that is full for a moment, or a sector that cannot be written."""
 
     def sweep(self, scenario, number, mask, ask):
-        """ask(server, number) returns a word; a failure that does not affect the answer must be in the log,
-        otherwise it was overlooked."""
+        """Lets the n-th operation fail for each n. ask(server, number) returns a word. A failure that does not affect
+        the answer must be in the log; otherwise it was overlooked."""
         told = open(os.path.join(self.folder, "told"), "w+", encoding="utf-8")
         self.addCleanup(told.close)
         server = self.start("--log", 1, by=lambda *options: self.faults.start(*options, stderr=told))
@@ -126,7 +128,7 @@ class Operations(Case):
                 self.assertEqual(self.sweep("PUT /v1/assets", number, mask, put).stop(), 0)
 
     def test_a_job_to_its_end(self):
-        """Once accepted it ends with its right bytes, and is there with them after a restart."""
+        """An accepted job ends with the right bytes, and has them after a restart."""
         for number, mask in FAULTS:
             with self.subTest(errno.errorcode[number]):
                 accepted, good = [], []
@@ -152,7 +154,7 @@ class Operations(Case):
                 server = self.sweep("a job from POST to its result", number, mask, run)
                 self.assertEqual(server.stop(), 0)
                 server = self.start()
-                for job in accepted[-60:]:  # of 64 that are kept
+                for job in accepted[-60:]:  # the server keeps 64
                     self.assertEqual(
                         (self.status(job, server)["state"], self.frames_of(job, server)), ("done", good[0])
                     )
@@ -162,8 +164,8 @@ class Operations(Case):
                 self.assertEqual(self.half_written(), [])
 
     def test_a_restart(self):
-        """A start that cannot read or write says so and ends, or sets aside what it cannot read; in any case the
-        next start has everything."""
+        """A start that cannot read or write either reports this and ends, or sets aside what it cannot read. In both
+        cases the next start has everything."""
         server = self.start()
         job = self.job(server).json()
         self.until(job, "done", server)
@@ -211,8 +213,8 @@ class Scarce(Case):
         self.assertNotIn(self.folder, problem["detail"])
 
     def test_an_asset_without_a_place(self):
-        """An asset that could not be written does not exist, is not counted, and has left nothing; later it can be
-        put."""
+        """An asset that could not be written does not exist, is not counted, and leaves nothing behind. It can be
+        uploaded later."""
         server = self.start(by=self.faults.start)
         put = lambda: server.request("PUT", "/v1/assets", assets.png(seed=1), {"Content-Type": "image/png"})
         for number, mask in ((errno.ENOSPC, faults.WRITE), (errno.EMFILE, faults.OPEN | faults.CREATE)):
@@ -226,7 +228,8 @@ class Scarce(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_what_runs_out_comes_back(self):
-        """The running job waits and says why, others are refused; then everything continues."""
+        """While a resource is short the running job waits and says why, and other jobs are refused. Then everything
+        continues."""
         for number, mask in (
             (errno.ENOSPC, faults.WRITE),
             (errno.EMFILE, faults.OPEN | faults.CREATE),
@@ -253,8 +256,7 @@ class Scarce(Case):
                 self.assertEqual(self.half_written(), [])
 
     def test_several_jobs_wait(self):
-        """A disk that is full long enough for a second attempt, with three jobs in the queue; one can be deleted
-        meanwhile."""
+        """The disk stays full until the second attempt, with three jobs in the queue. One can be deleted meanwhile."""
         server = self.start(by=self.faults.start)
         jobs = [self.make({"scenes": [{**SCENE, "time": 30}] * 4}, server=server) for _ in range(3)]
         self.faults.files(faults.WRITE, errno.ENOSPC)
@@ -275,7 +277,7 @@ class Scarce(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_a_stop_while_a_disk_is_full(self):
-        """Jobs that wait when the server is told to stop, or is killed, continue after the next start."""
+        """The server is stopped or killed while jobs wait for the disk. They continue after the next start."""
         for end in ("stop", "kill"):
             server = self.start(by=self.faults.start)
             job = self.make({"scenes": [{**SCENE, "time": 20}] * 4}, server=server)
@@ -294,11 +296,12 @@ class Scarce(Case):
             self.assertEqual(server.stop(), 0)
 
     def test_one_exposure_is_kept_before_it_is_used(self):
-        """All frames of a film have one exposure, which is measured first: while its record cannot be written the
-        job waits, because after a restart another might be measured."""
+        """All frames of a film have one exposure, which is measured first. The job waits until its record is written,
+        because after a restart a different one might be measured."""
         server = self.start(by=self.faults.start)
         scene = {"image": SCENE["image"], "time": 20, "style": {"exposure": "auto"}}
-        self.faults.files(faults.RENAME, errno.ENOSPC, 4)  # three for the job that is accepted, one for its strike
+        # three renames when the job is accepted, and one for the record of its attempt
+        self.faults.files(faults.RENAME, errno.ENOSPC, 4)
         job = self.make({"scene": scene, "keyframes": [{"frame": 5, "scene": {"time": 25}}]}, server=server)
         told = self.delayed(job, server)
         self.assertEqual((told["finished"], told.get("exposure"), self.faults.files_failed), (0, None, 1))
@@ -309,7 +312,7 @@ class Scarce(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_files_that_are_slow(self):
-        """A worker checks a cube and reads a table: others are answered while a disk keeps it waiting."""
+        """While a slow disk blocks the worker that checks a cube or reads a table, other requests are answered."""
         server = self.start(by=self.faults.start)
         scene = {"image": {"width": 8, "height": 4, "layers": ["rgb"]}}
         for asked, query in (
@@ -351,8 +354,8 @@ class Scarce(Case):
             return daemon.read_answer(s)
 
     def test_a_disk_that_is_slow_to_write(self):
-        """While an operation (put, delete, accept, evict) waits for the disk, others can still ask for assets and
-        jobs."""
+        """While an operation (upload, deletion, acceptance, eviction) waits for the disk, other requests for assets and
+        jobs are answered."""
         server = self.start("--assets", 3, "--client-share", 100, "--asset-keep-s", 1, by=self.faults.start)
         put = lambda seed: server.request("PUT", "/v1/assets", assets.png(seed=seed), {"Content-Type": "image/png"})
         remove = lambda path, token: server.request("DELETE", path, headers={"Authorization": "Bearer " + token})
@@ -372,7 +375,7 @@ class Scarce(Case):
         for name, (ask, status) in ways.items():
             with self.subTest(name):
                 if "place" in name:
-                    threading.Event().wait(1.2)  # what nobody has asked for in a second gives way
+                    threading.Event().wait(1.2)  # an asset that nobody has requested for a second may be evicted
                     self.assertEqual(server.get(f"/v1/assets/{kept['sha256']}").status, 200)
                 answers = []
                 self.faults.set("files_slow", 2)

@@ -1,7 +1,7 @@
-"""Descriptors run out, and whoever is at the other end of a connection or a pipe goes away, in front of a renderer
-without a device.
+"""Descriptors run out, and clients and readers of pipes disappear, with a renderer without a device.
 
-ends.py FAULTS SERVER"""
+ends.py FAULTS SERVER
+"""
 
 import http.client
 import json
@@ -19,8 +19,8 @@ BIG = {"image": {"width": 800, "height": 600, "samples": 2}, "time": 5}  # 1.4 M
 
 class Descriptors(state.Case):
     def test_none_is_left(self):
-        """Whoever is connected is answered, whoever is new is told why not; nothing that was accepted is lost, and all
-        is well when there are some again."""
+        """While no descriptor is left, connected clients are answered and new ones are told why not. Nothing that was
+        accepted is lost, and everything works when there are some again."""
         server = self.start()
         held = [http.client.HTTPConnection("127.0.0.1", server.port, timeout=30) for _ in range(3)]
 
@@ -34,11 +34,12 @@ class Descriptors(state.Case):
         paths = ("/healthz", "/metrics", "/v1/render?" + daemon.SMALL)
         good = [
             ask(connection, "GET", path.replace("/metrics", "/readyz")) for connection, path in zip(held, paths)
-        ]  # /metrics are asked for the first time when none is left
+        ]  # metrics are requested for the first time when no descriptor is left
         job = self.make({"scenes": [{**SCENE, "time": 50}] * 20}, server=server)
         self.assertTrue(daemon.eventually(lambda: self.status(job, server)["finished"]))
         limits = resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE)
-        # The least of some moments: at others a frame of the job is being written, whose descriptor is soon free.
+        # The minimum over some moments, because at some of them a frame of the job is being written, whose descriptor
+        # is soon closed.
         least = min(server.open_files() for _ in range(50) if not time.sleep(0.01))
         resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE, (least - 1, limits[1]))
         outcomes = []
@@ -81,7 +82,7 @@ class Descriptors(state.Case):
 
 class Clients(state.Case):
     def test_a_client_goes_away_in_the_middle_of_an_answer(self):
-        """Of each kind of answer: nothing stays of it, and the next one is whole."""
+        """For each kind of answer: nothing remains of it, and the next one is complete."""
         server = self.start()
         session = server.post("/v1/sessions", {**BIG, "motion": {"time_rate": 10}}).json()
         job = self.make({"scenes": [{**BIG, "time": 1 + i} for i in range(6)]}, server=server)
@@ -130,7 +131,7 @@ class Clients(state.Case):
                             got += more
                             s.settimeout(2)
                     except TimeoutError:
-                        pass  # a stream has said all for now
+                        pass  # the stream has nothing more to send for now
                     if taken > 1:
                         self.assertRegex(got, rb"^HTTP/1.1 (200|202|204) ")
                     outcomes.append(

@@ -1,8 +1,9 @@
-"""Programs under test whose memory, files, descriptors and clocks fail when a test says so (control.h), and a ledger of
-what has come of it.
+"""Programs under test whose memory, files, descriptors and clocks fail on request (control.h), and a ledger of the
+outcomes.
 
-KD_WHOLE=1 lets each n of a series fail instead of some; KD_LEDGER=FILE appends what has been tried, a JSON object a
-line, for run.py. KD_FAULTS_TELL=1 lets the program say where an allocation has failed."""
+With KD_WHOLE=1 each n of a series fails instead of some. KD_LEDGER=FILE appends what was tried, one JSON object a line,
+for run.py. With KD_FAULTS_TELL=1 the program prints where an allocation failed.
+"""
 
 import collections
 import json
@@ -47,7 +48,7 @@ WHOLE = bool(os.environ.get("KD_WHOLE"))
 
 
 class Faults:
-    """The memory through which a program is told what is to fail. `set` takes effect at once."""
+    """The shared memory that tells a program what must fail. `set` takes effect at once."""
 
     def __init__(self):
         self.file = tempfile.NamedTemporaryFile()
@@ -63,7 +64,7 @@ class Faults:
         struct.pack_into("<q", self.map, 8 * FIELDS.index(name), value)
 
     def memory(self, n, count=1):
-        """The n-th allocation from now on, counted from 0, fails, and so do those after it, `count` in all."""
+        """Lets the n-th allocation from now on fail, counted from 0, and those after it, `count` in all."""
         self.set("fail_at", -1)
         self.set("fail_for", count)
         self.before, self.counted = self.allocations, None
@@ -78,25 +79,25 @@ class Faults:
         self.set("files_at", n)
 
     def mend(self):
-        """Nothing fails any more. The first call after `memory` stores in `counted` how many allocations could have
-        failed."""
+        """Lets nothing fail any more. If `memory` was called before, `counted` is then the number of allocations that
+        could have failed."""
         if self.counted is None:
             self.counted = self.allocations - self.before
         self.set("fail_at", -1)
         self.set("files_at", -1)
 
     def blocks(self):
-        """Blocks that the program has not freed: address -> where they were allocated."""
+        """The blocks that the program has not freed: address -> where they were allocated."""
         words = struct.unpack_from(f"<{2 * BLOCKS}Q", self.map, 8 * len(FIELDS))
         return {at: place for at, place in zip(words[::2], words[1::2]) if at}
 
     def forget(self):
-        """Call before another program is started with it: that has no blocks yet."""
+        """Call this before another program is started with it, which has no blocks yet."""
         self.set("live", 0)
         self.map[8 * len(FIELDS) : 8 * len(FIELDS) + 16 * BLOCKS] = bytes(16 * BLOCKS)
 
     def stacks(self):
-        """The stacks of calls that allocated while by_stack was 1: stack -> how often."""
+        """The stacks of calls that allocated while by_stack was 1: stack -> number of allocations."""
         words = struct.unpack_from(f"<{3 * STACKS}q", self.map, 8 * len(FIELDS) + 16 * BLOCKS)
         return {stack: count for stack, count in zip(words[::3], words[2::3]) if stack}
 
@@ -122,12 +123,12 @@ class Faults:
 
 
 def fake():
-    """Whether the server under test is the one without a device, which has additional options."""
+    """True if the server under test is the one without a device, which has additional options."""
     return "fake_server" in daemon.COMMAND[0]
 
 
 def where(place):
-    """The source line of a place that control.h calls `from`; in a library its number."""
+    """The source line of a place that control.h calls `from`; for a library, its number."""
     if place >> 48:
         return f"library {place >> 48}+{place & (1 << 48) - 1:#x}"
     done = subprocess.run(
@@ -137,15 +138,15 @@ def where(place):
 
 
 def some(count, most):
-    """Numbers from 0 up to below count: all of them if the whole is asked for, otherwise at most that many, evenly
-    spaced."""
+    """Numbers from 0 to below count: all of them with KD_WHOLE=1, otherwise at most `most`, evenly spaced."""
     return (
         range(count) if WHOLE or count <= most else sorted({round(i * (count - 1) / (most - 1)) for i in range(most)})
     )
 
 
 def record(kind, scenario, outcomes, points=None):
-    """Records the outcomes of faults: outcomes counts words; points: how many places there were to choose from."""
+    """Records the outcomes of faults. outcomes: number of times for each word; points: number of places that were
+    possible."""
     outcomes = collections.Counter(outcomes)
     tried = sum(outcomes.values())
     print(

@@ -1,7 +1,10 @@
-"""Clocks that jump: the one on the wall by hours and days, back and forth, and the one that nobody sets by ten minutes,
-as it does where a virtual machine was held.
+"""Clocks that jump, with a renderer without a device.
 
-jumps.py FAULTS SERVER"""
+The wall clock jumps by hours and days, back and forth. The monotonic clock, which nobody sets, jumps by ten minutes, as
+where a virtual machine was suspended.
+
+jumps.py FAULTS SERVER
+"""
 
 import time
 
@@ -21,21 +24,22 @@ class Jumps(state.Case):
         self.addCleanup(self.faults.close)
 
     def make_by(self, hours, server):
-        """A job that is done and deleted, with the time of the clock that is ahead: shows that the clock did jump,
-        without which the tests would prove nothing."""
+        """Makes a job, waits for its end and deletes it. Its time shows that the clock did jump; without this the tests
+        would prove nothing."""
         made = self.make({"scene": SCENE}, server=server)
         self.assertAlmostEqual(self.until(made, "done", server)["created"], time.time() + hours * 3600, delta=60)
         self.assertEqual(self.delete(made, server).status, 204)
 
     def test_the_clock_on_the_wall(self):
-        """Finished jobs are kept for a day by the steady clock, whatever the wall clock says, and over restarts."""
+        """Finished jobs are kept for a day by the monotonic clock, whatever the wall clock says, also across
+        restarts."""
         server = self.start(by=self.faults.start)
         job = self.make({"scene": SCENE}, server=server)
         self.until(job, "done", server)
         hours = (5, -5, 240, -240)
         for n in hours:
             self.faults.set("wall_s", n * 3600)
-            time.sleep(0.4)  # it sweeps ten times a second
+            time.sleep(0.4)  # the server looks for expired jobs ten times a second
             self.make_by(n, server)
             self.assertEqual(server.get(self.at(job)).status, 200, n)
             self.assertEqual(server.get("/v1/render?" + daemon.SMALL).status, 200)
@@ -63,8 +67,8 @@ class Jumps(state.Case):
         self.assertEqual(server.stop(), 0)
 
     def test_a_machine_that_was_held(self):
-        """Requests that were running may have been given up as too late, with an answer that says so; jobs, sessions
-        that are watched, and connections in use continue."""
+        """After a suspension, requests that were running may be given up as too late, with an answer that says so.
+        Jobs, watched sessions and connections in use continue."""
         server = self.start("--sessions", 4, by=self.faults.start)
         session = server.post(
             "/v1/sessions", {**SCENE, "sky": {"model": "grid"}, "motion": {"azimuth_rate_deg": 10}}
@@ -84,7 +88,7 @@ class Jumps(state.Case):
             self.assertIn(answer.status, (200, 413, 422, 503), answer.body)
             render_word = "whole answer" if answer.status == 200 else f"{answer.status}"
             got = 0
-            while got < 20000:  # the stream goes on
+            while got < 20000:  # the stream continues
                 n = len(stream.recv(10000))
                 self.assertTrue(n, "the stream of a session has ended")
                 got += n

@@ -184,8 +184,8 @@ static void *counted(void *block, uint64_t where)
     return block;
 }
 
-/* Searches as far as probing can displace blocks at a load of a quarter. True: the block was counted; *where: its
- * caller. */
+/* Removes a block from the table; false if it was not counted. Searches as many slots as probing can displace an entry
+ * in a table that is a quarter full. *where: the caller that allocated the block. */
 static bool uncount(const void *block, uint64_t *where)
 {
     for (uint64_t i = slot_of(block), n = 0; n < 64; n++) {

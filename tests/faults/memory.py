@@ -1,8 +1,11 @@
-"""Every allocation of a request fails once, in front of a renderer without a device: the answer is a problem of 5xx or
-the whole document, nothing leaks, the server lives and answers the same request as before.
+"""Lets every allocation of a request fail once, with a renderer without a device.
 
-    memory.py FAULTS SERVER                 some allocations of each request
-    KD_WHOLE=1 memory.py FAULTS SERVER      all of them"""
+The answer is a problem of status 5xx or the whole document, nothing leaks, and the server then answers the same request
+as before.
+
+memory.py FAULTS SERVER                 some allocations of each request
+KD_WHOLE=1 memory.py FAULTS SERVER      all of them
+"""
 
 import faults
 
@@ -17,7 +20,7 @@ RING = {"spin": 0.5, "rays": [[5.0, 1.0], [2.0, -3.0]]}
 
 class Memory(sweep.Case):
     def owned(self, kind, body=None):
-        """Create one and delete it; returns the answer to the creation."""
+        """Creates one and deletes it; returns the answer to the creation."""
 
         def ask():
             answer = self.post(kind, body or ({"scene": IMAGE} if kind == "/v1/jobs" else IMAGE))()
@@ -51,7 +54,7 @@ class Memory(sweep.Case):
                 self.sweep(self.get(target), 200, "GET " + target)
 
     def test_a_new_connection(self):
-        """A new connection may be closed, with an answer if there is memory for it; others stay."""
+        """A new connection may be closed, after an answer if there is memory for one. Other connections stay open."""
         self.closes = True
 
         def ask():
@@ -66,7 +69,7 @@ class Memory(sweep.Case):
                 self.sweep(self.get(target), status, "GET " + target)
 
     def test_scene(self):
-        """A scene is checked by planning it, and merged over a preset."""
+        """A scene is checked by planning it, and is merged over a preset."""
         self.sweep(self.post("/v1/plan", IMAGE), 200, "POST /v1/plan")
         self.sweep(
             self.post(
@@ -119,8 +122,8 @@ class Memory(sweep.Case):
         self.sweep(self.owned("/v1/sessions"), 201, "POST /v1/sessions")
 
     def test_a_change_of_a_session(self):
-        """A change that was answered is there; one that was refused is there completely or not at all, because it
-        may be the answer for which there was no memory."""
+        """A change that was answered has happened. One that was refused has happened completely or not at all, because
+        the missing memory may have been that of the answer."""
         session = self.server.post("/v1/sessions", {**IMAGE, "time": 1}).json()
         at, owner = f"/v1/sessions/{session['id']}", {"Authorization": "Bearer " + session["token"]}
         turn = [20]
@@ -130,7 +133,7 @@ class Memory(sweep.Case):
 
         def change():
             before = inclination()
-            turn[0] = 41 - turn[0]  # critical curves are kept by camera: of two cameras no more than two
+            turn[0] = 41 - turn[0]  # critical curves are cached by camera: with two cameras there are at most two
             try:
                 answer = self.ask("PATCH", at, {"camera": {"inclination_deg": turn[0]}}, owner)
             finally:
@@ -160,7 +163,7 @@ class Memory(sweep.Case):
             self.end_one("/v1/assets", {"id": put["sha256"], "token": put["token"]})
 
     def puts(self, name, made, kind):
-        """Each attempt puts other bytes, which must be found afterwards exactly if they were accepted."""
+        """Each attempt uploads different bytes. If they were accepted, exactly these must be found afterwards."""
         seed = [0]
 
         def put():
@@ -180,7 +183,7 @@ class Memory(sweep.Case):
         self.sweep(put, 201, "PUT /v1/assets of " + name)
 
     def test_a_job_to_its_end(self):
-        """A job that was accepted ends with the same bytes as without a failure, if need be after a wait."""
+        """An accepted job ends with the same bytes as without a failure, possibly after a wait."""
 
         def ask():
             answer = self.post("/v1/jobs", {"scenes": [{**IMAGE, "time": 1}, {**IMAGE, "time": 2}]})()

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Lets each fault of each series happen, and writes into docs/faults.md what has come of them.
+"""Makes each fault of each series happen, and writes the outcomes into docs/faults.md.
 
-    tests/faults/run.py [BUILD]                 all of them, some half an hour on two cores; BUILD: build/
-    tests/faults/run.py --keep FOLDER [BUILD]   likewise; what is done stands in the folder, and the next run with it
-                                                does the rest
-    tests/faults/run.py --check [BUILD]         those of the suite, a few minutes, and writes nothing
+tests/faults/run.py [BUILD]                 all of them, some half an hour on two cores; BUILD: build/
+tests/faults/run.py --keep FOLDER [BUILD]   the same; results are kept in the folder, and the next run with this folder
+    does the rest
+tests/faults/run.py --check [BUILD]         the faults of the test suite, a few minutes; writes nothing
 
-The exit code is 1 if a test has failed; then nothing is written either."""
+The exit code is 1 if a test has failed; then nothing is written either.
+"""
 
 import argparse
 import collections
@@ -23,7 +24,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 DOCUMENT = ROOT / "docs/faults.md"
 BEGIN, END = "<!-- what run.py has found -->", "<!-- its end -->"
-# Run side by side; of the last ones each case separately.
+# These run side by side. Each case of the last ones runs separately.
 TESTS = (
     "memory",
     "disk",
@@ -61,7 +62,7 @@ def start(build, name, ledger, whole):
 
 
 def happened(outcomes):
-    """How many faults have been injected."""
+    """Number of faults that were injected."""
     return sum(n for word, n in outcomes.items() if word != "not reached")
 
 
@@ -89,8 +90,8 @@ def rows(entries):
 
 
 def run(build, folder, whole):
-    """Runs them; returns those that failed. The results of the others are in files of the folder named after them;
-    those that have a file already are not run again."""
+    """Runs the tests; returns those that failed. The results of the others are in files of the folder, named after the
+    tests. A test that already has a file is not run again."""
     running = {
         name: start(build, name, folder / f"{name}.part", whole) for name in TESTS if not (folder / name).exists()
     }

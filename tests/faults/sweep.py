@@ -1,12 +1,12 @@
-"""Lets each allocation of a request fail once, and checks the answer, what is left behind, and the answer to the
-same request afterwards."""
+"""Makes each allocation of a request fail once, and checks the answer, what is left behind, and a repetition of the
+request."""
 
 import collections
 import http.client
 import json
 import unittest
 
-import faults  # first: it knows where daemon is
+import faults  # first: it adds the folder of `daemon` to the path
 
 import daemon
 
@@ -14,7 +14,7 @@ PROBLEM = {"type", "title", "status", "detail"}
 
 
 def shape(document):
-    """A document with its numbers and texts removed, which shows whether a part is missing."""
+    """The document without its numbers and texts, which shows whether a part is missing."""
     if isinstance(document, dict):
         return {k: shape(v) for k, v in document.items()}
     return (
@@ -27,7 +27,8 @@ def shape(document):
 
 
 def plain(answer):
-    """Without what a job or a session states about its frame, which may have had no memory, or be done already."""
+    """The answer without what a job or a session says about its frame. The frame may have failed for lack of memory, or
+    may be done already."""
     document = answer.json()
     return (
         {
@@ -41,12 +42,12 @@ def plain(answer):
 
 
 class Case(unittest.TestCase):
-    """Each test has a server of its own, which must not leak; under a sanitizer that is checked as well."""
+    """Each test has a server of its own, which must not leak; under a sanitizer this is checked too."""
 
     options = ("--jobs", 100, "--sessions", 100)
-    most = 12  # failures of each request where not the whole is asked for
-    armed = None  # the allocation that fails once something is asked
-    closes = False  # whether a connection may be closed without a word, because it is new
+    most = 12  # number of failures of each request without KD_WHOLE=1
+    armed = None  # the number of the allocation that fails once a request is made
+    closes = False  # a new connection may be closed without an answer
 
     def setUp(self):
         self.faults = faults.Faults()
@@ -82,13 +83,13 @@ class Case(unittest.TestCase):
         return lambda: self.ask("POST", target, body)
 
     def connect(self):
-        """A new connection that has carried one request, so that its thread has all it needs."""
+        """A new connection that has carried one request, so that its thread has allocated all it needs."""
         self.connection.close()
         self.assertEqual(self.get("/v1/schema")().status, 200)
 
     def with_failure(self, ask, n):
-        """The answer; None for a closed connection. Allocations are counted from the start of the request until the
-        memory is mended or the request ends."""
+        """The answer to a request whose n-th allocation fails; None if the connection was closed. Allocations are
+        counted from the start of the request to its end, or until the memory is mended."""
         self.connect()
         self.armed = n
         try:
@@ -103,7 +104,7 @@ class Case(unittest.TestCase):
         return self.faults.live
 
     def leaks(self, ask, n):
-        """Blocks that accumulate with each of several failures at the same place, and where they were allocated."""
+        """Blocks that accumulate when the same place fails several times, and where they were allocated."""
         grown, begin = [], self.faults.blocks()
         for _ in range(4):
             before = self.faults.live

@@ -1,20 +1,22 @@
-"""Calls of Vulkan that fail, one by one, beneath a running server (vulkan_table.c): each ends in a clear error, in the
-same bytes as without it, or in exit code 3.
+"""Lets calls of Vulkan fail, one by one, beneath a running server (vulkan_table.c).
 
-    python3 vulkan.py build/tests/faults/kerrd_vulkan_faults --full [OPTION...]
+Each failure must end in a clear error, in the same bytes as without it, or in exit code 3.
 
-tries every call of every entry point with every code, a fresh server for each: hours. It writes docs/faults-vulkan.md.
-vulkan_first.py has the tests of the suite.
+python3 vulkan.py build/tests/faults/kerrd_vulkan_faults --full [OPTION...]
 
-    --rotate       of the codes that the specification allows one a call, by turns: every call and every code, a third
-                   of the faults; of calls that name objects every eighth
-    --whole NAME   a scenario for which --rotate does not count; may be repeated
-    --minutes N    as many of the faults as that takes, drawn by chance
-    --only NAME    a scenario: start, render, session, job, rays, mixed, reopen, incoherent; may be repeated
-    --workers N    servers at once (default 2)
-    --keep FILE    what was tried is noted there, a line each: the next run with this file goes on from it, and its
-                   table has what both have found
-    --table FILE   instead of docs/faults-vulkan.md; - for standard output"""
+This tries every call of every entry point with every code, with a fresh server for each, which takes hours. It writes
+docs/faults-vulkan.md. The tests of the suite are in vulkan_first.py.
+
+--rotate       for each call one of the codes that the specification allows, in rotation. So every call and every code
+               is tried, with a third of the faults. Of calls that name objects only every eighth is tried
+--whole NAME   a scenario that --rotate does not reduce; may be repeated
+--minutes N    as many faults as this time allows, chosen at random
+--only NAME    a scenario: start, render, session, job, rays, mixed, reopen, incoherent; may be repeated
+--workers N    number of servers at once (default 2)
+--keep FILE    records what was tried, a line each. The next run with this file continues, and its table has the
+               results of both
+--table FILE   instead of docs/faults-vulkan.md; - for standard output
+"""
 
 import argparse
 import collections
@@ -111,7 +113,7 @@ MAKERS = ["AllocateMemory", *(name for name in NAMES if name.startswith("Create"
 FIELDS = ("entry", "countdown", "code", "injected", "lost", "dead", "hang", "incoherent")
 PROBLEMS = ((500, "device-lost"), (503, "out-of-memory"))
 EXIT_DEVICE = 3
-PATIENCE_S = 240  # in which each request is answered; longer: it hangs
+PATIENCE_S = 240  # within which each request must be answered; otherwise the server counts as hanging
 RENDER = "/v1/render?image.width=48&image.height=27"
 IMAGE = {"width": 48, "height": 27}
 SCENE = {"image": IMAGE, "disk": {"gas": {"amplitude": 0}}}
@@ -204,7 +206,7 @@ def render(server):
 
 
 def last_frame(server, session, after):
-    """The last frame of a picture that does not move, after which none finer follows. With its number."""
+    """The last frame of a picture that does not move, which is not refined further; with its number."""
     for _ in range(60):
         answer = wanted(
             server.request(
@@ -309,7 +311,7 @@ def mixed(server):
     return b"".join(one.result() for one in under_way)
 
 
-# at_start: the fault is during the start. loses: the device is lost as well. only: for these entry points.
+# at_start: the fault is during the start. loses: the device is lost as well. only: for these entry points alone.
 Scenario = collections.namedtuple(
     "Scenario", "run at_start loses incoherent only", defaults=(False, False, False, NAMES)
 )
@@ -344,7 +346,7 @@ def reopened(server):
 
 
 def stop(server):
-    """Stops the server; returns how it ended. One that does not end counts as hanging."""
+    """Stops the server; returns how it ended. A server that does not end counts as hanging."""
     server.terminate()
     try:
         return server.wait(PATIENCE_S)
@@ -365,10 +367,10 @@ def live(server, scenario, faults, fault, same):
     except Refused as refused:
         got, outcome = None, f"error {refused}"
     if faults.get("injected"):
-        faults.disarm()  # else it may come when it stops
+        faults.disarm()  # otherwise the fault might come when the server stops
     if same is not None and got is not None and got != same:
         raise Broken("other bytes than without the fault")
-    if outcome:  # the next is as if nothing had been
+    if outcome:  # the next request must work as if nothing had happened
         try:
             again = scenario.run(server)
         except Refused as refused:
@@ -406,7 +408,7 @@ def no_objects(faults):
 
 
 def starts_not(faults):
-    """The one line that says why it does not start."""
+    """The one line that says why the server does not start."""
     done = subprocess.run(
         [*daemon.COMMAND, "--port", "0"],
         capture_output=True,
@@ -448,7 +450,7 @@ def one(scenario, fault=None, same=None):
         faults.close()
 
 
-CACHE = tempfile.TemporaryDirectory()  # of pipelines; and what the device is known to do
+CACHE = tempfile.TemporaryDirectory()  # the pipeline cache, and what is known about the device
 
 
 def kind_of(scenario, fault, outcome, injected):
@@ -459,7 +461,8 @@ def kind_of(scenario, fault, outcome, injected):
         if word != ("recovered" if scenario.loses else "same"):
             raise Broken(f"without a fault: {outcome}")
         return "not reached"
-    if word == "error" and f"vk{name}" not in outcome and code != DRIVER:  # there is no driver, it says
+    # the message then says that there is no driver
+    if word == "error" and f"vk{name}" not in outcome and code != DRIVER:
         raise Broken(f"this does not say what has failed: {outcome}")
     if word == "error" and code == LOST and not scenario.at_start:
         raise Broken(f"the device was lost and could have been opened again: {outcome}")
@@ -487,8 +490,8 @@ def attempt(scenario, fault, same, until):
 
 
 def sweep(name, rotate, workers, until, kept):
-    """A row for each entry point that the scenario calls: name, calls, number of possible faults, and how many had
-    which outcome. Adds to the stored results."""
+    """A row for each entry point that the scenario calls: name, number of calls, number of possible faults, and number
+    of faults by outcome. Adds to the stored results."""
     scenario = SCENARIOS[name]
     _, same, _, calls = one(scenario)
     with concurrent.futures.ThreadPoolExecutor(workers) as pool:
@@ -525,10 +528,10 @@ def full(arguments):
         "--table", default=str(pathlib.Path(__file__).resolve().parents[2] / "docs" / "faults-vulkan.md")
     )
     options = parser.parse_args(arguments)
-    one(SCENARIOS["render"])  # meets the device for the first time, which is tested then
+    one(SCENARIOS["render"])  # opens the device for the first time, which is tested then
     names = [name for name in SCENARIOS if not options.only or name in options.only]
     begun, results, kept = time.monotonic(), {}, Kept(options.keep)
-    for i, name in enumerate(names):  # each has its share of what time is left
+    for i, name in enumerate(names):  # each entry point has an equal share of the remaining time
         now = time.monotonic()
         until = now + (60 * options.minutes - (now - begun)) / (len(names) - i) if options.minutes else float("inf")
         results[name] = sweep(name, options.rotate and name not in options.whole, options.workers, until, kept)

@@ -1,4 +1,4 @@
-"""Tests of first calls of Vulkan that fail, devices that cannot be recovered, and devices and drivers that hang;
+"""Tests of failing first calls of Vulkan, of devices that cannot be recovered, and of devices and drivers that hang.
 vulkan.py tests all calls."""
 
 import concurrent.futures
@@ -50,7 +50,7 @@ class Case(unittest.TestCase):
 
 class Vulkan(Case):
     def test_first_calls(self):
-        """One server: each request gets as far as the entry point at which it fails."""
+        """With one server, each request gets as far as the entry point that fails."""
         server, told = self.start(), {}
         for name in (
             "CreateBuffer",
@@ -107,7 +107,8 @@ class Vulkan(Case):
             self.assertIn(f"vk{name}: VK_ERROR_OUT_OF_HOST_MEMORY", done.stderr.decode())
 
     def test_all_go_on_when_the_device_is_opened_again(self):
-        """A session, a job and a list of rays that were running when a render lost the device continue."""
+        """A session, a job and a list of rays that run while a render loses the device continue after it is
+        reopened."""
         server = self.start()
         calm = session(server), job(server), rays(server)
         for n in (1, 3):
@@ -120,13 +121,13 @@ class Vulkan(Case):
         self.assertEqual(server.stop(), 0, server.said())
 
     def test_each_kind_is_as_before_after_faults_under_mixed_load(self):
-        """Device memory is short for one call while two kinds of requests are running: no client is blamed for it,
-        and afterwards each kind works as before."""
+        """Device memory is short for one call while two kinds of requests are running. No client gets an error that
+        blames the request, and afterwards each kind works as before."""
         server = self.start()
         before = {name: kind(server) for name, kind in MIXED.items()}
         reached = 0
         for name, n in (("CreateBuffer", 0), ("CreateBuffer", 7), ("BindBufferMemory", 3), ("QueueSubmit", 2)):
-            # which takes buffers of its own
+            # this view uses buffers of its own
             view = {
                 "image": {"width": 64 + 16 * n, "height": 36, "samples": "auto"},
                 "camera": {"inclination_deg": 50 + n},
@@ -134,7 +135,8 @@ class Vulkan(Case):
             self.faults.arm(name, n, DEVICE)
             with concurrent.futures.ThreadPoolExecutor(2) as pool:
                 for one in [pool.submit(ask, server, view) for ask in (picture, job_of, picture)]:
-                    with contextlib.suppress(Refused):  # any other answer that is no success is Broken
+                    # a refusal is allowed; any other answer without success raises Broken
+                    with contextlib.suppress(Refused):
                         one.result()
             reached += self.faults.get("injected")
             self.faults.disarm()
@@ -144,7 +146,7 @@ class Vulkan(Case):
         self.assertEqual(server.stop(), 0, server.said())
 
     def test_often(self):
-        """The device is opened again only a limited number of times; an accepted job is there after the next start."""
+        """The device is reopened only a limited number of times. An accepted job still exists after the next start."""
         for how, options in (("often", ("--device-reopenings", 1)), ("dead", ())):
             with self.subTest(how), tempfile.TemporaryDirectory() as state:
                 server = self.start("--state", state, *options)
@@ -164,8 +166,8 @@ class Vulkan(Case):
                 self.assertEqual(server.stop(), 0, server.said())
 
     def test_a_device_that_hangs(self):
-        """Clients that wait get an answer, and the process ends. The kernels are compiled before: on a busy machine
-        that takes longer than the time allowed to a hanging driver."""
+        """Waiting clients get an answer, and the process ends. The kernels are compiled beforehand, because on a busy
+        machine that takes longer than a hanging driver is allowed."""
         server = self.start()
         self.assertEqual(server.get(RENDER).status, 200)
         self.assertEqual(server.stop(), 0, server.said())
@@ -179,11 +181,11 @@ class Vulkan(Case):
 
 
 class Long(Case):
-    """A call that does not return: clients notice only by the end of the process."""
+    """A call that never returns: clients notice only that the process ends."""
 
     def test_a_driver_that_hangs(self):
-        """Either the device that compiles a picture's kernels hangs or, if they are compiled, the one that renders
-        it."""
+        """The device that hangs is the one that compiles a picture's kernels or, if they are compiled, the one that
+        renders it."""
         for there in (False, True):
             with self.subTest(there=there):
                 server = self.start("--device-timeout", 1)
@@ -197,15 +199,15 @@ class Long(Case):
                 self.faults.set(hang=0)
 
     def test_a_device_that_fails_while_it_hangs_is_not_opened_beside_itself(self):
-        """Its first piece of work never ends, and the second cannot begin: a hanging device cannot be closed, so no
-        other is opened."""
+        """The first piece of work never ends, and the second cannot begin. A hanging device cannot be closed, so that
+        no second one is opened."""
         server = self.start("--device-timeout", 1)
-        self.assertEqual(server.get(RENDER).status, 200)  # its kernels are there from now on
+        self.assertEqual(server.get(RENDER).status, 200)  # compiles its kernels
         before = self.faults.calls()["CreateDevice"]
         self.faults.arm("BeginCommandBuffer", 1, UNKNOWN)
         self.faults.set(hang=1)
         with contextlib.suppress(OSError, daemon.http.client.HTTPException):
-            self.assertEqual(server.get(RENDER + "&disk.gas.amplitude=0.5").status, 500)  # nothing is traced
+            self.assertEqual(server.get(RENDER + "&disk.gas.amplitude=0.5").status, 500)  # this picture traces no rays
         self.assertEqual(server.wait(60), EXIT_DEVICE)
         self.assertEqual(self.faults.get("injected"), 1)
         self.assertNotIn("opened again", server.said())

@@ -1,4 +1,4 @@
-"""Outcomes of faults of Vulkan, kept in a file from run to run and written as docs/faults-vulkan.md (for vulkan.py)."""
+"""Outcomes of Vulkan faults, stored in a file from run to run and written as docs/faults-vulkan.md (for vulkan.py)."""
 
 import collections
 import json

@@ -1,5 +1,5 @@
-/* Linked into a kerrd under test (vulkan.py) instead of the table of Vulkan entry points. Its calls fail as a file
- * named by KD_VULKAN_FAULTS says, which the test maps too. Without that file it is an ordinary kerrd. */
+/* Linked into a kerrd under test (vulkan.py) instead of the table of Vulkan entry points. Its calls fail as requested
+ * in a file named by KD_VULKAN_FAULTS, which the test maps too. Without this file it is an ordinary kerrd. */
 #include "vk/functions.h"
 
 #include <dlfcn.h>
@@ -119,7 +119,7 @@ static void __attribute__((noreturn)) wait_for_ever(void)
         nanosleep(&(struct timespec) { .tv_sec = 1 }, NULL);
 }
 
-/* Uses processor time too: a waiter that got hardly any would be waited for again. */
+/* Uses processor time while it waits: if it used hardly any, the caller would extend its time limit. */
 static VkResult hanging_wait(uint64_t timeout)
 {
     struct timespec begun, now;

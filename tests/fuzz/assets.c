@@ -1,9 +1,9 @@
-/* Fuzz target: an asset, checked as by a server before it stores one, and decoded as by a renderer: a picture of the
+/* Fuzz target: an asset, checked as a server does before it stores one, and decoded as by a renderer: a picture of the
  * sky, or a grid of matter.
  *
- * Checksums that a mutation would break are repaired first: those of a PNG's chunks. Input that begins with "grid"
- * becomes an NPZ file: records of a byte, two bytes of length and an array's bytes, or for a header only its text.
- * The byte is an index into the list of names plus a multiple that selects a value of `ways`. */
+ * The checksums of a PNG's chunks, which mutations break, are repaired first. Input that begins with "grid" becomes an
+ * NPZ file. It then consists of records of a byte, two bytes of length, and an array's bytes (for a header only its
+ * text). The byte selects a name of the list, and a value of `ways`. */
 #include "fuzz.h"
 
 #include "image/npy.h"

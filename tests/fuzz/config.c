@@ -1,5 +1,5 @@
-/* Fuzz target: the options of `kerrd serve`, as the document of a --config file, a line "---" and environment
- * variables, one a line. Values that are read are valid by the table, the environment overrides the file, and a file
+/* Fuzz target: the options of `kerrd serve`. The input is the document of a --config file, a line "---" and environment
+ * variables, one a line. Values that are read are valid by the table; the environment overrides the file; and a file
  * written from the effective settings reads back the same. The list of --cors-origin is parsed as origins, too. */
 #include "fuzz.h"
 

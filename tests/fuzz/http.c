@@ -1,5 +1,5 @@
-/* Fuzz target: the head of a request, line by line: target, base path, Accept, Accept-Encoding, If-None-Match,
- * Content-Type, Host, X-Request-Id, Last-Event-ID. All lines are optional. */
+/* Fuzz target: the head of a request. Its parts come line by line: target, base path, Accept, Accept-Encoding,
+ * If-None-Match, Content-Type, Host, X-Request-Id, Last-Event-ID. All lines are optional. */
 #include "fuzz.h"
 
 #include "base/utf8.h"
@@ -44,7 +44,7 @@ static void check_target(const char *raw, const struct kd_base_path *base)
     kd_target_finish(&target);
 }
 
-/* A request that is recognised as a health check by its beginning is one as a whole. */
+/* A request whose beginning is recognised as a health check must be a health check as a whole. */
 static void check_begins(const char *raw, const struct kd_base_path *base)
 {
     struct kd_buffer line = { 0 };

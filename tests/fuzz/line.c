@@ -1,5 +1,5 @@
-/* Fuzz target: scene arguments of a command line, a word a line: PATH=VALUE, WIDTHxHEIGHT, WIDTHxHEIGHT+LEFT+TOP,
- * and after "axis " an axis of a sweep. The line that describes the scene makes the same scene again. */
+/* Fuzz target: the scene arguments of a command line, one a line: PATH=VALUE, WIDTHxHEIGHT, WIDTHxHEIGHT+LEFT+TOP, and
+ * after "axis " an axis of a sweep. The line that describes the resulting scene makes the same scene again. */
 #include "fuzz.h"
 
 #include "scene/difference.h"

@@ -1,5 +1,5 @@
-/* Fuzz target: requests for a quantity, orbits, rays and particles by names: a line with the kind, then NAME=VALUE a
- * line. Cheap quantities are computed. */
+/* Fuzz target: requests for a quantity, orbits, rays or particles by names: a line with the kind, and then one
+ * NAME=VALUE a line. Cheap quantities are computed. */
 #include "fuzz.h"
 
 #include "orbit/request.h"

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Runs programs of libFuzzer side by side, each over its own corpus, and ends all of them at the first failure.
-scripts/fuzz calls it; its arguments are that script's.
+"""Runs several libFuzzer programs side by side, each over its own corpus, and ends all of them at the first failure.
+scripts/fuzz calls this program with its own arguments.
 
-    run.py BUILD LIMIT SEED JOBS RESULT TARGET...  LIMIT: libFuzzer's option, -max_total_time=S or -runs=N; SEED: 0 for
-                                                   a new one each time; RESULT: FILE.json, or nothing
-    run.py --replay BUILD                          each input that has failed, once more: exit 1 if one still does, or there is none
+run.py BUILD LIMIT SEED JOBS RESULT TARGET...  LIMIT: libFuzzer's option, -max_total_time=S or -runs=N; SEED: 0 for
+    a new one each time; RESULT: FILE.json, or nothing
+run.py --replay BUILD                          runs each input that has failed once more: exit code 1 if one still
+    fails, or if there is none
 
-An input that takes longer than 25 s, or a gigabyte and a half of memory, fails as well. Exit 1: a target has failed;
-what it said and how to see it again is printed.
+An input that takes longer than 25 s, or a gigabyte and a half of memory, is a failure too. Exit code 1: a target has
+failed; its output and how to reproduce it are printed.
 """
 
 import collections
@@ -84,7 +85,7 @@ class Target:
             )
 
     def measured(self):
-        """Figures from the log of a finished run."""
+        """The figures in the log of a finished run."""
         text = self.log.read_text(encoding="utf-8", errors="replace")
         seconds, total, covered = time.monotonic() - self.begun, TOTAL.search(text), COVERED.findall(text)
         edges, features, inputs = map(int, covered[-1]) if covered else (0, 0, 0)
@@ -110,7 +111,7 @@ class Target:
 
 
 def limit_of(name, limit):
-    """-runs=N: a tenth of the inputs for a target whose inputs decompress to megabytes each."""
+    """The limit of a target. With -runs=N, a target whose inputs decompress to megabytes each gets a tenth of them."""
     if name != "assets" or not limit.startswith("-runs="):
         return limit
     return f"-runs={max(1, int(limit.removeprefix('-runs=')) // 10)}"
@@ -144,7 +145,8 @@ def processor():
 
 
 def write(path, rows, limit, jobs):
-    """Adds this run to the file: inputs and seconds of a target add up, coverage is the latest."""
+    """Adds this run to the file. Inputs and seconds of a target are added up; the coverage is that of the latest
+    run."""
     path = pathlib.Path(path)
     known = (
         {row["target"]: row for row in json.loads(path.read_text(encoding="utf-8"))["targets"]} if path.exists() else {}

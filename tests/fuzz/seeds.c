@@ -1,6 +1,6 @@
-/* Writes seeds and dictionaries of the targets from kerrd's own tables, by its own writers, so that they stay up to
- * date: kd_fuzz_seeds OUT makes OUT/TARGET/NAME and OUT/TARGET.dict, the same each time. Seeds that tables cannot
- * give are in tests/fuzz/corpus. */
+/* Writes seeds and dictionaries of the targets from kerrd's own tables with kerrd's own writers, so that they stay up
+ * to date. kd_fuzz_seeds OUT makes OUT/TARGET/NAME and OUT/TARGET.dict, the same each time. Seeds that cannot be made
+ * from tables are in tests/fuzz/corpus. */
 #include "fuzz.h"
 
 #include "scene/difference.h"

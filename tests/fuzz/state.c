@@ -1,5 +1,5 @@
-/* Fuzz target: files that kerrd keeps between runs, selected by the first byte: the state of a film, a table of
- * accuracy, the record of a job, a line "---" and its request; and a timeline of a session's path. */
+/* Fuzz target: files that kerrd keeps between runs, selected by the first byte: the state of a film; a table of
+ * accuracy; the record of a job, a line "---" and its request; and the timeline of a session's path. */
 #include "fuzz.h"
 
 #include "base/log.h"

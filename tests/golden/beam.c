@@ -96,7 +96,7 @@ static struct ring ring_of(double p[H][W])
     return best;
 }
 
-/* In 16 bits of linear light: the style's false colours show the same picture. */
+/* The picture is measured in 16 bits of linear light, which the style's false colours also show. */
 static void the_ring_has_its_diameter(void **state)
 {
     (void)state;

@@ -64,8 +64,8 @@ static struct kd_scene view(const char *json, double exposure)
     "\"camera\":{\"r\":25,\"inclination_deg\":75,\"fov_deg\":60,\"yaw_deg\":4,\"pitch_deg\":-3,\"roll_deg\":20}"
 #define FAST "\"spacetime\":{\"spin\":0.998}"
 
-/* For each way of making a lens map. Along a rim rays have many distances from the curve, so a pixel's error falls
- * as one over their number instead of its square root. */
+/* Tests each way of making a lens map. Along a rim rays have many distances from the curve, so that a pixel's error
+ * falls as one over their number instead of its square root. */
 static void against_many_rays(void **state)
 {
     (void)state;
@@ -111,7 +111,7 @@ static void against_many_rays(void **state)
     }
 }
 
-/* Switched off it costs nothing: no rays, and the same picture to the byte. */
+/* When it is switched off, it costs nothing: no rays, and the picture is the same to the byte. */
 static void off(void **state)
 {
     (void)state;

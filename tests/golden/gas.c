@@ -1,5 +1,5 @@
-/* Appearance of the gas: its angle of emission, against Kerr-Schild geodesics and the metric; turbulence conserves
- * the flux; it rotates as gas on orbits does; one seed gives one picture. */
+/* Appearance of the gas. Its angle of emission is compared with Kerr-Schild geodesics and the metric. Turbulence
+ * conserves the flux, rotates as gas on orbits does, and is the same picture for the same seed. */
 #include "photon.h"
 #include "studio.h"
 
@@ -43,8 +43,8 @@ static double cosine(const struct ks_photon *p, const struct ks_path *path)
 
 #define DEPTH 3.0
 
-/* The ratio to an opaque disk gives the fraction that a crossing absorbs: 1 - exp(-depth F/F_max/cos). 16 bits
- * resolve the dimmest pixels judged to 1e-3. */
+/* The ratio to the picture of an opaque disk is the fraction that a crossing absorbs: 1 - exp(-depth F/F_max/cos). 16
+ * bits resolve the dimmest pixels judged to 1e-3. */
 static void emission_angle(void **state)
 {
     (void)state;
@@ -148,8 +148,8 @@ static bool same_pixels(const struct kd_scene *a, const struct kd_scene *b)
     return same;
 }
 
-/* A scene gives the same picture whatever was rendered before; another seed or time gives another one; and switched
- * off it has no effect. */
+/* A scene gives the same picture whatever was rendered before. Another seed or time gives another picture. When
+ * turbulence is off, seed and time have no effect. */
 static void one_scene_one_picture(void **state)
 {
     (void)state;
@@ -288,8 +288,8 @@ static void nothing_in_common(void **state)
             fail_msg("at radius %d the mean is off by %g, its scatter is %g", k, profile[k], sqrt(scatter[k] / SEEDS));
 }
 
-/* The power of the pattern's waves in bands, and its change from pixel to pixel along a radius, which winding up
- * would increase: constant in time within the scatter of patterns. */
+/* Two measures are constant in time within the scatter of patterns: the power of the pattern's waves in bands, and the
+ * pattern's change from pixel to pixel along a radius, which winding up would increase. */
 static void nothing_winds_up(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Slow light of gas: each pixel shows the turbulence at the time at which its light was emitted. Delays are from
- * Kerr-Schild geodesics. */
+/* Tests of slow light of gas: each pixel shows the turbulence at the time at which its light was emitted. Delays are
+ * from Kerr-Schild geodesics. */
 #include "photon.h"
 #include "studio.h"
 

@@ -111,7 +111,8 @@ static const struct shot {
 };
 #define SHOTS (sizeof shots / sizeof *shots)
 
-/* Each sky for each observer: aberrated, shifted, and for an infalling observer in coordinates of its own. */
+/* Each sky for each observer: the picture is aberrated and shifted; for an infalling observer it is in coordinates of
+ * its own. */
 #define SKY(name, model, fields) { name, "{\"model\":\"" model "\"," fields "}" }
 static const struct {
     const char *name, *json;

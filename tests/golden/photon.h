@@ -1,5 +1,5 @@
-/* The photon seen by a pixel with one ray, for the Kerr-Schild oracle: of a plane camera, or of a static observer's
- * pinhole. */
+/* For the Kerr-Schild oracle: the photon that a pixel with one ray sees, through a plane camera or a static observer's
+ * pinhole camera. */
 #ifndef KD_TESTS_GOLDEN_PHOTON_H
 #define KD_TESTS_GOLDEN_PHOTON_H
 

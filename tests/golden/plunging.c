@@ -1,5 +1,6 @@
-/* Appearance of the gas that falls from the ISCO: its density, redshift and delay. Rays are from the closed form in
- * double precision, redshifts from contraction with the metric, densities from the flow of particles. */
+/* Tests of the appearance of the gas that falls from the ISCO: its density, redshift and delay. Rays are from the
+ * closed form in double precision, redshifts from contraction with the metric, and densities from the flow of
+ * particles. */
 #include "studio.h"
 
 #include "contraction.h"
@@ -65,9 +66,9 @@ static struct kd_frame shot(struct kd_scene *scene, bool doppler, bool redshift)
     "\"spacetime\":{\"spin\":0.3}," \
     "\"camera\":{\"r\":3.2,\"observer\":\"zamo\",\"inclination_deg\":75,\"fov_deg\":120,\"yaw_deg\":180}"
 
-/* The same pixel with and without the factors of g: brightness goes as g^4, whatever the gas's state. Far away most
- * light left the gas outwards; an observer inside also sees light moving inwards. 16 bits: the fourth root of a
- * luminance of 0.01 is known to 1e-4. */
+/* The same pixel with and without the factors of g: brightness goes as g^4, whatever the gas's state. Seen from far
+ * away most light left the gas outwards; an observer inside also sees light moving inwards. 16 bits: the fourth root of
+ * a luminance of 0.01 is known to 1e-4. */
 static void redshift_of_light(void **state)
 {
     (void)state;

@@ -8,7 +8,8 @@
 
 #include <cmocka.h>
 
-/* Linear light can be recovered from these: no film curve, no dither, no clipping (g^4 stays below 16), 16 bits. */
+/* With these settings linear light can be recovered from the pixels: no film curve, no dither, no clipping (g^4 stays
+ * below 16), 16 bits. */
 #define LINEAR "\"style\":{\"exposure\":-4,\"tone_map\":\"srgb\",\"dither\":false}"
 #define SIZE(w, h) "\"image\":{\"width\":" #w ",\"height\":" #h ",\"bit_depth\":16,\"critical_factor\":1}"
 
@@ -56,8 +57,8 @@ static void the_approaching_side_is_left(void **state)
     }
 }
 
-/* Each of these pairs is the same rays in another order, up to the last bits; a step of 8 bits is 256 times the step
- * of the 16 that are compared. The disk fades at its edges, and nothing else is sharp. */
+/* Each of these pairs has the same rays in another order, up to the last bits. A step of 8 bits is 256 steps of the
+ * 16-bit values compared here. The disk fades at its edges, and nothing else is sharp. */
 static void symmetries(void **state)
 {
     (void)state;
@@ -93,7 +94,7 @@ static void symmetries(void **state)
         double d = difference(&a, &b, pairs[i].flip);
         if (!(d <= 1))
             fail_msg("%s: off by %g/255", pairs[i].what, d);
-        assert_true(light_between(&a, 0, a.width) > 1); /* the picture is not black */
+        assert_true(light_between(&a, 0, a.width) > 1); /* this is the total light: the picture is not black */
         kd_frame_finish(&a);
         kd_frame_finish(&b);
     }
@@ -118,7 +119,8 @@ static void a_quarter_turn(void **state)
     }
 }
 
-/* The pictures differ when the symmetry is broken: the pairs above are not equal by being blank. */
+/* When the symmetry is broken the pictures differ, so that the pairs above are not equal merely because they are
+ * blank. */
 static void asymmetries(void **state)
 {
     (void)state;
@@ -269,7 +271,7 @@ static void a_transparent_disk(void **state)
             change[1] += fabs(l - studio_light(&thick, x, y, 0));
         }
     assert_in_range(off, 0, 48);
-    /* A hundredth of the opacity is a hundredth of the change, and more where light passes several times. */
+    /* With a hundredth of the opacity the change is about a hundredth, and more where light passes several times. */
     assert_true(change[0] > 0.008 * change[1] && change[0] < 0.03 * change[1]);
     kd_frame_finish(&none);
     kd_frame_finish(&clear);

@@ -1,4 +1,4 @@
-/* The shadow against its outline in closed form, and its blackness. */
+/* The shadow, compared with its outline in closed form, and the blackness inside. */
 #include "studio.h"
 
 #include <math.h>
@@ -10,8 +10,9 @@
 
 #define SIZE(w, h) "\"image\":{\"width\":" #w ",\"height\":" #h ",\"bit_depth\":16,\"critical_factor\":1}"
 
-/* Outline of the shadow for an observer at infinity: (alpha, beta) of the spherical photon orbits (Bardeen 1973),
- * independent of the code under test. The upper half, beta >= 0, from left to right; for a = 0 a circle. */
+/* Outline of the shadow for an observer at infinity: (alpha, beta) of the spherical photon orbits (Bardeen 1973), which
+ * is independent of the code under test. Only the upper half, beta >= 0, from left to right; for a = 0 it is a
+ * circle. */
 #define OUTLINE 400
 static int outline(double a, double inclination, double alpha[OUTLINE], double beta[OUTLINE])
 {

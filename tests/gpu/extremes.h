@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Result of a case in one engine. Errors are divided by 1 + condition number: relative for r, in radians for phi;
+/* Result of a case for one engine. Errors are divided by 1 + the condition number: relative for r, in radians for phi;
  * NaN: not judged. */
 struct extreme_row {
     char what[48];
@@ -52,7 +52,7 @@ void extreme_rays(struct kd_renderer *renderer);     /* listed rays in f32 and f
 void extreme_lenses(struct kd_renderer *renderer);   /* the lens maps of pictures */
 void extreme_pictures(struct kd_renderer *renderer); /* whole pictures, JSON to pixels */
 
-/* Accurate next to 90 and 180 degrees, where the difference of the angles is exact. */
+/* Accurate next to 90 and 180 degrees, where the difference of the angles is exact in double. */
 static inline double extreme_cos_deg(double i) { return sin((90 - i) * (M_PI / 180)); }
 static inline double extreme_sin_deg(double i) { return sin((i > 90 ? 180 - i : i) * (M_PI / 180)); }
 

@@ -1,4 +1,4 @@
-/* The closed form at the extremes against Taylor series to 20 digits (tests/oracle/null_reference.py extremes).
+/* The closed form at the extremes, compared with Taylor series to 20 digits (tests/oracle/null_reference.py extremes).
  * Kernels are judged by the closed form. */
 #include "extremes.h"
 

@@ -131,8 +131,8 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
     }
 }
 
-/* At a thousandth of M from the shadow's edge nothing is sure. In the throat of an extremal hole all rays from
- * infinity have L = 2E within 1e-4, which loses half the digits of the labels. */
+/* A thousandth of M from the shadow's edge no ray is sure. In the throat of an extremal hole all rays from infinity
+ * have L = 2E within 1e-4, which loses half the digits of the labels. */
 static double unsure_most(const struct camera *v)
 {
     return v->field < 1e-4 && isinf(v->r) ? 1 : fabs(v->spin) > 0.999 && v->r < 1.001 ? 0.5 : 0.1;

@@ -1,6 +1,6 @@
-/* Listed rays at the extremes, by the engine in Mino time in both precisions, against the closed form and against
- * their own stated errors. The engine may be wrong about a ray if it says so: undecided, or an error large enough.
- * From a finite radius every second ray starts outwards. */
+/* Listed rays at the extremes, by the engine in Mino time in both precisions, compared with the closed form and with
+ * their own stated errors. The engine may be wrong about a ray if it says so, by marking it undecided or by a large
+ * enough error. From a finite radius every second ray starts outwards. */
 #include "extremes.h"
 
 #include "physics/spacetime/kerr.h"
@@ -77,7 +77,7 @@ static void near_critical(const struct view *v, double t, double distance, doubl
     out[1] = edge * (1 + distance) * s;
 }
 
-/* Evenly over the image, with a sixth of the rays on its axes, next to them, or far out. */
+/* Places rays evenly over the image, but a sixth of them on its axes, next to the axes, or far out. */
 static void make(const struct view *v, struct list *list)
 {
     static const double special[] = { 0,     -0.0, 1e-12, -1e-12, 1e-310, 5e-324, -1e-40,
@@ -117,7 +117,7 @@ struct tally {
     size_t n;
 };
 
-/* The crossings of one ray that the answer claims to be accurate. fault: error of the reference itself. */
+/* Judges the crossings of one ray that the answer claims to be accurate. fault: error of the reference itself. */
 static void judge_crossings(const struct view *v, const struct kd_null_path *p, const struct kd_ray_end *e,
                             const struct kd_ray_crossing *c, const double *gain, const double *phi_gain,
                             struct tally *t)

@@ -1,5 +1,5 @@
-/* Simulates a device with properties that no driver here has: lower limits, incoherent memory, a lost device. It
- * stands between the layer and a real driver, in the table of functions, from `fake_device_on` on. One thread. */
+/* Simulates a device with properties that no driver here has: lower limits, incoherent memory, a lost device. From
+ * `fake_device_on` on, it stands in the table of functions between the layer and a real driver. One thread. */
 #ifndef KD_TEST_FAKE_DEVICE_H
 #define KD_TEST_FAKE_DEVICE_H
 
@@ -154,7 +154,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL fake_Map(VkDevice device, VkDeviceMemory m
     return result;
 }
 
-/* Checks for whole atoms of the largest size that Vulkan allows, inside the block. */
+/* Checks that a range consists of whole atoms, of the largest size that Vulkan allows, inside its block. */
 static struct fake_memory *fake_range(const VkMappedMemoryRange *range)
 {
     struct fake_memory *m = fake_find(range->memory);
@@ -220,7 +220,7 @@ static void fake_plant(struct kd_vk_functions *fn)
     FAKE_REPLACE(InvalidateMappedMemoryRanges, fake_Invalidate)
 }
 
-/* Devices opened from here on are such. All must be closed before the next is described. */
+/* Devices opened from now on have these properties. All must be closed before the next call. */
 static inline void fake_device_on(const struct fake_device *device)
 {
     fake = *device;

@@ -22,7 +22,8 @@ static double random_spin(struct kd_random *random)
     return below(random, 3) ? size : -size;
 }
 
-/* From just outside the observer's edge to 1e7 M; an infalling observer is sometimes within the outer horizon. */
+/* A radius between just outside the observer's edge and 1e7 M. An infalling observer is sometimes within the outer
+ * horizon. */
 static double random_radius(struct kd_random *random, enum kd_observer observer, double spin, double inclination_deg)
 {
     const double u = cos(inclination_deg * (M_PI / 180)), horizon = kd_hole(spin)->outer, inner = kd_hole(spin)->inner;
@@ -36,13 +37,14 @@ static void random_motion(struct kd_random *random, struct kd_camera *c)
 {
     const double speed = fmin(1 - decades(random, -6, 0), 0.999999), u = between(random, -1, 1),
                  phi = between(random, 0, 2 * M_PI);
-    const bool along = below(random, 2); /* along an axis, otherwise in any direction */
+    const bool along = below(random, 2); /* whether the direction is along an axis; otherwise any direction is
+                                          * possible */
     c->velocity_r = along ? 0 : speed * u;
     c->velocity_theta = along ? 0 : speed * sqrt(1 - u * u) * cos(phi);
     c->velocity_phi = along ? (below(random, 2) ? speed : -speed) : speed * sqrt(1 - u * u) * sin(phi);
 }
 
-/* side: of the picture, in pixels. */
+/* Makes a random camera. side: width of the picture in pixels. */
 static void random_camera(struct kd_random *random, int side, struct kd_scene *s)
 {
     static const double angles[] = { 0, 90, 180, 1e-4, 60 };

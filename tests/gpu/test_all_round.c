@@ -1,5 +1,6 @@
-/* Pictures of all directions have no edges: the light of a star is the same everywhere, also on the seam between
- * left and right and at the poles, and so is the glare of a lens. The hole is so far away that space is flat. */
+/* Tests that pictures of all directions have no edges. The light of a star is the same everywhere, also on the seam
+ * between left and right and at the poles, and so is the glare of a lens. The hole is so far away that space is
+ * flat. */
 #include "render/sky/frame.h"
 #include "render/sky/star.h"
 #include "render/view/camera.h"
@@ -73,8 +74,8 @@ static double light_of(const struct kd_scene *scene, bool bright)
     return sum * pixel / kd_star_flux(kd_catalogue_star(0).magnitude);
 }
 
-/* Across the seam, at the poles and beside them, by rows from the pole, at places to which the sky can be turned.
- * Pixels are 2.8 degrees wide. Next to a pole a map of second order does not represent the whole turn; for bright
+/* The star is put across the seam, at the poles and beside them, by rows from the pole, wherever the sky can be turned.
+ * Pixels are 2.8 degrees wide. Next to a pole a map of second order does not represent the whole turn. For bright
  * images only, two tiles of 25 degrees disagree at their border by up to 0.2 rays. */
 static void a_star_anywhere(void **state)
 {

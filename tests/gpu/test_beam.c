@@ -1,13 +1,13 @@
-/* A telescope's beam, and brightness in false colour: synthetic light through the passes beam, expose, bloom and
- * post. The oracle sums a Gaussian over all pixels of the picture in double precision. */
+/* Tests of a telescope's beam, and of brightness in false colour: synthetic light goes through the passes beam, expose,
+ * bloom and post. The oracle sums a Gaussian over all pixels of the picture in double precision. */
 #include "made_up_light.h"
 
 #include "image/colour_map.h"
 
 #include <math.h>
 
-/* sigma: of the beam, in pixels; 0: none. rows: of a band, 0: as many as there are; lit: rows whose light is
- * complete, 0: all. */
+/* sigma: of the beam, in pixels; 0: no beam. rows: of a band; 0: the whole picture. lit: rows whose light is complete;
+ * 0: all. */
 struct look {
     int width, height, rows, lit;
     double sigma, bloom, exposure;
@@ -150,7 +150,7 @@ static void a_point_stays_where_it_is(void **state)
     }
 }
 
-/* Positions of bands and slices, and whether cells are texels or storage, change no byte. */
+/* The positions of bands and slices, and whether cells are texels or storage, do not change a byte. */
 static void bands_and_readers(void **state)
 {
     (void)state;
@@ -177,8 +177,8 @@ static void bands_and_readers(void **state)
     }
 }
 
-/* The unfinished rest of a picture is dark: finished rows look as they would then, and the beam leaves light
- * unchanged for the next preview. */
+/* The unfinished part of a picture is dark. Finished rows look as they would in such a picture, and the beam leaves the
+ * light unchanged for the next preview. */
 static void what_is_not_lit_is_dark(void **state)
 {
     (void)state;
@@ -230,8 +230,9 @@ static void exposure_is_of_what_the_beam_sees(void **state)
     }
 }
 
-/* Each brightness has its colour of the map, also after a tone curve and for coloured light: luminance counts. A
- * table of 1024 is linear between its entries; beyond white and below black the ends apply. */
+/* Each brightness has its colour of the map, also after a tone curve and for coloured light, of which the luminance
+ * counts. A table of 1024 entries is linear between them. Beyond white and below black the colours at the ends
+ * apply. */
 static void brightness_has_the_colour_of_the_map(void **state)
 {
     (void)state;
@@ -258,7 +259,7 @@ static void brightness_has_the_colour_of_the_map(void **state)
     assert_true(worst < 2e-3);
 }
 
-/* Without a beam there is no cost: no bytes, no pass; a map in false colour has no beam. */
+/* Without a beam there is no cost: no bytes and no pass. A map in false colour has no beam. */
 static void none_is_nothing(void **state)
 {
     (void)state;
@@ -277,7 +278,7 @@ static void none_is_nothing(void **state)
     assert_true(with.device_bytes == without.device_bytes && with.n_passes == without.n_passes && !with.beam.cell);
 }
 
-/* A beam of some pixels in a picture of many: more cells than a device can bind. */
+/* A beam of some pixels in a large picture needs more cells than a device can bind. */
 static void too_many_cells_are_refused(void **state)
 {
     (void)state;

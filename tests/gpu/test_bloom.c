@@ -1,5 +1,5 @@
-/* Glare of a lens: synthetic light through the passes bloom and post. The oracle sums Gaussians of the stated
- * widths, mirrored at the edges, in double precision. */
+/* Tests of the glare of a lens: synthetic light goes through the passes bloom and post. The oracle sums Gaussians of
+ * the stated widths, mirrored at the edges, in double precision. */
 #include "made_up_light.h"
 
 #include <math.h>
@@ -81,7 +81,7 @@ static void energy(void **state)
     }
 }
 
-/* Which light is spread, as in docs/physics: luminance y over 0.6 of white, with a knee from 0.2 to 1. */
+/* Which part of the light is spread, as in docs/physics: luminance y above 0.6 of white, with a knee from 0.2 to 1. */
 static double taken(double y) { return y <= 0.2 ? 0 : y >= 1 ? y - 0.6 : (y - 0.2) * (y - 0.2) / 1.6; }
 
 /* One dimension of a Gaussian over n pixels, for light at `from`; light beyond the edges is mirrored. */
@@ -156,9 +156,9 @@ static void widths(void **state)
     assert_true(worst < 0.04 * most);
 }
 
-/* A point of light becomes a disk that falls off from its centre outwards, the same in all directions to a quarter
- * where brightness falls steeply: its contours are circles to a few hundredths. The point is moved within its cell,
- * and to others. */
+/* A point of light becomes a disk that falls off from its centre outwards. It is the same in all directions to a
+ * quarter where the brightness falls steeply: its contours are circles to a few hundredths. The point is moved within
+ * its cell, and to other cells. */
 static void a_point(void **state)
 {
     (void)state;
@@ -189,8 +189,8 @@ static void a_point(void **state)
     }
 }
 
-/* The light of a point is centred on it: displaced by at most half a pixel if two pixels are summed first, by a
- * pixel and a half for four; the widest part meets its mirror image. */
+/* The light of a point is centred on it. It is displaced by at most half a pixel if two pixels are summed first, by at
+ * most a pixel and a half for four. The widest part meets its mirror image. */
 static void a_point_stays(void **state)
 {
     (void)state;
@@ -218,7 +218,7 @@ static void a_point_stays(void **state)
         }
 }
 
-/* Positions of bands, and whether cells are texels or storage, change no byte. */
+/* The positions of bands, and whether cells are texels or storage, do not change a byte. */
 static void bands_and_readers(void **state)
 {
     (void)state;
@@ -243,7 +243,7 @@ static void bands_and_readers(void **state)
     }
 }
 
-/* Light that is not bright is not touched; NaN and infinity have no side effects. */
+/* Light that is not bright is unchanged. NaN and infinity do not affect other pixels. */
 static void others_unharmed(void **state)
 {
     (void)state;

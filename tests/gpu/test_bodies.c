@@ -1,6 +1,6 @@
-/* Bodies along rays: their images against the Kerr-Schild oracle, which does not use Mino time and measures how
- * closely a ray passes a place by an interval on a wave front; their light; what they hide and what hides them; and
- * extreme numbers. */
+/* Bodies along rays. Their images are compared with the Kerr-Schild oracle, which does not use Mino time and measures
+ * how closely a ray passes a place by an interval on a wave front. Also tested: their light, what they hide and what
+ * hides them, and extreme numbers. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -96,8 +96,8 @@ static const struct view {
       12 },
 };
 
-/* Distance of an image's edge from its expected place, in pixels: where picture and oracle disagree about a pixel,
- * from the slope of b. */
+/* Distance in pixels of an image's edge from its expected place, if picture and oracle disagree about a pixel. It is
+ * computed from the slope of b. */
 static double off_by(const struct kd_scene *scene, int x, int y)
 {
     const double radius = scene->bodies.at[0].radius;

@@ -1,5 +1,5 @@
-/* Two paths of the transfer kernel through the same rays give the same light: pixels of one ray in columns, which
- * skip crossings that no emitter reaches, and pixels of several rays, which visit each crossing. */
+/* Two paths of the transfer kernel through the same rays give the same light. Pixels of one ray are processed in
+ * columns, which skip crossings that no emitter reaches. Pixels of several rays visit each crossing. */
 #include "render/device/internal.h"
 #include "render/render.h"
 

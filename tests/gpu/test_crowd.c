@@ -1,5 +1,6 @@
-/* A playground in pictures: images of its bodies and their order, against the Kerr-Schild oracle; a body looks the
- * same as one of a scene, in front of and behind the disk and the hole; the light of debris; and invalid crowds. */
+/* A playground in pictures. Images of its bodies and their order are compared with the Kerr-Schild oracle. A body looks
+ * the same as one of a scene, in front of and behind the disk and the hole. Also tested: the light of debris, and
+ * invalid sets of bodies. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -55,7 +56,7 @@ static struct kd_playground *many(double spin)
                                            .temperature_k = LEAST_K + 2 * i,
                                            .x = { r * s * cos(phi), r * s * sin(phi), r * u },
                                            .v = { -0.3 * sin(phi), 0.3 * cos(phi), 0 } };
-        struct kd_error none; /* some motions are at the edge between two kinds: others are drawn */
+        struct kd_error none; /* a motion at the edge between two kinds is an error, and another one is drawn instead */
         i += !kd_playground_add(p, &body, NULL, &none);
     }
     return p;
@@ -69,7 +70,7 @@ static double pass(const struct kd_scene *scene, const struct kd_seen_body *b, d
     const int n = ks_passes(ks_from_infinity(scene->spacetime.spin, cos(theta), alpha, beta), b->r, b->u, b->phi,
                             within, MOST, at);
     double least = INFINITY;
-    for (int i = 0; i < n; i++) /* the first that meets it, otherwise the nearest */
+    for (int i = 0; i < n; i++) /* the first body that the ray meets, or otherwise the nearest */
         if (least > RADIUS && at[i].b < least) {
             least = at[i].b;
             *delay = at[i].delay;
@@ -110,7 +111,8 @@ struct judged {
     double worst;
 };
 
-/* A picture of one image: each pixel shows the body where the oracle says so, or one that the ray met before. */
+/* Judges a picture of one image: each pixel shows the body where the oracle says so, or another body that the ray met
+ * before. */
 static void judge(struct kd_scene scene, const struct kd_dynamic_bodies *crowd, uint32_t which, const double at[2],
                   double size, struct judged *sum)
 {
@@ -202,8 +204,8 @@ static struct kd_dynamic_bodies *one(const struct kd_seen_body *body, size_t n)
     return crowd;
 }
 
-/* test_bodies.c judges what a scene's own body shows, hides and is hidden by; one of a playground is the same to the
- * bit. */
+/* test_bodies.c judges what a body of a scene shows, hides and is hidden by. A body of a playground gives the same, to
+ * the bit. */
 static void test_as_a_scene_has_it(void **state)
 {
     (void)state;
@@ -360,8 +362,8 @@ static void test_debris(void **state)
     }
 }
 
-/* A dark body far from the hole reflects light that falls on the visible side: the full integral over the disk, with
- * ten times as many places and the cosine itself, where light travels straight. */
+/* A dark body far from the hole reflects light that falls on its visible side. The expected light is the full integral
+ * over the disk, with ten times as many places and the cosine itself, since light travels straight there. */
 static double falls_on(const struct kd_scene *scene, const double at[3], const double normal[3])
 {
     const double inner = kd_disk_inner(scene), outer = scene->disk.outer,
@@ -376,7 +378,7 @@ static double falls_on(const struct kd_scene *scene, const double at[3], const d
             const double d[3] = { r * cos(phi) - at[0], r * sin(phi) - at[1], -at[2] },
                          d2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], length = sqrt(d2);
             const double cosine = (normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2]) / length,
-                         /* circular orbit in Schwarzschild's metric, relative to an observer at rest */
+                         /* the speed of a circular orbit in Schwarzschild's metric, relative to an observer at rest */
                 v = 1 / sqrt(r - 2);
             const double towards = v * (sin(phi) * d[0] - cos(phi) * d[1]) / length,
                          g = sqrt((1 - 2 / r) / (1 - 2 / radius)) * sqrt(1 - v * v) / (1 - towards);
@@ -387,8 +389,8 @@ static double falls_on(const struct kd_scene *scene, const double at[3], const d
     return sum;
 }
 
-/* Light that falls on a moving body: transformed into its frame by the matrix of the boost, a photon's four
- * components at a time. */
+/* Light that falls on a moving body is transformed into the body's frame by the matrix of the boost: the four
+ * components of one photon at a time. */
 static void test_lit_moving(void **state)
 {
     (void)state;
@@ -483,7 +485,7 @@ static void test_lit(void **state)
             sum += layer_of(&frame, "intensity")[p];
             if (x * x + y * y < 1)
                 want += 0.5 / M_PI * falls_on(&scene, at, normal) *
-                        pow(1 - 2 / r, 2); /* and its own redshift, ^4 of the square root */
+                        pow(1 - 2 / r, 2); /* the factor of its own redshift: the fourth power of the square root */
         }
         printf("polar angle %g: %.4g of light, %.4g by the whole integral, brightest %.2g\n", polar[k], sum, want,
                most);
@@ -507,7 +509,7 @@ static void test_adversarial(void **state)
         body.radius = k == 6 ? INFINITY : body.radius;
         body.temperature_k = k == 7 ? 1e300 : body.temperature_k;
         struct kd_dynamic_bodies *crowd =
-            one(&body, k == 5 ? 64 : MANY);           /* so fast that it is drawn out: no ray misses it */
+            one(&body, k == 5 ? 64 : MANY);           /* so fast that its image is stretched: no ray misses it */
         for (size_t i = 0; k == 7 && i < MANY; i++) { /* bodies everywhere */
             crowd->bodies[i].r = 1 + 1e4 * chance() * chance() * chance();
             crowd->bodies[i].phi = 1e3 * chance();
@@ -525,7 +527,7 @@ static void test_adversarial(void **state)
     }
 }
 
-/* A scene without a crowd has no cost: the plan has no emitter of it. */
+/* A scene without bodies of a playground has no cost: its plan has no emitter for them. */
 static void test_off(void **state)
 {
     (void)state;

@@ -1,12 +1,12 @@
-/* Fates and orders of all rays of small pictures from random cameras, of every observer, spin, radius and
- * projection: against the closed form in double precision, and the captured fraction of the sky against the area
- * inside the critical curve.
+/* Tests of fates and orders of all rays of small pictures from random cameras, of every observer, spin, radius and
+ * projection. They are compared with the closed form in double precision, and the captured fraction of the sky with the
+ * area inside the critical curve.
  *
  *   test_fates [CAMERAS [SEED [FIRST]]]     e.g. nice build/tests/gpu/test_fates 2000 7
  *
- * Without arguments it is short. Failures print a camera's number; use it as FIRST of a run of one. A ray on which
- * two methods in double precision disagree, or whose crossings come and go when its labels move by 1e-11, is not
- * judged. */
+ * Without arguments the run is short. A failure prints a camera's number; use it as FIRST of a run of one camera. A ray
+ * is not judged if two methods in double precision disagree on it, or if its crossings come and go when its labels move
+ * by 1e-11. */
 #include "random_camera.h"
 #include "render_support.h"
 
@@ -118,7 +118,7 @@ static void judge_share(const struct kd_scene *scene, unsigned number, const flo
         const double up = M_PI / SIDE * (i / SIDE + 0.5) - M_PI / 2;
         captured += fate[i] != KD_FATE_CAPTURED ? 0 : pixel * 2 * sin(M_PI / (2 * SIDE)) * cos(up);
     }
-    /* At most the circle of that area, plus the asymmetry. */
+    /* at most the circumference of the circle of that area, plus the asymmetry */
     const double length = 2 * M_PI * fmin(1, sin(fmin(m.mean_radius, M_PI / 2))) + 4 * m.asymmetry;
     t->shares++;
     if (fabs(captured - m.area) > 2 * pixel * length + pixel * pixel) {
@@ -165,7 +165,7 @@ static void judge(const struct kd_scene *scene, unsigned number, struct tally *t
     judge_share(scene, number, fate, t);
 }
 
-/* Pictures that once were wrong. */
+/* Pictures that were wrong in earlier versions. */
 static const struct once {
     double spin, inclination, r;
     enum kd_observer observer;

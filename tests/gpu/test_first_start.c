@@ -1,5 +1,6 @@
-/* A device is tested when kerrd first uses it, and not again. Another driver, another kerrd, or a damaged file count
- * as a first use. A device that computes wrongly causes a warning, and is tested again at each start. */
+/* A device is tested when kerrd first uses it, and not again. A start with another driver, with another kerrd, or after
+ * the file was damaged counts as a first use. A device that computes wrongly causes a warning, and is tested again at
+ * each start. */
 #include "render_support.h"
 
 #include "render/selftest/first_start.h"

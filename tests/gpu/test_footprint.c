@@ -1,6 +1,6 @@
-/* Footprints of the lens map against finite differences of the Kerr-Schild oracle, which traces rays a thousandth of
- * a step apart in double precision (tests/oracle). They share no formula: here the singular value comes from the
- * angle that maximises it. */
+/* Tests of footprints of the lens map. They are compared with finite differences of the Kerr-Schild oracle, which
+ * traces rays a thousandth of a step apart in double precision (tests/oracle). The two share no formula: here the
+ * singular value comes from the angle that maximises it. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
@@ -260,8 +260,8 @@ static void test_grid(void **state)
         report(v->name, t);
         for (int n = 0; n <= ORDERS; n++)
             assert_true(t[n].outside == 0 && t[n].edges == 0);
-        /* Typical of a picture of many pixels: half of the direct image within a two-hundredth, nine tenths within a
-         * thirtieth. */
+        /* Typical errors in a picture of many pixels: half of the direct image is within a two-hundredth, and nine
+         * tenths within a thirtieth */
         assert_true(t[0].n > 50 && t[0].errors[t[0].n / 2] < 5e-3 && t[0].errors[t[0].n * 9 / 10] < 0.03);
         assert_true(t[1].n > 5 && t[ORDERS].n > 5);
         qsort(t[0].shapes, (size_t)t[0].n, sizeof *t[0].shapes, by_value);

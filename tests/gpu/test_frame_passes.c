@@ -65,8 +65,8 @@ static void test_names(void **state)
     }
 }
 
-/* Fifteen frames move a wrong estimate to the true cost of their passes; an estimate that they do not measure stays.
- * The time of a frame includes time in which other processes had the cores; what is learned does not. */
+/* After fifteen frames a wrong estimate has moved to the true cost of its pass. An estimate that the frames do not
+ * measure stays. The time of a frame includes time in which other processes had the cores; what is learned does not. */
 static void test_learned(void **state)
 {
     (void)state;
@@ -130,8 +130,8 @@ static double estimated(const struct kd_plan *plan, const char *pass)
     return 0;
 }
 
-/* Refinement takes as many rays as the picture needs, estimated from the pictures before. For turbulent gas the
- * estimate used to be a seventh. */
+/* Refinement takes as many rays as the picture needs, which is estimated from the pictures before. For turbulent gas
+ * the estimate used to be a seventh of the actual number. */
 static void test_refining_is_learned(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* Light of jets against integrals along paths of the Kerr-Schild oracle, which does not use Mino time, with the
- * energy in the matter's frame from the Boyer-Lindquist metric; far from the hole against integrals along straight
- * lines; and the ratio of jet and counterjet against special relativity. */
+/* Tests of the light of jets. It is compared with integrals along paths of the Kerr-Schild oracle, which does not use
+ * Mino time, with the energy in the matter's frame from the Boyer-Lindquist metric. Far from the hole it is compared
+ * with integrals along straight lines, and the ratio of jet and counterjet with special relativity. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -126,7 +126,7 @@ static void test_ratio(void **state)
         struct kd_frame frame = rendered(&scene);
         const double v = sqrt(1 - 1 / (lorentz[n] * lorentz[n])), c = cos(inclination[n] * M_PI / 180),
                      want = pow((1 + v * c) / (1 - v * c), 2 + index[n]);
-        for (int y = 0; y < 2; y++) { /* at 2.2e5 and 1.9e5 M, away from the ends of the light */
+        for (int y = 0; y < 2; y++) { /* two places, at 2.2e5 and 1.9e5 M, away from the ends of the light */
             const double near = (double)intensity(&frame)[y * WIDTH + WIDTH / 2],
                          away = (double)intensity(&frame)[(HEIGHT - 1 - y) * WIDTH + WIDTH / 2];
             if (!(fabs(near / away / want - 1) < 1e-2))
@@ -137,8 +137,8 @@ static void test_ratio(void **state)
     }
 }
 
-/* Emission in the matter's frame, from the metric: R(r) and the photon's constants give p_r, and the observer of
- * zero angular momentum -k.U = Gamma (e - v k_r). On the rays judged, light moves outwards above the plane and
+/* Emission in the matter's frame, by the metric. p_r follows from R(r) and the photon's constants, and the observer of
+ * zero angular momentum gives -k.U = Gamma (e - v k_r). On the rays judged, light moves outwards above the plane and
  * inwards below. */
 static void jet(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {

@@ -1,5 +1,4 @@
-/* Kernels that are recorded first, and compiled together on several threads; a frame uses exactly those that it
- * recorded. */
+/* Kernels are recorded first, and compiled together on several threads. A frame uses exactly those that it recorded. */
 #include "render_support.h"
 
 #include "render/device/internal.h"
@@ -72,8 +71,8 @@ static void what_cannot_be_made_is_told_later(void **state)
     assert_non_null(strstr(why.message, "broken"));
 }
 
-/* Each kernel that the first frame of a scene compiles in advance is used in the frame: its place in the order of
- * use is later. */
+/* Each kernel that the first frame of a scene compiles in advance is used in this frame: its place in the order of use
+ * is later than its compilation. */
 static void a_frame_notes_what_it_needs(void **state)
 {
     (void)state;
@@ -201,7 +200,8 @@ static void compiled(struct kd_compilation *c)
     kd_compilation_end(c);
 }
 
-/* The pictures that determine a density are rehearsed too, on a device that computes nothing. */
+/* The pictures that determine a density are also rendered on a device that computes nothing, to compile their
+ * kernels. */
 static void a_density_is_rehearsed(void **state)
 {
     (void)state;
@@ -259,7 +259,7 @@ static bool lacks(void *user, struct kd_compilation *c, bool aside)
     return !lack.gives_up;
 }
 
-/* If the driver stops rays early, one more kernel is needed, which is compiled once by any thread. */
+/* If the driver stops rays early, one more kernel is needed. It is compiled once, by any thread. */
 static void a_kernel_that_nobody_foresaw(void **state)
 {
     (void)state;

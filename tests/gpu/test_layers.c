@@ -1,9 +1,9 @@
-/* Layers against the Kerr-Schild oracle, which shares no equation with the kernels: it integrates the photon's
- * momentum in Cartesian coordinates; g and the angle to the disk's normal follow from the metric in the plane alone.
- * Layers of light are compared with the picture's own linear light.
+/* Tests of layers. They are compared with the Kerr-Schild oracle, which shares no equation with the kernels: it
+ * integrates the photon's momentum in Cartesian coordinates, and g and the angle to the disk's normal follow from the
+ * metric in the plane alone. Layers of light are compared with the picture's own linear light.
  *
- * Tolerance of a number: some last bits of a float, times its change when the ray is changed by as much, which is
- * measured on the oracle itself. */
+ * The tolerance of a number is some last bits of a float, times the change of the number when the ray is changed by as
+ * much. This change is measured on the oracle itself. */
 #include "kerr_schild.h"
 #include "image/colour_map.h"
 #include "physics/disk/thin_disk.h"
@@ -415,8 +415,9 @@ static void assert_same_picture(const char *json, const char *layers)
     kd_store_empty(&renderer->store); /* removes the modified maps */
 }
 
-/* The picture is the same bit for bit whatever layers accompany it, even if they need more of the lens map, and for
- * rays given up on their way to an absent sky. Only the delay is left out: it follows rays differently. */
+/* The picture is the same bit for bit whatever layers are requested with it, even if they need more of the lens map,
+ * and for rays given up on their way where there is no sky. Only the delay is left out, because it follows rays
+ * differently. */
 static void test_picture_beside(void **state)
 {
     (void)state;
@@ -483,7 +484,7 @@ static void test_ends_beyond(void **state)
     }
 }
 
-/* Any layer with any numbers gives a picture with a legend, also for a hole without spin. */
+/* Every layer, whatever its numbers, gives a picture with a legend, also for a hole without spin. */
 static const float *numbers_of(const struct kd_frame *frame, const char *name)
 {
     const struct kd_layer *layer = kd_frame_layer(frame, name);
@@ -491,7 +492,7 @@ static const float *numbers_of(const struct kd_frame *frame, const char *name)
     return layer->data;
 }
 
-/* Rays too close to be distinguished in 32 bits have no footprint instead of one of 0; others have one. */
+/* Rays that 32 bits cannot distinguish have no footprint instead of a footprint of 0; other rays have one. */
 static void test_tiny_fields(void **state)
 {
     (void)state;
@@ -511,7 +512,7 @@ static void test_tiny_fields(void **state)
         scene.camera.yaw_deg = views[v].yaw_deg;
         struct kd_frame frame = frame_of(&scene);
         const float *is = numbers_of(&frame, views[v].layer);
-        int there = 0; /* not the whole picture is disk */
+        int there = 0; /* counts pixels of the disk, which does not fill the picture */
         for (int i = 0; i < PIXELS; i++) {
             there += is[i] > 0;
             if (views[v].there ? is[i] <= 0 : !isnan(is[i]))

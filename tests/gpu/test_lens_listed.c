@@ -1,5 +1,5 @@
-/* Lens maps from listed rays in double precision, against the kernels' in single: two ways from a pixel to its ray,
- * three methods from a ray to its end; and the treatment of rays that were given up. */
+/* Tests of lens maps from listed rays in double precision, compared with the kernels' in single precision: two ways
+ * from a pixel to its ray, and three methods from a ray to its end. Also tests rays that were given up. */
 #include "render_support.h"
 
 #include "physics/spacetime/kerr.h"
@@ -102,7 +102,8 @@ static void test_engines_agree(void **state)
     (void)state;
     static const struct {
         int engine, precision;
-        /* of medians: single precision on one side or both; Kerr-Schild's start in single precision costs more */
+        /* bound of the medians: single precision is used on one side or on both; the Kerr-Schild engine's start in
+         * single precision costs more */
         double bound;
         int stray; /* maximum of such rays at the rim of the shadow, of 1440 */
     } engines[] = {

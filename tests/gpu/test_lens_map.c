@@ -1,8 +1,9 @@
-/* The lens map on the device against the Kerr-Schild oracle, which traces the same pixels in double precision by
- * another method (tests/oracle).
+/* Tests of the lens map on the device. It is compared with the Kerr-Schild oracle, which traces the same pixels in
+ * double precision by another method (tests/oracle).
  *
- * Tolerance of a crossing: the last bits of a float, times the crossing's amplification of a change of the ray. The
- * amplification, d ln r/d ln b, is measured on the oracle itself; it reaches hundreds near the critical curve. */
+ * The tolerance of a crossing is the last bits of a float times the factor by which the crossing amplifies a change of
+ * the ray. This amplification, d ln r/d ln b, is measured on the oracle itself; it reaches hundreds near the critical
+ * curve. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "render/render.h"
@@ -94,8 +95,8 @@ static double median(struct tally *t)
     return t->count ? t->errors[t->count / 2] : 0;
 }
 
-/* True if a ray decides nothing: its number of crossings changes when it is moved by 3e-6, or it grazes the edge of
- * the crossings kept. */
+/* True if a ray must not be judged: its number of crossings changes when it is moved by 3e-6, or it grazes the inner
+ * limit of the crossings that are kept. */
 static bool undecided(const struct sample *s, int n, double inner)
 {
     if ((s->path.crossings > n) != (s->beside.crossings > n))
@@ -236,7 +237,7 @@ static void check_sky(int steps)
                 continue;
             double s = sqrt(fmax(0, 1 - p->u * p->u));
             double gain = hypot(q->u - p->u, s * turn(q->sky_phi - p->sky_phi)) / 1e-6;
-            /* The oracle stops at r = 1e8: 1e-8 b from the limit. */
+            /* the oracle stops at r = 1e8, where the direction differs by 1e-8 b from the limit */
             double error = hypot(u[k] - p->u, s * turn(phi[k] - p->sky_phi)) / (1 + gain);
             worst = fmax(worst, error);
             compared++;

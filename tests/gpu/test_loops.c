@@ -1,5 +1,6 @@
-/* Stokes Q and U of light curves: against the light of each ray by the Kerr-Schild oracles, which share no equation
- * with the kernels; against the loops of a face-on spot in closed form; and against the layers of the same picture. */
+/* Tests of Stokes Q and U of light curves. They are compared with the light of each ray by the Kerr-Schild oracles,
+ * which share no equation with the kernels; with the loops of a face-on spot in closed form; and with the layers of the
+ * same picture. */
 #include "kerr_schild.h"
 #include "kerr_schild_transport.h"
 #include "render/output/curve.h"
@@ -225,8 +226,8 @@ static double sum_of(const struct kd_frame *frame, const struct kd_scene *scene,
     return sum * step * step;
 }
 
-/* The curve's values are sums of the layers, on a grid of rays, with more rays at the critical curve, through a
- * volume, and of one that is polarised itself; pictures do not change. */
+/* The curve's values are sums of the layers: on a grid of rays, with more rays at the critical curve, through a volume,
+ * and through one that is itself polarised. Pictures do not change. */
 static void test_layers(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* Light along rays through volumes: against closed forms along paths measured by the Kerr-Schild oracle, which uses
- * neither Mino time nor a Nystroem method; against integrals of emission and absorption along them; its order with
- * crossings of the plane; and self-consistency. */
+/* Tests of light along rays through volumes. It is compared with closed forms along paths measured by the Kerr-Schild
+ * oracle, which uses neither Mino time nor a Nystroem method, and with integrals of emission and absorption along these
+ * paths. Also tests its order with crossings of the plane, and self-consistency. */
 #include "render/device/store.h"
 #include "render_support.h"
 
@@ -121,7 +121,7 @@ static void test_closed_form(void **state)
     printf("%d rays: worst %.2g\n", lit, worst);
 }
 
-/* With the frequency shift, against the integral of emission and absorption. */
+/* The same with the frequency shift, compared with the integral of emission and absorption. */
 static void test_shift(void **state)
 {
     (void)state;
@@ -312,7 +312,7 @@ static void test_in_the_plane(void **state)
     kd_frame_finish(&frame);
 }
 
-/* Without a volume there is no march pass; with one it replaces the transfer pass. */
+/* Without a volume there is no march pass. With one the march pass replaces the transfer pass. */
 static void test_plan(void **state)
 {
     (void)state;
@@ -409,7 +409,7 @@ static struct kd_frame picture_of(int32_t width, enum kd_volume_model model)
     return rendered(&scene);
 }
 
-/* A picture does not depend on what was rendered before: one without a volume needs the same lens map, and has no
+/* A picture does not depend on what was rendered before. A picture without a volume needs the same lens map, and has no
  * pixels at the critical curve. */
 static void test_order_of_pictures(void **state)
 {

@@ -1,6 +1,6 @@
-/* Slow light of volumes: emission times along a ray against the Kerr-Schild oracle, which does not use Mino time;
- * and the turbulence that gas of some height shows, against pictures of the emission times by the lens map and by
- * the oracle. */
+/* Tests of slow light of volumes. Emission times along a ray are compared with the Kerr-Schild oracle, which does not
+ * use Mino time. The turbulence of gas of some height is compared with pictures of the emission times by the lens map
+ * and by the oracle. */
 #include "physics/spacetime/kerr.h"
 #include "render/explain/explain.h"
 #include "scene/hole.h"
@@ -99,7 +99,7 @@ static void judge_ray(const struct kd_scene *scene, int x, int y, struct judged 
     kd_frame_finish(&frame);
 }
 
-/* The march's own times, along rays that pass by, circle and fall in. */
+/* Tests the times that the march computes, along rays that pass by, circle and fall in. */
 static void test_delays(void **state)
 {
     (void)state;
@@ -227,7 +227,8 @@ static void test_face_on(void **state)
     kd_frame_finish(&slow);
 }
 
-/* No NaN next to the horizon, where that time diverges, and far away; within the horizon there is no such picture. */
+/* There is no NaN next to the horizon, where the emission time diverges, nor far away. Within the horizon such a
+ * picture is refused. */
 static void test_extremes(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* A frame's stated error of its volumes agrees with a march of 16 times as many steps, on rays of 4 times as many
- * steps, over all of its pixels. */
+/* Tests that a frame's stated error of its volumes agrees with a march of 16 times as many steps, on rays of 4 times as
+ * many steps, over all pixels of the frame. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -74,8 +74,8 @@ static const struct {
     { "jet", "{\"disk\":{\"model\":\"none\"}}" },
 };
 
-/* Nine of ten of a hundred rays stand for 80 to 96 of a hundred pixels (two standard deviations), and doubling the
- * steps leaves at most half of the error. */
+/* The error that nine of ten of a hundred rays do not exceed corresponds to the 80 to 96 % quantiles of all pixels (two
+ * standard deviations). Doubling the steps leaves at most half of the error. */
 static void test_said(void **state)
 {
     (void)state;
@@ -136,7 +136,7 @@ static double shell_error(struct kd_scene scene)
     return worst;
 }
 
-/* Each profile meets its target where all is smooth: a shell in each ray, a thick disk in nine of ten. */
+/* Each profile meets its target where all is smooth: for a shell in each ray, for a thick disk in nine of ten. */
 static void test_profiles(void **state)
 {
     (void)state;
@@ -159,8 +159,8 @@ static void test_profiles(void **state)
     kd_frame_finish(&fine);
 }
 
-/* Each profile that takes less than minutes meets its target in turbulence too, and its stated error is no less than
- * the true one. */
+/* In turbulence each profile also meets its target, and its stated error is no less than the true one. Profiles that
+ * take minutes are left out. */
 static void test_stirred(void **state)
 {
     (void)state;
@@ -207,8 +207,8 @@ static void test_close_rays(void **state)
     kd_frame_finish(&frame);
 }
 
-/* The sketch of a changing view is marked as one, is as accurate as it says, and measures that; it leaves out fine
- * octaves and does not touch the lens map. */
+/* The sketch of a changing view is marked as a sketch, measures its error, and is as accurate as it says. It leaves out
+ * fine octaves and does not change the lens map. */
 static void test_sketch(void **state)
 {
     (void)state;

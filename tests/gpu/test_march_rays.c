@@ -1,5 +1,5 @@
-/* Pixels with several rays through a volume: their light is the mean of their rays', whatever the driver does with
- * many loops in succession. */
+/* Tests of pixels with several rays through a volume. Their light is the mean of their rays' light, whatever the driver
+ * does with many loops in succession. */
 #include "render_support.h"
 
 #include "render/frame/probe.h"
@@ -44,7 +44,7 @@ static double mean_of_rays(const float *single, int x, int y)
 
 static double off(double is, double want) { return fabs(is / want - 1); }
 
-/* Sixteen rays a pixel, and as many as each needs. */
+/* Tests sixteen rays in each pixel, and as many rays as each pixel needs. */
 static void test_mean(void **state)
 {
     (void)state;
@@ -69,9 +69,9 @@ static void test_mean(void **state)
         kd_frame_finish(all[i]);
 }
 
-/* Rays along a turbulent disk of 5e5 M, some hundred M of which are visible: they take few steps in the dark, so
- * that lavapipe, which ends loops after 65 535 passes of eight rays, ends none of them. With all streaks 18 were
- * given up, and 5 places of the layer had no light. */
+/* Rays along a turbulent disk of 5e5 M, some hundred M of which are visible. They take few steps in the dark, so that
+ * lavapipe, which ends loops after 65 535 passes of eight rays, ends none of them. With all streaks 18 rays were given
+ * up, and 5 places of the layer had no light. */
 static void test_wide(void **state)
 {
     (void)state;
@@ -95,8 +95,8 @@ static void test_wide(void **state)
     kd_frame_finish(&frame);
 }
 
-/* An extremal hole, and an observer who falls near it: a ray that grazes the horizon has light all the same, through
- * every kind of gas that fills space. */
+/* With an extremal hole and an observer who falls near it, a ray that grazes the horizon still has light, through every
+ * kind of gas that fills space. */
 static void test_extremal(void **state)
 {
     (void)state;
@@ -149,7 +149,7 @@ static struct kd_scene tall(int width, int samples, int left, int top, int colum
     return scene;
 }
 
-/* The light of one ray followed alone, over that of its pixel. */
+/* The light of one ray that is followed alone, divided by the light of its pixel. */
 static double beside_alone(const struct kd_scene *scene, uint32_t x, uint32_t y)
 {
     struct kd_capacity c;
@@ -170,7 +170,7 @@ static double beside_alone(const struct kd_scene *scene, uint32_t x, uint32_t y)
     return worst;
 }
 
-/* lavapipe ends the loops of eight such rays, not of one. Rays that it ends are continued in pieces; they then have
+/* lavapipe ends the loops of eight such rays, but not of one. Rays that it ends are continued in pieces. They then have
  * the light that they have alone, also within their pixel. Without pieces 16 rays of the tile were given up. */
 static void test_pieces(void **state)
 {

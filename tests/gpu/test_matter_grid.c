@@ -1,6 +1,6 @@
-/* Matter on a grid: each ray against the integral of emission and absorption along the Kerr-Schild oracle's path,
- * with interpolation reimplemented here, velocities and fields from the metric's components and emissivities in CGS;
- * and numbers beyond single precision. */
+/* Tests of matter on a grid. Each ray is compared with the integral of emission and absorption along the Kerr-Schild
+ * oracle's path. Interpolation is reimplemented here; velocities and fields are from the metric's components, and
+ * emissivities in CGS. Also tests numbers beyond single precision. */
 #include "image/npy.h"
 #include "image/zip.h"
 #include "render/emit/matter_grid.h"

@@ -1,7 +1,7 @@
 /* A camera with an arbitrary velocity, so that every leg of its tetrad has every component. The lens map by both
- * kernels, and the labels of a pixel, against the Kerr-Schild oracle: it follows, from a frame of zero angular
- * momentum, the directions that aberration gives those of the picture. No observer of the table moves so; this one
- * replaces one. */
+ * kernels, and the labels of a pixel, are compared with the Kerr-Schild oracle. From a frame of zero angular momentum,
+ * the oracle follows the directions into which aberration turns those of the picture. No observer of the table moves
+ * like this; this camera replaces one. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "physics/spacetime/observer.h"

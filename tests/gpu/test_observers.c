@@ -1,5 +1,5 @@
-/* Every kind of observer by the view of its camera: the whole sky in six pictures, against frames and rays in
- * Kerr-Schild coordinates. */
+/* Tests of every kind of observer by the view of its camera. The whole sky, in six pictures, is compared with frames
+ * and rays in Kerr-Schild coordinates. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "physics/spacetime/observer.h"

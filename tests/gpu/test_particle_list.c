@@ -1,5 +1,6 @@
-/* Particles as numbers: against the closed form in double precision; constants and the norm by
- * physics/orbit/timelike.h and the metric; rates against differences; parts of a list; and refused requests. */
+/* Tests of particles as numbers. They are compared with the closed form in double precision; their constants and the
+ * norm with physics/orbit/timelike.h and the metric; and their rates with differences. Also tests parts of a list, and
+ * refused requests. */
 #include "render/output/particle_list.h"
 
 #include "physics/orbit/timelike.h"
@@ -97,8 +98,8 @@ static struct constants constants_of(double a, const struct row *p)
     return (struct constants) { -ut * (gtt + gtp * p->dphi), ut * (gtp + gpp * p->dphi), norm };
 }
 
-/* Falling particles: their rates are those of a body with the ISCO's E and L, as the list says. Next to the horizon
- * the norm, to which both contribute in single precision, is almost 0. */
+/* Falling particles: their rates are those of a body with the ISCO's E and L, as the list says. Next to the horizon the
+ * norm is almost 0, although both constants contribute to it in single precision. */
 static void test_falling(void **state)
 {
     (void)state;

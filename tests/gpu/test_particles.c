@@ -1,5 +1,5 @@
-/* Particles as the device computes them, against the closed form in double precision and against tracks: phases
- * after long times, periods, the seed; and frames that show them. */
+/* Tests of particles as the device computes them, compared with the closed form in double precision and with tracks:
+ * phases after long times, periods, and the seed. Also tests frames that show them. */
 #include "render/emit/particles.h"
 
 #include "physics/orbit/orbit_bound.h"
@@ -130,7 +130,7 @@ static void test_periods(void **state)
         }
         for (int i = 0; i < N; i++) {
             struct kd_orbit_frequencies f = frequencies(spins[s], r[i]);
-            /* Next to the ISCO the oscillation is too slow and too small for the float that reports r. */
+            /* next to the ISCO the oscillation is too slow and too small to be resolved in r, which is a float */
             if (f.r < 0.1 * f.phi)
                 continue;
             judged++;
@@ -185,8 +185,8 @@ static void test_frames(void **state)
     kd_frame_finish(&again);
 }
 
-/* A near observer's slow light uses particles at another time than a list of the same scene: neither uses the
- * other's. */
+/* A near observer's slow light uses particles at another time than a list of the same scene. Neither uses the particles
+ * of the other. */
 static void test_lists_between_frames(void **state)
 {
     (void)state;
@@ -210,7 +210,7 @@ static void test_lists_between_frames(void **state)
     kd_frame_finish(&again);
 }
 
-/* An observer that co-rotates with a narrow ring sees it stand still; one that goes round the other way does not. */
+/* An observer that co-rotates with a narrow ring sees it stand still. One that moves the other way does not. */
 static void test_turning(void **state)
 {
     (void)state;
@@ -273,9 +273,9 @@ static void test_edges(void **state)
     kd_frame_finish(&frame);
 }
 
-/* Light with delay D shows the disk at t - D: a pixel of slow light equals that of a fast-light picture at t - D, D
- * being the delay of its ray, for an observer at infinity and a near one. Not to the last step, because a grid
- * rotated by a part of a cell is blurred differently. */
+/* Light with delay D shows the disk at t - D. So a pixel of slow light equals that of a fast-light picture at t - D,
+ * where D is the delay of its ray, for an observer at infinity and a near one. They are not equal to the last step,
+ * because a grid that is rotated by a part of a cell is blurred differently. */
 static void test_slow_light(void **state)
 {
     (void)state;

@@ -61,7 +61,7 @@ static void add_stretches(const struct kd_probed_ray *told, size_t *s, uint32_t 
     }
 }
 
-/* The emitters' light as it arrives, combined front to back from their own parts. */
+/* The light as it arrives: the parts of the emitters, combined front to back. */
 static void add_up(const struct kd_probed_ray *told, double sum[3])
 {
     double through = 1;
@@ -105,8 +105,9 @@ static size_t judge_sum(const struct kd_frame *frame, uint32_t x, uint32_t y)
     return n;
 }
 
-/* Checks that all rays of the pixel together give its light, and each ray its emitters' light; 0 would mean that the
- * data was lost on its way from the kernel. Returns the number of rays whose light differs from the first one's. */
+/* Checks that all rays of the pixel together give its light, and that each ray has its emitters' light; 0 would mean
+ * that the data was lost on its way from the kernel. Returns the number of rays whose light differs from that of the
+ * first. */
 static uint32_t judge_rays(const struct kd_frame *frame)
 {
     const struct kd_probed_pixel *told = frame->told;
@@ -320,7 +321,8 @@ static void layers(void **state)
     assert_true(compared > 3);
 }
 
-/* A pixel may belong to one eye of a pair, to a band that is not kept, or to a ring. */
+/* Explains pixels of special pictures: of one eye of a stereo pair, in a band that is no longer in memory, and in a
+ * picture of a ring. */
 static void other_pictures(void **state)
 {
     static const uint32_t columns[] = { 20, WIDTH + 20 };
@@ -351,7 +353,8 @@ static void other_pictures(void **state)
     kd_frame_finish(&frame);
 }
 
-/* Light of negative energy at infinity from gas within the ergosphere: g for the observer is the picture's. */
+/* Light of negative energy at infinity from gas within the ergosphere: the explained g for the observer equals that of
+ * the picture. */
 static void negative_energies(void **state)
 {
     const struct kd_scene scene =
@@ -575,9 +578,9 @@ static void judge_volumes(const struct kd_probed_ray *told)
                 (told->steps > 0 && told->samples >= 3 * told->n_stretches && told->steps <= told->samples + 12 * 16));
 }
 
-/* Two overlapping volumes are each explained with the depth that they have alone and, where nothing is hidden, the
- * light: that of a picture without the other, which adds up one volume only. The shell's edges lie within the jets'
- * bounds and are resolved to a part of a step; without that the error is 1 %. */
+/* Each of two overlapping volumes is explained with the depth that it has alone. Where nothing is hidden, it also has
+ * the light of a picture without the other volume. The shell's edges lie within the jets' bounds and are resolved to a
+ * part of a step; without that the error is 1 %. */
 static void volumes(void **state)
 {
     static const char *const names[] = { "volume", "jets" };
@@ -625,8 +628,8 @@ static void encoded(const struct kd_scene *scene, const struct kd_plan *plan, st
     kd_frame_finish(&frame);
 }
 
-/* If a pixel does not depend on the rest of the picture, it is explained from itself and a margin alone, with the
- * same bytes. A pixel with an exposure of its own is not. */
+/* If a pixel does not depend on the rest of the picture, it is explained from itself and a margin alone, with the same
+ * bytes. With an automatic exposure, which depends on the whole picture, it is not. */
 static void alone(void **state)
 {
     (void)state;

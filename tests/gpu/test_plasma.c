@@ -1,6 +1,6 @@
-/* Matter at a radio frequency: each ray's brightness temperature against the integral of emission and absorption
- * along the Kerr-Schild oracle's path, with velocities from the metric's components and emissivities in CGS; fluxes
- * in Jy; and numbers beyond single precision. */
+/* Tests of matter at a radio frequency. Each ray's brightness temperature is compared with the integral of emission and
+ * absorption along the Kerr-Schild oracle's path, with velocities from the metric's components and emissivities in CGS.
+ * Also tests fluxes in Jy, and numbers beyond single precision. */
 #include "render_support.h"
 
 #include "cgs.h"
@@ -378,9 +378,9 @@ static void test_sphere(void **state)
     }
 }
 
-/* Whole pictures against published values: Gold et al. 2020, table 1; the program Blacklight (White 2022); ipole's
- * model/riaf/riaf.txt. Blacklight's rays are parallel, but its observer is at rest at 1000 M: 230 GHz there are 230
- * sqrt(1 - 2/1000) GHz at infinity, and I/nu^3 is invariant. */
+/* Fluxes of whole pictures are compared with published values: Gold et al. 2020, table 1; the program Blacklight (White
+ * 2022); ipole's model/riaf/riaf.txt. Blacklight's rays are parallel, but its observer is at rest at 1000 M. Its 230
+ * GHz are 230 sqrt(1 - 2/1000) GHz at infinity, and I/nu^3 is invariant. */
 static void test_published(void **state)
 {
     (void)state;
@@ -475,8 +475,8 @@ static void test_normalised(void **state)
     }
 }
 
-/* All pictures of an integral share one density, which is determined once: for sizes whose pixels round the scene's
- * aspect differently, for visibilities, and at two frequencies. */
+/* All pictures of an integral share one density, which is determined once. Tested for sizes whose pixels round the
+ * scene's aspect ratio differently, for visibilities, and at two frequencies. */
 static void test_normalised_once(void **state)
 {
     (void)state;
@@ -511,7 +511,8 @@ static void test_normalised_once(void **state)
     }
 }
 
-/* While a view is dragged the density is the last one determined for the same matter; at rest it is its own. */
+/* While a view is dragged, frames use the density last determined for the same matter. At rest a frame uses the density
+ * determined for itself. */
 static void test_held(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Particles that fall from the ISCO, as the device places them: against geodesics integrated from the metric, at any
- * time, and against the expected steady stream; switched off they cost nothing. */
+/* Tests of particles that fall from the ISCO, as the device places them. They are compared with geodesics integrated
+ * from the metric, at any time, and with the expected steady stream. When they are switched off they cost nothing. */
 #include "render/plan/sample.h"
 #include "render/emit/particles.h"
 
@@ -133,12 +133,12 @@ static void test_stream(void **state)
         double mean = FALLING / BINS, sigma = sqrt(mean * (1 - 1.0 / BINS));
         for (int b = 0; b < BINS; b++)
             assert_true(fabs(phases[b] - mean) < 4 * sigma && fabs(turns[b] - mean) < 4 * sigma);
-        assert_true(same < 40); /* 13 would be so by chance */
+        assert_true(same < 40); /* 13 would be equal by chance */
     }
 }
 
-/* w' of the lens map, integrated in single precision, against the value from the ray's constants in double, with the
- * sign of the closed form. */
+/* w' of the lens map, which is integrated in single precision, equals the value from the ray's constants in double
+ * precision, with the sign of the closed form. */
 static void test_slopes(void **state)
 {
     (void)state;
@@ -188,7 +188,7 @@ static void test_slopes(void **state)
     }
 }
 
-/* Without them there are neither planes nor a second grid. */
+/* Without plunging particles there are neither planes nor a second grid for them. */
 static void test_off(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* Direction of polarisation against an oracle that transports vectors along rays in Kerr-Schild coordinates
- * (kerr_schild_transport.h) and shares no equation with the kernels' Walker-Penrose constant; and consistency of the
- * Stokes layers. */
+/* Tests of the direction of polarisation. It is compared with an oracle that transports vectors along rays in
+ * Kerr-Schild coordinates (kerr_schild_transport.h) and shares no equation with the kernels' Walker-Penrose constant.
+ * The Stokes layers must be consistent. */
 #include "kerr_schild_transport.h"
 #include "physics/disk/scattering.h"
 #include "physics/spacetime/kerr.h"
@@ -169,8 +169,8 @@ static void test_evpa(void **state)
         judge(&views[i]);
 }
 
-/* A pixel has the mean Q and U of its rays, which give angle and fraction; orders add up to the total; the march
- * gives the same for its light. */
+/* A pixel has the mean Q and U of its rays, from which its angle and fraction are computed. Orders add up to the total.
+ * The march gives the same for its light. */
 static void test_stokes(void **state)
 {
     (void)state;

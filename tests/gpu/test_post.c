@@ -1,5 +1,5 @@
-/* The post kernels alone: the sRGB curve at every level of 16 bits against double precision, places and packing, and
- * the kernel that reads texels against the one that reads storage. */
+/* Tests of the post kernels alone: the sRGB curve at every level of 16 bits, compared with double precision; places and
+ * packing; and the kernel that reads texels, compared with the one that reads storage. */
 #include "render_support.h"
 
 #include "render/device/internal.h"
@@ -167,8 +167,8 @@ static void no_number(void **state)
         }
 }
 
-/* White and brighter light stays white: dither does not overflow the last level, nor lower it by more than one of 16
- * bits; black stays black. */
+/* White and brighter light stays white: dither does not overflow the last level, nor does it lower the level by more
+ * than one of 16 bits. Black stays black. */
 static void ends(void **state)
 {
     (void)state;
@@ -203,7 +203,7 @@ static void khronos(const double in[3], double out[3])
         out[c] = (out[c] * shown / peak) * (1 - g) + shown * g;
 }
 
-/* To two steps of 16 bits of encoded value, from black to far beyond white. */
+/* The kernel agrees with this to two steps of 16 bits of encoded value, from black to far beyond white. */
 static void neutral(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* Pictures of all directions, and of half of them, from a finite radius. A pixel's direction is computed here by
- * successive rotations about the camera's axes; the Kerr-Schild oracle gives the origin of its photon. Such cameras
- * look outwards too, which pinhole pictures seldom do. */
+/* Tests of pictures of all directions, and of half of them, from a finite radius. A pixel's direction is computed here
+ * by successive rotations about the camera's axes, and the Kerr-Schild oracle gives the origin of its photon. Such
+ * cameras look outwards too, which pinhole pictures seldom do. */
 #include "kerr_schild.h"
 #include "render/render.h"
 #include "render/view/camera.h"

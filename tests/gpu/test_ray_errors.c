@@ -248,7 +248,8 @@ static void test_few_steps_at_high_order(void **state)
     assert_true(end.n_crossings == 8 || end.error >= 1);
 }
 
-/* Crossings with errors above a tolerance, over all lists; silent: those of rays that claim to be within it. */
+/* Numbers of crossings whose errors exceed a tolerance, over all lists; silent: those of rays that claim to be
+ * within it. */
 struct held { size_t crossings, off, silent, again, beyond, rays; };
 
 static void count(const struct list *l, double tolerance, const struct kd_ray_end *ends,

@@ -1,5 +1,5 @@
-/* Listed rays on the device, in both precisions, against the Kerr-Schild oracle: radius, azimuth, delay, direction,
- * fate, and each ray's stated error against its true error. */
+/* Tests of listed rays on the device, in both precisions. Radius, azimuth, delay, direction and fate are compared with
+ * the Kerr-Schild oracle, and each ray's stated error with its true error. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
@@ -138,7 +138,7 @@ static void test_double(void **state)
     check(KD_ENGINE_MINO_RKN4, KD_PRECISION_F64, 1e-9, 2e-9, 1e-9, 1e-6);
 }
 
-/* Median error of the crossing of an order by an engine in double precision. */
+/* Median error of the crossings of one order, by an engine in double precision. */
 static double median_error(enum kd_engine engine, uint32_t steps, int order)
 {
     static struct kd_ray_crossing crossings[RAYS * ORDERS];
@@ -217,8 +217,8 @@ static void test_estimate(void **state)
     }
 }
 
-/* Each method converges with its order: twice the steps leave 1/2, 1/16, 1/64 of the error, except at the coarse
- * end. Mino's is judged on the second crossing, where the oracle's 1e-11 is not yet visible. */
+/* Each method converges with its order: twice the steps leave 1/2, 1/16 or 1/64 of the error, except at the coarse end.
+ * Mino's method is judged on the second crossing, where the oracle's error of 1e-11 is not yet visible. */
 static void test_orders(void **state)
 {
     (void)state;
@@ -300,8 +300,8 @@ static void test_starts(void **state)
     }
 }
 
-/* Stated errors of the Kerr-Schild engines, against the oracle: a bound for 999 of 1000 rays, 1 if fate or crossings
- * differ. Their azimuths count turns as the closed form's do. */
+/* The stated errors of the Kerr-Schild engines, compared with the oracle. They are a bound for 999 of 1000 rays, and 1
+ * if fate or crossings differ. The engines' azimuths count turns as those of the closed form do. */
 static void check_kerr_schild(enum kd_engine engine, enum kd_precision precision, int h)
 {
     static struct kd_ray_crossing crossings[RAYS * ORDERS], exact[RAYS * ORDERS];

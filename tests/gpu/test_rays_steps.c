@@ -1,5 +1,5 @@
-/* One ray step by step: the recording kernel ends where the ordinary one does, its steps lie on the ray, and the
- * first integrals hold along them. */
+/* Tests of one ray step by step: the recording kernel ends where the ordinary one does, its steps lie on the ray, and
+ * the first integrals hold along them. */
 #include "render/rays/steps.h"
 
 #include "render_support.h"
@@ -108,7 +108,8 @@ static bool wide(void)
     return capacity.float64;
 }
 
-/* Bounds: some hundred steps of a unit roundoff each, and the error of the usual numbers of steps. */
+/* The bounds allow for some hundred steps, each with an error of a unit roundoff, and for the error of the usual
+ * numbers of steps. */
 static void test_mino(void **state)
 {
     (void)state;
@@ -120,8 +121,8 @@ static void test_mino(void **state)
     }
 }
 
-/* The steps lie on the ray: a trace with twice the steps has one at each step of the coarser one, at the same place
- * up to the coarser one's error. */
+/* The steps lie on the ray. A trace with twice as many steps has a step at each step of the coarser trace, at the same
+ * place up to the coarser trace's error. */
 static void test_refined(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Adaptive sampling: a picture whose pixels get as many rays as they need, against pictures with 1, 16 or 64 for
- * all. */
+/* Tests of adaptive sampling: a picture whose pixels get as many rays as they need is compared with pictures that have
+ * 1, 16 or 64 rays in every pixel. */
 #include "render/frame/choose.h"
 #include "render/frame/residual.h"
 #include "render/render.h"
@@ -84,8 +84,8 @@ static double neither(const struct kd_frame *a, const struct kd_frame *b, const 
     return (double)n / PIXELS;
 }
 
-/* A frame's stated residual, from some 200 pixels, is close to that of all; most of a sum of squares comes from few
- * of them. */
+/* A frame estimates its residual from some 200 pixels. The estimate is close to the residual of all pixels, although
+ * most of a sum of squares comes from few of them. */
 static void residual(const struct kd_frame *adaptive, const struct kd_frame *truth)
 {
     double left = sqrt(off(adaptive, truth)), said = adaptive->accuracy.pixel_error;
@@ -94,9 +94,9 @@ static void residual(const struct kd_frame *adaptive, const struct kd_frame *tru
     assert_true(said < 4 * left && said > left / 4);
 }
 
-/* A picture within 0.5 dB of that by 16 rays, judged by that of 64, for at most a quarter of the rays: the
- * requirement. Its pixels are those of the picture by one ray or by 16, except few where an interpolated ray falls
- * on the other side of an edge. */
+/* The requirement: a picture has at most a quarter of the rays of that with 16 rays a pixel, and is within 0.5 dB of
+ * it, both compared with that of 64. Its pixels are those of the picture with one ray or with 16, except for few where
+ * an interpolated ray falls on the other side of an edge. */
 static void test_as_good(void **state)
 {
     (void)state;
@@ -123,7 +123,7 @@ static void test_as_good(void **state)
     }
 }
 
-/* A smaller target error leaves less, for more pixels. */
+/* A smaller target leaves a smaller error, and more pixels are chosen. */
 static void test_target(void **state)
 {
     (void)state;
@@ -147,8 +147,8 @@ static void test_target(void **state)
     kd_frame_finish(&truth);
 }
 
-/* With the cached lens map the picture is the same. In bands it is too, except for rays at their edges, which are
- * traced; and so it is by listed rays, except next to an edge. A preview and the flux contain all rays. */
+/* With the cached lens map the picture is the same. In bands it is the same too, except for rays at their edges, which
+ * are traced. By listed rays it is the same except next to an edge. A preview and the flux contain all rays. */
 static void test_same(void **state)
 {
     (void)state;
@@ -220,8 +220,8 @@ static struct kd_choice bent(const uint16_t *pixels, uint64_t most)
 
 static struct kd_pixel place(const struct kd_choice *c, size_t i) { return c->list.pixels[i]; }
 
-/* A faint curvature is chosen if nothing stronger is present, until almost no sum of squares is left; not beside an
- * edge. */
+/* A faint curvature is chosen if nothing stronger is present, until almost no sum of squares is left. It is not chosen
+ * beside an edge. */
 static void test_faint(void **state)
 {
     (void)state;
@@ -234,7 +234,7 @@ static void test_faint(void **state)
     for (int y = 0; y < H; y++)
         kinds[y * W] = kinds[y * W + W - 1] = 1;
     pixels[3 * (3 * W + 4)] += 400;  /* curvatures of 800 and 400: less than 1311 */
-    pixels[3 * (5 * W + 11)] += 100; /* of 200 and 100: the former exceeds the floor, 132 */
+    pixels[3 * (5 * W + 11)] += 100; /* curvatures of 200 and 100; the former exceeds the floor, 132 */
     struct kd_choice choice = bent(pixels, W * H);
     assert_int_equal(choice.list.n, 9 + 1);
     kd_choice_finish(&choice);
@@ -244,7 +244,7 @@ static void test_faint(void **state)
     kd_choice_finish(&choice);
 }
 
-/* Chosen pixels of a synthetic picture. */
+/* Tests which pixels of a synthetic picture are chosen. */
 static void test_choice(void **state)
 {
     (void)state;
@@ -255,7 +255,7 @@ static void test_choice(void **state)
             pixels[3 * k + c] = (uint16_t)(4000 * (k % W) + 300 * (k / W));
     struct kd_choice choice = bent(pixels, W * H);
     assert_true(choice.list.n > 0);
-    for (size_t i = 0; i < choice.list.n; i++) /* none inside */
+    for (size_t i = 0; i < choice.list.n; i++) /* no pixel inside is chosen */
         assert_true(place(&choice, i).x == 0 || place(&choice, i).x == W - 1 || place(&choice, i).y == 0 ||
                     place(&choice, i).y == H - 1);
     kd_choice_finish(&choice);
@@ -287,8 +287,8 @@ static void test_choice(void **state)
     kd_choice_finish(&choice);
 }
 
-/* Plans count traced and interpolated rays, to a factor of two, whether pixels need them only at the curve or
- * everywhere: with one fraction for all, a smooth disk counted four times its rays. */
+/* Plans count traced and interpolated rays to a factor of two, whether pixels need them only at the curve or
+ * everywhere. With one fraction for all pictures, the count of a smooth disk was four times too high. */
 static void test_planned(void **state)
 {
     (void)state;

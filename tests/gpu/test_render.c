@@ -1,5 +1,5 @@
-/* Frames on the device: what must not change the picture (bands, slices, the cache), what must change it, limits,
- * cancelling. */
+/* Tests of frames on the device: what must not change the picture (bands, slices, the cache), what must change it,
+ * limits, and cancelling. */
 #include "render/render.h"
 #include "render/view/critical_pixels.h"
 
@@ -48,7 +48,7 @@ static void assert_same(struct kd_frame *a, struct kd_frame *b)
     kd_frame_finish(b);
 }
 
-/* A scene that differs only in what the lens map does not depend on reuses the map. */
+/* A scene reuses the lens map if it differs only in fields on which the map does not depend. */
 static void test_reuse(void **state)
 {
     (void)state;
@@ -78,8 +78,7 @@ static void test_reuse(void **state)
     }
 }
 
-/* The critical curve is computed once for a picture, including its plan, and not again while the camera is
- * unchanged. */
+/* The critical curve is computed once for a picture and its plan, and not again while the camera is unchanged. */
 static void test_the_curve_is_followed_once(void **state)
 {
     (void)state;
@@ -242,7 +241,7 @@ static void test_progress(void **state)
 }
 
 struct glances {
-    const struct kd_frame *want; /* NULL: it has its own exposure */
+    const struct kd_frame *want; /* NULL: the picture has an exposure of its own */
     uint32_t rows[64], n;
 };
 
@@ -305,7 +304,8 @@ struct others {
     int calls;
 };
 
-/* In the middle of a picture: another long one, a short one, and more with one kernel each, in succession. */
+/* In the middle of a picture, renders another long one, a short one, and then more with one kernel each, in
+ * succession. */
 static bool let_others(void *user, double fraction)
 {
     struct others *o = user;
@@ -329,7 +329,7 @@ static bool let_others(void *user, double fraction)
     return true;
 }
 
-/* Interleaved pictures are the same as alone, and so are the interrupted ones; each has its own times. */
+/* Interleaved pictures are the same as alone, and so are the interrupted ones. Each has its own times. */
 static void test_asides(void **state)
 {
     (void)state;
@@ -356,10 +356,10 @@ static void test_asides(void **state)
     assert_true(o.calls > 10 && !beside.lens_reused);
     assert_true(timing_of(&beside, "trace") > 0 && timing_of(&beside, "transfer") > 0 &&
                 timing_of(&beside, "total") > 0);
-    assert_true(isnan(timing_of(&beside, "particles"))); /* those were the other's */
+    assert_true(isnan(timing_of(&beside, "particles"))); /* those belonged to the other picture */
 
     OK(kd_render(o.r, &scene, &plan, NULL, NULL, &alone, &error));
-    assert_true(alone.lens_reused); /* it is found wherever it was made */
+    assert_true(alone.lens_reused); /* the lens map is found wherever it was made */
     kd_frame_finish(&alone);
     struct kd_renderer *fresh;
     OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .passing = true }, &fresh, &error));
@@ -370,14 +370,15 @@ static void test_asides(void **state)
         assert_same(&alone, &o.frames[i]);
     }
     OK(kd_render_in_background(fresh, &scene, &plan, NULL, NULL, NULL, &alone, &error));
-    assert_true(alone.lens_reused); /* and vice versa */
+    assert_true(alone.lens_reused); /* and a picture in the background finds a map from the foreground */
     kd_frame_finish(&alone);
     kd_renderer_destroy(fresh);
     assert_int_equal(kd_renderer_validation_messages(o.r), 0);
     kd_renderer_destroy(o.r);
 }
 
-/* A lens map made by another store is sufficient for a whole frame: refinement needs more buffers than the map. */
+/* A lens map made by another store is sufficient for a whole frame, although refinement needs more buffers than the
+ * map. */
 static void test_a_map_that_is_handed_over(void **state)
 {
     (void)state;
@@ -413,8 +414,8 @@ static struct kd_frame rendered_by(struct kd_renderer *r, const struct kd_scene 
     return frame;
 }
 
-/* Idle memory is released. Later pictures are the same, and the latest view finds its lens map, unless too much
- * unnamed memory is left: then the device is reopened. */
+/* Idle memory is released. Later pictures are the same, and the latest view finds its lens map. If too much memory that
+ * the program cannot account for is left, the device is reopened instead. */
 static void test_rest(void **state)
 {
     (void)state;
@@ -459,7 +460,8 @@ static void test_rest(void **state)
     kd_renderer_destroy(fresh);
 }
 
-/* Pictures rendered in the background leave resources for the next one, up to a bound, and the last one all of them. */
+/* A picture rendered in the background leaves resources for the next one, up to a bound. The last one leaves all of its
+ * resources. */
 static void test_what_idle_asides_keep_is_bounded(void **state)
 {
     (void)state;
@@ -498,10 +500,10 @@ static void test_what_is_resident_is_counted_when_asked(void **state)
     (void)state;
     const uint64_t started = renderer->started_bytes;
     uint64_t kept[KD_N_KEPT_KINDS];
-    renderer->started_bytes = UINT64_MAX / 4; /* as if more had been, */
+    renderer->started_bytes = UINT64_MAX / 4; /* as if more memory had been resident at the start, ... */
     kd_renderer_kept(renderer, kept);
     assert_int_equal(kept[KD_KEPT_OTHER], 0);
-    renderer->started_bytes = 0; /* and as if none had */
+    renderer->started_bytes = 0; /* ... and as if none had been */
     kd_renderer_kept(renderer, kept);
     assert_true(kept[KD_KEPT_OTHER] > 1 << 20);
     renderer->started_bytes = started;
@@ -559,7 +561,7 @@ static void test_too_big(void **state)
     struct kd_plan plan;
     scene.image.width = scene.image.height = 32768;
     scene.image.samples = 8;
-    c.memory_bytes = 4ull << 30; /* a device may have enough */
+    c.memory_bytes = 4ull << 30; /* a device may have this much */
     FAILS(KD_ETOOBIG, "GiB", kd_plan_make(&scene, &c, &plan, &error));
     c.max_binding_bytes = 65536;
     FAILS(KD_ETOOBIG, "row", kd_plan_make(&scene, &c, &plan, &error));

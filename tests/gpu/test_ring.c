@@ -1,5 +1,5 @@
-/* The ring projection: edges of the orders in a lens map against the solved ones, pixel by pixel; the measured
- * e^-gamma; its light against that of a plane picture. */
+/* Tests of the ring projection. The edges of the orders in a lens map are compared with the solved ones, pixel by
+ * pixel; also the measured e^-gamma, and the light of a ring picture with that of a plane picture. */
 #include "render_support.h"
 
 #include "physics/null/lensing.h"
@@ -59,8 +59,8 @@ static float *trace(const struct kd_scene *scene, struct kd_plan *plan)
 
 static const struct { double spin, inclination_deg; } views[] = { { 0, 60 }, { 0.9, 60 }, { -0.998, 30 } };
 
-/* 1 if a pixel sees the plane nearer than `source` exactly when the edge says so. Pixels too close to the edge for
- * alpha and beta to decide do not count. */
+/* Returns 1 if a pixel sees the plane nearer than `source` exactly when the edge says so. Pixels too close to the edge
+ * for alpha and beta to decide do not count. */
 static int check_column(const struct kd_ring *ring, const struct kd_critical_point *column, int n, double source,
                         const float *w, int *skipped)
 {
@@ -98,7 +98,7 @@ static void every_edge_is_where_it_belongs(void **state)
                                  x, n, sources[s], wrong);
                 }
         }
-        assert_true(skipped < 20); /* of 460 800 */
+        assert_true(skipped < 20); /* of 460 800 pixels */
         test_free(w);
     }
 }

@@ -1,5 +1,5 @@
-/* Ringing of a struck hole: light of image orders 1 and up follows the hole's mode, by numbers of another method
- * (tests/oracle/qnm_reference.py); order 0 is unchanged; nothing is traced again. */
+/* Tests of the ringing of a struck hole. The light of image orders 1 and up follows the hole's mode, by numbers of
+ * another method (tests/oracle/qnm_reference.py). The light of order 0 is unchanged, and nothing is traced again. */
 #include "render_support.h"
 
 #include "qnm_reference.h"
@@ -33,7 +33,7 @@ static size_t samples(const struct kd_frame *f) { return (size_t)f->width * f->h
 static double light(const struct kd_frame *f, size_t i)
 {
     const uint16_t *pixels = kd_frame_pixels(f);
-    assert_true(pixels[i] < 65535); /* nothing clipped */
+    assert_true(pixels[i] < 65535); /* nothing is clipped */
     return shown(pixels, i);
 }
 
@@ -161,7 +161,8 @@ static void test_lumps(void **state)
     }
 }
 
-/* Light that a ringing hole adds to a disk's, over all samples, and its difference from another disk's. */
+/* sum: the light that a ringing hole adds to a disk's, over all samples; off: the difference of this light from that of
+ * another disk. */
 struct change { double sum, off; };
 
 static struct kd_frame at_time(struct kd_scene scene, double t, double amplitude)
@@ -186,8 +187,8 @@ static struct change changed(const struct kd_scene *scene, double t, double *las
     return c;
 }
 
-/* A thick disk of almost no height rings where the thin one does and as much, all its light by one factor; one of
- * some height by the same factor. */
+/* A thick disk of almost no height rings where the thin one does and as strongly, with all its light multiplied by one
+ * factor. A disk of some height rings by the same factor. */
 static void test_thick(void **state)
 {
     static const double times[] = { 0, 1, 7.5 };

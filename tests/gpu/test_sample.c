@@ -1,10 +1,10 @@
-/* Lens maps interpolated between nodes (src/render/frame/sample.h), against the same maps with every ray traced:
- * fates, orders and hemispheres of all rays, crossings and directions of most to the tolerance, footprints; and
- * tiles against the whole picture's, byte for byte.
+/* Tests of lens maps that are interpolated between nodes (src/render/frame/sample.h). They are compared with the same
+ * maps with every ray traced: fates, orders and hemispheres of all rays, crossings and directions of most to the
+ * tolerance, and footprints. Tiles are compared with the whole picture's, byte for byte.
  *
  *   test_sample [CAMERAS [SEED [FIRST]]]     e.g. nice build/tests/gpu/test_sample 200 7
  *
- * Without arguments it is short. */
+ * Without arguments the run is short. */
 #include "physics/spacetime/hole.h"
 #include "random_camera.h"
 #include "render_support.h"
@@ -62,7 +62,7 @@ static uint32_t crossings(const struct map *m, size_t i)
 
 struct tally {
     uint64_t rays, other_fate, other_order, other_side, same;
-    /* relative errors of w over the condition, for both maps; differences of directions */
+    /* between, followed: errors of w relative to the condition, in either map; sky: differences of directions */
     double *between, *followed, *sky;
     size_t n, n_sky;
 };
@@ -103,7 +103,7 @@ enum { EVERY = 13, JUDGED = (RAYS + EVERY - 1) / EVERY, ORDERS = 3 };
 static struct kd_ray_crossing truth[JUDGED * ORDERS];
 static struct kd_ray_end ends[JUDGED];
 
-/* Traces one ray in EVERY by the closed form in double: `truth` and `ends`. */
+/* Traces one ray of each EVERY by the closed form in double, and fills `truth` and `ends`. */
 static void follow(const struct kd_scene *scene)
 {
     static double alpha_beta[2 * JUDGED];
@@ -209,8 +209,8 @@ static struct kd_scene scene_of(double spin, double r)
     return scene;
 }
 
-/* A tile's map is a part of the picture's, whatever its edges; and so is the map of a picture made a few rows at a
- * time. */
+/* A tile's map is a part of the whole picture's map, whatever its edges. The same holds for the map of a picture that
+ * is made a few rows at a time. */
 static void tiles_are_the_bytes_of_the_whole(void **state)
 {
     (void)state;
@@ -249,7 +249,7 @@ static void footprints_are_derivatives(void **state)
     static double off[300 * 200], sky[300 * 200];
     size_t n = 0, m = 0;
     for (size_t i = 0; i < a.plan.rays; i++) {
-        if (crossings(&b, i)) /* of the direct image, whose second-order differences are small */
+        if (crossings(&b, i)) /* only crossings of the direct image, whose second-order differences are small */
             off[n++] = fabs(plane(&a, KD_LENS_FOOTPRINT, 0)[i] / plane(&b, KD_LENS_FOOTPRINT, 0)[i] - 1);
         if (plane(&b, KD_LENS_FATE, 0)[i] == KD_FATE_ESCAPED)
             sky[m++] = fabs(plane(&a, KD_LENS_SKY_FOOTPRINT, 0)[i] / plane(&b, KD_LENS_SKY_FOOTPRINT, 0)[i] - 1);
@@ -262,7 +262,7 @@ static void footprints_are_derivatives(void **state)
     test_free(b.planes);
 }
 
-/* Profiles that promise more trace every ray, as does a scene that names an engine. */
+/* Profiles that promise more trace every ray, and so does a scene that names an engine. */
 static void some_scenes_follow_every_ray(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* The self-test passes here, and detects a wrong number: a comparison that cannot fail would let every device pass. */
+/* Tests that the self-test passes here and detects a wrong number. A comparison that cannot fail would let every device
+ * pass. */
 #include "render/selftest/selftest.h"
 
 #include "render_support.h"
@@ -43,7 +44,7 @@ static void test_passes(void **state)
     assert_true(table.n > 60);
 }
 
-/* Every number is off by more than single precision allows: every line that uses the table fails. */
+/* If every number is off by more than single precision allows, every line that uses the table fails. */
 static void test_everything_wrong(void **state)
 {
     (void)state;
@@ -87,7 +88,7 @@ static void test_everything_wrong(void **state)
     }
 }
 
-/* One radius wrong in its tenth digit: detected by double precision, in the lines of that set alone. */
+/* If one radius is wrong in its tenth digit, double precision detects it, in the lines of that set alone. */
 static void test_one_wrong(void **state)
 {
     (void)state;
@@ -110,7 +111,7 @@ static void test_one_wrong(void **state)
     assert_int_equal(seen, capacity.float64 ? 2 : 1);
 }
 
-/* A fate or a number of crossings that differs from the table's. */
+/* The self-test detects a fate or a number of crossings that differs from the table's. */
 static void test_fates(void **state)
 {
     (void)state;
@@ -133,7 +134,7 @@ static void test_compare(void **state)
     kd_selftest_begin(&row, "source", "by", "what %d", 1);
     kd_selftest_compare(&row, -1e-3, 1e-3);
     assert_true(row.ok && row.error == 1e-3 && row.compared == 1);
-    kd_selftest_compare(&row, 1e-2, 1e-1); /* larger, but further from its bound */
+    kd_selftest_compare(&row, 1e-2, 1e-1); /* larger, but farther from its bound */
     assert_true(row.ok && row.error == 1e-3);
     kd_selftest_compare(&row, nextafter(1e-3, 1), 1e-3);
     assert_true(!row.ok && row.bound == 1e-3);

@@ -1,5 +1,5 @@
-/* sky.image: places of a panorama in the picture, their brightness, what covers what, and missing panoramas. The
- * panorama is synthetic, with a mark at each of some bright stars. */
+/* Tests of sky.image: places of a panorama in the picture, their brightness, what covers what, and missing panoramas.
+ * The panorama is synthetic, with a mark at each of some bright stars. */
 #include "image/png.h"
 #include "render/output/png.h"
 #include "render/render.h"
@@ -163,7 +163,7 @@ static struct place expected(double l, double b)
     return (struct place) { (0.5 - left / (2 * M_PI)) * WIDTH, (0.5 - b / M_PI) * HEIGHT, 0 };
 }
 
-/* Marks and catalogue stars coincide, both where trigonometry has them. */
+/* Marks and catalogue stars coincide, at the places that trigonometry gives. */
 static void marks_and_stars(void **state)
 {
     const char *image = *state;
@@ -256,7 +256,8 @@ static void space_is_black(void **state)
     }
 }
 
-/* What should be brighter is: false colour, the grid, and a sky whose brightness is given beside a disk. */
+/* Automatic exposure does lift other pictures: false colour, the grid, and a sky whose brightness is given beside a
+ * disk. */
 static void lifted_all_the_same(void **state)
 {
     (void)state;
@@ -334,7 +335,7 @@ static void here_and_gone(void **state)
     keeper.at[keeper.n - 1].png.data[keeper.at[keeper.n - 1].png.size - 20] ^= 1;
     none = scene_of(KD_SKY_IMAGE, damaged);
     size_t taken = keeper.taken + 1;
-    for (int k = 0; k < 2; k++) { /* both times the file is checked */
+    for (int k = 0; k < 2; k++) { /* the file is checked both times */
         memset(&why, 0, sizeof why);
         assert_int_equal(kd_render(renderer, &none, &plan, NULL, NULL, &frame, &why), KD_EINVAL);
         assert_string_equal(why.pointer, "/sky/image");

@@ -1,5 +1,5 @@
-/* Hot spots and the light of a picture: against sums over rays of the Kerr-Schild oracle, which shares no equation
- * with the kernels; against limits far from the hole; and self-consistency. */
+/* Tests of hot spots and the light of a picture. They are compared with sums over rays of the Kerr-Schild oracle, which
+ * shares no equation with the kernels, and with limits far from the hole. Also tests self-consistency. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -355,8 +355,8 @@ static void test_parts(void **state)
     }
 }
 
-/* The maximum number of spots, at any places of the list: their light is the sum of theirs, and dark ones between
- * them have no effect. */
+/* The maximum number of spots, at any places of the list: their light is the sum of the light of each. Dark ones
+ * between them have no effect. */
 static void test_many(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Images of one star, Sirius: their places and light, by the Kerr-Schild oracle and, for a hole without spin, by
- * quadrature of the lens equation. The sky is rotated to put the star at a place. */
+/* Tests of the images of one star, Sirius: their places and light. They are compared with the Kerr-Schild oracle and,
+ * for a hole without spin, with quadrature of the lens equation. The sky is rotated to put the star at a place. */
 #include "kerr_schild.h"
 #include "render/render.h"
 #include "render/sky/frame.h"
@@ -205,8 +205,8 @@ static double looking(double azimuth)
     return 0.5 * (low + high);
 }
 
-/* The star is beta behind the hole, on its side at the angle `turned` from the picture's horizontal plane; its
- * images lie there in the picture, and opposite. */
+/* Puts the star beta behind the hole. The star's side is at the angle `turned` from the picture's horizontal plane. Its
+ * images are on this side of the picture and on the opposite one. */
 static bool behind_by(struct kd_scene *scene, double beta, double turned)
 {
     *scene = scene_of(0, 90);
@@ -231,8 +231,8 @@ static struct blob by_the_lens_equation(double beta, double turned, int side, in
                            0.5 * (WIDTH - 1) + off * cos(turned), 0.5 * (HEIGHT - 1) - off * sin(turned) };
 }
 
-/* Each image of a star behind the hole, and both together, however close to the caustic: all around it, so that no
- * place on the grid of rays is left out. */
+/* Each image of a star behind the hole, and both together, however close to the caustic. The star goes all round the
+ * hole, so that no position relative to the grid of rays is left out. */
 static void behind(const double *betas, size_t n, int rounds)
 {
     static const double turns[] = { 0, 0.3, 0.9, 2.1, 3.7, 5 };
@@ -348,7 +348,8 @@ static double patch_close(const struct kd_scene *scene, const struct close *c, d
             j = (struct vec3) { j.x + v * along.x, j.y + v * along.y, j.z + v * along.z };
         }
     const struct vec3 n = seen_by(scene, middle, &g);
-    /* From areas of the plane to solid angles of view: cos^3; the pixel is in the middle of its own picture. */
+    /* The factor cos^3 converts areas of the plane to solid angles of view; the pixel is in the middle of its own
+     * picture. */
     const double square = fabs(cos(c->angle) * ty - sin(c->angle) * tx) / length; /* of outwards and along */
     return fabs(dot(n, cross(i, j))) / square * pow(dot(middle, middle), 1.5) * pixel * pixel;
 }
@@ -388,7 +389,8 @@ static void next_to_the_curve(void **state)
             continue;
         struct kd_frame frame = seen(&scene);
         const double x = 0.5 * (CLOSE_WIDTH - 1), y = 0.5 * (CLOSE_HEIGHT - 1);
-        const struct blob b = blob_at(&frame, x, y, 1); /* all of it, and almost nothing of the star's other images */
+        const struct blob b = blob_at(&frame, x, y, 1); /* all of this image, and almost nothing of the star's other
+                                                         * images */
         if (fabs(b.light / want - 1) > 0.003 || hypot(b.x - x, b.y - y) > 0.003)
             printf("spin 0.9, %g from the curve at angle %.2f: light %.4g, off by %+.5f, place by %.4f\n", off, angle,
                    want, b.light / want - 1, hypot(b.x - x, b.y - y));
@@ -449,7 +451,7 @@ static void next_to_the_curve_of_fast_holes(void **state)
     }
 }
 
-/* All stars: the picture has the same bytes each time, and in bands the same except at their edges. */
+/* With all stars the picture has the same bytes each time. In bands it has the same bytes except at their edges. */
 static void whole_skies(void **state)
 {
     (void)state;
@@ -502,8 +504,8 @@ static struct kd_plan plan_of(const struct kd_scene *scene, const struct kd_capa
     return plan;
 }
 
-/* A picture in bands, rendered in the background under one sky while others are rendered under another, leaves no
- * light that is taken for theirs: that sky, by the same lens map, is the same as by a map of its own. */
+/* A picture in bands is rendered in the background under one sky, while others are rendered under another. It leaves no
+ * light that is taken for theirs: with the same lens map, the other sky is the same as with a map of its own. */
 static void another_sky_meanwhile(void **state)
 {
     (void)state;
@@ -563,7 +565,7 @@ static void kept_and_made_anew(void **state)
         own = scene;
         own.image.critical_factor = 5 + (int)i;
         struct kd_frame first = seen(&base), again = seen(&scene), fresh = seen(&own);
-        bool idle = i + 1 == sizeof changes / sizeof *changes; /* nothing that a star depends on */
+        bool idle = i + 1 == sizeof changes / sizeof *changes; /* the change affects nothing that a star depends on */
         assert_true(again.lens_reused && !fresh.lens_reused && was_run(&fresh, "stars"));
         assert_true(was_run(&again, "stars") == !idle);
         assert_memory_equal(again.layers[1].data, fresh.layers[1].data, 12ull * WIDTH * HEIGHT);
@@ -574,8 +576,8 @@ static void kept_and_made_anew(void **state)
     }
 }
 
-/* Bright images only: those above half the threshold are present, with their light, at their places to a fifth of a
- * ray; many others are not; the plan says so; and the map has no footprints. */
+/* With bright images only, those above half the threshold are present, with their light, at their places to a fifth of
+ * a ray. Many others are absent. The plan says so, and the map has no footprints. */
 static void bright_images(void **state)
 {
     (void)state;
@@ -652,8 +654,8 @@ static void bright_images_before_spread_light(void **state)
     kd_frame_finish(&again);
 }
 
-/* With diffuse light on the sky, however faint, each pixel is lit by itself; with points only, columns of pixels go
- * from crossing to crossing. */
+/* With diffuse light on the sky, however faint, each pixel is lit by itself. If there are only stars, columns of pixels
+ * go from crossing to crossing. */
 static void points_behind_a_disk(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Stereo pairs: each half is the picture of that eye, byte for byte; and the hole's displacement is the Euclidean
- * parallax of two eyes. */
+/* Tests of stereo pairs. Each half is the picture of that eye, byte for byte, and the hole's displacement is the
+ * Euclidean parallax of two eyes. */
 #include "render_support.h"
 
 static struct kd_scene pair_from(double spin, double r, double distance)
@@ -79,8 +79,8 @@ static void test_by_hand(void **state)
     kd_frame_finish(&one);
 }
 
-/* From far away the dark disk is displaced sideways by half of the distance over the radius; pixels of the tangent
- * plane. */
+/* From far away the dark disk is displaced sideways by half of the distance of the eyes over the radius, in pixels of
+ * the tangent plane. */
 static void test_parallax(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
-/* Polarised light of a volume at a radio frequency: Stokes I, Q, U and V of rays against an integration that shares
- * no step with the march: the ray and the vectors across it transported in Kerr-Schild coordinates by Runge-Kutta
- * (tests/oracle/kerr_schild_transport.c), coefficients in CGS with Bessel functions by quadrature, and the transfer
- * equation by Runge-Kutta with the 4 x 4 matrix at each place, from the far end. */
+/* Tests of polarised light of a volume at a radio frequency: Stokes I, Q, U and V of rays. They are compared with an
+ * integration that shares no step with the march. The ray and the vectors across it are transported in Kerr-Schild
+ * coordinates by Runge-Kutta (tests/oracle/kerr_schild_transport.c). Coefficients are in CGS, with Bessel functions by
+ * quadrature. The transfer equation is solved by Runge-Kutta with the 4 x 4 matrix at each place, from the far end. */
 #include "render_support.h"
 
 #include "kerr_schild_transport.h"
@@ -32,7 +32,7 @@ static const float *layer_of(const struct kd_frame *frame, const char *name)
     return layer->data;
 }
 
-/* One ray: its places, from the observer on. */
+/* The places of one ray, from the observer on. */
 enum { PLACES = 120000 };
 struct place { double step, j[4], k[4][4]; };
 static struct ray {
@@ -76,7 +76,7 @@ static void flow_of(const struct kd_scene *scene, double a, double r, double g[4
         v[i] = size * turns[i];
 }
 
-/* A torus: its velocity there, and h - 1; most: the maximum of h - 1. */
+/* Velocity of a torus at a place, and h - 1 there; most: the maximum of h - 1. */
 static double torus_at(const struct kd_volume *v, double a, double g[4][4], double flow[4], double *most)
 {
     double inner[4][4], mid[4][4], orbit[4], low[4];
@@ -110,8 +110,8 @@ static void take(void *user, const struct ks_carried *at)
         field[i] += along * flow[i];
     const double size = sqrt(ks_carried_product(at, field, field)), seen = -ks_carried_product(at, at->k, flow),
                  c = ks_carried_product(at, at->k, field) / (size * seen), s = sqrt(1 - c * c);
-    /* The field perpendicular to the ray: its component along the light's direction in the matter's frame is
-     * subtracted. */
+    /* The component of the field perpendicular to the ray: its component along the light's direction in the matter's
+     * frame is subtracted. */
     double across[4];
     for (int i = 0; i < 4; i++)
         across[i] = field[i] / size - c * (at->k[i] / seen - flow[i]);
@@ -161,7 +161,7 @@ static void grows(struct place *p, const double s[4], double out[4])
         out[i] = p->j[i] - out[i];
 }
 
-/* From the far end: light moves towards the observer. */
+/* Integrates from the far end, since light moves towards the observer. */
 static void integrate(double s[4])
 {
     memset(s, 0, 4 * sizeof *s);
@@ -179,7 +179,7 @@ static void integrate(double s[4])
     }
 }
 
-#define INSIDE 2.5 /* a ray this close does not return; those that do also see what is behind */
+#define INSIDE 2.5 /* a ray this close does not return; rays that return also see what is behind the hole */
 
 /* In the picture's unit of brightness, 1e10 K. */
 static void wanted(const struct kd_scene *scene, int i, double s[4])
@@ -303,8 +303,9 @@ static void test_adversarial(void **state)
                                   layer_of(&frame, "stokes_u")[p], layer_of(&frame, "stokes_v")[p] };
             if (!(isfinite(s[0]) && s[0] >= 0 && hypot(hypot(s[1], s[2]), s[3]) <= s[0] * (1 + 1e-5)))
                 fail_msg("%s, pixel %d: %g %g %g %g", extremes[i], p, s[0], s[1], s[2], s[3]);
-            /* Degree and angle follow from the numbers beside them, however dim or bright: of another kernel, whose
-             * rounding Faraday rotation amplifies. Below 1e-30 light has fewer than 24 bits on its way. */
+            /* Degree and angle follow from the numbers beside them, however dim or bright. They come from another
+             * kernel, whose rounding Faraday rotation amplifies. Below 1e-30 light has fewer than 24 bits on its
+             * way. */
             const double part = hypot(s[1], s[2]) / s[0], told = layer_of(&frame, "polarization_fraction")[p],
                          angle = layer_of(&frame, "evpa")[p];
             if (s[0] > 1e-30 && !(fabs(told - part) <= 1e-3))
@@ -438,8 +439,8 @@ static struct coefficients kappa_integrals(double kappa, double w, double turn, 
     return o;
 }
 
-/* The fits of a kappa distribution against the integrals, which use no fit: within a quarter for emission (a third
- * for V), and for rotation within the accuracy of thermal fits. */
+/* The fits of a kappa distribution are compared with the integrals, which use no fit. They agree within a quarter for
+ * emission (a third for V), and for rotation within the accuracy of thermal fits. */
 static void test_kappa_fits(void **state)
 {
     (void)state;

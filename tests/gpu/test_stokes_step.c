@@ -1,6 +1,6 @@
-/* A length of matter that emits, absorbs and rotates polarised light, against matrix exponentials in 40 digits
- * (tests/oracle/stokes_reference.py): from nothing to depths of 1e6 and Faraday depths of 1e6, and where both
- * characteristic lengths vanish. */
+/* Tests of a length of matter that emits, absorbs and rotates polarised light. It is compared with matrix exponentials
+ * in 40 digits (tests/oracle/stokes_reference.py): from nothing to depths of 1e6 and Faraday depths of 1e6, and where
+ * both characteristic lengths vanish. */
 #include "support.h"
 
 #include "stokes_reference.h"

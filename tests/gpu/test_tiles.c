@@ -1,5 +1,5 @@
-/* Tiles have the same bytes as that part of the whole picture, for each emitter and projection; and so have the
- * strips of a picture that does not fit in one. */
+/* A tile has the same bytes as this part of the whole picture, for each emitter and projection. The same holds for the
+ * strips of a picture that does not fit on the device in one piece. */
 #include "render/output/format.h"
 
 #include "render_support.h"
@@ -105,7 +105,7 @@ static void test_tiles_of_numbers(void **state)
     compare("numbers", &scene, &kd_format_npy);
 }
 
-/* With less and less memory, until the picture does not fit in one. */
+/* The memory is reduced until the picture does not fit on the device in one piece. */
 static void test_strips(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Device memory: shared blocks, reuse, release, refusal. */
+/* Tests of device memory: shared blocks, reuse, release, and refusal. */
 #include "support.h"
 
 static void small_ones_share_a_block(void **state)
@@ -53,8 +53,8 @@ static void oversized(void **state)
     FAILS(KD_ENOMEM, "MiB", kd_vk_buffer_create(vk, UINT64_C(1) << 50, KD_VK_READBACK, "huge", &none, &error));
     assert_null(none);
     assert_int_equal(kd_vk_allocated(vk), 0);
-    /* A heap can be filled, reports that, and recovers. Simulate a small one: the real one may be larger than this
-     * test should take. */
+    /* A heap can be filled, reports that, and recovers. The test simulates a small heap, because the real one may be
+     * larger than a test should fill. */
     VkPhysicalDeviceMemoryProperties *memory = &vk->heap.properties;
     VkMemoryHeap *heap = &memory->memoryHeaps[memory->memoryTypes[vk->heap.types[KD_VK_DEVICE]].heapIndex];
     uint64_t truth = heap->size, bytes = UINT64_C(8) << 20;

@@ -26,7 +26,7 @@ static void sizes(void **state)
     assert_int_equal(kd_vk_allocated(vk), 0);
 }
 
-/* A dispatch size written by the device just before; with size 0 nothing runs. */
+/* The size of a dispatch is written by the device just before; with size 0 nothing runs. */
 static void sizes_of_a_buffer(void **state)
 {
     struct kd_vk *vk = *state;
@@ -61,7 +61,7 @@ static void sizes_of_a_buffer(void **state)
     kd_vk_pipeline_destroy(vk, pipeline);
 }
 
-/* Parts of buffers: offsets in bindings, copies and fills touch only the named range. */
+/* Parts of buffers: offsets in bindings, copies and fills affect only the given range. */
 static void ranges(void **state)
 {
     struct kd_vk *vk = *state;
@@ -134,7 +134,7 @@ static void refused(void **state)
     kd_vk_pipeline_destroy(vk, pipeline);
 }
 
-/* A buffer larger than one binding, where memory permits such a buffer at all. */
+/* A buffer that is larger than one binding, if the memory permits such a buffer at all. */
 static void wide_binding(void **state)
 {
     struct kd_vk *vk = *state;

@@ -96,7 +96,8 @@ static void plant(struct kd_vk_functions *fn)
     }
 }
 
-/* `real` is a copy of the table as loaded, so the third step must not take our functions for the driver's. */
+/* `real` is a copy of the table as loaded by the first steps. The third step must not mistake our functions in it for
+ * the driver's. */
 static void plant_once(struct kd_vk_functions *fn)
 {
     struct kd_vk_functions before = real;
@@ -262,7 +263,7 @@ static void deadline(void **state)
     vk->fn.DestroyDevice = destroy_called;
     OK(kd_vk_fill(vk, "fill", buffer, 0, 256, 2, &error));
     OK(kd_vk_submit(vk, &ticket, &error));
-    /* A software device that did not get processor time is waited for again. */
+    /* The wait is repeated if a software device did not get processor time. */
     const bool software = kd_vk_info(vk)->type == KD_VK_CPU;
     finishes = true;
     if (software) {
@@ -272,7 +273,7 @@ static void deadline(void **state)
         OK(kd_vk_submit(vk, &ticket, &error));
     }
     finishes = false, busy = true,
-    waits = 0; /* one that got it counts as lost, after a second's grace for the watchdog */
+    waits = 0; /* a device that got processor time counts as lost, after a second's grace for the watchdog */
     FAILS(KD_EDEVICE, "missed its deadline of 1500 ms", kd_vk_wait(vk, ticket, &error));
     assert_int_equal(waits, 2);
 

@@ -1,4 +1,5 @@
-/* Placement of barriers without a device: each case by hand, then random programs against the definition. */
+/* Tests of the placement of barriers, without a device: each case by hand, and then random programs compared with the
+ * definition. */
 #include "support.h"
 
 #include "vk/hazard.h"
@@ -76,7 +77,7 @@ static void emptied_by_a_barrier(void **state)
     assert_int_equal(barrier.src_access, 0);
 }
 
-/* One command may bind a buffer twice without a hazard of its own, but both entries count for the next command. */
+/* One command may bind a buffer twice without a hazard within itself, but both entries count for the next command. */
 static void one_command(void **state)
 {
     (void)state;

@@ -124,7 +124,7 @@ static void ranges(void **state)
     kd_vk_pipeline_destroy(vk, pipeline);
 }
 
-/* Written and read alternately in one submission, each kind in turn: the layer sets the barriers. */
+/* Buffers are written and read alternately in one submission, each kind in turn: the layer sets the barriers. */
 static void order(void **state)
 {
     struct kd_vk *vk = *state;
@@ -232,8 +232,8 @@ static unsigned views_of(const struct kd_vk_buffer *buffer)
     return n;
 }
 
-/* A repeated binding has one view. Of many views those in use and a few more are kept. None outlives its buffer,
- * which may be destroyed while the device reads through them. */
+/* A repeated binding has only one view. Of many views, those in use and a few more are kept. No view outlives its
+ * buffer, which may be destroyed while the device reads through its views. */
 static void views(void **state)
 {
     struct kd_vk *vk = *state;

@@ -1,5 +1,5 @@
-/* Chains of commands that read and write the same buffers: correct results, and barriers where they are necessary
- * and nowhere else. Barriers are counted, because a device that runs everything in order is correct without any. */
+/* Chains of commands that read and write the same buffers give correct results, with barriers only where they are
+ * necessary. Barriers are counted, because a device that runs everything in order is correct without any. */
 #include "support.h"
 
 enum { n = 2048 };
@@ -51,7 +51,7 @@ static void counted(void **state)
 
     count_from_here(vk);
     OK(kd_vk_copy(vk, "c", b[1], 0, b[0], 0, n * 2, &error));
-    OK(kd_vk_copy(vk, "c", b[1], n * 2, b[0], n * 2, n * 2, &error)); /* the other half */
+    OK(kd_vk_copy(vk, "c", b[1], n * 2, b[0], n * 2, n * 2, &error)); /* copies the other half */
     assert_int_equal(barriers, 0);
     OK(kd_vk_submit(vk, NULL, &error));
     OK(kd_vk_copy(vk, "c", b[3], 0, b[1], 0, n * 4, &error)); /* hazard with the previous submission */

@@ -1,4 +1,4 @@
-/* Submissions: many in bounded memory, tickets, discarding, and their cost. */
+/* Tests of submissions: many in bounded memory, tickets, discarding, and their cost. */
 #include "support.h"
 
 #include <time.h>

@@ -101,7 +101,7 @@ class Access(daemon.Case):
 
 class Roles(Access):
     def assertRefused(self, answer):
-        """The answer is the same word for word, whatever was wrong."""
+        """Every refusal has the same answer, word for word, whatever was wrong."""
         problem = self.assertProblem(answer, 401, "unauthorized")
         self.assertEqual(answer.header("WWW-Authenticate"), "Bearer")
         self.assertIsNone(answer.header("Set-Cookie"))
@@ -159,7 +159,9 @@ class Roles(Access):
             for path, body in QUESTIONS.items():
                 with self.subTest(path):
                     answer = self.ask("POST", path, body, own(token))
-                    known = path != "/v1/compare"  # what it names is not here: it is asked, and found wanting
+                    # the assets that its request names do not exist here, so that it is refused after access was
+                    # granted
+                    known = path != "/v1/compare"
                     self.assertEqual(answer.status, 200 if known else 422, answer.body)
 
     def test_what_stays_takes_the_role(self):
@@ -177,7 +179,8 @@ class Roles(Access):
                 )
 
     def test_the_table_has_no_other_change(self):
-        """Each operation of /openapi.json is read, asked, or among those that need the role."""
+        """Each operation of /openapi.json only reads, or only computes an answer, or is among those that need the
+        role."""
         seen = set()
         for path, operations in self.ask("GET", "/openapi.json", headers=own(VIEW)).json()["paths"].items():
             for method in operations.keys() - {"get"}:
@@ -185,7 +188,7 @@ class Roles(Access):
         self.assertEqual(seen, set(CHANGES) | {("POST", path.split("?")[0]) for path in QUESTIONS})
 
     def test_openapi_tells_it(self):
-        """By the same table: which operations answer 401 and 403, and which role they need."""
+        """openapi.json says by the same table which operations answer 401 and 403, and which role they need."""
         document = self.ask("GET", "/openapi.json", headers=own(VIEW)).json()
         schemes = document["components"]["securitySchemes"]
         self.assertEqual(
@@ -298,7 +301,7 @@ class Guesses(Access):
     def test_wrong_tokens_are_counted_by_address(self):
         self.assertEqual(self.ask(VIEW).status, 200)
         tries = [self.ask(f"wrong-0123456789-{i}", way=(own, bearer, cookie)[i % 3]) for i in range(40)]
-        self.assertIn([answer.status for answer in tries].count(401), range(20, 26))  # one more every 3 s
+        self.assertIn([answer.status for answer in tries].count(401), range(20, 26))  # a try is allowed every 3 s
         late = tries[-1]
         self.assertProblem(late, 429, "wrong-tokens")
         self.assertTrue(1 <= int(late.header("Retry-After")) <= 3)

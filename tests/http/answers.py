@@ -247,7 +247,7 @@ class Answers(daemon.Case):
             )
 
     def test_schemas_can_refuse(self):
-        """The schemas do refuse a member more, a member less, another type."""
+        """The schemas refuse an additional member, a missing member, and another type."""
         for path in "/v1/device", "/v1/presets", "/v1/physics":
             schema, good = self.schemas.of("get", path), self.daemon.get(path).json()
             self.assertTrue(self.schemas.wrong(schema, {**good, "more": 1}), path)

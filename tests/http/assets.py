@@ -24,7 +24,7 @@ def chunk(kind, data):
 
 
 def png(width=8, height=4, seed=0, depth=8, colour=2, pixels=None, before=b""):
-    """A picture of noise, which cannot be compressed, takes about 3 bytes a pixel."""
+    """A picture of noise, which cannot be compressed: it takes about 3 bytes a pixel."""
     row = {0: 1, 2: 3, 3: 1, 6: 4}[colour] * width * depth // 8
     noise = (
         b"".join(hashlib.sha256(b"%d %d" % (seed, i)).digest() for i in range((row + 1) * height // 32 + 1))
@@ -265,7 +265,9 @@ class Assets(Case):
         )
         elsewhere = (
             data[:-18] + b"\1\0" + data[-16:]
-        )  # a directory on another disk: members would be sought from the front, inflating what is passed over
+            # the directory is on another disk, so that members would have to be found by reading and inflating from the
+            # front
+        )
         self.assertIn(
             "its directory lies on several disks",
             self.assertProblem(self.put(elsewhere, "application/x-npz"), 422, "invalid-asset")["detail"],
@@ -297,8 +299,8 @@ class Assets(Case):
         self.assertProblem(self.put(png(), **{"Sec-Fetch-Site": "cross-site"}), 403, "cross-site")
 
     def test_many_at_once(self):
-        """A client that puts the same bytes as others at the same time either is told that it was the first, or
-        waits, or is told that they exist."""
+        """A client that uploads the same bytes as others at the same time is told that it was the first, or waits, or
+        is told that they exist."""
         picture, answers = png(300, 300, seed=9), []
         threads = [threading.Thread(target=lambda: answers.append(self.put(picture))) for _ in range(6)]
         for thread in threads:
@@ -312,7 +314,7 @@ class Assets(Case):
         self.assertEqual(self.delete(asset).status, 204)
 
     def test_a_reader_keeps_what_is_deleted(self):
-        picture = png(1200, 1200, seed=3)  # 4 MB: more than the kernel takes for a reader that does not read
+        picture = png(1200, 1200, seed=3)  # 4 MB: more than the kernel buffers for a client that does not read
         asset = self.made(picture)
         with self.daemon.connect() as s:
             s.sendall(f"GET {self.at(asset)} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode())
@@ -341,7 +343,7 @@ class Limits(Case):
 
 
 class Shares(Case):
-    """A client has its share, and the rest is for others."""
+    """A client has its share of the space, and the rest is left to others."""
 
     options = ("--assets", 4, "--client-share", 50)
 
@@ -464,7 +466,7 @@ class State(Case):
         kept = [self.made(png(seed=i), server) for i in range(3)]
         self.assertProblem(self.put(png(seed=3), server=server), 429, "quota")
         self.assertEqual(server.stop(), 0)
-        server = self.start("--assets", 3, "--asset-keep-s", 1)  # it does not know whose they are
+        server = self.start("--assets", 3, "--asset-keep-s", 1)  # this server does not know who owns them
         self.assertProblem(self.put(png(seed=3), server=server), 507, "assets-full")
         threading.Event().wait(1.2)
         self.assertEqual(server.get(self.at(kept[0])).status, 200)
@@ -475,14 +477,14 @@ class State(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_nothing_gives_way_to_what_is_no_grid(self):
-        """An invalid grid evicts nothing: its arrays would take 84 MB, more than may be kept here; one of them is
+        """An invalid grid evicts nothing. Its arrays would take 84 MB, more than may be kept here, and one of them is
         missing."""
         options = ("--assets-kib", 40, "--asset-keep-s", 1)
         server = self.start(*options)
         kept = self.made(png(), server)
         self.assertEqual(server.stop(), 0)
         server = self.start(*options)
-        threading.Event().wait(1.2)  # from now on the picture may give way
+        threading.Event().wait(1.2)  # after this time the picture may be evicted
         row = lambda numbers: npy("<f8", (len(numbers),), struct.pack(f"<{len(numbers)}d", *numbers))
         with zipfile.ZipFile(io.BytesIO(grid(0.5))) as archive:
             header = archive.read("header.npy")
@@ -519,7 +521,7 @@ class Scenes(Case):
         return {"image": {"width": 32, "height": 18}, "sky": {"model": "image", "image": image}}
 
     def answers(self, image):
-        """The answer to each way of asking, and where in the request the field is."""
+        """The answer to each kind of request, and where in the request the field is."""
         scene, at = self.scene(image), "/sky/image"
         yield self.daemon.get(f"/v1/render?image.width=32&image.height=18&sky.model=image&sky.image={image}"), at
         yield self.daemon.post("/v1/render", scene), at
@@ -546,7 +548,7 @@ class Scenes(Case):
         )
 
     def end(self, answer):
-        """Ends them, because few sessions and jobs are allowed."""
+        """Ends what was created, because few sessions and jobs are allowed."""
         if answer.status in (201, 202):
             self.daemon.request(
                 "DELETE", answer.location(), headers={"Authorization": f"Bearer {answer.json()['token']}"}
@@ -560,8 +562,8 @@ class Scenes(Case):
         self.delete(asset)
 
     def test_others_go_on_while_one_is_read(self):
-        """Until a picture without the asset has been rendered: that would never happen if reading it held the
-        device."""
+        """The assets are read until a picture without an asset has been rendered; that would never happen if reading
+        them held the device."""
         scene, answers = self.scene(self.made(png(64, 32, 9))["sha256"]), []
         scene["sky"]["seed"] = 4711
         server = daemon.Daemon("--drain-ms", 10)

@@ -59,10 +59,10 @@ class Below(daemon.Case):
             self.assertTrue(path.startswith(BASE + "/"), link)
             self.assertIn(
                 self.daemon.get(path).status, (200, 404) if link == "v1/accuracy" else (200,), link
-            )  # made by a command
+            )  # a command of the build makes it
             files.add(path)
         todo, scripts = [path for path in files if path.endswith(".js")], set()
-        while todo:  # what a script imports, and the addresses that it asks
+        while todo:  # the files that scripts import, and the addresses that scripts request
             path = todo.pop()
             if path in scripts:
                 continue
@@ -92,7 +92,7 @@ class Below(daemon.Case):
         self.assertEqual(self.daemon.get(BASE + "/openapi.json").json()["servers"], [{"url": BASE}])
 
     def test_who_asks_cannot_choose_it(self):
-        """Headers of a forwarding proxy may come from anybody."""
+        """The base path cannot be chosen by a request: headers of a forwarding proxy may come from anybody."""
         forwarded = {
             "X-Forwarded-Prefix": "/other",
             "X-Forwarded-Path": "/other",
@@ -109,7 +109,8 @@ class Below(daemon.Case):
 
 
 class Health(unittest.TestCase):
-    """Health is answered where nothing else is, by the first bytes of a request: with the base path and without it."""
+    """Health is answered by the first bytes of a request, also when nothing else is answered: with the base path and
+    without it."""
 
     def test_while_connections_are_at_their_limit(self):
         base = "/" + "long/" * 39 + "tail"  # 200 characters
@@ -122,7 +123,8 @@ class Health(unittest.TestCase):
             for target in ("/healthz", base + "/healthz", base + "/metrics?x", base + "/readyz"):
                 with self.subTest(target[-12:]), server.connect(10) as slow:
                     text = f"GET {target} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode()
-                    for cut in (3, 9, len(text) - 33, len(text)):  # its first bytes do not say it yet
+                    # the first bytes do not show yet that it is a health request
+                    for cut in (3, 9, len(text) - 33, len(text)):
                         slow.sendall(text[:cut])
                         text = text[cut:]
                         time.sleep(0.05)

@@ -21,7 +21,7 @@ SAFE = {
     "Expires",
     "Last-Modified",
     "Pragma",
-}  # that scripts may always read
+}  # headers that scripts may always read
 NOT_FOR_SCRIPTS = {
     "Connection",
     "Content-Security-Policy",
@@ -173,7 +173,7 @@ class Listed(Case):
             "true",
         )
         self.assertProblem(self.preflight("/no/such"), 404, "not-found")
-        plain = self.ask("OPTIONS", "/v1/render", GOOD)  # no browser has asked for leave
+        plain = self.ask("OPTIONS", "/v1/render", GOOD)  # not a preflight: no browser asks for permission here
         self.assertEqual((plain.status, plain.header("Access-Control-Allow-Methods")), (204, None))
         self.assertProblem(self.preflight("/v1/render", Host="elsewhere.example"), 400, "bad-request")
 
@@ -215,7 +215,7 @@ class Tokens(access.Access):
         self.assertProblem(self.ask(GOOD, cookie), 401, "unauthorized")
         self.assertEqual(
             self.ask(GOOD, cookie | {"Sec-Fetch-Site": "same-origin"}).status, 200
-        )  # behind a proxy of this name it is the server's own page
+        )  # behind a proxy with this name the origin is the server's own
         self.assertEqual(self.ask(f"http://127.0.0.1:{self.daemon.port}", cookie).status, 200)
 
     def test_a_preflight_has_none(self):

@@ -16,8 +16,8 @@ import time
 import unittest
 import urllib.parse
 
-COMMAND = []  # the server's command line, from ours; set by main()
-HEADER_BYTES = 3000  # of any answer: proxies take 4096 by default, their own lines included
+COMMAND = []  # the command line of the server, taken from the test's own; set by main()
+HEADER_BYTES = 3000  # limit for any answer: proxies accept 4096 by default, including the lines that they add
 SMALL = "image.width=64&image.height=36"
 # The headless shell has no window, and takes 40 % less processor time for the same page.
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium", "chromium-browser"))), None)
@@ -40,7 +40,7 @@ class Answer:
         return json.loads(self.body)
 
     def location(self):
-        """The path of what was created, or to which it was redirected: Location is relative to the request's."""
+        """The path of what was created, or of the redirection. Location is relative to the request's address."""
         return urllib.parse.urljoin(self.target, self.header("Location"))
 
 
@@ -49,8 +49,8 @@ class Daemon:
         self.process = subprocess.Popen(
             [*COMMAND, "--port", "0", *map(str, options)], stdout=subprocess.PIPE, stderr=stderr, env=env
         )
-        # Processes left by a failed test would keep whoever waits for our output waiting; no effect on those that have
-        # ended.
+        # A process that a failed test leaves behind would keep the reader of our output waiting. Killing one that has
+        # ended does nothing.
         atexit.register(self.process.kill)
         line = self.process.stdout.readline().decode()
         match = re.fullmatch(r"kerrd: listening on http://127\.0\.0\.1:(\d+)(\S*)/\n", line)
@@ -79,7 +79,7 @@ class Daemon:
                 try:
                     connection.send(body)
                 except OSError:
-                    pass  # refused before all of it was sent
+                    pass  # the server refused before everything was sent
             got = connection.getresponse()
             return Answer(got.status, got.getheaders(), got.read(), target)
         finally:
@@ -98,7 +98,7 @@ class Daemon:
             try:
                 s.sendall(data)
             except OSError:
-                pass  # it may close before it has read everything
+                pass  # the server may close before it has read everything
             return read_answer(s)
 
     def metrics(self):
@@ -106,7 +106,8 @@ class Daemon:
         return {name: float(value) for name, value in (line.rsplit(" ", 1) for line in lines if line[0] != "#")}
 
     def reaches(self, gauge, least):
-        """Waits until /metrics has that value: so a test knows that the server has received what was sent."""
+        """Waits until the gauge of /metrics has at least this value, which shows that the server has received what was
+        sent."""
         if not eventually(lambda: self.metrics()["kerrd_" + gauge] >= least):
             raise AssertionError(f"kerrd_{gauge} does not reach {least}")
 
@@ -203,7 +204,7 @@ class Owned(Case):
     """Tests of resources that have an address on the server, belong to the holder of a token, and are deleted after
     the test."""
 
-    kind = made = None  # '/v1/sessions'; the status of having made one
+    kind = made = None  # such as '/v1/sessions'; the status of a creation
 
     def setUp(self):
         self.opened = []

@@ -1,4 +1,4 @@
-"""Runs the commands in the documentation as they stand; skipped where there is no device or no curl."""
+"""Runs the commands of the documentation verbatim. Skipped without a device or without curl."""
 
 import importlib.util
 import os
@@ -18,8 +18,8 @@ exec {curl} --fail-with-body --silent --show-error "${{@//:8080/:{port}}}"
 """
 FENCED = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
 COMMAND = r"(?:kerrd|curl|python|pip|meson|podman|docker|kubectl|sudo|systemctl|systemd-analyze|export|scripts/\S+|bench/\S+|tests/\S+|venv/\S+)(?= |$)"
-# Commands that are shown and not run here, by the beginning of the line, with the reason. An entry that is in no
-# document is an error: it should be deleted here.
+# Commands that are shown but not run here, by the beginning of the line, with the reason. An entry that occurs in no
+# document is an error, and must be deleted here.
 LEFT_OUT = {
     "scripts/": "installs packages, or builds and tests for minutes",
     "bench/": "measures for minutes",
@@ -45,7 +45,7 @@ LEFT_OUT = {
 }
 if not (ROOT / "venv-ehtim/bin/python").exists():
     LEFT_OUT["venv-ehtim/bin/python "] = "ehtim is not installed; scripts/matrix ehtim runs it"
-# Commands that take minutes are started, which tests their arguments, and ended after some seconds.
+# Commands that take minutes. They are started, which tests their arguments, and ended after some seconds.
 BEGUN = {
     "kerrd playground --preset disruption --time 3200": "161 pictures of a torn star",
     "kerrd playground torn.json --set h_max=10000": "two million M",
@@ -100,7 +100,7 @@ class Documents(unittest.TestCase):
             "data",
             "venv",
             "venv-ehtim",
-        ):  # as in the folder of the repository, which documents speak from
+        ):  # commands in documents run in the folder of the repository
             pathlib.Path(cls.folder.name, name).symlink_to(ROOT / name)
         pathlib.Path(cls.folder.name, "milky-way.png").symlink_to(ROOT / "docs/default.png")  # any picture
         packages = filter(None, (str(ROOT / "clients/python/src"), os.environ.get("PYTHONPATH")))
@@ -197,6 +197,19 @@ class Documents(unittest.TestCase):
 
     def test_http(self):
         self.run_all("docs/http.md", 6)
+
+    def test_other_languages(self):
+        self.made("docs/other-languages.md", 2, "hole.png", "radii.csv", "spot.png")
+        text = ROOT.joinpath("docs/other-languages.md").read_text()
+        asked = {
+            language: set(
+                re.findall(r'http://[^"]+', "".join(re.findall(rf"^```{language}\n(.*?)^```$", text, re.M | re.S)))
+            )
+            for language in ("sh", "julia", "r")
+        }
+        self.assertEqual(len(asked["sh"]), 3)
+        self.assertEqual(asked["julia"], asked["sh"], "curl stands for Julia")
+        self.assertEqual(asked["r"], asked["sh"], "curl stands for R")
 
     def test_observers(self):
         self.run_all("docs/physics/observers.md", 1)

@@ -1,8 +1,10 @@
-"""A short run of bench/fairness.py: beside all that one client can ask for, another one is served.
+"""A short run of bench/fairness.py: beside everything that one client can request, another one is served.
 
-Its bounds are the time of the same picture on the idle server, measured in the same run, and what it would be to wait
-for the others' works: the least of them, the 4K picture, takes some thousand times as long as ours. So a machine that
-is ten times slower, or shared by many, does not break it, and a server where a work holds the device does."""
+The bounds are multiples of the time of the same picture on the idle server, measured in the same run. Waiting for the
+other client's work would take much longer: its shortest work, the 4K picture, takes some thousand times as long as our
+picture. So the test passes on a machine that is ten times slower, or shared by many, and fails if one piece of work
+holds the device.
+"""
 
 import http.client
 import os
@@ -18,17 +20,19 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bench"))
 import daemon
 import fairness
 
-SLOWER = 60  # times: two clients halve the device, and the loads' own processes the processor; the rest is noise
+# factor: two clients halve the device, and the processes of the loads use the processor too; the rest is noise
+SLOWER = 60
 
 
-# times what a picture of 640 x 360 takes alone: two clients halve the device, and on lavapipe all that the other one's
-# requests take of the processor is taken from it
+# Factor on the time that a picture of 640 x 360 takes alone. Two clients halve the device; and with lavapipe the
+# processor time of the other client's requests is taken from it.
 BESIDE = 10
 
 
 class Fair(unittest.TestCase):
     def test_beside_all_that_one_may_queue(self):
-        """A picture of 640 x 360 takes at most 2 s or, on a slow or shared machine, some times what it takes alone."""
+        """A picture of 640 x 360 takes at most 2 s or, on a slow or shared machine, a multiple of the time that it
+        takes alone."""
         size = (640, 360)
         server = fairness.Server(daemon.COMMAND[0])
         self.addCleanup(server.stop)
@@ -70,8 +74,8 @@ class Fair(unittest.TestCase):
 
 class Pixel(unittest.TestCase):
     def test_a_pixel_beside_a_long_picture_of_the_same_client(self):
-        """It waits for the slice that is under way: some 150 ms where nothing else runs, six times what it takes alone.
-        Ten times that at most, or, on a slow machine, five times as many of its own time."""
+        """The pixel waits only for the slice that is under way: some 150 ms if nothing else runs, six times its time
+        alone. Allowed is ten times that or, on a slow machine, five times as many of its own time."""
         server = fairness.Server(daemon.COMMAND[0])
         self.addCleanup(server.stop)
         size, source = (640, 360), "127.0.0.1"
@@ -85,7 +89,7 @@ class Pixel(unittest.TestCase):
             self.assertEqual(answer.status, 200, text)
             return 1e3 * (time.monotonic() - begun)
 
-        ask(99)  # its kernels
+        ask(99)  # compiles the kernels
         alone = [ask(k) for k in range(5)]
         load = fairness.Load(server, source)
         self.addCleanup(load.end)
@@ -98,7 +102,7 @@ class Pixel(unittest.TestCase):
 
 
 class NewKernels(unittest.TestCase):
-    """With an empty shader cache."""
+    """The shader cache is empty."""
 
     NEW = "/v1/render?image.width=320&image.height=180&preset=jet"
     WARM = "/v1/render?image.width=64&image.height=36&camera.inclination_deg=%d"
@@ -120,8 +124,8 @@ class NewKernels(unittest.TestCase):
         return s
 
     def test_pictures_whose_kernels_are_there_come_before_one_that_waits_for_them(self):
-        """While a jet's kernels are compiled, a dozen and some seconds, many of another client's pictures come: not one
-        after each kernel, as where each holds the device."""
+        """Compiling a jet's kernels takes more than a dozen seconds. Meanwhile many pictures of another client are
+        rendered. If each compilation held the device, there would be only one between two kernels."""
         server, _ = self.serve()
         if "llvmpipe" not in server.get("/v1/device").json()["name"]:
             self.skipTest("this driver compiles kernels as their pipelines are made")

@@ -33,7 +33,7 @@ struct kd_renderer {
     char lens_key[65];
     bool measured, slow, held, gated, compiles, miscompiles, bright;
     struct kd_renderer_params params;
-    _Atomic bool read; /* the picture of that sky has been decoded */
+    _Atomic bool read; /* the picture of the sky of seed 4711 has been decoded */
     bool compiled;     /* the kernels of the other skies have been compiled */
 };
 enum { UNREAD = 4711, UNCOMPILED = 4712, LACKING = 4713, STEPS_UNCOMPILED = 20, MEANWHILE = 5, PATIENCE_MS = 60000 };
@@ -150,7 +150,7 @@ const char *kd_renderer_driver(const struct kd_renderer *renderer)
     return "a \"driver\" \\ of no device";
 }
 
-/* Each rest is reported as one byte more of kernels. */
+/* Each rest of the renderer is reported as one more byte of kernels. */
 static _Atomic unsigned rests, compilations;
 
 enum kd_status kd_renderer_rest(struct kd_renderer *renderer, struct kd_error *error)
@@ -180,7 +180,7 @@ uint64_t kd_renderer_held(const struct kd_renderer *renderer)
     return 12345678;
 }
 
-/* In the folder that the environment names, as for real devices. */
+/* The folder that the environment names, as with real devices. */
 char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix)
 {
     const char *folder = getenv("XDG_CACHE_HOME");
@@ -289,7 +289,7 @@ static enum kd_status mishap(double time, struct kd_error *error)
     return time < 0 && time != -1.5 ? kd_error_set(error, KD_EIO, "something failed") : KD_OK;
 }
 
-/* Explains a pixel with a light of a quarter, for itself and all rays, and no emitters. */
+/* Explains a pixel: light of a quarter, the same for the pixel and for all rays, and no emitters. */
 static struct kd_probed_pixel *tell(const struct kd_plan *plan)
 {
     const uint32_t side = plan->side;
@@ -338,7 +338,7 @@ static enum kd_status add_numbers(const struct kd_scene *scene, const struct kd_
     return status;
 }
 
-/* A picture lacks kernels that were not predicted. */
+/* True if a picture lacks kernels that its plan did not predict. */
 static enum kd_status lack(struct kd_renderer *renderer, const struct kd_scene *scene, bool aside,
                            struct kd_error *error)
 {
@@ -405,7 +405,7 @@ static enum kd_status draw(struct kd_renderer *renderer, const struct kd_scene *
         out->timings[out->n_timings++] = (struct kd_timing) { "trace", scene->top.time };
     out->timings[out->n_timings++] = (struct kd_timing) { "total", scene->top.time };
     out->timings[out->n_timings++] =
-        (struct kd_timing) { "slept", kd_clock_ms() - begun }; /* true duration: a busy machine wakes it late */
+        (struct kd_timing) { "slept", kd_clock_ms() - begun }; /* measured, because a busy machine wakes it late */
     atomic_fetch_add(&drawn, 1);
     return KD_OK;
 }
@@ -450,7 +450,7 @@ enum kd_status kd_render_in_background(struct kd_renderer *renderer, const struc
     return draw(renderer, scene, plan, true, go_on, &aside, out, error);
 }
 
-/* Ignores the others' light: the result is black, as the picture's own. */
+/* Ignores the light of the others: the result is black, like the picture itself. */
 enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               const struct kd_light_sum *others, bool aside, kd_progress_fn progress,
                               const struct kd_preview_hook *preview, void *user, struct kd_frame *out,

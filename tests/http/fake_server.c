@@ -75,7 +75,8 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
 
 int main(int argc, char **argv)
 {
-    struct kd_server_params params = { .client_share = 100 }; /* most tests reach a limit from one address */
+    struct kd_server_params params = { .client_share = 100 }; /* most tests reach a limit from one address, so it has
+                                                               * the whole share */
     struct kd_error error;
     const char *hosts[2] = { NULL, NULL }, *origins[2] = { NULL, NULL }, *embeds[2] = { NULL, NULL };
 
@@ -93,7 +94,7 @@ int main(int argc, char **argv)
     if (status) {
         fprintf(stderr, "fake_server: %s\n", error.message);
         kd_server_destroy(server);
-        _exit(1); /* as a process should that has lost its device */
+        _exit(1); /* the exit code of a process that has lost its device */
     }
     kd_server_destroy(server);
     return 0;

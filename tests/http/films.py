@@ -1,5 +1,8 @@
-"""Tests of films of jobs, encoded by the program ffmpeg: with the fake renderer and a fake ffmpeg that keeps its
-input; with FFMPEG=real (suite `film`) with that of this system, whose film ffprobe and ffmpeg read."""
+"""Tests of films of jobs, encoded by the program ffmpeg.
+
+Usually with the fake renderer and a fake ffmpeg that stores its input. With FFMPEG=real (suite `film`) the system's
+ffmpeg encodes the film, and ffprobe and ffmpeg read it.
+"""
 
 import base64
 import concurrent.futures
@@ -17,11 +20,11 @@ import daemon
 from job_case import SCENE, Case, scene_of
 
 REAL = os.environ.get("FFMPEG") == "real"
-# Writes down its arguments, a line each, an empty line, and then its input. The last argument is the output file.
+# Stores its arguments, a line each, an empty line, and then its input. The last argument is the output file.
 KEEPS = 'import sys, pathlib\nout = open(sys.argv[-1], "wb")\nout.write("\\n".join(sys.argv[1:]).encode() + b"\\n\\n" + sys.stdin.buffer.read())\n'
 COUNTS = 'import os\nopen(os.environ["KERRD_TEST_RUNS"], "a").write("x")\n' + KEEPS
 FAILS = 'import sys\nsys.stdin.buffer.read(9)\nsys.exit("\\x1b[31m/secret/place: Unknown encoder libx264\\x07\\nsecond line")\n'
-# Its child keeps its standard error, and goes on running after it has failed.
+# A program that fails while its child keeps its standard error and goes on running.
 LEAVES = (
     'import os, pathlib, subprocess, sys\nsys.stdin.buffer.read(9)\nchild = subprocess.Popen(["sleep", "600"], stdin=subprocess.DEVNULL)\n'
     'pathlib.Path(os.environ["KERRD_TEST_PID"]).write_text(str(child.pid))\nsys.exit("no luck")\n'
@@ -52,7 +55,8 @@ class Films(Case):
         return server
 
     def film_of(self, program, document, query="?format=mp4", options=()):
-        """A server of its own whose ffmpeg is this program; the job, and the answer of its film."""
+        """Starts a server of its own whose ffmpeg is this program; returns the job, and the answer to the request for
+        its film."""
         server = self.server_of(program, *options)
         job = self.make(document, server=server)
         self.until(job, "done", server)
@@ -64,7 +68,7 @@ class Films(Case):
         return open_files
 
     def hanging(self):
-        """A server, a client that waits for a film, and the number of the process that never makes one."""
+        """Returns a server, a client that waits for a film, and the number of the process that never finishes it."""
         server, job, _ = self.film_of(HANGS, {"scenes": [SCENE] * 2}, None)
         client = server.connect()
         self.asked = self.at(job, "/result?format=mp4")
@@ -74,7 +78,7 @@ class Films(Case):
         return server, client, int(pid.read_text())
 
     def gone(self, number):
-        """The process is gone, or a zombie until its new parent reaps it."""
+        """True if the process is gone, or is a zombie until its new parent reaps it."""
         self.assertTrue(
             daemon.eventually(
                 lambda: not (stat := pathlib.Path(f"/proc/{number}/stat")).exists() or ") Z " in stat.read_text()
@@ -157,7 +161,8 @@ class Given(Films):
 
     def test_who_leaves_ends_it(self):
         server, client, number = self.hanging()
-        self.assertTrue(daemon.eventually(lambda: os.getpriority(os.PRIO_PROCESS, number) == 10))  # set once it runs
+        # the priority is set once the process runs
+        self.assertTrue(daemon.eventually(lambda: os.getpriority(os.PRIO_PROCESS, number) == 10))
         self.assertEqual(len(os.listdir(f"/proc/{number}/fd")), 4, "it has no descriptor of the server")
         self.assertEqual(server.get("/healthz").status, 200)
 
@@ -220,7 +225,7 @@ class Kept(Films):
         self.ended(server)
 
     def test_who_leaves_hands_it_on(self):
-        """If the client that asked first leaves, another that waits for the same film gets it."""
+        """If the client that asked first leaves, another client that waits for the same film gets it."""
         server, client, number = self.hanging()
         job = re.search(r"/v1/jobs/(\w+)/", self.asked)[1]
         (self.folder / "ffmpeg").write_text("#!/usr/bin/env python3\n" + KEEPS)
@@ -271,7 +276,7 @@ class Kept(Films):
         self.ended(server)
 
     def test_a_kill_leaves_no_half_of_it(self):
-        """While ffmpeg works, and while its output is copied."""
+        """The server is killed while ffmpeg works, and while its output is copied."""
         state = self.folder / "state"
         server, job, _ = self.film_of(HANGS, self.FRAMES, None, ("--state", state))
         client = server.connect()
@@ -324,7 +329,8 @@ class Read(Films):
         pass
 
     def test_as_it_is_read(self):
-        """240 frames at 24 a second; odd sides; colours within the codec's error of the pictures."""
+        """The film as read back: 240 frames at 24 a second; odd sides; colours within the codec's error of the
+        pictures."""
         scene = {
             "spacetime": {"spin": 0.7},
             "camera": {"inclination_deg": 75},
@@ -394,7 +400,8 @@ class Read(Films):
             off = [a - b for a, b in zip(read["film"], read["png"], strict=True)]
             means = [sum(off[c::3]) / (479 * 271) for c in range(3)]
             rms = (sum(d * d for d in off) / len(off)) ** 0.5
-            # Measured 1.1 of 255, and means within 0.13; with BT.601's matrix instead 2.8, and the red is 2.1 off.
+            # Measured: 1.1 of 255, with means within 0.13. With BT.601's matrix it would be 2.8, and red would be off
+            # by 2.1.
             self.assertLess(rms, 2)
             self.assertLess(max(map(abs, means)), 0.4)
             self.ended(server)

@@ -1,4 +1,4 @@
-"""Tests of the format that Accept prefers: with a server whose table of formats has one more, "fake"."""
+"""Tests of the format that Accept prefers, with a server whose table of formats has an additional one, "fake"."""
 
 import json
 
@@ -47,7 +47,7 @@ class Formats(daemon.Case):
             self.assertEqual(self.daemon.get(RENDER, Accept=kind, If_None_Match=other.header("ETag")).status, 200)
 
     def test_what_it_needs_is_planned(self):
-        """Light is measured for that format only, whatever the exposure."""
+        """The plan measures light for this format only, whatever the exposure."""
         for exposure in ("auto", "1"):
             body = self.daemon.get(f"{RENDER}&time=5&style.exposure={exposure}", Accept=FAKE).body
             line, scene = body.split(b"\n", 1)

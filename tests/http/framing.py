@@ -8,7 +8,7 @@ import time
 import daemon
 
 SCENE = b"POST /v1/render HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
-MOST_S = 8  # of the one or two that the server gives a client, on a busy machine
+MOST_S = 8  # the server's own limits are one or two seconds; a busy machine takes longer
 POST = b"POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
 
 
@@ -20,7 +20,8 @@ class Guard(daemon.Case):
     options = ("--host", "holes.example", "--header-ms", 1000, "--body-ms", 1000)
 
     def assertRefused(self, answer, status, word):
-        """Refused by us or, if libmicrohttpd 1.0 notices it before it calls us, as invalid HTTP."""
+        """The request is refused by kerrd or, if libmicrohttpd 1.0 notices the fault before it calls kerrd, as invalid
+        HTTP."""
         self.assertIsNotNone(answer, "no answer")
         if answer.status == 400:
             status, word = 400, "bad-request"
@@ -237,7 +238,8 @@ class Sizes(daemon.Case):
                 pass
 
     def test_a_body_of_just_the_limit(self):
-        """That of a scene; that of a job, which POST /v1/plan accepts too, may be four times as large."""
+        """Bodies of exactly the limit: of a scene; and of a job, whose limit is four times as large and which POST
+        /v1/plan accepts too."""
         small = '{"image": {"width": 2, "height": 2}}'
         self.assertEqual(self.daemon.post("/v1/render", small + " " * ((1 << 20) - len(small))).status, 200)
         self.assertProblem(self.daemon.post("/v1/render", "{}" + " " * ((1 << 20) - 1)), 413, "body-too-large")
@@ -252,7 +254,8 @@ class Deadlines(daemon.Case):
     options = ("--header-ms", 400, "--body-ms", 700)
 
     def trickle(self, start, byte):
-        """Sends a byte now and then; returns the seconds until the connection ends, and what came back."""
+        """Sends a byte from time to time. Returns the seconds until the connection ends, and the bytes that came
+        back."""
         begun, got = time.monotonic(), b""
         with self.daemon.connect() as s:
             s.sendall(start)

@@ -1,5 +1,6 @@
-"""The header of an answer fits into the buffers of proxies, whatever the scene shows: nginx takes 4096 bytes by
-default. daemon.py holds the answers of all tests to the bound; here is what shows as much as a scene can."""
+"""The header of an answer fits into the buffers of proxies, whatever the scene shows: nginx accepts 4096 bytes by
+default. daemon.py checks the bound for the answers of all tests; this file tests the scenes with the longest
+headers."""
 
 import json
 import subprocess
@@ -17,7 +18,7 @@ ALL = {
     "style": {"bloom": 0.3, "tone_map": "neutral"},
     "camera": {"r": 40, "projection": "equirectangular"},
 }
-# Each has everything that can be combined with the feature it is named after; together they have every emitter.
+# Each scene has everything that can be combined with the feature in its name. Together they have every emitter.
 RICHEST = {
     "gas": {
         **ALL,
@@ -99,7 +100,7 @@ class Richest(unittest.TestCase):
         self.assertIn("debris", {self.known[name]["of"] for name in names})
 
     def test_a_picture_and_a_live_frame(self):
-        """daemon.py counts the bytes of their headers."""
+        """daemon.py checks the size of their headers."""
         picture = self.daemon.post("/v1/render", RICHEST["gas"], Origin=ORIGIN)
         session = self.daemon.post("/v1/sessions", RICHEST["gas"]).json()
         frame = self.daemon.get(f"/v1/sessions/{session['id']}/frame?lossy=50", Origin=ORIGIN)

@@ -16,7 +16,7 @@ def size(png):
 
 
 def text_of(png, name):
-    """One of the uncompressed texts of a picture."""
+    """An uncompressed text of a picture, by its name."""
     start = png.index(b"tEXt" + name.encode() + b"\0") + 5 + len(name)
     length = struct.unpack(">I", png[start - 9 - len(name) : start - 5 - len(name)])[0]
     return png[start : start + length - len(name) - 1].decode()
@@ -49,7 +49,7 @@ class Case(daemon.Owned):
         return self.status(job, server)
 
     def frames(self, job, first=0):
-        """number -> png, of a stream to its end"""
+        """{number: PNG} of a stream that is read to its end"""
         body = self.daemon.get(self.at(job, f"/result?format=stream&frame={first}")).body
         found = {}
         while body:

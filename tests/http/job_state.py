@@ -1,4 +1,4 @@
-"""Tests of jobs of a server that ends, by itself or by a signal, and of the next server with the same folder."""
+"""Tests of jobs across servers: one server ends, by itself or by a signal, and the next one uses the same folder."""
 
 import io
 import json
@@ -63,7 +63,7 @@ class State(Case):
                 self.assertEqual(server.stop(), 0)
 
     def test_a_film_goes_on(self):
-        """Its frames depend on those before: after a restart it is the same as without."""
+        """The frames of this film depend on those before. After a restart the film is the same as without one."""
         film = {
             "playground": {"preset": "white-dwarf", "debris_per_body": 500},
             "every": 20,
@@ -88,7 +88,7 @@ class State(Case):
         self.assertEqual(len({frame["snapshot"] for frame in told[0]}), 8)
 
     def test_a_film_whose_bodies_end_the_server_makes_way(self):
-        """Also while no frame is being made: its bodies move for half an hour."""
+        """The server also ends while no frame is being made, though the film's bodies would move for half an hour."""
         server = self.start()
         film = {
             "playground": {"preset": "swarm", "h_max": 1e-3, "budget": 1000000},
@@ -103,7 +103,7 @@ class State(Case):
             with open(os.path.join(self.folder, "jobs", job["id"], "job.json"), encoding="utf-8") as file:
                 return json.load(file)["attempts"]
 
-        for count in range(4):  # the first server had made a frame, which says nothing against the job
+        for count in range(4):  # the first server had finished a frame, so that its end does not count against the job
             self.assertTrue(daemon.eventually(lambda: attempts() == count), attempts())
             server.process.send_signal(signal.SIGKILL)
             server.wait()
@@ -114,8 +114,8 @@ class State(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_its_exposure_outlives_the_server(self):
-        """It is measured once: the next server would measure another one, as the fake renderer starts a stop
-        brighter."""
+        """The exposure is measured only once. The next server would measure another one, because the fake renderer
+        starts a stop brighter."""
         asked = {"scene": {**SCENE, "time": 200}, "keyframes": [{"frame": 2, "scene": {"camera": {"azimuth_deg": 9}}}]}
         server = self.start()
         self.until(self.make({"scene": SCENE}, server=server), "done", server)
@@ -134,7 +134,7 @@ class State(Case):
                 return {scene_of(z.read(n))["style"]["exposure"] for n in z.namelist()}
 
         self.assertEqual(found(job), {-1})
-        # frames of a version that gave each its own: the rest has its own, too
+        # these are frames of a version that gave each its own exposure, so that the rest have their own, too
         path = os.path.join(self.folder, "jobs", other["id"])
         self.assertEqual(server.stop(), 0)
         with open(os.path.join(path, "job.json"), encoding="utf-8") as file:
@@ -167,7 +167,7 @@ class State(Case):
                 server = self.start()
             except RuntimeError:
                 self.fail("it did not start")
-        # The frame before it came when the server was started first, so that only the later starts were without one.
+        # If the first server finished the frame before, only the later starts were without a new frame.
         if "delayed" not in self.status(job, server):
             self.assertEqual(server.wait(), 1)
             server = self.start()
@@ -231,7 +231,7 @@ class State(Case):
         self.assertTrue(daemon.eventually(lambda: self.status(job, server)["fraction"] > 0))
         begun = time.monotonic()
         self.assertEqual(server.stop(), 0)
-        self.assertLess(time.monotonic() - begun, 15)  # the frame, of 30, has been dropped
+        self.assertLess(time.monotonic() - begun, 15)  # the frame, which takes 30 s, was dropped
         self.assertEqual(os.listdir(self.folder), [])
 
 

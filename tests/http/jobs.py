@@ -15,7 +15,7 @@ import zipfile
 import daemon
 from job_case import IMAGE, SCENE, SLOW, Case, scene_of, size, text_of
 
-# test_smooth expects these, by scipy.interpolate:
+# The numbers that test_smooth expects, by scipy.interpolate:
 #   x, y = [0, 10, 15, 40, 50], [10, 20, 80, 75, 75]
 #   d = PchipInterpolator(x, y).derivative()(x); d[0] = d[-1] = 0; CubicHermiteSpline(x, y, d)
 SMOOTH = {
@@ -101,11 +101,11 @@ class Jobs(Case):
         self.assertEqual([s["sky"]["model"] for s in scenes], ["none"] * 4 + ["grid"] * 5)
         self.assertEqual(
             [s["style"]["exposure"] for s in scenes], [0] * 4 + [1] * 5
-        )  # a word steps, too; and 0 is the middle of 1 and -1 by turns
+        )  # words change in steps, too; 0 is the mean of the alternating 1 and -1
 
     def test_exposure(self):
-        """Frames of keyframes share one exposure, the median of nine, which their scenes and the job state; each has
-        its own if the job says so, and those of lists and axes unless it says otherwise."""
+        """Frames between keyframes share one exposure, the median of nine, which their scenes and the job state. Each
+        frame has its own if the job says so. Frames of lists and axes have their own unless the job says otherwise."""
         keys = {"scene": {"image": IMAGE}, "keyframes": [{"frame": 29, "scene": {"camera": {"azimuth_deg": 29}}}]}
         pair = [{"image": IMAGE}] * 2
         for asked, told, shown in (
@@ -131,7 +131,7 @@ class Jobs(Case):
                 self.assertEqual(done["finished"], len(frames))
 
     def test_motion_blur(self):
-        """Pictures state of how many others their light is the mean, and take that many times as long."""
+        """Pictures state the number of pictures whose light they average, and take that many times as long."""
         asked = {"scene": {**SCENE, "style": {"exposure": 1}}, "keyframes": [{"frame": 3, "scene": {"time": 8}}]}
         plain, blurred = self.make(asked), self.make({**asked, "motion_blur": {"samples": 8, "shutter": 0.25}})
         self.assertGreater(blurred["remaining_s"] or 8, 2 * (plain["remaining_s"] or 0))
@@ -141,8 +141,8 @@ class Jobs(Case):
         self.assertFalse(any(b"kerrd:motion_blur" in png for png in self.frames(plain).values()))
 
     def test_keyframes_of_a_list(self):
-        """An element that one of two keyframes lacks has its defaults there; elements are given by index, as a whole
-        list, or by an old name."""
+        """An element that is missing in one of two keyframes has its defaults there. Elements are given by index, as a
+        whole list, or by an old name."""
         for second, third in (
             ({"spots": {"0": {"r": 16}, "1": {"brightness": 2, "r": 12}}}, {"spots": []}),
             ({"spots": [{"brightness": 4, "r": 16}, {"brightness": 2, "r": 12}]}, {"spots": None}),
@@ -205,7 +205,7 @@ class Jobs(Case):
         self.assertEqual(grown("job_frames_total"), 3)
         self.assertTrue(
             daemon.eventually(lambda: self.daemon.metrics()["kerrd_job_bytes"] == size)
-        )  # those that were deleted go with time
+        )  # deleted jobs disappear in time
 
     def test_smooth(self):
         at = {0: 10, 10: 20, 15: 80, 40: 75, 50: 75}
@@ -224,7 +224,7 @@ class Jobs(Case):
         )
 
     def test_a_fall_by_proper_time(self):
-        """Rain in Schwarzschild: r^(3/2) falls evenly, and is 2^(3/2) after sqrt(2)/3 (8^(3/2) - 2^(3/2)) M from 8
+        """Rain in Schwarzschild: r^(3/2) decreases linearly. From 8 M it is 2^(3/2) after sqrt(2)/3 (8^(3/2) - 2^(3/2))
         M."""
         fall = {"image": IMAGE, "spacetime": {"spin": 0, "mass_msun": 4.3e6}, "camera": {"r": 8, "observer": "infall"}}
         job = self.make(
@@ -328,13 +328,14 @@ class Jobs(Case):
             time.sleep(0.04)
         fractions = [s["fraction"] for s in seen]
         self.assertEqual(seen[-1]["state"], "done")
-        self.assertGreater(len({f for f in fractions if 0 < f < 0.25}), 1, fractions)  # within a frame
+        self.assertGreater(len({f for f in fractions if 0 < f < 0.25}), 1, fractions)  # progress within a frame
         self.assertGreater(len({s["finished"] for s in seen}), 3)
         last = [s["remaining_s"] for s in seen if s["finished"] == 3 and s["remaining_s"] is not None]
         self.assertTrue(last and all(0 <= s < 3 for s in last), last)
 
     def test_what_is_left_is_measured(self):
-        """Also for a frame that takes a thousand times as long as its plan states, as the fake renderer's does."""
+        """The remaining time is measured, also for a frame that takes a thousand times as long as its plan states, as
+        here."""
         begun, seen = time.monotonic(), []
         job = self.make({"scene": {**SCENE, "time": 2000}})
         while not seen or seen[-1][0]["state"] in ("waiting", "running"):
@@ -364,7 +365,7 @@ class Jobs(Case):
         self.assertGreater(len(data), 5)
         self.assertTrue(all(a["finished"] <= b["finished"] for a, b in zip(data, data[1:])))
         self.assertNotIn("token", answer.body.decode())
-        with self.stream(job, "/events") as s:  # of one that is over
+        with self.stream(job, "/events") as s:  # of a job that has ended
             self.assertEqual(daemon.read_answer(s).body.count(b"event: end"), 1)
 
     def test_stream_as_they_come(self):
@@ -395,7 +396,7 @@ class Jobs(Case):
         waiting = self.status(second)
         self.assertEqual((waiting["state"], waiting["place"], waiting["remaining_s"]), ("waiting", 1, None))
         self.assertEqual(self.delete(first).status, 204)
-        self.until(second, "done")  # what was running, for half a minute, has been dropped
+        self.until(second, "done")  # the job that was running, for half a minute, was dropped
 
     def test_delete(self):
         job, other = self.make({"scene": SLOW}), self.make({"scene": SLOW})
@@ -433,7 +434,7 @@ class Jobs(Case):
             answer = self.daemon.get(f"/v1/sessions/{session['id']}/frame.png?after={frame}")
             frame = int(answer.header("Kerrd-Frame"))
         self.daemon.request("DELETE", "/v1/sessions/" + session["id"], headers=self.owner(session))
-        self.assertEqual(self.status(job)["finished"], 0)  # between slices of the one picture
+        self.assertEqual(self.status(job)["finished"], 0)  # the picture was interrupted between its slices
         self.until(job, "done", timeout=40)
 
     def test_others_cannot_stop_it(self):
@@ -461,9 +462,10 @@ class Jobs(Case):
         seen, deadline = [], time.monotonic() + 20
         while len(seen) < 3 and time.monotonic() < deadline:
             answer = self.daemon.get(self.at(job, "/preview.png"))
-            if answer.status == 409:  # nothing is drawn
+            if answer.status == 409:  # no frame exists
                 self.assertFalse(seen)
-            elif answer.header("Kerrd-Rows") is None:  # the first frame, until something of the second has been drawn
+            # this is the first frame; it is given until a part of the second has been rendered
+            elif answer.header("Kerrd-Rows") is None:
                 self.assertFalse(seen)
                 self.assertEqual(answer.body, self.daemon.get(self.at(job, "/result?format=png&frame=0")).body)
             elif not seen or seen[-1][0] != answer.header("Kerrd-Rows"):
@@ -511,7 +513,7 @@ class Jobs(Case):
         self.assertEqual(self.until(job, "failed")["error"], "something failed")
         self.assertTrue(
             daemon.eventually(lambda: self.status(job)["finished"] == 1)
-        )  # the one before was still being encoded
+        )  # the frame before was still being encoded
         self.assertIn(
             "something failed", self.assertProblem(self.daemon.get(self.at(job, "/result")), 409, "not-ready")["detail"]
         )
@@ -616,7 +618,7 @@ class Jobs(Case):
             ),
             ({"scenes": [{}] * 10001}, 422, "/scenes"),
             ({"scenes": [{}, {"accuracy": {"tolerance": 1e-15}}]}, 422, "/scenes/1/accuracy/tolerance"),
-            # valid at both ends, but between them the disk's edge is inside the ISCO
+            # These are valid at both ends, but in between the disk's edge is inside the ISCO.
             (
                 {
                     "scene": {"spacetime": {"spin": -0.9}, "disk": {"outer": 9.5}},
@@ -688,7 +690,7 @@ class Jobs(Case):
                     + body
                 )
         self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= files))
-        self.until(self.make({"scene": SCENE}), "done")  # nothing is before it
+        self.until(self.make({"scene": SCENE}), "done")  # no other job is before it
 
     def test_as_many_as_may(self):
         jobs = [self.make({"scene": SLOW}) for _ in range(4)]
@@ -723,7 +725,7 @@ class Quota(Case):
 
 
 class Gate:
-    """Stops every thread of a server that begins to plan."""
+    """Stops every thread of a server when it begins to plan."""
 
     def __init__(self, test):
         folder = tempfile.mkdtemp()
@@ -736,7 +738,7 @@ class Gate:
             test.addCleanup(os.close, self.ends[name])
 
     def asked(self):
-        """Returns when a thread begins to plan."""
+        """Returns when a thread has begun to plan."""
         if not select.select([self.ends["ASKS"]], [], [], 60)[0]:
             raise AssertionError("nobody plans")
         os.read(self.ends["ASKS"], 1)
@@ -746,7 +748,7 @@ class Gate:
 
 
 class Planned(Case):
-    """A frame is planned by a worker, so that nobody else waits for it."""
+    """A worker plans the frames, so that no other request waits for it."""
 
     def setUp(self):
         super().setUp()
@@ -754,7 +756,7 @@ class Planned(Case):
         self.server = daemon.Daemon("--device", "gated", "--drain-ms", 10, env=os.environ | self.gate.env)
         self.addCleanup(lambda: self.server.process.poll() is None and (self.server.process.kill(), self.server.wait()))
         self.job = self.make({"scenes": [SCENE] * 2}, server=self.server)
-        self.gate.asked()  # the second frame
+        self.gate.asked()  # of the second frame
 
     def test_others_are_answered(self):
         answer = self.server.request("GET", self.at(self.job), timeout=20)

@@ -1,5 +1,5 @@
-"""A decoder of baseline JPEG, written from ITU T.81 and JFIF only: slow, for small pictures, and independent of the
-library that writes them."""
+"""A decoder of baseline JPEG, written from ITU T.81 and JFIF alone, so that it is independent of the library that
+encodes. It is slow and meant for small pictures."""
 
 import math
 import struct

@@ -77,13 +77,13 @@ class Limits(unittest.TestCase):
 
 class Stop(unittest.TestCase):
     def test_large_renders_that_are_accepted_end_with_the_server(self):
-        """Eight pictures of some seconds each, and a second to wait for them: each has an answer, and the server ends.
-        What is asked of it is the order of events, so that a slow machine takes longer and passes all the same."""
+        """Eight pictures of some seconds each, and a second of waiting for them: each request gets an answer, and the
+        server ends. Only the order of events is tested, so that a slow machine takes longer but passes."""
         large = "/v1/render?image.width=1920&image.height=1080&image.samples=4&accuracy.profile=high&time="
         with tempfile.TemporaryFile("w+") as log:
             server = daemon.Daemon("--drain-seconds", 1, stderr=log)
             self.addCleanup(server.process.kill)
-            self.assertEqual(server.get(TARGET).status, 200)  # its kernels are there
+            self.assertEqual(server.get(TARGET).status, 200)  # compiles the kernels
             with concurrent.futures.ThreadPoolExecutor(8) as clients:
                 asked = [clients.submit(server.get, f"{large}{time}") for time in range(8)]
                 self.assertTrue(daemon.eventually(lambda: server.metrics()["kerrd_renders_unfinished"] == 8))
@@ -107,7 +107,7 @@ class Stop(unittest.TestCase):
 
 class Hangup(unittest.TestCase):
     def test_a_terminal_that_closes_stops_it(self):
-        for ignored in (False, True):  # as nohup has it
+        for ignored in (False, True):  # ignored: SIGHUP is ignored, as under nohup
             with self.subTest(ignored=ignored):
                 before = signal.signal(signal.SIGHUP, signal.SIG_IGN if ignored else signal.SIG_DFL)
                 try:
@@ -181,8 +181,8 @@ def qr_text(lines):
 
 class Telephone(unittest.TestCase):
     def test_a_terminal_shows_the_address_as_a_code(self):
-        """If the server listens for other machines and there is a terminal; the code is read by a decoder made from
-        the standard only."""
+        """The server shows the code if it listens for other machines and its output is a terminal. The code is read by
+        a decoder that was made from the standard alone."""
         for address in ("0.0.0.0", "127.0.0.1"):
             ours, theirs = pty.openpty()
             server = subprocess.Popen(
@@ -206,7 +206,7 @@ class Telephone(unittest.TestCase):
             try:
                 while more := os.read(ours, 4096):
                     told += more
-            except OSError:  # nobody holds the other end any more
+            except OSError:  # the other end is closed
                 pass
             self.assertEqual(server.wait(60), 0)
             terminal.close()
@@ -284,7 +284,7 @@ class Kerrd(unittest.TestCase):
         janskys = sum(struct.unpack(f"<{n * n}f", numbers[-4 * n * n :])) * (field / n * metres / parsecs) ** 2
         self.assertAlmostEqual(
             float(told["jy"]) / janskys, 1, delta=1e-3
-        )  # the pixels of the critical curve have more rays in both
+        )  # in both, the pixels of the critical curve have more rays
         self.assertIsNone(self.daemon.get(TARGET).header("Kerrd-Flux"))
         # the pictures to which the density applies
         looked_for = (
@@ -297,7 +297,8 @@ class Kerrd(unittest.TestCase):
         self.assertEqual((problem.status, problem.json()["pointer"]), (422, "/volume/normalise_to_jy"))
 
     def test_a_picture_of_the_sky(self):
-        """By a render, and by a job as by the command line; its author is named in each file."""
+        """The picture is rendered by a request, and by a job as by the command line. Each file names the photograph's
+        author."""
         chunk = lambda kind, data: (
             struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
         )
@@ -381,13 +382,13 @@ class Kerrd(unittest.TestCase):
                 self.assertLess(abs(one["r"] / other["r"] - 1), bound)
                 self.assertLess(abs(one["g"] / other["g"] - 1), 30 * bound)
                 inside += one["r"] < 4.2
-        self.assertGreater(inside, 50)  # where the redshift depends on which way the light left
+        self.assertGreater(inside, 50)  # pixels where the redshift depends on the direction in which the light left
 
     def has_float64(self):
         return "f64" in self.daemon.get("/v1/device").json()["precision"]
 
     def device_rays(self):
-        """Rays that the device traces, as accurately as it can."""
+        """Rays that the device traces as accurately as it can."""
         return {"engine": "mino-rkn6", "precision": "f64" if self.has_float64() else "f32"}
 
     def interrupt(self):
@@ -409,7 +410,7 @@ class Kerrd(unittest.TestCase):
             with self.subTest(scene):
                 if scene.get("accuracy") and not self.has_float64():
                     self.skipTest("the device has no double precision")
-                for _ in range(5):  # a machine may be so fast, or so busy, that nothing comes between
+                for _ in range(5):  # on a very fast or busy machine nothing may come in between
                     job, between = self.daemon.post("/v1/jobs", {"scene": scene}).json(), 0
                     while (status := self.daemon.get("/v1/jobs/" + job["id"]).json())["state"] == "running":
                         self.interrupt()
@@ -418,7 +419,7 @@ class Kerrd(unittest.TestCase):
                     if between:
                         break
                 self.assertGreater(between, 0)
-                # The command line renders it in one go, and writes the same files as jobs.
+                # The command line renders the film in one run, and writes the same files as jobs.
                 alone = subprocess.run(
                     [daemon.COMMAND[0], "render", "-", "-o", "-"],
                     input=json.dumps(scene).encode(),
@@ -463,12 +464,12 @@ class Kerrd(unittest.TestCase):
         self.assertEqual(pictures[0], pictures[1])
 
     def test_moving_frames_may_be_lossy_and_say_how(self):
-        """JPEG against PNG of the same frame: by a decoder that shares nothing with the encoder, with at most the
-        documented error."""
+        """JPEG is compared with PNG of the same frame, by a decoder that shares no code with the encoder. The error is
+        at most the documented one."""
         session = self.open({"image": {"width": 96, "height": 64}, "motion": {"time_rate": 1}})
         at, number = f"/v1/sessions/{session['id']}/frame", 0
         for quality, least_db in ((30, 24), (75, 29), (95, 36)):
-            for _ in range(20):  # until both are of the same frame
+            for _ in range(20):  # repeated until both are of the same frame
                 lossy = self.daemon.get(f"{at}?lossy={quality}&after={number}")
                 number = int(lossy.header("Kerrd-Frame"))
                 exact = self.daemon.get(f"{at}?after={number - 1}")
@@ -481,7 +482,7 @@ class Kerrd(unittest.TestCase):
             width, height, rgb, _ = jpeg.decode(lossy.body)
             rows, before = pixels(exact.body), []
             self.assertEqual(len(rows), (3 * width + 1) * height)
-            for y in range(height):  # the filter Sub, which live frames have
+            for y in range(height):  # live frames use the filter Sub
                 row = rows[(3 * width + 1) * y :][: 3 * width + 1]
                 self.assertEqual(row[0], 1)
                 line = bytearray(row[1:])
@@ -559,7 +560,7 @@ class Kerrd(unittest.TestCase):
         )
         self.assertIn("particles;dur=", answer.header("Server-Timing"))
         r, phi, latitude, x, y, z = all_of_them.values()
-        for i in range(0, 300000, 997):  # the list is made of slices
+        for i in range(0, 300000, 997):  # checks some elements, because the list was made in slices
             rho = math.sqrt(r[i] ** 2 + 0.36) * math.cos(latitude[i])
             self.assertLess(
                 math.dist(
@@ -593,10 +594,10 @@ class Kerrd(unittest.TestCase):
                 frames += 1
             self.assertEqual((places.result().status, len(places.result().body)), (200, 30000000))
         print(f"{frames} frames while 2 500 000 particles were listed, {1e3 * longest:.0f} ms for the slowest")
-        self.assertGreater(frames, 1)  # the first may have been made before the list was begun
+        self.assertGreater(frames, 1)  # the first frame may have been made before the list was begun
 
     def idle_after(self):
-        """Seconds until nothing is left of the work that others asked for."""
+        """Seconds until the server has no work left from other requests."""
         begun = time.monotonic()
         self.assertTrue(daemon.eventually(lambda: not self.daemon.metrics()["kerrd_renders_unfinished"], 600))
         return time.monotonic() - begun
@@ -604,13 +605,13 @@ class Kerrd(unittest.TestCase):
     def test_a_vanished_client_stops_its_list_of_particles(self):
         crowd = self.open({"disk": {"model": "particles", "particles": 4000000}, "image": {"width": 64, "height": 36}})
         target = f"/v1/sessions/{crowd['id']}/particles"
-        self.daemon.get(target + "?count=10")  # what goes before the first list
+        self.daemon.get(target + "?count=10")  # does what only the first list needs
         whole = float(re.search(r"particles;dur=([\d.]+)", self.daemon.get(target).header("Server-Timing"))[1]) / 1000
         for _ in range(10):
             with self.daemon.connect() as s:
                 s.sendall(f"GET {target} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
                 time.sleep(0.01)
-        self.assertLess(self.idle_after(), 5 * whole)  # of ten
+        self.assertLess(self.idle_after(), 5 * whole)  # there were ten requests
 
     def event(self, session, words):
         """The first event of a session that contains the words."""
@@ -624,8 +625,8 @@ class Kerrd(unittest.TestCase):
                         return json.loads(line[5:].decode())
 
     def drag(self, session, until):
-        """Patches and pulls frames until the condition holds for the number of rays traced again and the quality in
-        use."""
+        """Patches, and pulls frames, until the condition holds. Its arguments are the number of rays traced again and
+        the quality in use."""
         at, number = "/v1/sessions/" + session["id"], 0
         owner = {"Authorization": "Bearer " + session["token"], "Content-Type": "application/merge-patch+json"}
         for k in range(1000):
@@ -647,7 +648,7 @@ class Kerrd(unittest.TestCase):
         one, other = (self.open({"image": {"width": 160, "height": 90}}) for _ in range(2))
         frames = []
         self.assertTrue(self.drag(one, lambda *frame: frames.append(frame) or len(frames) == 12))
-        for sampled, quality in frames:  # all of them where the frame is as good as it gets
+        for sampled, quality in frames:  # with the best quality all frames have all rays
             self.assertEqual(sampled, 768 if "final=1" in quality else 192)
         over = threading.Event()
         thread = threading.Thread(target=self.drag, args=(other, lambda *_: over.is_set()))
@@ -659,8 +660,7 @@ class Kerrd(unittest.TestCase):
             thread.join()
 
     def test_a_frame_of_a_drag_says_how_many_rays_it_has_at_the_critical_curve(self):
-        """The best quality on a fast machine, and less on a slower one; tests/unit/governor.c tests which of them is
-        right."""
+        """A fast machine has the best quality, and a slower one less. tests/unit/governor.c tests the choice itself."""
         small, frames = self.open({"image": {"width": 64, "height": 36}}), []
         self.assertTrue(self.drag(small, lambda *frame: frames.append(frame) or len(frames) == 4))
         for _, quality in frames:
@@ -714,8 +714,8 @@ class Kerrd(unittest.TestCase):
         self.assertNotIn("light", self.event(session, b'"revision":2'))
 
     def test_named_stars_are_where_the_picture_has_their_light(self):
-        """A star with no other nearby gives its pixels F g^4 / (solid angle of the sky), by magnitude, and by the
-        magnification over the pixel's own solid angle."""
+        """A star without neighbours gives its pixels the light F g^4 / (solid angle of the sky). Its listed magnitude
+        and its listed magnification, divided by the pixel's own solid angle, give the same light."""
         width, height, fov, ask = 400, 240, 80, "application/vnd.kerrd.stars+json"
         scene = {
             "spacetime": {"spin": 0.9},
@@ -774,8 +774,8 @@ class Kerrd(unittest.TestCase):
         self.assertGreater(judged, 20)
 
     def test_named_stars_are_as_bright_as_they_are_where_space_is_flat(self):
-        """Whatever the projection does at its edges, at its poles and on its seam: from far away nothing is
-        magnified, and over all directions each star is listed once."""
+        """Whatever a projection does at its edges, its poles and its seam: from far away nothing is magnified, and over
+        all directions each star is listed once."""
         ask, sky = (
             "application/vnd.kerrd.stars+json",
             {"model": "catalogue", "limit_mag": 2.2, "orientation": "equatorial", "brightness": 1},
@@ -806,8 +806,8 @@ class Kerrd(unittest.TestCase):
                 self.assertEqual((len(told), len(set(told))), (65, 65), (camera, "named stars down to V = 2.2"))
 
     def test_named_stars_next_to_the_critical_curve_and_while_the_picture_turns(self):
-        """Images of light that went round the hole are listed where the picture has their light; a list states where
-        each star will be when the azimuth has changed."""
+        """Images whose light went round the hole are listed where the picture shows them. A list states where each star
+        will be when the azimuth has changed."""
         ask = "application/vnd.kerrd.stars+json"
         scene = lambda azimuth: {
             "camera": {"r": 30, "fov_deg": 40, "inclination_deg": 80, "azimuth_deg": azimuth},
@@ -892,7 +892,8 @@ class Kerrd(unittest.TestCase):
                     self.assertEqual(self.daemon.get(at + rest).status, 422, rest)
 
     def test_a_film_of_a_job_is_that_of_the_command_line(self):
-        """One exposure, motion blur computed beside other jobs, a playground: the ZIP is the same to the byte."""
+        """With one exposure, motion blur computed beside other jobs, and a playground: the ZIP file is the same to the
+        byte."""
         scene = {"image": {"width": 96, "height": 54}, "spots": [{"brightness": 3}]}
         for asked in (
             {
@@ -921,8 +922,8 @@ class Kerrd(unittest.TestCase):
             self.assertEqual(self.daemon.get("/v1/jobs/" + job["id"] + "/result").body, alone, asked)
 
     def test_a_pixel_is_explained(self):
-        """Its crossings are those of POST /v1/rays, its light adds up to the total, and its path passes through the
-        crossings."""
+        """The crossings equal those of POST /v1/rays, the parts of the light add up to the total, and the path passes
+        through the crossings."""
         scene = {
             "spacetime": {"spin": 0.9},
             "camera": {"inclination_deg": 75},
@@ -967,7 +968,7 @@ class Kerrd(unittest.TestCase):
         self.assertEqual(fates, {"captured", "escaped"})
 
     def test_the_steps_of_a_pixel(self):
-        """The steps that `kerrd rays --trace` gives for the same ray, to the bit."""
+        """The steps equal those of `kerrd rays --trace` for the same ray, to the bit."""
         for spin, r, precision in ((0.9, "infinity", "f32"), (-0.5, 30, "f64")):
             scene = {
                 "spacetime": {"spin": spin},
@@ -1012,7 +1013,7 @@ class Kerrd(unittest.TestCase):
         self.assertIn("takes no steps", closed["none"])
 
     def test_a_sweep_of_style_and_disk_traces_one_lens_map(self):
-        """A hundred scenes; and the file is the one that the command line makes."""
+        """A hundred scenes use one lens map. The file equals that of the command line."""
         scene = {"image": {"width": 64, "height": 36, "layers": ["rgb", "r"]}}
         axes = {"style.exposure": "-1:1/5", "disk.outer": "15:24:1", "camera.azimuth_deg": [0, 90]}
         job = self.daemon.post("/v1/jobs", {"scene": scene, "axes": axes, "output": "cube"}).json()
@@ -1052,7 +1053,7 @@ class Kerrd(unittest.TestCase):
             self.assertEqual(self.daemon.get(at + rest).status, 422, rest)
 
     def test_a_sweep_that_is_killed_goes_on(self):
-        """The same bytes as without the kill."""
+        """The result has the same bytes as without the kill."""
         scene = {"image": {"width": 400, "height": 225, "layers": ["rgb", "g"]}}
         asked = {"scene": scene, "axes": {"style.exposure": [0, 1], "spacetime.spin": "0:0.9:0.1"}, "output": "cube"}
 
@@ -1066,7 +1067,8 @@ class Kerrd(unittest.TestCase):
             self.assertEqual(finished(server, whole, 20)["lens_maps_traced"], 10)
             self.assertTrue(daemon.eventually(lambda: server.get(whole).json()["state"] == "done"))
             files = {end: server.get(f"{whole}/result?format={end}").body for end in ("fits", "npz", "zip")}
-            for _ in range(8):  # until one is killed on its way: a busy machine may let all of it pass before the kill
+            # repeated until one sweep is killed while it runs, because a busy machine may finish it before the kill
+            for _ in range(8):
                 killed = "/v1/jobs/" + server.post("/v1/jobs", asked).json()["id"]
                 finished(server, killed, 7)
                 server.process.kill()
@@ -1104,7 +1106,7 @@ class Kerrd(unittest.TestCase):
                 time.sleep(0.3)
         self.assertLess(
             self.idle_after(), self.daemon.post("/v1/plan", scene).json()["estimate_ms"] / 1000
-        )  # of one of the three
+        )  # in one of the three
         self.assertEqual(self.daemon.get(TARGET).status, 200)
 
 

@@ -31,7 +31,7 @@ def request(n):
 
 class Kills(state.Case):
     def pour(self, server, accepted, rest, stop):
-        """Asks for jobs until the server is killed, as many at once as it takes; those answered with 202 were
+        """Requests jobs until the server is killed, as many at once as it accepts. Those answered with 202 were
         accepted."""
         while not stop.is_set():
             try:
@@ -43,7 +43,7 @@ class Kills(state.Case):
                 else:
                     time.sleep(0.02)
             except (OSError, ValueError, daemon.http.client.HTTPException):
-                return  # killed: this one may have been accepted or not
+                return  # the server was killed; this job may have been accepted or not
             if len(accepted) >= 40:
                 return
 
@@ -59,7 +59,7 @@ class Kills(state.Case):
             stop.set()
             server.wait()
             thread.join()
-            rest[-1] += 1  # it may know the one that was on its way
+            rest[-1] += 1  # the server may know the job whose answer was lost
         server, plain = self.start("--jobs", 12), self.start("--jobs", 100, state=False)
         self.assertGreater(len(accepted), KILLS / 2)
         for n, job in sorted(accepted.items()):

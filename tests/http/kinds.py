@@ -13,7 +13,7 @@ MOVING = {
     "time": 5,
     "sky": {"model": "grid"},
     "motion": {"azimuth_rate_deg": 10},
-}  # no frame of it is the last
+}  # none of its frames is the last
 RESTING = {"image": {"width": 64, "height": 36}, "time": 5, "disk": {"emission_opacity": 0, "gas": {"amplitude": 0}}}
 
 
@@ -55,7 +55,7 @@ class Kinds(daemon.Owned):
         self.assertEqual(self.daemon.get(self.at(session, "/frame.png")).body, frame.body, "the same file")
 
     def test_one_frame_in_several_kinds(self):
-        """An existing frame is encoded in another format on request; requests for the same format get the same
+        """An existing frame is encoded in another format on request. Requests for the same format get the same
         bytes."""
         session, queries = self.make(MOVING), ("", "lossy=20", "lossy=60", "lossy=95", "lossy=60", "")
 
@@ -239,7 +239,7 @@ class Kinds(daemon.Owned):
         number = int(answer.header("Kerrd-Frame"))
         while int(answer.header("Kerrd-Revision")) < int(
             self.status(session)["revision"]
-        ):  # it comes of it, if not at once
+        ):  # the change is shown eventually, if not at once
             answer = self.get(session, f"lossy=70&after={number}")
             number = int(answer.header("Kerrd-Frame"))
         self.assertIsNone(answer.header("Kerrd-Patched"))

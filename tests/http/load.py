@@ -39,7 +39,7 @@ class Queue(daemon.Case):
         self.assertIsNone(self.refused())
 
     def test_retry_after_is_the_estimated_backlog(self):
-        # the renderer states 1 us a ray: 1280 x 1280 x 4 rays take 6.6 s, and those that wait 3.4 s each
+        # The renderer's estimate is 1 us a ray: 1280 x 1280 x 4 rays take 6.6 s, and the waiting pictures 3.4 s each.
         held = []
         for side in (1280, 920, 920):
             held.append(self.daemon.connect())
@@ -68,7 +68,7 @@ class Queue(daemon.Case):
         self.assertTrue(daemon.eventually(lambda: self.refused() is None), "the running job was not cancelled")
 
     def probe_waits(self):
-        """Whether a render is accepted while the device is busy."""
+        """True if a render is accepted while the device is busy."""
         with begin(self.daemon, 0) as s:
             s.settimeout(0.3)
             try:
@@ -86,7 +86,8 @@ class Plans(daemon.Case):
                 return sum(map(int, f.read().rsplit(")", 1)[1].split()[11:13])) / os.sysconf("SC_CLK_TCK")
 
         before = seconds()
-        for _ in range(40):  # 134 MB of marks each, and 0.1 s at best, if they are listed
+        # listing the pixels at the critical curve would take 134 MB of marks and at least 0.1 s for each request
+        for _ in range(40):
             self.assertProblem(
                 self.daemon.post("/v1/plan", '{"image":{"width":32768,"height":32768}}'), 422, "too-large"
             )

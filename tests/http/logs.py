@@ -16,7 +16,7 @@ MADE = re.compile(r"[0-9a-f]{32}")
 
 class Logs(unittest.TestCase):
     def lines(self, asks, *options):
-        """What the server writes while `asks` uses it."""
+        """The lines that the server logs while `asks` uses it."""
         with tempfile.TemporaryFile("w+") as log:
             server = daemon.Daemon("--drain-ms", 10, "--log", 2, "--log-format", "json", *options, stderr=log)
             self.addCleanup(server.process.kill)
@@ -56,7 +56,7 @@ class Logs(unittest.TestCase):
         )
 
     def test_the_trace_that_a_request_is_part_of(self):
-        """By traceparent (W3C Trace Context 3.2.2)."""
+        """The log has the trace of the request's traceparent (W3C Trace Context 3.2.2)."""
         trace, parent = "4bf92f3577b34da6a3ce929d0e0e4736", "00f067aa0ba902b7"
         values = {
             f"00-{trace}-{parent}-01": True,
@@ -95,7 +95,7 @@ class Logs(unittest.TestCase):
                 self.assertEqual(line.get("parent_id"), parent if good else None)
 
     def test_bytes_are_those_of_the_answer(self):
-        """With several answers on one connection each has its own number; headers included."""
+        """With several answers on one connection each line has its own number of bytes, headers included."""
 
         def asks(server):
             with server.connect() as s:
@@ -110,7 +110,7 @@ class Logs(unittest.TestCase):
                     while len(rest) + len(head) + 4 < size:
                         rest += s.recv(1 << 16)
                     self.sizes.append(size)
-                    time.sleep(0.05)  # its line is written a moment after its last byte
+                    time.sleep(0.05)  # the line is written shortly after the last byte
 
         self.assertEqual([one["bytes"] for one in self.lines(asks)], self.sizes)
 

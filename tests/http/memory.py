@@ -1,9 +1,8 @@
-"""Memory that a server holds, so that a test can tell what a refusal has not given back. Every test of refusals may use
-it.
+"""Memory that a server holds, to find what a refusal has not freed. Every test of refusals may use it.
 
-    before = memory.held(server)
-    for _ in range(200): refuse(server)
-    assert memory.comes_back(server, before)
+before = memory.held(server)
+for _ in range(200): refuse(server)
+assert memory.comes_back(server, before)
 """
 
 import os
@@ -13,8 +12,8 @@ import daemon
 
 SLACK = 192 << 10  # bytes: pages of the heap that some thread touches late
 
-# Makes malloc return blocks of 64 KiB and more to the system at once, and all threads share one heap: otherwise the
-# heap's own behaviour hides a leak.
+# malloc returns blocks of 64 KiB and more to the system at once, and all threads share one heap. Otherwise the heap's
+# own behaviour would hide a leak.
 ENVIRONMENT = {
     **os.environ,
     "MALLOC_ARENA_MAX": "1",
@@ -24,17 +23,18 @@ ENVIRONMENT = {
 
 
 def is_told(server):
-    """False under a sanitizer, whose heap keeps freed memory; the address sanitizer looks for leaks itself."""
+    """True if the memory can be measured. Under a sanitizer it cannot, because its heap keeps freed memory; the address
+    sanitizer finds leaks itself."""
     with open(f"/proc/{server.process.pid}/maps", encoding="utf-8") as maps:
         return not re.search(r"lib[at]san", maps.read())
 
 
 def held(server):
-    """Resident bytes of the server's own: exact, unlike those in /proc/PID/status."""
+    """The server's own resident bytes. They are exact, unlike those in /proc/PID/status."""
     with open(f"/proc/{server.process.pid}/smaps_rollup", encoding="utf-8") as rollup:
         return 1024 * int(re.search(r"^Anonymous: +(\d+) kB", rollup.read(), re.M)[1])
 
 
 def comes_back(server, before):
-    """Whether the server's memory returns to what it was before, as it does once its last connection is closed."""
+    """True if the server's memory returns to what it was before, which happens once its last connection is closed."""
     return daemon.eventually(lambda: held(server) - before <= SLACK, 10)

@@ -164,7 +164,7 @@ class Metrics(daemon.Case):
         self.assertEqual(value["kerrd_device_lost"], 0)
 
     def test_what_is_kept_after_a_rest(self):
-        """Stored once after each period of activity; the fake renderer counts that as bytes of kernels."""
+        """After each period of activity the state is stored once. The fake renderer counts this as bytes of kernels."""
         server = daemon.Daemon("--rest-ms", 200)
         self.addCleanup(server.stop)
 

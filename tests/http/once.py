@@ -124,7 +124,7 @@ class Once(Case):
             self.assertEqual(self.ask(path, STILL, "").status, 200)
 
     def test_many_at_once_make_one(self):
-        """Each is answered with that one, or told to wait for it."""
+        """Each request is answered with the one resource, or told to wait for it."""
         for path, (status, body, _) in KINDS.items():
             with concurrent.futures.ThreadPoolExecutor(8) as pool:
                 answers = list(pool.map(lambda _, p=path, b=body: self.ask(p, b, '"many"'), range(8)))
@@ -136,7 +136,8 @@ class Once(Case):
                     self.assertEqual(answer.header("Retry-After"), "1")
 
     def test_one_that_is_under_way(self):
-        """A job of many frames takes a while to be checked. Of two requests sent at once either may be the first."""
+        """Checking a job of many frames takes a while. Of two requests that are sent at once either may be the
+        first."""
         body = {"scenes": [{**SCENE, "time": k} for k in range(3000)]}
         answers = []
 

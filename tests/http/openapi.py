@@ -49,7 +49,7 @@ class OpenApi(daemon.Case):
         self.assertGreater(bodies, 50)
 
     def schemas(self):
-        """Each schema of the document, with its place."""
+        """Yields each schema of the document with its location."""
 
         def below(at, schema):
             yield at, schema
@@ -72,10 +72,10 @@ class OpenApi(daemon.Case):
                         yield from below(f"{method} {path} {kind}", media["schema"])
 
     def test_nothing_is_left_open(self):
-        """Each schema has a type, each list the type of its items, each object its members and that there are no
-        others."""
-        # Documents with their own description; what is to be given back unchanged; what depends on the type of a job's
-        # output.
+        """Each schema has a type; each list has the type of its items; each object has its members, and says that there
+        are no others."""
+        # Exceptions: documents with a description of their own; members that clients give back unchanged; contents that
+        # depend on the type of a job's output.
         free = {
             "get /openapi.json application/json",
             "get /v1/schema application/schema+json",
@@ -85,7 +85,7 @@ class OpenApi(daemon.Case):
         found = set()
         for at, schema in self.schemas():
             if set(schema) in ({"required"}, {"not"}):
-                continue  # one of several ways to be whole, or what is not of it
+                continue  # this schema is one of several alternatives, or a negation
             known = schema.keys() & {"type", "$ref", "anyOf", "oneOf", "allOf", "enum", "const"}
             if (
                 not known
@@ -128,7 +128,7 @@ class OpenApi(daemon.Case):
             self.assertEqual(self.daemon.get("/web/" + name).status, 200, name)
 
     def test_what_the_schema_refuses_and_the_server_too(self):
-        """The last of each is one that both accept."""
+        """Each group of documents is refused by both, except the last one, which both accept."""
         orbit, bound = {"case": "isco"}, {"p": 10, "e": 0.1}
         state = {"r": 10, "theta_deg": 90, "phi_deg": 0}
         constants = {"energy": 0.96, "angular_momentum": 4, "carter": 0}
@@ -498,8 +498,8 @@ class OpenApi(daemon.Case):
                     self.assertTrue(status in (200, 201, 202) if good else status == 422, status)
 
     def test_what_is_refused_for_its_form_is_told(self):
-        """For each operation, whatever its path refers to: each status for a malformed request is one that the
-        document has for it."""
+        """For each operation, whatever its path refers to: if a malformed request gets a status, the document lists
+        that status."""
         lines = {
             "a length of 26 digits": "Content-Length: " + 26 * "9",
             "a length that is none": "Content-Length: x",
@@ -545,8 +545,8 @@ class OpenApi(daemon.Case):
         return int(answer.split()[1])
 
     def test_links_lead_to_what_was_made(self):
-        """Each answer that creates something links to the operations at its address; those of its owner take its
-        token in the query, as in the links."""
+        """Each answer that creates something links to the operations at its address. The owner's operations take its
+        token in the query, as the links show."""
         paths = self.document["paths"]
         for path, method, status in (
             ("/v1/sessions", "post", "201"),
@@ -627,7 +627,7 @@ class OpenApi(daemon.Case):
             self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
             self.assertNotIn("WARNING", made.stdout + made.stderr)
             with warnings.catch_warnings():
-                warnings.simplefilter("error", SyntaxWarning)  # each file is Python without a doubt
+                warnings.simplefilter("error", SyntaxWarning)  # each generated file is Python without warnings
                 for file in folder.rglob("*.py"):
                     compile(file.read_text(), file, "exec")
             sys.path.insert(0, str(folder))
@@ -678,7 +678,7 @@ class OpenApi(daemon.Case):
         self.assertEqual((path.fate, path.result.end, len(path.series.rows)), ("bound", "duration", 3))
         self.assertAlmostEqual(
             path.frequencies.coordinate.phi, 10**-1.5, places=12
-        )  # Kepler's third law, exact of circles round a hole that does not spin
+        )  # Kepler's third law is exact for circles round a hole without spin
         many = call(
             "post_orbits",
             body=models.OrbitsRequest(
@@ -689,7 +689,7 @@ class OpenApi(daemon.Case):
         self.assertEqual([one.circular for one in many.orbits], [False, True])
 
     def use_what_is_kept(self, package, base, call, models, small):
-        """A session and a job are created, changed or waited for, and deleted, with the token that came with them."""
+        """Creates a session and a job, changes the one and waits for the other, and deletes both with their tokens."""
         session = call("post_sessions", body=models.KerrdSceneVersion1.from_dict(small))
         job = call("post_jobs", body=models.PostJobsBodyType0(scene=models.KerrdSceneVersion1.from_dict(small)))
 

@@ -45,7 +45,7 @@ class Orbits(daemon.Case):
         return s
 
     def test_steps_of_which_nothing_comes(self):
-        """From 5e19 M a fall of 10000 M is too short to change r: the search for its end is given up."""
+        """From 5e19 M a fall of 10000 M is too short to change r, so that the search for its end is given up."""
         answer = self.post(
             {
                 "orbit": {"position": {"r": 5.528809622814662e19}},
@@ -59,8 +59,8 @@ class Orbits(daemon.Case):
         self.assertEqual((answer.status, answer.json()["pointer"]), (422, "/steps"))
 
     def test_seen(self):
-        """The same in every format; a circle seen along its axis is a circle; the end of a fall next to the horizon
-        has no image."""
+        """The series is the same in every format. A circle seen along its axis is a circle. The end of a fall next to
+        the horizon has no image."""
         circle = {
             "orbit": {"p": 10, "e": 0},
             "duration": {"periods": 1},
@@ -72,7 +72,8 @@ class Orbits(daemon.Case):
         self.assertEqual(list(rows[0])[-7:], ["alpha", "beta", "right", "up", "inwards", "delay", "off"])
         sizes = [math.hypot(row["alpha"], row["beta"]) for row in rows]
         self.assertLess(max(sizes) - min(sizes), 1e-5)
-        self.assertTrue(10.5 < sizes[0] < 11.5, sizes[0])  # r + 1 M, and some, as light is bent
+        # the image is at r + 1 M and a little more, because light is bent
+        self.assertTrue(10.5 < sizes[0] < 11.5, sizes[0])
         self.assertIsNone(rows[0]["right"])
         text = self.good(circle, Accept="text/csv").body.decode().splitlines()
         self.assertEqual([float(row["alpha"]) for row in csv.DictReader(text)], [row["alpha"] for row in rows])
@@ -157,7 +158,7 @@ class Orbits(daemon.Case):
         self.assertAlmostEqual(answer["constants"]["angular_momentum"], 8 / math.sqrt(8 - 3 - 0.25), delta=1e-14)
         self.assertLess(answer["result"]["drift"]["energy"], 1e-13)
         self.assertLess(answer["result"]["drift"]["binet_c"], 1e-12)
-        for row in answer["series"]["rows"]:  # at every periastron again
+        for row in answer["series"]["rows"]:  # the rows are those of every periastron
             self.assertAlmostEqual(row[3], 8 / 1.5, delta=1e-9)
         mercury = strict(self.good({"orbit": {"case": "mercury"}, "samples": 0}).body)
         self.assertEqual(f"{mercury['advance']['periastron_arcsec_per_century']:.2f}", "42.98")
@@ -202,7 +203,7 @@ class Orbits(daemon.Case):
         self.assertLess(time.monotonic() - start, 5)
         for s in streams:
             s.close()
-        # and they end with their clients: there is room for four again
+        # the requests ended with their clients, so that four are accepted again
         self.assertTrue(daemon.eventually(lambda: all(self.post(GENERIC).status == 200 for _ in range(4))))
 
     def test_the_queue_is_bounded(self):
@@ -236,7 +237,7 @@ class Orbits(daemon.Case):
         for t in threads:
             t.join()
         body = json.dumps({"orbits": [{"p": 8, "e": 0.5}] * 3000, "duration": {"periods": 1000}}).encode()
-        with self.daemon.connect(60) as s:  # waits for the whole, then does not
+        with self.daemon.connect(60) as s:  # the client requests the whole answer, but leaves before it comes
             s.sendall(
                 b"POST /v1/orbits HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n"
                 % len(body)

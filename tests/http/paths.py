@@ -1,5 +1,5 @@
-"""Tests of paths along keyframes: splines, easing, angles, where a camera looks. Each against independent formulas:
-the pyramid of Barry and Goldman, the metric and the aberration of special relativity."""
+"""Tests of paths along keyframes: splines, easing, angles, and the direction of a camera. Each is compared with
+independent formulas: the pyramid of Barry and Goldman, the metric, and the aberration of special relativity."""
 
 from math import asin, atan2, cos, degrees, hypot, isclose, radians, sin, sqrt
 
@@ -8,7 +8,7 @@ from job_case import IMAGE, Case, scene_of
 
 
 def pyramid(x, p, at):
-    """Catmull and Rom's curve by the recursion of Barry and Goldman 1988; at either end one more point, by
+    """Catmull and Rom's curve by the recursion of Barry and Goldman 1988. At each end one more point is added by
     reflection."""
     x, p = [2 * x[0] - x[1], *x, 2 * x[-1] - x[-2]], [2 * p[0] - p[1], *p, 2 * p[-1] - p[-2]]
     i = max(k for k in range(1, len(x) - 2) if x[k] <= at)
@@ -113,7 +113,7 @@ class Paths(Case):
                     self.assertAlmostEqual(
                         camera["inclination_deg"], 8 * clock(frame / 8), places=12, msg=(word, frame)
                     )
-        # Its own clock is at 3 of 12 where 3 t^2 - 2 t^3 is 1/4.
+        # The observer's own clock is at 3 of 12 where 3 t^2 - 2 t^3 is 1/4.
         bend = [
             {"frame": 3, "scene": {"camera": {"inclination_deg": 90}}},
             {"frame": 12, "scene": {"camera": {"inclination_deg": 0}}},
@@ -152,7 +152,8 @@ class Paths(Case):
             self.assertEqual(found[2]["inclination_deg"], 40)
 
     def looks(self, camera, looks, keyframes=(), spin=0.9):
-        """For four frames on the way inwards, with a turn: the directions written and those by the formulas."""
+        """For four frames on the way inwards, with a turn: the directions that were written, and those by the
+        formulas."""
         keys = [{"frame": 3, "scene": {"camera": {"r": camera["r"] / 2, "azimuth_deg": 30}}, **dict(keyframes)}]
         return self.cameras({**camera, "yaw_deg": 77, "pitch_deg": -11}, keys, spin, look_at=looks)
 
@@ -194,8 +195,8 @@ class Paths(Case):
                     self.same(c, aberrated(z.straight(at[0], at[1] - c.get("azimuth_deg", 0), at[2]), (0, 0, turned)))
 
     def test_it_falls_and_looks_at_the_hole(self):
-        """Through the horizon. Without spin: straight ahead; with spin: as the velocity of rain gives outside, and
-        continuing smoothly inside."""
+        """The path leads through the horizon. Without spin the camera looks straight ahead. With spin it looks outside
+        in the direction that the velocity of rain gives, which continues smoothly inside."""
         keys = [{"frame": 6, "proper_time": "horizon"}, {"frame": 8, "proper_time": "end"}]
         for c in self.cameras({"r": 6, "observer": "infall", "yaw_deg": 20}, keys, 0, look_at="hole"):
             self.assertLess(hypot(c["yaw_deg"], c["pitch_deg"]), 1e-6)
@@ -212,7 +213,7 @@ class Paths(Case):
         self.assertLess(max(steps), 4 * max(steps[0], 0.2), steps)
 
     def test_it_turns_from_one_to_the_other(self):
-        """By equal parts of the great circle between them, starting from its own direction."""
+        """The direction turns from its own start by equal parts of the great circle between both."""
         keys = [{"frame": 4, "look_at": "hole"}, {"frame": 5, "look_at": "free"}]
         found = self.cameras(
             {"r": 30, "observer": "zamo", "inclination_deg": 90, "yaw_deg": 90, "pitch_deg": 30}, keys, 0

@@ -103,7 +103,7 @@ class Physics(daemon.Case):
         return self.daemon.get("/v1/physics/" + target).json()["values"]
 
     def test_ringdown(self):
-        """Leaver 1985, table 1, and Stein's example of 2019; the same mode with the hole turned upside down."""
+        """Leaver 1985, table 1, and Stein's example of 2019. The mirrored hole has the same mode."""
         still = self.values("qnm?spin=0&n=1&m=-1")
         self.assertAlmostEqual(2 * still["omega_re"], 0.693422, delta=1e-6)
         self.assertAlmostEqual(2 * still["omega_im"], -0.547830, delta=1e-6)
@@ -122,7 +122,7 @@ class Physics(daemon.Case):
         )
         start = time.monotonic()
         curve = self.values("qnm?spin=0:0.998:100")
-        self.assertLess(time.monotonic() - start, 30)  # 10 ms of work on a machine of its own
+        self.assertLess(time.monotonic() - start, 30)  # 10 ms of work on an idle machine
         self.assertEqual(curve["quality"], sorted(curve["quality"]))
 
     def sound(self, target, **headers):
@@ -163,7 +163,7 @@ class Physics(daemon.Case):
                 hz, damping = self.fitted(samples)
                 self.assertAlmostEqual(hz / numbers["sound_hz"], 1, delta=2e-4)
                 self.assertAlmostEqual(damping / numbers["sound_damping_s"], 1, delta=2e-3)
-                # the curve, sample by sample
+                # compare with the curve, sample by sample
                 unit = numbers["t_s"] or 4.925490947e-6 * float(re.search("mass_msun=([^&]*)", query)[1])
                 self.assertAlmostEqual(
                     numbers["frequency_hz"] * 2 * math.pi * unit / numbers["omega_re"], 1, delta=1e-6
@@ -178,7 +178,7 @@ class Physics(daemon.Case):
                     self.assertAlmostEqual(samples[k], curve, delta=1.01)
 
     def test_a_ringdown_is_stretched(self):
-        """With the same pitch, and the file states by how much."""
+        """The pitch stays, and the file states the factor."""
         for query, stretch in (("?mass_msun=60", 130), ("?mass_msun=4e6&shift_octaves=16", 100)):
             query += f"&stretch={stretch}&format=wav"
             answer = self.daemon.get("/v1/physics/qnm" + query)
@@ -288,7 +288,7 @@ class Physics(daemon.Case):
         self.assertAlmostEqual(end["rate_msun_yr"] * values["peak_eddington"], values["peak_msun_yr"], delta=1e-12)
 
     def test_nearly_edge_on(self):
-        """At exactly the values that a refusal names as allowed."""
+        """At exactly the values that a refusal names as allowed, the request is accepted."""
         above, below = (self.values(f"redshift?phi_deg=200&inclination_deg={i}") for i in (89.9, 90.1))
         self.assertAlmostEqual(above["g"], below["g"], delta=1e-9)
         for inside in (89.91, 90.09):
@@ -360,9 +360,9 @@ class Physics(daemon.Case):
         self.assertRegex(answer.header("Server-Timing"), r"^queue;dur=[\d.]+, compute;dur=[\d.]+$")
 
 
-# each takes more than ten seconds of one core: some are cheap a point, some are not
+# Each takes more than ten seconds of one core. In some a point is cheap, in others it is not.
 LONG = ("redshift?r=6:60:100000&phi_deg=0", "qnm?n=3&l=4&m=4&spin=0.9998:0.9999:30000", "scale?spin=0:0.999:100000")
-SHORT = "/v1/physics/qnm?spin=0:0.9:10"  # but more than a moment
+SHORT = "/v1/physics/qnm?spin=0:0.9:10"  # more than a moment
 
 
 class Long(daemon.Case):
@@ -384,15 +384,16 @@ class Long(daemon.Case):
                 for short in ("/healthz", KERR + "?spin=0:0.9:10"):
                     self.assertEqual(self.daemon.get(short).status, 200)
                 s.setblocking(False)
-                with self.assertRaises(BlockingIOError):  # it is still at work, for seconds of a core
+                with self.assertRaises(BlockingIOError):  # the other request is still working, for seconds of a core
                     s.recv(1)
         with contextlib.ExitStack() as streams:
             for target in LONG[:2]:
                 streams.enter_context(self.begin(target))
-            self.assertLess(self.seconds(SHORT), 60)  # it takes turns with them
+            self.assertLess(self.seconds(SHORT), 60)  # the short request takes turns with the long ones
 
     def test_it_ends_with_its_client(self):
-        """A daemon that stops waits for what it has accepted: for long, unless the client has gone."""
+        """A server that stops waits for the requests that it has accepted. That takes long, unless their client has
+        disconnected."""
         for target in LONG:
             with self.subTest(target):
                 other = daemon.Daemon("--drain-ms", 10)
@@ -409,7 +410,7 @@ class Long(daemon.Case):
                 streams.enter_context(self.begin(LONG[0]))
             self.daemon.reaches("turns_unfinished", 8)
             self.assertProblem(self.daemon.get(SHORT), 503, "queue-full")
-            self.seconds(KERR)  # it takes but a moment
+            self.seconds(KERR)  # a short request
         self.assertTrue(daemon.eventually(lambda: self.daemon.get(SHORT).status == 200))
 
     def test_the_domain_is_told_late_too(self):
@@ -465,8 +466,8 @@ class Integrals(daemon.Case):
         )
 
     def test_transfer_functions_are_lines(self):
-        """A narrow ring's line is the sum over its near and far side: F = pi r f g^2/sqrt(g* (1 - g*)) dg* dr, with g*
-        = (1 - cos x)/2."""
+        """The line of a narrow ring is the sum over its near and far side: F = pi r f g^2/sqrt(g* (1 - g*)) dg* dr,
+        with g* = (1 - cos x)/2."""
         n, r, width = 400, 9, 1e-3
         stars = [(1 - math.cos(math.pi * (k + 0.5) / n)) / 2 for k in range(n)]
         told = self.post(
@@ -491,8 +492,8 @@ class Integrals(daemon.Case):
         self.assertAlmostEqual(blue, line["columns"]["share"][2], delta=5e-3)
 
     def test_a_disk_shines_what_it_radiates(self):
-        """Far out and nearly face on, where shifts are small: the flux over all frequencies is cos(i)/(pi D^2) of
-        what a face radiates, whatever its colours."""
+        """Far out and nearly face-on, where shifts are small, the flux over all frequencies is cos(i)/(pi D^2) of what
+        a face radiates, whatever its colours."""
         document = {"inner": 1e5, "outer": 1e6, "inclination_deg": 10, "frequencies": 1000, "distance_pc": 1000}
         totals = []
         for more in ({}, {"colour_correction": 1}, {"limb": "laor"}):
@@ -523,7 +524,7 @@ class Integrals(daemon.Case):
         )
 
     def test_energies(self):
-        """In any unit, and with edges given by the request."""
+        """Energies may be in any unit, and the request may give the edges."""
         plain = self.post("line", {"bins": 10, "energy_max": 2}).json()["columns"]
         kev = self.post("line", {"edges": [1.28 * k for k in range(11)], "rest_energy": 6.4}).json()["columns"]
         for a, b in zip(plain["share"], kev["share"]):
@@ -536,8 +537,8 @@ class Integrals(daemon.Case):
             self.assertAlmostEqual(m * n / total, e, delta=3e-4)  # g varies over a bin by 1.7 %
 
     def test_visibilities_of_a_bright_rectangle(self):
-        """The fake renderer's maps have one brightness: their transform is the product of two sums of a geometric row,
-        sin(n x)/(n sin x)."""
+        """The fake renderer's maps have uniform brightness. Their transform is the product of two sums of a geometric
+        row, sin(n x)/(n sin x)."""
         pixel = math.pi * 1e9 * 56 / 32 * 6.5e9 * 1476.625 / (16.8e6 * 3.0856775814913673e16)  # times u: x
         rows = lambda n, x: 1 if x == 0 else math.sin(n * x) / (n * math.sin(x))
         document = {
@@ -633,8 +634,8 @@ class Integrals(daemon.Case):
         )
 
     def test_a_scene_beside_an_observation(self):
-        """As kerrd compare has it (tests/cli/compare.py); a file that is not an observation is refused when it is
-        put, and when it is referred to."""
+        """The comparison equals that of kerrd compare (tests/cli/compare.py). A file that is not an observation is
+        refused when it is uploaded, and when it is referred to."""
         sent = {}
         for end, kind in (("csv", "text/csv"), ("uvfits", "application/x-uvfits")):
             data = (OBSERVED / f"m87-2017-04-05-lo.{end}").read_bytes()

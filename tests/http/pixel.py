@@ -1,4 +1,4 @@
-"""Tests of /v1/pixel: the same by link and by document, its tag, its refusals. Its values are tested by
+"""Tests of /v1/pixel: the same answer by link and by document, its tag, and its refusals. Its values are tested by
 tests/gpu/test_pixel.c and kerrd.py."""
 
 import daemon
@@ -26,7 +26,8 @@ class Pixel(daemon.Case):
 
     def test_the_middle_one_of_its_rays(self):
         found = self.daemon.get(PIXEL + "&image.samples=4").json()
-        self.assertEqual((found["ray_at"], found["rays"]), ([20.125, 11.125], 16))  # the fake takes the first one
+        # the fake renderer explains the first ray
+        self.assertEqual((found["ray_at"], found["rays"]), ([20.125, 11.125], 16))
         self.assertEqual(
             [ray["ray_at"] for ray in found["each_ray"]],
             [[20 + (i % 4 + 0.5) / 4, 11 + (i // 4 + 0.5) / 4] for i in range(16)],

@@ -22,7 +22,7 @@ ROW = 40  # bytes of a body
 
 
 def unpack(answer):
-    """(generation, how many there are in all, t, rows of words)"""
+    """(generation, total number of bodies, t, rows of words)"""
     count, stride, generation, whole, t, *rest = struct.unpack("<IIIIdII", answer.body[:32])
     assert rest == [0, 0] and len(answer.body) == 32 + 4 * count * stride, (rest, len(answer.body), count, stride)
     rows = [answer.body[32 + 4 * stride * i : 32 + 4 * stride * (i + 1)] for i in range(count)]
@@ -56,7 +56,7 @@ class Playground(daemon.Owned):
         return answer
 
     def events(self, play, rest="/events", timeout=20, **headers):
-        """Yields (event, id, data) of a stream."""
+        """Yields (event, id, data) from a stream of events."""
         s = self.daemon.connect(timeout)
         self.addCleanup(s.close)
         more = "".join(f"{k.replace('_', '-')}: {v}\r\n" for k, v in headers.items())
@@ -182,7 +182,7 @@ class Playground(daemon.Owned):
             with self.subTest(body):
                 answer = self.patch(play, body)
                 if body == {"rate": 5, "waves": False, "remove": [1], "change": [{"id": 1, "mass": 1}]}:
-                    self.assertEqual(answer.status, 200)  # changed, then removed
+                    self.assertEqual(answer.status, 200)  # the body was changed and then removed
                     before = self.status(play)
                     continue
                 self.assertProblem(answer, status)
@@ -193,7 +193,7 @@ class Playground(daemon.Owned):
         self.assertTrue(daemon.eventually(lambda: self.status(play)["t"] > going["t"] + 50))
 
     def test_steps_are_those_of_the_command_line(self):
-        """To the bit, through a change on the way, however the time is divided."""
+        """Steps equal those of the command line to the bit, also through a change, however the time is divided."""
         kerrd = os.environ["KERRD"]
         for document in (
             {"preset": "disruption", "debris_per_body": 2000},
@@ -386,11 +386,12 @@ class Playground(daemon.Owned):
         self.assertEqual(take(3, rest=f"/events?since={last - 3}"), whole[-3:])
         self.assertProblem(self.daemon.get(self.at(play, "/events?since=x")), 422, "invalid-parameters")
         again = self.open(self.get(play, "/snapshot").json(), paused=True)
-        self.assertEqual(next(self.events(again))[0], "tick")  # what a snapshot has told is not told again
+        # an event that came before the snapshot is not sent again
+        self.assertEqual(next(self.events(again))[0], "tick")
         self.assertEqual(self.status(again)["events"], last)
 
     def test_events_that_are_lost_are_told(self):
-        """Of more mergers than are stored the oldest are lost, and a stream says so."""
+        """If there are more mergers than are stored, the oldest are lost, and a stream reports this."""
         play = self.open(
             {"bodies": [{"mass": 1e-9, "radius": 0.5, "position": [300, 0, 0]} for _ in range(4096)]}, paused=True
         )
@@ -428,7 +429,7 @@ class Playground(daemon.Owned):
         self.assertGreaterEqual(self.status(play)["watchers"], 2)
 
     def test_adversarial(self):
-        """No NaN, no lost playground."""
+        """Hostile input gives no NaN, and no playground is lost."""
         huge = [
             {"mass": 1e12, "radius": 1, "position": [20, 0, 0], "velocity": [0, 1, 0]},
             {"mass": 1e-12, "radius": 1e-9, "position": [20, 1e-9, 0]},
@@ -623,8 +624,8 @@ class Playground(daemon.Owned):
         self.assertTrue(any("test bodies" in sentence for sentence in self.status(play)["approximations"]))
 
     def test_kerr_bodies_are_where_the_orbits_are(self):
-        """Over a hundred radial periods, to a millionth of r, at the places given by /v1/orbits: nearly circular,
-        inclined and eccentric orbits, of several spins."""
+        """Over a hundred radial periods bodies are within a millionth of r of the places that /v1/orbits gives. The
+        orbits are nearly circular, inclined and eccentric, with several spins."""
         at_12, tilt = 12**0.5 / 10, math.radians(50)
         cases = [
             (0, 90, (0, 0, 10**-0.5), 12),
@@ -698,8 +699,8 @@ class Limits(daemon.Owned):
         self.opened.clear()
 
     def test_pictures_after_a_break(self):
-        """A client that returns to the picture of a playground at rest, with the number of the last frame it had,
-        sees it again."""
+        """A client that comes back to a playground at rest, and names the last frame that it had, gets this picture
+        again."""
         play = self.make({"paused": True, "scene": {"image": {"width": 64, "height": 36}}})
         number = 0
         while (answer := self.daemon.get(self.at(play, f"/frame.png?after={number}&wait_ms=1000"))).status == 200:
@@ -772,7 +773,7 @@ class Stopping(unittest.TestCase):
         streams = [server.connect() for _ in range(2)]
         for s, rest in zip(streams, ("events", "bodies?after=99999999&wait_ms=60000")):
             s.sendall(f"GET /v1/playground/{play['id']}/{rest} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
-        text = streams[0].recv(65536)  # it is under way
+        text = streams[0].recv(65536)  # the stream has begun
         server.terminate()
         while data := streams[0].recv(65536):
             text += data
@@ -781,8 +782,8 @@ class Stopping(unittest.TestCase):
 
 
 class Films(job_case.Case):
-    """Jobs whose frames show a playground as it evolves. In the fake renderer's scenes `time`, to which the
-    playground's is added, is how many milliseconds a frame takes."""
+    """Tests of jobs whose frames show a playground as it evolves. In the fake renderer's scenes `time` is how many
+    milliseconds a frame takes; the playground's time is added to it."""
 
     STAR = {"preset": "white-dwarf", "debris_per_body": 500}
     TURNED = {"camera": {"azimuth_deg": 90}}
@@ -800,7 +801,7 @@ class Films(job_case.Case):
                 subprocess.run([kerrd, "playground", begin, "--time", str(time), "-o", end], check=True, timeout=60)
                 return end.read_bytes()
 
-            torn = after(self.STAR, 1000)  # in the middle of it, far on in time: a snapshot
+            torn = after(self.STAR, 1000)  # a snapshot in the middle of the tidal disruption, far on in time
             for document, more in (
                 (self.STAR, {}),
                 (json.loads(torn), {"scene": {"time": -1000}}),
@@ -848,7 +849,8 @@ class Films(job_case.Case):
         self.assertEqual(self.daemon.get(self.at(job, "/result?format=csv")).body.count(b"\n"), 4)
 
     def test_deleted_while_its_bodies_move(self):
-        """Bodies that move for half an hour and longer; pictures are made meanwhile, and another film after it."""
+        """The job is deleted while its bodies move, which would take half an hour and longer. Pictures are made
+        meanwhile, and another film after it."""
         job = self.make(
             {
                 "playground": {"preset": "swarm", "h_max": 1e-3, "budget": 1000000},

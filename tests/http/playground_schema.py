@@ -97,7 +97,7 @@ class PlaygroundSchema(daemon.Owned):
             self.check_reading(play)
 
     def test_schemas_can_refuse(self):
-        """The schemas do refuse a member more, a member less, another type."""
+        """The schemas refuse an additional member, a missing member, and another type."""
         play = self.open({"bodies": PAIR, "paused": True})
         schema = self.schemas.of("get", TEMPLATE)
         good = self.daemon.get(self.at(play)).json()

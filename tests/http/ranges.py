@@ -1,5 +1,5 @@
-"""Tests of parts of whatever has a length and an ETag (RFC 9110 14): the same table for every kind of answer that
-has both."""
+"""Tests of ranges (RFC 9110 14). The same table of cases applies to every kind of answer that has a length and an
+ETag."""
 
 import base64
 import hashlib
@@ -199,8 +199,8 @@ class Ranges(Case):
                 self.assertPart(self.ask(target, Range="bytes=3-8", **headers, **given), whole, 3, 8)
 
     def test_digests(self):
-        """Digests of what is sent and of what it is a part of, where the ETag contains them (RFC 9530), whatever is
-        requested."""
+        """Digests of what is sent and of the whole that it is a part of, where the ETag contains them (RFC 9530),
+        whatever is requested."""
         for target, headers in self.kinds():
             for wanted in {}, {"Want-Content-Digest": "sha-256=10"}, {"Want-Content-Digest": "sha-256=0"}:
                 whole = self.ask(target, **headers, **wanted)

@@ -1,7 +1,8 @@
-"""Bytes that are not HTTP as it should be: each is answered once, by a problem document, or the connection is closed.
+"""Requests that are not valid HTTP: each gets one problem document, or the connection is closed.
 
-Each goes alone on a connection, behind a good request on a connection that is kept alive, and beside uploads that go
-on."""
+Each request is sent alone on a connection, after a valid request on a connection that is kept alive, and while uploads
+are under way.
+"""
 
 import json
 
@@ -21,7 +22,7 @@ def post(*lines, body=b"{}"):
     return POST + b"".join(line + b"\r\n" for line in lines) + b"\r\n" + body
 
 
-# name: bytes, permitted answers; empty: a problem document or no answer
+# name: (bytes, permitted statuses). An empty set: a problem document or no answer.
 REFUSED = {
     # lengths
     "length negative": (post(b"Content-Length: -1"), {400}),
@@ -89,7 +90,8 @@ REFUSED = {
 
 
 def read_all(s, patience):
-    """What arrives until the server closes, or until nothing has come for that many seconds; and whether it closed."""
+    """What arrives until the server closes the connection, or until nothing has come for `patience` seconds; and
+    whether it closed."""
     got = b""
     s.settimeout(patience)
     try:
@@ -116,14 +118,14 @@ def answers_in(got):
 
 
 class Raw(daemon.Case):
-    options = ("--header-ms", 4000)  # what never becomes a request is closed after that
+    options = ("--header-ms", 4000)  # a connection on which no request is completed is closed after this time
 
     def send(self, data, patience=1):
         with self.daemon.connect(20) as s:
             try:
                 s.sendall(data)
             except OSError:
-                pass  # refused before all of it was sent
+                pass  # the server refused before everything was sent
             got, closed = read_all(s, patience)
         return answers_in(got), closed
 
@@ -171,7 +173,7 @@ class Raw(daemon.Case):
             try:
                 for word, s in others.items():
                     s.sendall(half[word][0])
-                self.assertEqual(self.daemon.get("/v1/presets").status, 200)  # by now the thread has read what was sent
+                self.assertEqual(self.daemon.get("/v1/presets").status, 200)  # now the thread has read what was sent
                 with self.subTest(name):
                     self.judge(name, *self.send(REFUSED[name][0]))
                     for word, s in others.items():

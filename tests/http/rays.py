@@ -130,7 +130,7 @@ class Requests(daemon.Case):
         self.assertIn(f"line {lines.count(chr(10))}", self.assertProblem(self.post(lines[:-3]), 400)["detail"])
 
     def test_observers_are_refused_in_the_same_words(self):
-        """By the same sentences as a scene's observer, and physics': with other names of the fields."""
+        """Rays and physics refuse an observer in the same sentences as a scene, with their own names of the fields."""
         table = (
             ({"r": 9, "velocity_phi": 0.8, "velocity_r": 0.7}, "velocity"),
             ({"r": 1.5}, "static"),
@@ -467,8 +467,8 @@ class Device(daemon.Case):
         self.assertLess(time.monotonic() - begun, 5)
 
 
-# spin, inclination, alpha, beta, fate, crossings (r, phi), sky: by the reference of tests/oracle, from r = 1e6.
-# Azimuths up to whole turns.
+# spin, inclination, alpha, beta, fate, crossings (r, phi), sky: computed by the reference of tests/oracle, from r =
+# 1e6. Azimuths are equal up to whole turns.
 ORACLE = (
     (0.9, 60, -5, 1, "escaped", [(4.05136443, -2.08075964)], (1.9273608, 1.5264424)),
     (0.9, 60, -3, 4, "escaped", [(3.72775338, -3.01493976)], (2.3354472, 0.5571441)),
@@ -518,9 +518,10 @@ class Closed(daemon.Case):
                 self.assertLess(abs(c["g"] / g - 1), 1e-12)
 
     def test_gas_that_plunges(self):
-        # A hole seen from above: lambda = 0, and light that leaves inwards (after the turning point) is shifted less.
+        # A hole seen from above: lambda = 0. Light that leaves inwards, that is after the turning point, is shifted
+        # less.
         answer = self.ask(spin=0, observer={"inclination_deg": 0}, rays=[[5.1, 0], [5.22, 0]])
-        before = answer["rays"][0]["crossings"][0]  # captured, so on its way in
+        before = answer["rays"][0]["crossings"][0]  # the ray is captured, so that it is on its way inwards
         self.assertEqual(answer["rays"][0]["fate"], "captured")
         r, b = before["r"], 5.1
         self.assertLess(r, 6)

@@ -56,7 +56,7 @@ class Render(daemon.Case):
         self.assertEqual(by_query.body, by_body.body)
 
     def test_a_style_in_a_query(self):
-        """Wherever the style is in the query, what the query itself sets stays."""
+        """A style may be anywhere in the query: fields that the query itself sets keep their values."""
         tags = [
             self.daemon.get(RENDER + "&style.bloom=0.25&style.name=dngr&disk.redshift=true").header("ETag"),
             self.daemon.get(RENDER + "&style.name=dngr&disk.redshift=true&style.bloom=0.25").header("ETag"),
@@ -72,8 +72,8 @@ class Render(daemon.Case):
         self.assertEqual(len(set(tags)), 1, tags)
 
     def test_lists(self):
-        """A list by its elements in a query, as an array and as an object in a body, and by the former names of its
-        elements."""
+        """Lists are given by their elements in a query, as an array or an object in a body, and by the former names of
+        their elements."""
         image = {"image": {"width": 64, "height": 36}}
         answers = [
             self.daemon.get(RENDER + "&spots.0.r=12&spots.1.brightness=2&spots.0.brightness=3"),

@@ -1,5 +1,4 @@
-"""Tests of what RFC 9110 and 9112 require of an origin server: docs/rfc.md has the rows, each method of Rows tests
-one."""
+"""Tests of what RFC 9110 and 9112 require of an origin server. Each method of Rows tests one row of docs/rfc.md."""
 
 import base64
 import hashlib
@@ -20,8 +19,8 @@ class Rows(daemon.Case):
     options = ("--host", "holes.example")
 
     def talk(self, *lines, body="", patience=20):
-        """Sends a request, and reads to the end of the connection, which `Connection: close` or the server brings
-        about; bytes."""
+        """Sends a request, and reads until the connection ends, because of `Connection: close` or by the server's
+        decision. Returns bytes."""
         with self.daemon.connect(patience) as s:
             data = "\r\n".join(lines) + "\r\n\r\n" + body
             s.sendall(data.encode("latin-1"))
@@ -46,7 +45,7 @@ class Rows(daemon.Case):
         self.assertTrue(got[:9] == "HTTP/1.1 " and int(got[9:12]) in statuses, f"{got[:300]!r}: not {statuses}")
 
     def assertRefused(self, got, *statuses):
-        """Answered once, and the connection is closed."""
+        """The request is answered once, and the connection is closed."""
         self.assertStatus(got, *statuses)
         self.assertEqual(len(re.findall(r"HTTP/1\.1 \d", got)), 1, got)
 
@@ -213,7 +212,7 @@ class Rows(daemon.Case):
             for _ in range(2):
                 s.sendall(f"GET {PRESETS} HTTP/1.1\r\n{HOST}\r\n\r\n".encode())
                 self.assertEqual(daemon.read_answer(s).status, 200)
-        # returns: the connection has ended
+        # since `talk` returns, the connection has ended
         self.assertStatus(self.talk(f"GET {PRESETS} HTTP/1.0", HOST).replace("HTTP/1.0", "HTTP/1.1", 1), 200)
 
     def pipelining(self):

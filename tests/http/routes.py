@@ -55,7 +55,7 @@ class Routes(daemon.Case):
                     json.loads(got.body)
 
     def settled(self):
-        """The metrics once only this request is running: an answer is counted shortly after its last byte has
+        """The metrics once only this request is under way, because an answer is counted shortly after its last byte has
         arrived."""
         figures = {}
 
@@ -83,7 +83,7 @@ class Routes(daemon.Case):
         self.assertNotIn("unsafe", policy)
         for name in ("icon.svg", "vendor/uplot/LICENSE"):
             self.assertEqual(self.daemon.get("/web/" + name).header("Content-Security-Policy"), policy, name)
-        for name in ("app.js", "style.css"):  # where a policy binds nothing: they take no bytes of it
+        for name in ("app.js", "style.css"):  # for these files the policy has no effect, so that it is not sent
             self.assertIsNone(self.daemon.get("/web/" + name).header("Content-Security-Policy"), name)
 
     def test_page_compressed_and_kept(self):
@@ -180,11 +180,11 @@ class Routes(daemon.Case):
                 self.assertEqual(self.daemon.post("/v1/plan", scene.body).status, 200)
         self.assertEqual(
             self.daemon.get("/v1/presets/m87-eht").json(), self.daemon.get("/v1/presets/m87").json()
-        )  # its name from before
+        )  # a former name
         self.assertEqual(self.daemon.get("/v1/presets/m87-EHT").status, 404)
 
     def test_a_small_picture_of_a_preset(self):
-        """It is rendered once, however many clients ask for it at once, and then stored."""
+        """It is rendered only once, however many clients request it at the same time, and then stored."""
         before = self.settled()["kerrd_thumbnails_rendered_total"]
         with concurrent.futures.ThreadPoolExecutor(8) as many:
             answers = list(
@@ -215,7 +215,8 @@ class Routes(daemon.Case):
         self.assertEqual(self.daemon.get("/v1/presets/edge-on/thumbnail.png?width=9").status, 422)
 
     def test_small_pictures_are_kept_for_later_servers(self):
-        """In the folder of the device's own files; one that is damaged, or of something else, is rendered anew."""
+        """They are stored in the folder of the device's files. A damaged file, or one of something else, is rendered
+        anew."""
         target = "/v1/presets/edge-on/thumbnail.png"
 
         def ask():
@@ -307,7 +308,7 @@ class Routes(daemon.Case):
             known = paths[name][method.lower()]["responses"]
             self.assertIn(str(answer.status), known, f"{method} {path}")
             self.assertLess({"400", "401", "403", "503"}, set(known))
-            self.assertNotIn("default", known)  # each status by itself
+            self.assertNotIn("default", known)  # each status is listed by itself
             return answer
 
         for kind, body, status in (("sessions", "{}", 201), ("jobs", '{"scene": {}}', 202)):
@@ -404,7 +405,7 @@ class Routes(daemon.Case):
 
 
 class Held(daemon.Case):
-    """The thread that answers everything else is stopped, and the connections are used up."""
+    """The thread that answers everything else is stopped, and all connections are in use."""
 
     options = ("--device", "held", "--connections", 8, "--header-ms", 30000)
 
@@ -417,13 +418,13 @@ class Held(daemon.Case):
             for s in crowd[:20]:
                 s.sendall(b"GET /v1/device HTTP/1.1\r\nHost: localhost\r\n\r\n")
             crowd += [self.daemon.connect() for _ in range(200)]
-            for s in crowd[-100:]:  # and those that begin to ask for health and never end
+            for s in crowd[-100:]:  # also connections that have begun a health request and never finish it
                 s.sendall(b"GET /healthz HTTP/1.1\r\n")
             for path in ("/healthz", "/readyz", "/metrics"):
                 self.assertEqual(self.daemon.get(path).status, 200)
             held.settimeout(0)
-            self.assertRaises(BlockingIOError, held.recv, 1)  # it is held still
-            with self.daemon.connect() as s:  # byte by byte: what it is comes out late
+            self.assertRaises(BlockingIOError, held.recv, 1)  # the thread is still stopped
+            with self.daemon.connect() as s:  # byte by byte, so that the kind of request becomes clear only late
                 for byte in b"HEAD /readyz?a HTTP/1.1\r\nHost: localhost\r\n\r\n":
                     s.send(bytes([byte]))
                 s.settimeout(2)
@@ -433,10 +434,10 @@ class Held(daemon.Case):
 
 
 def slice_ns(thread):
-    """The length of the turns that a thread has requested of the scheduler; None: this kernel does not give it (it
-    does from Linux 6.12 on)."""
+    """The length of the time slices that a thread has requested of the scheduler; None if this kernel does not report
+    it (it does from Linux 6.12 on)."""
     attributes = ctypes.create_string_buffer(48)
-    known = {"x86_64": 315, "aarch64": 275}.get(os.uname().machine)  # sched_getattr
+    known = {"x86_64": 315, "aarch64": 275}.get(os.uname().machine)  # number of the system call sched_getattr
     if not known or ctypes.CDLL(None).syscall(known, thread, attributes, 48, 0):
         return None
     return struct.unpack_from("=IIQiIQ", attributes)[5] or None
@@ -444,8 +445,8 @@ def slice_ns(thread):
 
 class Prompt(daemon.Case):
     def test_health_asks_for_short_turns(self):
-        """The front thread and that of the health routes do; no other thread does, because then it would have no
-        effect."""
+        """The front thread and the thread of the health routes request short slices. No other thread does, because then
+        the request would have no effect."""
         if slice_ns(os.getpid()) is None:
             self.skipTest("this kernel tells no slices")
         for path in ("/healthz", "/v1/device", "/v1/render?" + daemon.SMALL, "/readyz"):
@@ -465,7 +466,7 @@ class SlowDisk(daemon.Case):
             self.assertEqual(self.daemon.get("/v1/device").status, 200)
             self.assertEqual(self.daemon.get("/v1/render?" + daemon.SMALL).status, 200)
             waiting.setblocking(False)
-            self.assertRaises(BlockingIOError, waiting.recv, 1)  # it takes 5 s
+            self.assertRaises(BlockingIOError, waiting.recv, 1)  # the render takes 5 s
             waiting.setblocking(True)
             self.assertProblem(daemon.read_answer(waiting), 404, "not-found")
 

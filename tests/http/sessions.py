@@ -17,7 +17,7 @@ SCENE = {
     "image": {"width": 64, "height": 36},
     "time": 5,
     "disk": {"emission_opacity": 0, "gas": {"amplitude": 0}},
-}  # a disk that rests, whatever time it is
+}  # a disk that looks the same at any time
 NOISE = {"image": {"width": 800, "height": 600, "samples": 2}, "time": 5}  # 1.4 MB that nothing compresses
 MOVING = {"image": {"width": 64, "height": 36}, "time": 5, "sky": {"model": "grid"}, "motion": {"azimuth_rate_deg": 10}}
 
@@ -39,7 +39,7 @@ class Sessions(daemon.Owned):
     def test_frames_are_no_narrower_than_was_asked(self):
         body = json.dumps(
             {**SCENE, "image": {"width": 640, "height": 360}, "time": 60}
-        )  # milliseconds, of 33 that it should take
+        )  # milliseconds, while a frame should take 33
         for query, pointer in (
             ("least=0.2", "least"),
             ("least=1.01", "least"),
@@ -67,7 +67,7 @@ class Sessions(daemon.Owned):
             tilts, widths, after = itertools.count(20), set(), 0
 
             def goes_below(wide):
-                """Moves once more."""
+                """Moves the camera once more."""
                 nonlocal after
                 tilt = {"camera": {"inclination_deg": next(tilts) % 80 + 5}}
                 self.assertEqual(self.daemon.request("PATCH", at, json.dumps(tilt), owner).status, 200)
@@ -145,7 +145,7 @@ class Sessions(daemon.Owned):
         scene = self.patch(session, {"camera": None}).json()["scene"]
         self.assertEqual(scene["camera"]["inclination_deg"], 82)
         self.assertEqual(scene["image"]["width"], 64)
-        usual = {**scene["disk"]["gas"], "amplitude": 0.8}  # a section in a section
+        usual = {**scene["disk"]["gas"], "amplitude": 0.8}  # a nested section
         gas = {**usual, "amplitude": 0.7, "seed": 5}
         for patch, wanted in (
             ({"amplitude": 0.7, "seed": 5}, gas),
@@ -174,7 +174,7 @@ class Sessions(daemon.Owned):
         self.assertProblem(self.patch(session, "{}", **{"Content-Type": "text/plain"}), 415)
 
     def test_what_varies(self):
-        """It is reported for each emitter that is there, whether or not time goes on."""
+        """It is reported for each emitter of the scene, whether or not time runs."""
         session = self.open()
         self.assertEqual(self.status(session)["varies"], [])
         for patch, varies in (
@@ -241,7 +241,7 @@ class Sessions(daemon.Owned):
         self.assertEqual((refused.status, refused.json()["pointer"]), (422, "/camera/field_uas"))
 
     def test_patch_of_a_list(self):
-        """By RFC 7396 an array replaces the whole one; an object changes elements by their index."""
+        """By RFC 7396 an array replaces the whole list; an object changes elements by their index."""
         session = self.open({**SCENE, "spots": [{"r": 10}, {"r": 11, "size": 2}]})
 
         def after(patch):
@@ -285,7 +285,7 @@ class Sessions(daemon.Owned):
         again = self.strike(session, '{"amplitude": 0.25}').json()
         self.assertEqual((again["revision"], again["scene"]["style"]["ringdown"]), (3, 0.25))
         self.assertGreaterEqual(again["scene"]["style"]["ringdown_time"] - style["ringdown_time"], 0.2)
-        self.assertEqual(self.strike(session, "{}").json()["scene"]["style"]["ringdown"], 0.25)  # as it was
+        self.assertEqual(self.strike(session, "{}").json()["scene"]["style"]["ringdown"], 0.25)  # unchanged
         self.assertEqual(self.strike(session, "").json()["scene"]["style"]["ringdown"], 0.25)
         revision = self.status(session)["revision"]
         for body, status, pointer, word in (
@@ -327,7 +327,7 @@ class Sessions(daemon.Owned):
         """Frames are made during the ringdown, one more after it, and then the session rests."""
         session = self.open(
             {**SCENE, "time": 0, "motion": {"time_rate": 9}}
-        )  # frames stay below 33 ms, so that nothing refines the last one
+        )  # frames take less than 33 ms, so that the last one is not refined
         with self.stream(session, "/events", timeout=0.9) as events:
 
             def until_it_rests():
@@ -374,7 +374,7 @@ class Sessions(daemon.Owned):
             self.daemon.get(self.at(session, "/particles?fields=x,y,z,energy")), 422, "invalid-parameters"
         )
         self.assertIn("count is 10000000 with 16 bytes a particle; it must be 1 to 8388608", problem["detail"])
-        head = self.daemon.request("HEAD", self.at(session, "/particles"))  # all of them, in x, y and z
+        head = self.daemon.request("HEAD", self.at(session, "/particles"))  # all particles, as x, y and z
         self.assertEqual(
             (head.status, head.header("Kerrd-Count"), head.header("Kerrd-Fields"), head.body),
             (200, "10000000", "x,y,z", b""),
@@ -462,12 +462,13 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.frame(session, number, 100).status, 204)
 
     def test_how_far_a_finer_picture_is(self):
-        """Only while it is being made: the part that is done grows, and the time left is given in seconds."""
+        """Reported only while a finer picture is being made: the part that is done grows, and the remaining time is in
+        seconds."""
         session = self.open(
             {**SCENE, "image": {"width": 64, "height": 36, "samples": 2}, "time": 60}
         )  # 1.8 s with four rays a pixel
         told, number, revision = [], 0, 0
-        for inclination in 30, 31, 32, 33:  # as long as something changes pictures are coarser
+        for inclination in 30, 31, 32, 33:  # pictures are coarser as long as something changes
             wanted = self.patch(session, {"camera": {"inclination_deg": inclination}}).json()["revision"]
             while revision < wanted:
                 answer = self.frame(session, number)
@@ -493,8 +494,8 @@ class Sessions(daemon.Owned):
         self.assertNotIn("refining", self.status(session))
 
     def test_how_far_the_first_picture_is(self):
-        """Before there is any: the part that is done grows, and the time left is given in seconds; once it is there
-        neither is given."""
+        """Reported before the first picture exists: the part that is done grows, and the remaining time is in seconds.
+        Once the picture exists neither is reported."""
         session, told = self.open({**SCENE, "image": {"width": 64, "height": 36, "samples": 1}, "time": 1500}), []
         thread = threading.Thread(target=lambda: self.frame(session, 0))
         thread.start()
@@ -515,8 +516,8 @@ class Sessions(daemon.Owned):
         for _ in range(5):
             session = self.open(
                 {"image": {"width": 4000, "height": 3000}, "time": 60}
-            )  # its first frame takes long to be encoded,
-            self.patch(session, {"image": {"width": 64, "height": 36}, "time": 0})  # the next one does not
+            )  # encoding the first frame takes long,
+            self.patch(session, {"image": {"width": 64, "height": 36}, "time": 0})  # and that of the next one does not
             self.assertEqual(self.frame(session, 1).header("Kerrd-Revision"), "2")
             time.sleep(0.2)
             self.assertEqual(self.frame(session).header("Kerrd-Revision"), "2")
@@ -553,11 +554,11 @@ class Sessions(daemon.Owned):
         self.assertTrue(1 < two - one < 10 * (time.monotonic() - begun))
         self.patch(session, {"motion": None})
         three = self.status(session)["scene"]["camera"]["azimuth_deg"]
-        self.assertTrue(two < three < one + 10 * (time.monotonic() - begun))  # it stops where it is
+        self.assertTrue(two < three < one + 10 * (time.monotonic() - begun))  # the camera stops where it is
         self.assertEqual(self.status(session)["scene"]["camera"]["azimuth_deg"], three)
 
     FALL = {**SCENE, "time": 0, "spacetime": {"spin": 0, "mass_msun": 4.3e6}, "camera": {"r": 8, "observer": "infall"}}
-    WHOLE = 2**0.5 / 3 * 8**1.5  # rain in Schwarzschild, from 8 M to the end
+    WHOLE = 2**0.5 / 3 * 8**1.5  # proper time of rain in Schwarzschild, from 8 M to the end
 
     def assertOnRain(self, answer):
         """The place and the clock of an observer that moves with rain agree."""
@@ -572,7 +573,7 @@ class Sessions(daemon.Owned):
 
     def test_a_fall_goes_on_by_itself(self):
         begun = time.monotonic()
-        session = self.open({**self.FALL, "motion": {"proper_time_rate": 0.05}})  # for minutes
+        session = self.open({**self.FALL, "motion": {"proper_time_rate": 0.05}})  # a fall of minutes
         first = self.assertOnRain(session)
         number, clocks = 0, []
         for _ in range(4):
@@ -589,7 +590,7 @@ class Sessions(daemon.Owned):
         self.assertOnRain(json.loads(found[1]))
         self.assertEqual(self.patch(session, {"motion": {"proper_time_rate": 100}}).json()["revision"], 2)
         self.assertTrue(daemon.eventually(lambda: self.status(session)["scene"]["camera"]["r"] == 0.01))
-        self.patch(session, {"camera": {"r": 8}, "motion": {"proper_time_rate": 0.05}})  # and once more
+        self.patch(session, {"camera": {"r": 8}, "motion": {"proper_time_rate": 0.05}})  # the fall is repeated
         self.assertGreater(self.assertOnRain(self.status(session)), self.WHOLE / 2)
         self.assertNotIn("clock", self.patch(session, {"camera": None, "motion": None}).json())
 
@@ -639,16 +640,16 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.status(session)["scene"]["camera"]["inclination_deg"], 32)
         self.assertEqual(
             self.frame(session, int(self.frame(session).header("Kerrd-Frame")) + 8, 700).status, 204
-        )  # it rests
-        patched = self.patch(session, {"time": 6}).json()  # stays where it is
+        )  # nothing moves
+        patched = self.patch(session, {"time": 6}).json()  # the camera stays where it is
         self.assertNotIn("path", patched)
         self.assertEqual(
             (patched["scene"]["camera"]["inclination_deg"], patched["scene"]["camera"]["azimuth_deg"]), (32, 50)
         )
 
     def test_a_path_is_looked_along_by_the_workers(self):
-        """Parsing and checking the longest of paths takes tens of milliseconds, which must not be spent in the
-        thread that serves everybody: it reports how long they took."""
+        """Parsing and checking the longest path takes tens of milliseconds. Workers do it and not the thread that
+        serves everybody; the answer reports how long they took."""
         session = self.open(SCENE)
         keys = [{"at": i + 1, "scene": {"camera": {"azimuth_deg": i % 360}}} for i in range(999)]
         answer = self.follow(session, {"keyframes": keys})
@@ -688,7 +689,7 @@ class Sessions(daemon.Owned):
             {"at": 0.1, "scene": {}},
             {"at": 3, "scene": turned},
             {"at": 3600, "scene": {}},
-        ]  # looks are two minutes apart
+        ]  # the check samples the path every two minutes
         self.assertEqual(self.follow(session, {"keyframes": keys}).status, 200)
         answer, number = None, 0
         while not answer or answer.status == 200:
@@ -699,7 +700,7 @@ class Sessions(daemon.Owned):
         self.assertEqual(
             self.daemon.request("DELETE", self.at(session, "/path"), None, self.owner(session)).status, 204
         )
-        self.assertEqual(self.frame(session).status, 200)  # it goes on from the latest that was a scene
+        self.assertEqual(self.frame(session).status, 200)  # the session continues from the latest valid scene
 
     def test_paths_refused(self):
         session = self.open(SCENE)
@@ -715,7 +716,7 @@ class Sessions(daemon.Owned):
             ({"keyframes": [{"at": 1, "proper_time": 3}]}, "/keyframes/0/proper_time"),
             ({"keyframes": [{"at": 1, "scene": {"motion": {"time_rate": 1}}}]}, "/keyframes"),
             ({"keyframes": [{"at": 1, "scene": {"disk": {"outer": 1}}}]}, "/keyframes/0/scene/disk/outer"),
-            # valid at both ends, but between them the disk's edge is inside the ISCO
+            # These are valid at both ends, but in between the disk's edge is inside the ISCO.
             (
                 {
                     "keyframes": [
@@ -749,8 +750,8 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.status(session)["revision"], 1)
 
     def test_those_that_move_share_the_device(self):
-        """Frames of 30 ms, which a single session renders in full, are too long for each of two, but not beside one
-        that rests."""
+        """A single session renders frames of 30 ms in full. For each of two moving sessions they are too long, but not
+        beside one at rest."""
         moving = {**MOVING, "image": {"width": 220, "height": 40}, "time": 30}
         resting = self.open({**moving, "motion": {}})
         self.frame(resting)
@@ -978,11 +979,11 @@ class Sessions(daemon.Owned):
         session = self.open(MOVING)
         with self.stream(session, "/events", "text/event-stream") as s:
             seen = self.exposures(s, 12)
-            self.assertEqual(abs(seen[0]), 1)  # by itself
+            self.assertEqual(abs(seen[0]), 1)  # a picture by itself has its own exposure
             self.assertGreater(len(set(seen)), 6, seen)
-            for one, two in zip(seen, seen[1:]):  # alone the pictures would have 1, -1, 1, ...
+            for one, two in zip(seen, seen[1:]):  # measured one by one, the pictures would have 1, -1, 1, ...
                 self.assertLess(abs(two - one), 0.7, seen)
-            self.patch(session, {"motion": None})  # what rests is a picture by itself
+            self.patch(session, {"motion": None})  # a scene at rest is a picture by itself
             while abs(seen[-1]) != 1:
                 seen += self.exposures(s, 1)
         session = self.open({**MOVING, "style": {"exposure": 0.25}})
@@ -990,8 +991,8 @@ class Sessions(daemon.Owned):
             self.assertEqual(set(self.exposures(s, 5)), {0.25})
 
     def test_slow_reader_gets_the_newest(self):
-        """What was sent before the reader stalled is in the kernel's buffers; after that the newest frame comes,
-        with no queue between."""
+        """What was sent before the reader stalled is in the kernel's buffers. After that it gets the newest frame,
+        since there is no queue in between."""
         session = self.open({**NOISE, "sky": {"model": "grid"}, "motion": {"azimuth_rate_deg": 10}})
         with self.stream(session, "/frames", "application/x-kerrd-frames") as s:
             s.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 18)
@@ -1009,12 +1010,12 @@ class Sessions(daemon.Owned):
         self.assertLess(numbers[0], number)
 
     def test_little_waits_in_the_kernel(self):
-        """What the kernel holds for a reader that stalls will be out of date, so it must be little:
+        """What the kernel holds for a stalled reader will be out of date, so there must be little of it:
         TCP_NOTSENT_LOWAT."""
         session = self.open({**NOISE, "sky": {"model": "grid"}, "motion": {"azimuth_rate_deg": 10}})
         with self.stream(session, "/frames", "application/x-kerrd-frames") as s:
             n = 0
-            while n < 60 << 20:  # let it grow its buffers
+            while n < 60 << 20:  # by then the kernel has enlarged its buffers
                 n += len(s.recv(1 << 20))
             ends, unsent = f"0100007F:{self.daemon.port:04X} 0100007F:{s.getsockname()[1]:04X}", [0, 1]
 
@@ -1024,7 +1025,7 @@ class Sessions(daemon.Owned):
                     unsent.append(*[int(line.split()[4].split(":")[0], 16) for line in table if ends in line])
                 return 0 < unsent[-1] == unsent[-2]
 
-            self.assertTrue(daemon.eventually(stalled))  # what the reader's side takes is its own affair
+            self.assertTrue(daemon.eventually(stalled))  # the buffers of the reader's side do not matter here
         self.assertTrue(0 < unsent[-1] < 200_000, unsent)
 
     def test_viewers_that_vanish(self):
@@ -1065,15 +1066,15 @@ class Sessions(daemon.Owned):
         self.assertIn("more than the 600 s", problem["detail"])
         self.assertEqual(self.status(session)["scene"]["image"]["width"], 64)
 
-    # Frames as asked would take half a second, or two, by the plan, so that coarser ones come first, with a ray a
-    # pixel. These take as long as `time` says, the last step 30 times as long: what must not wait for it has a part of
-    # that, however busy the machine.
+    # By their plan, full frames of these scenes would take half a second or two. So coarser frames with one ray a pixel
+    # come first; these take `time` ms, and the last step takes 30 times as long. What must not wait for the last step
+    # is allowed a part of its time, so that the bound holds on a busy machine.
     COARSE = {"image": {"width": 400, "height": 300, "samples": 2, "critical_factor": 1}, "time": 1000}
     LONG = {"image": {"width": 800, "height": 600, "samples": 2, "critical_factor": 1}, "time": 100}
     SOON = 20  # s
 
     def refining(self, scene, samples=2):
-        """A session in the middle of its step to so many samples, and the connection that waits for it."""
+        """A session in the middle of its step to this number of samples, and the connection that waits for it."""
         session, number = self.open(scene), 0
         while True:
             answer = self.frame(session, number)
@@ -1126,7 +1127,7 @@ class Sessions(daemon.Owned):
                 for _ in range(2):
                     self.first_frame_s()
                 self.assertEqual(self.status(session)["frame"], number, "these came in between")
-                # for one client a job goes before the refinement of a view
+                # within one client, a job goes before the refinement of a view
                 self.daemon.request("DELETE", "/v1/jobs/" + job["id"], headers=self.owner(job))
                 self.assertRegex(self.frame(session, number).header("Kerrd-Quality"), "samples=2 .*final=1")
 

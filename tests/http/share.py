@@ -15,7 +15,7 @@ import daemon
 
 PRESETS = "/v1/presets"
 PICTURE = (1200, 630)
-# A scene as people make it in the page: a dozen changed fields, with the digits that drags leave.
+# A scene as users make it in the page: a dozen changed fields, with the digits that drags leave.
 MANY = {
     "camera": {"inclination_deg": 71.25, "azimuth_deg": 153.294, "r": 41.7, "yaw_deg": 3.125, "pitch_deg": -2.5},
     "spacetime": {"spin": 0.873},
@@ -27,13 +27,13 @@ MANY = {
 
 
 def code_of(text):
-    """The code of a document as any client makes it: raw deflate, base64url without padding."""
+    """The code of a document as any client makes it: raw deflate, then base64url without padding."""
     packer = zlib.compressobj(9, zlib.DEFLATED, -15)
     return base64.urlsafe_b64encode(packer.compress(text.encode()) + packer.flush()).rstrip(b"=").decode()
 
 
 def paths(document, before=""):
-    """The fields of a document by their paths, as a query has them."""
+    """The fields of a document by their paths, as in a query."""
     for name, value in document.items() if isinstance(document, dict) else enumerate(document):
         if isinstance(value, (dict, list)):
             yield from paths(value, f"{before}{name}.")
@@ -224,7 +224,7 @@ class Share(Case):
                     self.assertLess(len(answer.body), 1500)
 
     def test_nothing_of_a_link_reaches_the_page_as_it_stands(self):
-        """Values are written anew from the scene, so that even a number has only one spelling."""
+        """Values are written anew from the scene, so that each number has one spelling."""
         path = "/s/" + code_of("spacetime.spin=0.50000000000000000000001&camera.r=%33%30")
         self.assertEqual(self.page(path).open, "../#preset=default&spacetime.spin=0.5&camera.r=30")
         self.assertNotIn(b"0.500", self.get(path).body)
@@ -263,7 +263,7 @@ class Share(Case):
 
 
 class Proxied(Case):
-    """Behind a proxy that terminates TLS and removes a prefix, which the server knows only from its option."""
+    """The server is behind a proxy that terminates TLS and removes a prefix, of which it knows only by its option."""
 
     options = ("--public-url", "https://holes.example/kerrd")
 
@@ -291,7 +291,7 @@ class Below(Case):
 
 
 class Embedded(Case):
-    """Shown in frames of pages that are listed, and of no others."""
+    """Scenes are shown in frames of the listed pages only."""
 
     options = ("--embed-origin", "https://blog.example,http://localhost:99")
 

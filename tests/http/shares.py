@@ -10,7 +10,7 @@ import time
 import daemon
 
 RENDER = "/v1/render?" + daemon.SMALL
-# This renderer states 1 us a ray for them, 6.6 s; what they really take is `time`, in slices of 10 ms.
+# The renderer's estimate for these is 1 us a ray, 6.6 s; their actual duration is `time`, in slices of 10 ms.
 LONG = "/v1/render?image.width=1280&image.height=1280&image.samples=2&accuracy.profile=high&time=%d"
 
 
@@ -47,7 +47,7 @@ class Device(Case):
             waited = float(re.search(r"queue;dur=([0-9.]+)", answer.header("Server-Timing"))[1])
             self.assertLess(waited, 1500)
         long.setblocking(False)
-        self.assertRaises(BlockingIOError, long.recv, 1)  # not yet
+        self.assertRaises(BlockingIOError, long.recv, 1)  # it is not done yet
 
     def test_long_pictures_of_two_clients_go_on_side_by_side(self):
         first = self.begin(LONG % 60000)
@@ -57,7 +57,7 @@ class Device(Case):
         self.assertRaises(BlockingIOError, first.recv, 1)
 
     def test_beside_living_sessions_a_picture_has_its_turn(self):
-        """So does a frame of a job, though sessions of the same client use all the time they can get."""
+        """So does a frame of a job, although sessions of the same client use all the time that they can get."""
         sessions = [
             self.daemon.post(
                 "/v1/sessions",
@@ -89,8 +89,8 @@ class Device(Case):
             self.assertTrue(
                 daemon.eventually(lambda: self.daemon.get("/v1/jobs/" + job["id"]).json()["state"] == "done")
             )
-            # Between six works of 20 ms there are some frames, and not hundreds: counted, because a clock would measure
-            # the machine.
+            # Some frames are rendered between six pieces of work of 20 ms, but not hundreds. They are counted, because
+            # a clock would measure the machine.
             frames = self.daemon.metrics()["kerrd_session_frames_total"] - before
             self.assertGreater(frames, 1)
         finally:
@@ -103,7 +103,8 @@ class Device(Case):
                 )
 
     def test_waiting_renders_of_one_client(self):
-        """None of them ends before the client leaves: nothing here depends on the speed of the machine."""
+        """None of the renders ends before the client leaves, so that nothing here depends on the speed of the
+        machine."""
         for waiting in range(9):
             self.begin(LONG % (60000 + waiting))
             self.daemon.reaches("renders_unfinished", waiting + 1)
@@ -117,7 +118,8 @@ class Device(Case):
 
 
 class Kernels(Case):
-    """The kernels for a sky of seed 4712 are not ready until another picture has been rendered."""
+    """Tests with a picture of the sky of seed 4712, whose kernels are not ready until another picture has been
+    rendered."""
 
     NEW = RENDER + "&sky.seed=4712"
 
@@ -126,8 +128,8 @@ class Kernels(Case):
         return float(found[1]) if found else 0
 
     def test_a_picture_that_waits_for_its_kernels_holds_nobody(self):
-        """Nor does a second picture that needs the same kernels compile them again. The time waited is reported
-        separately from that in the queue; a client that has left leaves nothing behind."""
+        """A second picture that needs the same kernels does not compile them again. The time spent waiting for kernels
+        is reported separately from the time in the queue. A client that has left leaves nothing behind."""
         gone = self.begin(self.NEW, "127.0.0.3")
         self.daemon.reaches("renders_unfinished", 1)
         daemon.vanish(gone)
@@ -146,10 +148,10 @@ class Kernels(Case):
             self.assertGreater(self.kernels(answer), 0)
         self.assertEqual(self.kernels(self.ask("127.0.0.1", "GET", self.NEW + "&time=1")), 0)
         compiled = self.daemon.metrics()['kerrd_kept_bytes{kind="kernels"}'] // 1024
-        self.assertLessEqual(compiled, 2)  # for the one that has gone, and the first of the others
+        self.assertLessEqual(compiled, 2)  # one for the client that has left, and one for the first of the others
 
     def holds_nobody(self, ask):
-        """Checks that others are served until its kernels are ready, which is once another client's picture has been
+        """Checks that others are served until its kernels are ready, which is when another client's picture has been
         rendered."""
         own = daemon.Daemon()
         self.addCleanup(own.stop)
@@ -173,14 +175,14 @@ class Kernels(Case):
         self.holds_nobody(ask + b"Content-Length: %d\r\n\r\n%s" % (len(body), body))
 
     def test_a_picture_that_comes_to_lack_a_kernel_holds_nobody(self):
-        """A short picture begins again, one in a lane continues. Both report how long they waited."""
+        """A short picture starts again, a picture in a lane continues. Both report how long they waited."""
         for target in (RENDER, LONG % 0):
             with self.subTest(target):
                 ask = f"GET {target}&sky.seed=4713 HTTP/1.1\r\nHost: localhost\r\n\r\n".encode()
                 self.assertGreater(self.kernels(self.holds_nobody(ask)), 0)
 
     def test_one_that_goes_while_its_lane_waits_for_a_kernel_leaves_the_lane(self):
-        """A client may have only one lane: its next long picture gets it."""
+        """A client may use only one lane. When its picture leaves the lane, its next long picture gets it."""
         own = daemon.Daemon()
         self.addCleanup(own.stop)
         gone = own.connect()
@@ -193,12 +195,12 @@ class Kernels(Case):
         self.addCleanup(again.close)
         again.sendall(f"GET {LONG % 0}&sky.seed=4713 HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
         self.assertTrue(daemon.eventually(lambda: own.metrics()['kerrd_kept_bytes{kind="kernels"}'] >= 2048))
-        self.assertEqual(own.get(RENDER).status, 200)  # until then it is compiled
+        self.assertEqual(own.get(RENDER).status, 200)  # the kernels are compiled until this picture is rendered
         self.assertEqual(daemon.read_answer(again).status, 200)
 
     def test_what_cannot_be_compiled_holds_nobody(self):
-        """The picture is rendered in its own turn, where the kernel's failure is reported. Nothing waits for ever,
-        in the queue or in a lane, and nothing is compiled again and again."""
+        """The picture still gets its turn, in which the kernel's failure is reported. Nothing waits for ever, in the
+        queue or in a lane of long pictures, and the kernel is not compiled again and again."""
         own = daemon.Daemon("--device", "miscompiles")
         self.addCleanup(own.stop)
         for target in (self.NEW, RENDER + "&sky.seed=4713", (LONG % 0) + "&sky.seed=4713"):
@@ -225,7 +227,7 @@ class Kernels(Case):
         self.addCleanup(s.close)
         s.sendall(f"GET {self.NEW} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
         own.reaches("renders_unfinished", 1)
-        self.assertEqual(own.get(RENDER).status, 200)  # until then they are being compiled
+        self.assertEqual(own.get(RENDER).status, 200)  # the kernels are compiled until this picture is rendered
         self.assertEqual(daemon.read_answer(s).status, 200)
         self.assertTrue(daemon.eventually(lambda: plan(seed=4712)[0] == 0))
 
@@ -240,14 +242,14 @@ class Kernels(Case):
 
 
 class Allowance(Case):
-    """Here a client may use one second of the device's time a minute: both of time taken, and of accepted work by
-    estimate."""
+    """Here a client may use one second of the device's time in a minute. Both the time used and the estimates of
+    accepted work count."""
 
     options = ("--client-device-seconds", 1, "--queue", 16, "--client-share", 50)
     SMALL = {"image": {"width": 32, "height": 18}}
 
     def refused(self, source, method, target, body=None):
-        """The seconds after which the client is told to try again."""
+        """The seconds after which a refused client may try again."""
         answer = self.ask(source, method, target, body)
         detail = self.assertProblem(answer, 429, "quota")["detail"]
         seconds = int(answer.header("Retry-After"))
@@ -350,7 +352,7 @@ class Tasks(Case):
             )
 
     def look(self, unfinished, method, target, body=None):
-        """A client that has used its share of four is told so, and another one is served."""
+        """A client that has used its share of four is refused, and another client is served."""
         self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()["kerrd_" + unfinished] == 4))
         problem = self.ask("127.0.0.1", method, target, body)
         self.assertIn(
@@ -387,8 +389,8 @@ class Tasks(Case):
 
 
 class Unread(Case):
-    """Answers that wait for a client that does not read them: here 128 MiB a client, of 512, and 16 of 64 more for
-    small ones."""
+    """Answers that wait for a client that does not read them. Here 128 MiB of 512 are allowed for a client, and 16 of
+    64 more for small answers."""
 
     options = ("--client-share", 25)
 
@@ -397,7 +399,7 @@ class Unread(Case):
             "orders": 8,
             "accuracy": {"engine": "mino-rkn6"},
             "rays": [[5, 1]] * 500000,
-        }  # 145 MiB: who has nothing may have one
+        }  # 145 MiB: a client without waiting answers may have one of any size
         text = json.dumps(large).encode()
         s = self.daemon.connect()
         self.addCleanup(s.close)
@@ -457,7 +459,7 @@ class Bodies(Announced):
             try:
                 self.announce(46000000)
             except OSError:
-                pass  # refused before all of it was sent
+                pass  # the server refused before everything was sent
         self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()["kerrd_bodies_bytes"] > 90e6))
         self.assertLessEqual(self.daemon.metrics()["kerrd_bodies_bytes"], 96 << 20)
         body = b'{"spin":0.9,"observer":{"inclination_deg":60},"rays":[' + b" " * (8 << 20) + b"[5,0]]}"
@@ -470,7 +472,7 @@ class Dawdling(Announced):
     options = ("--body-ms", 1500)
 
     def test_a_body_that_dawdles_is_cut(self):
-        """However much it has announced and sent: within the time for a small one."""
+        """A slow body is cut after the time for a small body, however much it has announced and sent."""
         s = self.announce(3000000)
         answer = daemon.read_answer(s)
         self.assertProblem(answer, 408, "timeout")
@@ -520,7 +522,7 @@ class Connections(Case):
             try:
                 s.sendall(begin)
             except OSError:
-                pass  # refused already
+                pass  # the server has refused already
         time.sleep(0.3)
 
     def refused(self):
@@ -537,8 +539,8 @@ class Connections(Case):
                 before = self.daemon.open_files()
                 self.hold(begin)
                 self.assertEqual({self.ask("127.0.0.2", "GET", "/v1/presets").status for _ in range(20)}, {200})
-                # Some of 200 at once are turned away before they count as this client's: it tries until it has all that
-                # it may have.
+                # Of 200 simultaneous connections some are turned away before they count as this client's. It tries
+                # until it has all that it may have.
                 self.assertTrue(daemon.eventually(lambda: self.hold(begin, 20) or self.refused()))
                 self.doCleanups()
                 self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= before))

@@ -1,5 +1,5 @@
-"""The state folder: what a start finds there, stops and strikes, what is left behind. Full disks and clocks that jump:
-tests/faults."""
+"""Tests of the state folder: what a start finds there, stops, repeated failures, and what is left behind. tests/faults
+tests full disks and clocks that jump."""
 
 import io
 import json
@@ -58,7 +58,8 @@ class Case(job_case.Case):
 
 class Leftovers(Case):
     def test_what_a_kill_has_left_half_written(self):
-        """It is removed at the next start, and files of others stay; the same at the end of the job."""
+        """Half-written files are removed at the next start, and files of others stay. The same holds at the end of a
+        job."""
         server = self.start()
         job = self.make({"scenes": [SCENE] * 2}, server=server)
         self.until(job, "done", server)
@@ -104,7 +105,7 @@ class Stops(Case):
         server.process.kill()
         server.wait()
         server = self.start()
-        self.until(second, "done", server)  # it has gone first
+        self.until(second, "done", server)  # the second job goes first, because the first has a failed attempt
         self.assertEqual(self.status(first, server)["state"], "running")
         self.assertEqual(server.stop(), 0)
         self.write(first, "job.json", json.dumps({**self.record(first), "attempts": 7}))
@@ -144,10 +145,10 @@ class Stops(Case):
         self.assertEqual(answer.status, 201)
         with server.connect() as s:
             s.sendall(f"GET /v1/sessions/{answer.json()['id']}/frames HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
-            time.sleep(2)  # until the buffers of both sides are full
+            time.sleep(2)  # by then the buffers of both sides are full
             begun = time.monotonic()
             self.assertEqual(server.stop(), 0)
-            self.assertLess(time.monotonic() - begun, 8)  # it was 10 s of waiting alone
+            self.assertLess(time.monotonic() - begun, 8)  # waiting for the client used to take 10 s alone
 
 
 class Descriptors(Case):
@@ -287,7 +288,7 @@ class Foreign(Case):
         waiting = self.status(running, server)
         self.assertEqual(waiting["state"], "waiting", waiting)
         self.assertIn("cannot read the request", waiting["delayed"])
-        self.until(self.make({"scene": SCENE}, server=server), "done", server)  # it holds up nobody
+        self.until(self.make({"scene": SCENE}, server=server), "done", server)  # the unreadable job blocks no other
         self.assertEqual(server.stop(), 0)
         self.write(running, "request.json", asked)
         server = self.start()
@@ -295,13 +296,14 @@ class Foreign(Case):
         server.stop()
 
     def test_what_a_job_makes_is_in_its_record(self):
-        """Under "output"; records of earlier versions have "curve"; an unknown one is left alone."""
+        """The record has it under "output". Records of earlier versions have "curve". An unknown one is left alone."""
         server = self.start()
         job = self.make({"scene": SCENE, "output": "light-curve"}, server=server)
         self.until(job, "done", server)
         rows = server.get(self.at(job, "/result?format=csv")).body
         self.assertEqual(server.stop(), 0)
-        self.write(job, "request.json", '{"tomorrow": 1}')  # which says nothing of it
+        # a request of a later version, which this server does not know
+        self.write(job, "request.json", '{"tomorrow": 1}')
         record = self.record(job)
         self.assertEqual(record.pop("output"), "light-curve")
         for known in ({"output": "light-curve"}, {"curve": True}):

@@ -29,9 +29,9 @@ class Stop(unittest.TestCase):
         server.terminate()
         self.assertTrue(daemon.eventually(lambda: server.get("/readyz").status == 503, 0.9))
         self.assertEqual(server.get("/healthz").status, 200)
-        late = in_background(server.get, RENDER + "&time=1")  # still accepted while balancers notice
+        late = in_background(server.get, RENDER + "&time=1")  # still accepted while load balancers notice the stop
         server.reaches("renders_unfinished", 3)
-        time.sleep(1.2)  # the drain is over, and the first one under way
+        time.sleep(1.2)  # by then the drain is over, and the first render is under way
         refused = server.get(RENDER)
         self.assertEqual(refused.status, 503)
         self.assertEqual(refused.json()["type"], "urn:kerrd:problem:stopping")
@@ -41,8 +41,8 @@ class Stop(unittest.TestCase):
         self.assertEqual(server.wait(10), 0)
 
     def test_the_rest_is_ended(self):
-        """Work that takes longer than the server waits gets an answer, for each kind of work, and the log says how
-        long it waits."""
+        """Work that takes longer than the server waits gets an answer, for each kind of work. The log says how long the
+        server waits."""
         with tempfile.TemporaryFile("w+") as log:
             server = daemon.Daemon("--drain-ms", 50, "--drain-s", 1, stderr=log)
             rays = {
@@ -72,7 +72,7 @@ class Stop(unittest.TestCase):
 
     def test_idle(self):
         server = daemon.Daemon("--drain-ms", 100)
-        with server.connect():  # nobody waits for a connection without a request
+        with server.connect():  # the server does not wait for a connection without a request
             started = time.monotonic()
             self.assertEqual(server.stop(), 0)
             self.assertLess(time.monotonic() - started, 3)
@@ -99,7 +99,7 @@ class Stop(unittest.TestCase):
 
     def test_a_device_that_is_opened_again(self):
         server = daemon.Daemon("--device", "mends", "--drain-ms", 10)
-        # 6 s, in slices: a picture that is half done begins again
+        # 6 s, in slices: a picture that is half done starts again
         beside = in_background(server.get, RENDER + "&time=200&image.samples=2")
         self.assertTrue(daemon.eventually(lambda: server.metrics()["kerrd_renders_unfinished"]))
         session = server.post("/v1/sessions", {"image": {"width": 64, "height": 36}, "time": 5}).json()
@@ -114,7 +114,7 @@ class Stop(unittest.TestCase):
         for told in (
             "missed its deadline",
             "opened again 3 times",
-        ):  # what fails it twice is told so; and the fourth time is once too often
+        ):  # a request that loses the device twice gets an error; and the fourth loss is one too many
             answer = server.get(RENDER + "&time=-1")
             self.assertEqual((answer.status, answer.json()["type"]), (500, "urn:kerrd:problem:device-lost"))
             self.assertIn(told, answer.json()["detail"])

@@ -12,7 +12,8 @@ from job_case import IMAGE, Case, scene_of
 
 class Sweeps(Case):
     def test_a_sweep(self):
-        """Axes in the order given, the last one fastest, whatever the order in which their frames are rendered."""
+        """Scenes are numbered with the axes in the given order, the last one fastest, whatever the order in which they
+        are rendered."""
         asked = {
             "scene": {"image": IMAGE},
             "axes": {"style.exposure": [0, 1], "spacetime.spin": "0:0.9:0.3", "sky.model": ["none", "grid"]},
@@ -47,8 +48,8 @@ class Sweeps(Case):
         self.assertEqual((head.status, head.header("Content-Type"), head.body), (200, "application/zip", b""))
 
     def test_lens_maps_are_the_outermost_loop(self):
-        """The fake renderer keeps one lens map: scenes that share it follow one another, though their axis is the
-        outermost one here."""
+        """The fake renderer keeps one lens map. Scenes that share it are rendered one after the other, although their
+        axis is the outermost one here."""
         job = self.make(
             {
                 "scene": {"image": IMAGE},
@@ -84,7 +85,7 @@ class Sweeps(Case):
         )
 
     def test_what_a_sweep_may_cost(self):
-        """The limit is not the number of scenes, but their estimated time and bytes."""
+        """What is limited is not the number of scenes but their estimated time and bytes."""
         many = {"camera.inclination_deg": "1:100:1", "spacetime.spin": "0:0.95:0.05", "style.exposure": "0:4:1"}
         job = self.make({"scene": {"image": {"width": 2, "height": 2}}, "axes": many})
         self.assertEqual(job["frames"], 10000)
@@ -106,7 +107,7 @@ class Sweeps(Case):
         )
 
     def test_how_many_cubes_are_fetched_at_once(self):
-        """Three by one client; one that was told to wait may fetch when one of them has finished."""
+        """One client may fetch three. One that was told to wait may fetch when one of the three has finished."""
         job = self.make(
             {
                 "scene": {"image": {"width": 1000, "height": 1000, "layers": ["rgb"]}},
@@ -120,7 +121,7 @@ class Sweeps(Case):
         self.assertGreater(len(whole), 24e6)
         with contextlib.ExitStack() as stack:
             readers = [stack.enter_context(self.daemon.connect()) for _ in range(3)]
-            for reader in readers:  # they take the first bytes, and what the buffers hold is less than the file
+            for reader in readers:  # the readers take the first bytes; the buffers hold less than the file
                 reader.sendall(f"GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
                 self.assertEqual(reader.recv(12), b"HTTP/1.1 200")
             refused = self.daemon.get(path)
@@ -142,7 +143,7 @@ MOST = pair(
     camera__inclination_deg="1:100:1",
     spacetime__spin="0:0.99/100",
     style__exposure="0:9:1",
-)  # as many scenes as there may be
+)  # the maximum number of scenes
 
 
 class Plans(Case):
@@ -156,7 +157,8 @@ class Plans(Case):
         return answer.json()
 
     def test_what_all_scenes_take_together(self):
-        """The total of the single scenes, except for lens maps that exist already: those of the second exposure."""
+        """The total equals the sum of the single scenes, except that lens maps which exist already are not counted:
+        here those of the second exposure."""
         scene = {"image": {**IMAGE, "samples": 2}}
         plan = self.plan(pair(scene, style__exposure=[0, 1], spacetime__spin=[0, 0.5, 0.9], image__width=[32, 64]))
         alone = [
@@ -179,7 +181,8 @@ class Plans(Case):
         )
 
     def test_it_is_the_body_of_a_job(self):
-        """With preset and output too; for files of numbers it gives their size in bytes."""
+        """The body is that of a job, with preset and output too. For files of numbers the plan gives their size in
+        bytes."""
         body = {**pair({"image": {**IMAGE, "layers": ["rgb"]}}, style__exposure="0:4:1"), "output": "cube"}
         plan = self.plan(body)
         self.assertEqual(plan["bytes"]["files"], 5 * 3 * 4 * 32 * 18)
@@ -257,7 +260,8 @@ class Plans(Case):
         return self.daemon.metrics()["kerrd_turns_unfinished"]
 
     def test_others_are_answered_meanwhile(self):
-        """By the thread that accepted it, while the scenes are planned; as many plans at once as there are workers."""
+        """The thread that accepted the plan answers others while the scenes are planned. As many plans run at once as
+        there are workers."""
         few = pair(MOST["scene"], **{**MOST["axes"], "spacetime.spin": "0:0.9:0.1"})
         with contextlib.ExitStack() as stack:
             largest = self.begin_the_largest(stack)
@@ -280,7 +284,7 @@ class Plans(Case):
         self.assertEqual((plan["scenes"], plan["lens_maps"]), (10000, 1000))
 
     def test_a_client_that_leaves(self):
-        """Its plan ends when it leaves, which tearDown checks."""
+        """A plan ends when its client leaves, which tearDown checks."""
         for _ in range(2):
             with contextlib.ExitStack() as stack:
                 largest = self.begin_the_largest(stack)

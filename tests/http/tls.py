@@ -1,5 +1,5 @@
 """Tests of the proxies of docs/examples/tls, unchanged except for ports and certificates: pictures, streams without
-delay, a session's token beside the access token, the cookie."""
+delay, a session's token together with the access token, and the cookie."""
 
 import http.client
 import json
@@ -176,7 +176,7 @@ class Proxies:
         )
 
     def line(self, answer, words):
-        """Whether such a line of the stream arrives; the socket's timeout ends the wait otherwise."""
+        """True if a line with these words arrives in the stream; otherwise the socket's timeout ends the wait."""
         for _ in range(400):
             got = answer.readline()
             if words in got:
@@ -218,8 +218,8 @@ class Proxies:
         self.assertTrue([name for name in names if name.startswith("debris.")], names)
 
     def test_the_page(self):
-        """With stars, jets and a spot, in a browser: it asks for the token, and shows a live view and which
-        approximations it uses."""
+        """A browser opens the page with stars, jets and a spot. The page asks for the token, and shows a live view and
+        which approximations it uses."""
         api = daemon.needed("playwright.sync_api")
         with api.sync_playwright() as playwright:
             browser = playwright.chromium.launch(

@@ -1,5 +1,8 @@
-"""The dashboard and the alerts name metrics that a server has: each expression is parsed, and each name and label in it
-looked for in /metrics. dashboard.py FOLDER SERVER..."""
+"""The dashboard and the alerts name only metrics that a server has. Each expression is parsed, and each name and label
+in it is searched for in /metrics.
+
+dashboard.py FOLDER SERVER...
+"""
 
 import json
 import pathlib
@@ -14,11 +17,11 @@ promql = daemon.needed("promql_parser")
 parser = daemon.needed("prometheus_client.parser")
 FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
 EVERYWHERE = {"job", "instance"}  # labels that the scrape adds
-SCRAPE = {"up"}  # and what it makes itself
+SCRAPE = {"up"}  # and a metric that the scrape itself makes
 
 
 def expressions(node):
-    """The expressions of a dashboard, wherever they are in it."""
+    """The expressions of a dashboard, wherever they are in its document."""
     if isinstance(node, dict) and "expr" in node:
         yield node["expr"]
     for child in node.values() if isinstance(node, dict) else node if isinstance(node, list) else ():
@@ -136,7 +139,7 @@ class Dashboard(unittest.TestCase):
             self.assertIn(topic, titles)
 
     def test_what_the_dashboard_leaves_out_is_meant(self):
-        """Each of our metrics is in it, except these."""
+        """The dashboard has each of our metrics except these."""
         out = {
             "kerrd_requests",
             "kerrd_thumbnails_rendered",

@@ -1,5 +1,8 @@
-"""Alerts and dashboard by Prometheus's own tool: rules, and their unit tests. rules.py FOLDER; the dashboard's
-expressions as rules."""
+"""Checks the alerts and the dashboard by Prometheus's own tool: the rules, their unit tests, and the dashboard's
+expressions as rules.
+
+rules.py FOLDER
+"""
 
 import json
 import pathlib

@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-/* g = 1/(-k.u) with every component written out: the inverse metric raises k, u^r from u.g.u = -1 with the E and L
- * of the ISCO, k_r from k.g.k = 0. Uses no potentials. */
+/* g = 1/(-k.u) with every component written out. The inverse metric raises k; u^r follows from u.g.u = -1 with the E
+ * and L of the ISCO, k_r from k.g.k = 0. Uses no potentials. */
 static inline double redshift_of_plunge(double a, double r, double lambda, double eta, double sign)
 {
     double isco = kd_kerr_isco(kd_hole(a)), e = kd_kerr_energy(kd_hole(a), isco),

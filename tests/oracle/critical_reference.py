@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Reference numbers for the critical curve of Kerr, its exponents and the lensing bands, to 20 digits, as a C table.
 
-    python3 tests/oracle/critical_reference.py > tests/oracle/critical_reference.h          (needs mpmath; some minutes)
+python3 tests/oracle/critical_reference.py > tests/oracle/critical_reference.h          (needs mpmath; some minutes)
 
-No formula of spherical photon orbits is used. A point of the curve is where, along a line in the image plane, the least
-value of the radial potential R(r) = (r^2 + a^2 - a lambda)^2 - Delta (eta + (lambda - a)^2) outside the horizon passes
-through zero. The exponents are quadratures over one half oscillation in latitude, of the equations of motion in Mino
-time, with R'' by differences. The edge of a band of order n is where the time to the n-th crossing of the plane, by
-quadrature in the latitude, is that to reach the source radius, by quadrature in r between the roots of R. Distances
-from the curve down to 1e-14 need no care: the working precision is 60 digits.
+No formula of spherical photon orbits is used. Consider the least value of the radial potential R(r) = (r^2 + a^2 - a
+lambda)^2 - Delta (eta + (lambda - a)^2) outside the horizon. A point of the curve is where this value passes through
+zero along a line in the image plane. The exponents are quadratures of the equations of motion in Mino time over one
+half oscillation in latitude, with R'' by differences. At the edge of a band of order n two times are equal: the time to
+the n-th crossing of the plane, by quadrature in the latitude, and the time to the source radius, by quadrature in r
+between the roots of R. The working precision is 60 digits, so that distances from the curve down to 1e-14 need no
+special care.
 """
 
 from mpmath import asinh, cos, diff, findroot, inf, mp, mpf, pi, polyroots, quad, sin, sinh, sqrt
@@ -17,7 +18,7 @@ mp.dps = 60
 
 
 def constants(a, u, alpha, beta):
-    """lambda, eta of the image-plane point."""
+    """lambda and eta of a point of the image plane."""
     return -alpha * sqrt(1 - u * u), (alpha**2 - a * a) * u * u + beta**2
 
 
@@ -26,7 +27,7 @@ def potential(a, lam, eta):
 
 
 def lowest(a, lam, eta):
-    """r and R(r) at the outermost minimum: R' = 4r^3 + 2Ar + 2K by Newton's method from outside."""
+    """r and R(r) at the outermost minimum of R: the root of R' = 4r^3 + 2Ar + 2K by Newton's method from outside."""
     A, K = a * a - eta - lam * lam, eta + (lam - a) ** 2
     r = mpf(12)
     for _ in range(200):
@@ -38,7 +39,8 @@ def lowest(a, lam, eta):
 
 
 def on_line(a, u, start, direction, bound):
-    """The distance of the curve from `start` along `direction`: a bracket by the sign, the root by Ridder's method."""
+    """The distance of the curve from `start` along `direction`: bracketed by the sign, then the root by Ridder's
+    method."""
     value = lambda d: lowest(a, *constants(a, u, start[0] + d * direction[0], start[1] + d * direction[1]))[1]
     low, high = mpf(bound) / 100, mpf(bound)
     while high - low > mpf(1) / 1000:
@@ -71,11 +73,11 @@ def exponents(a, lam, eta):
     z = 2 * eta / (-A + sqrt(A * A + 4 * a * a * eta))
     n = eta / z
 
-    def over(f):  # the half oscillation, u = sqrt(z) sin x
+    def over(f):  # integral over the half oscillation, u = sqrt(z) sin x
         return 2 * quad(lambda x: f(z * sin(x) ** 2) / sqrt(n + a * a * z * sin(x) ** 2), mp.linspace(0, pi / 2, 5))
 
     mino = over(lambda v: mpf(1))
-    about = over(lambda v: lam / (1 - v)) if lam != 0 else pi  # over the axis: the limit lambda -> 0+
+    about = over(lambda v: lam / (1 - v)) if lam != 0 else pi  # over the axis it is the limit lambda -> 0+
     azimuth = about + a * ((r * r + a * a - a * lam) / delta - 1) * mino
     time = over(lambda v: a * (lam - a * (1 - v))) + (r * r + a * a) * (r * r + a * a - a * lam) / delta * mino
     return r, mino, sqrt(bend) * mino, azimuth, time
@@ -92,12 +94,13 @@ def polar_time(a, u, alpha, beta, order):
 
 
 def radial_time(a, u, alpha, beta, source):
-    """From infinity to the source radius: straight in if there is no turning point, otherwise on the way out again."""
+    """Mino time from infinity to the source radius: on the way in if there is no turning point, otherwise on the way
+    out again."""
     lam, eta = constants(a, u, alpha, beta)
     A, K = a * a - eta - lam * lam, eta + (lam - a) ** 2
     roots = polyroots([1, 0, A, 2 * K, -a * a * eta], maxsteps=500, extraprec=400)
     real = sorted(mp.re(x) for x in roots if abs(mp.im(x)) < mpf(10) ** (-45))
-    pieces = list(range(0, 80, 4)) + [120, 160]  # the integrand falls as exp(-t) from |t| = ln(1/distance) on
+    pieces = list(range(0, 80, 4)) + [120, 160]  # from |t| = ln(1/distance) on, the integrand falls as exp(-t)
     if len(real) == 4 and real[3] > 1 + sqrt(1 - a * a):  # r = r4 + r43 sinh^2 t
         r1, r2, r3, r4 = real
         leg = lambda t: 2 / sqrt((r4 + (r4 - r3) * sinh(t) ** 2 - r1) * (r4 + (r4 - r3) * sinh(t) ** 2 - r2))
@@ -115,7 +118,7 @@ def radial_time(a, u, alpha, beta, source):
 
 
 def edge(curve, angle, rho, order, source, guess):
-    """delta, where the edge is at rho (1 + delta)."""
+    """The delta for which the edge is at rho (1 + delta)."""
 
     def late(s):
         point = curve.point(angle, rho * (1 + (1 if guess > 0 else -1) * mp.e**s))
@@ -123,7 +126,7 @@ def edge(curve, angle, rho, order, source, guess):
 
     before = mp.log(abs(guess))
     s, f = before + mpf(1) / 8, late(before)
-    while abs(s - before) > mpf(10) ** (-25):  # secants: time is all but linear in the logarithm
+    while abs(s - before) > mpf(10) ** (-25):  # secant method: the time is almost linear in the logarithm
         g = late(s)
         before, s, f = s, s - g * (s - before) / (g - f), g
     return (1 if guess > 0 else -1) * mp.e**s

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Reference numbers for the bending of light in the plane of Kerr, as the C table deflection_reference.h.
+"""Reference numbers for the bending of light in the equatorial plane of Kerr, as the C table deflection_reference.h.
 
-    python3 tests/oracle/deflection_reference.py > tests/oracle/deflection_reference.h      (needs mpmath)
+python3 tests/oracle/deflection_reference.py > tests/oracle/deflection_reference.h      (needs mpmath)
 
-From the metric alone: dphi/dr is the ratio of two components of g^-1 p with p = (-1, p_r, b), the closest approach the
-largest root of g^-1 p p = 0 at p_r = 0, and the angle twice the integral from there to infinity less pi, by quadrature
-to 40 digits. The critical b is where that root is double, by bisection on the radius.
+Everything follows from the metric alone. dphi/dr is the ratio of two components of g^-1 p with p = (-1, p_r, b). The
+closest approach is the largest root of g^-1 p p = 0 at p_r = 0. The angle is twice the integral from there to infinity,
+less pi, by quadrature to 40 digits. The critical b is where that root is double, by a search over the radius.
 """
 
 from kerr_reference import c, metric
@@ -13,7 +13,7 @@ from mpmath import mp, mpf, pi, polyroots, quad, sqrt
 
 mp.dps = 50
 SPINS = [0.0, 0.5, -0.5, 0.9, -0.9, 0.99, 0.9999, -0.9999]
-EXCESS = [1e-9, 1e-6, 1e-3, 0.1, 0.9]  # b over the critical one, less 1
+EXCESS = [1e-9, 1e-6, 1e-3, 0.1, 0.9]  # relative excess of b over the critical b
 FAR = [12.0, 19.5, 20.5, 30.0, 1e3, 1e6, 1e12]
 
 
@@ -25,14 +25,14 @@ def inverse(a, r):
 
 
 def impact(a, r):
-    """The b > 0 with a turning point at r: of the two roots the one that stays finite through the ergosphere."""
+    """The b > 0 with a turning point at r. Of the two roots it is the one that stays finite through the ergosphere."""
     tt, tp, pp, _ = inverse(a, r)
     return tt / (tp - sqrt(tp * tp - tt * pp))
 
 
 def critical(a):
-    """The smallest b with a turning point, by golden section over the radius: the minimum is flat, so b has twice
-    its digits."""
+    """The smallest b with a turning point, by golden section over the radius. The minimum is flat, so that b has twice
+    as many digits as the radius."""
     low, high, golden = 1 + sqrt(1 - a * a) + mpf(10) ** -9, mpf(6), (sqrt(mpf(5)) - 1) / 2
     for _ in range(130):
         x, y = high - golden * (high - low), low + golden * (high - low)
@@ -57,7 +57,7 @@ def bending(a, b):
         radial = -(tt - 2 * b * tp + b * b * pp) * rr
         return (b * pp - tp) / sqrt(radial) * 2 * x * r0 / (1 - x * x) ** 2
 
-    # close to the critical ray most of the angle comes from near x = 0
+    # close to the critical ray, most of the angle comes from x near 0
     edges = [mpf(0)] + [mpf(10) ** -k for k in range(5, 0, -1)] + [mpf("0.4"), mpf("0.7"), mpf(1)]
     return 2 * quad(rate, edges, method="gauss-legendre") - pi, r0
 

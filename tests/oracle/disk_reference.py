@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """Reference numbers for the thin disk, as the C table disk_reference.h.
 
-    python3 tests/oracle/disk_reference.py > tests/oracle/disk_reference.h      (needs mpmath)
+python3 tests/oracle/disk_reference.py > tests/oracle/disk_reference.h      (needs mpmath)
 
 Flux: the defining integral of Page & Thorne 1974 (eqs 11b and 12), by quadrature, with orbits from the metric alone:
 
-    F/Mdot = 1/(4 pi r)  (-dW/dr) (E - W L)^-2  Integral from ISCO to r of (E - W L) dL/dr dr
+F/Mdot = 1/(4 pi r)  (-dW/dr) (E - W L)^-2  Integral from ISCO to r of (E - W L) dL/dr dr
 
-Their closed form 15n is nowhere used. Peak: where this flux has no slope, by bisection. Temperature: in cgs units, from
-G and the mass of the sun in grams instead of their product.
+Their closed form 15n is not used. Peak: where the slope of this flux is zero, by bisection. Temperature: in cgs units,
+from G and the Sun's mass in grams instead of from their product.
 """
 
 from kerr_reference import c, metric, orbit, orbits
@@ -20,7 +20,7 @@ STRETCH = [1.0009765625, 1.015625, 1.25, 1.5, 2.0, 4.0, 16.0, 1000.0]  # r over 
 
 
 def slopes(a, r):
-    """dW/dr and dL/dr by differentiating the geodesic condition, the normalisation and L = u_phi."""
+    """dW/dr and dL/dr, by differentiating the geodesic condition, the normalisation and L = u_phi."""
     (_, tp, pp), (tt1, tp1, pp1) = metric(a, r)
     tt2, tp2, pp2 = -2 * tt1 / r, -2 * tp1 / r, 2 + 4 * a * a / r**3
     w, _, momentum, ut = orbit(a, r)
@@ -33,7 +33,7 @@ def flux(a, r, isco):
         w, energy, momentum, _ = orbit(a, x)
         return (energy - w * momentum) * slopes(a, x)[1]
 
-    # in ln r, in pieces: the integrand turns quickly near the ISCO and slowly far out
+    # in ln r and in pieces, because the integrand changes quickly near the ISCO and slowly far out
     edges = [isco * (r / isco) ** (mpf(i) / 4) for i in range(5)]
     total = quad(lambda y: share(mp.e**y) * mp.e**y, [mp.log(x) for x in edges], method="gauss-legendre")
     w, energy, momentum, _ = orbit(a, r)
@@ -41,7 +41,7 @@ def flux(a, r, isco):
 
 
 def peak(a, isco):
-    """The slope by differences, to some 1e-16 of the radius."""
+    """The radius where the slope of the flux is zero. The slope is by differences, to some 1e-16 of the radius."""
     f, h = lambda r: flux(a, r, isco), mpf(10) ** -9
     top = findroot(
         lambda r: f(r * (1 + h)) / f(r * (1 - h)) - 1,
@@ -54,7 +54,8 @@ def peak(a, isco):
 
 
 def temperature(a, r, mass, mdot):
-    """Effective temperature in K: F in erg/s/cm^2 by way of grams, CODATA 2018, the sun's mass 1.98841e33 g."""
+    """Effective temperature in K. F is in erg/s/cm^2, from masses in grams: CODATA 2018, the Sun's mass 1.98841e33
+    g."""
     G, sun, light = mpf("6.67430e-8"), mpf("1.98841e33"), mpf("2.99792458e10")
     proton, thomson, stefan = mpf("1.67262192369e-24"), mpf("6.6524587321e-25"), mpf("5.670374419e-5")
     isco = orbits(a)[2]

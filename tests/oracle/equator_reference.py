@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Reference numbers for motion near the equatorial plane of Kerr, as the C table equator_reference.h.
 
-    python3 tests/oracle/equator_reference.py > tests/oracle/equator_reference.h      (needs mpmath)
+python3 tests/oracle/equator_reference.py > tests/oracle/equator_reference.h      (needs mpmath)
 
-None of the formulas that kerrd uses: epicyclic frequencies from the second derivatives of Carter's radial and polar
-potentials at the circular orbit, over u^t; the effective potential as the root of g^ab p_a p_b = -mu^2 with the metric
-inverted numerically; its extrema where its derivative (by differences in 60 digits) changes sign; frame dragging and
-the cone of light from the metric at any polar angle.
+None of kerrd's formulas is used. Epicyclic frequencies: the second derivatives of Carter's radial and polar potentials
+at the circular orbit, over u^t. Effective potential: the root of g^ab p_a p_b = -mu^2, with the metric inverted
+numerically. Its extrema: where its derivative, by differences in 60 digits, changes sign. Frame dragging and the light
+cone: the metric at any polar angle.
 """
 
 from kerr_reference import SPINS, c, curvature, metric, orbit, orbits
@@ -16,7 +16,7 @@ mp.dps = 60
 
 
 def epicyclic(a, r):
-    """kappa, Omega_theta."""
+    """kappa and Omega_theta of the circular orbit."""
     _, energy, momentum, ut = orbit(a, r)
     radial = -curvature(a, r, energy, momentum)[2] / 2
     vertical = momentum**2 + a**2 * (1 - energy**2)  # half of -Theta'' at the plane
@@ -32,7 +32,7 @@ def potential(a, momentum, mu2, r):
 
 
 def turning(f, low, high, sign):
-    """Where the slope of f changes from sign to -sign."""
+    """The place where the slope of f changes from `sign` to -`sign`."""
     while high - low > mpf(10) ** -28 * high:
         middle = (low + high) / 2
         if sign * diff(f, middle, h=mpf(10) ** -30) > 0:
@@ -43,7 +43,7 @@ def turning(f, low, high, sign):
 
 
 def extrema(a, momentum):
-    """r and V: maximum and minimum for matter, maximum for light."""
+    """r and V of the extrema: maximum and minimum for matter, maximum for light."""
     if momentum < 0:
         a, momentum = -a, -momentum
     photon, _, isco = orbits(a)
@@ -53,7 +53,7 @@ def extrema(a, momentum):
 
 
 def rotation(a, r, u):
-    """-g_tphi/g_phiphi and half the range of dphi/dt of light, with the metric as Boyer & Lindquist give it."""
+    """-g_tphi/g_phiphi, and half the range of dphi/dt of light, with the metric as given by Boyer & Lindquist."""
     s2, sigma = 1 - u**2, r**2 + a**2 * u**2
     tt, tp = -(1 - 2 * r / sigma), -2 * a * r * s2 / sigma
     pp = (r**2 + a**2 + 2 * r * a**2 * s2 / sigma) * s2

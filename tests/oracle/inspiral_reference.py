@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Reference times to coalescence, as the C table inspiral_reference.h.
 
-    python3 tests/oracle/inspiral_reference.py > tests/oracle/inspiral_reference.h      (needs mpmath)
+python3 tests/oracle/inspiral_reference.py > tests/oracle/inspiral_reference.h      (needs mpmath)
 
-From the two rates alone (Peters 1964, eqs 5.6 and 5.7, which tests/unit/physics_inspiral.c derives anew): ln a along
-the way down in e is the integral of their ratio, by quadrature, and so is the time. Neither a(e) nor T in closed form
-is used.
+Everything follows from the two rates alone (Peters 1964, eqs 5.6 and 5.7, which tests/unit/physics_inspiral.c derives
+anew). While e decreases, ln a is the integral of their ratio, by quadrature, and so is the time. Neither a(e) nor T in
+closed form is used.
 """
 
 from mpmath import exp, log, mp, mpf, nstr
@@ -38,7 +38,7 @@ def gauss(f, low, high):
 
 
 def pieces(high):
-    """Intervals from 0, each half of the rest up to 1: towards e = 1 the integrands are powers of 1 - e."""
+    """Intervals from 0 on, each half of the rest up to 1, because near e = 1 the integrands are powers of 1 - e."""
     edges = [mpf(0)]
     while 1 - (1 - edges[-1]) / 2 < high:
         edges.append(1 - (1 - edges[-1]) / 2)
@@ -54,7 +54,7 @@ def time(eta, a0, e0):
     for low, high in reversed(list(zip(edges, edges[1:]))):
 
         def speed(x):
-            """dt/dx, e = x^19: powers of e in 19ths are smooth then."""
+            """dt/dx with e = x^19, in which powers of e in 19ths are smooth."""
             e = x**19
             lna = log(a0) - fallen - gauss(slope, e, high) + mpf(12) / 19 * log(e / e0)
             return -19 * x**18 / eccentricity_rate(exp(lna), e)

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Reference numbers for circular equatorial orbits of Kerr, to 50 digits, as the C table kerr_reference.h.
 
-    python3 tests/oracle/kerr_reference.py > tests/oracle/kerr_reference.h      (needs mpmath)
+python3 tests/oracle/kerr_reference.py > tests/oracle/kerr_reference.h      (needs mpmath)
 
-Nothing here is a formula of Bardeen, Press & Teukolsky. Everything follows from the metric alone: the angular velocity
-from the geodesic equation of a circle (the r-derivative of the metric contracted with u vanishes), u^t from u.u = -1,
-the photon orbit where u.u = 0, the marginally bound orbit where -u_t = 1, and the ISCO where the radial potential R =
-(E(r^2 + a^2) - aL)^2 - Delta (r^2 + (L - aE)^2) has R = R' = R'' = 0. Roots by bisection on a sign, so that a triple
-root near a = 1 costs digits of nothing but the working precision.
+No formula of Bardeen, Press & Teukolsky is used. Everything follows from the metric alone. The angular velocity is that
+of a circular geodesic: the r-derivative of the metric, contracted with u, vanishes. u^t follows from u.u = -1. The
+photon orbit is where u.u = 0, and the marginally bound orbit where -u_t = 1. At the ISCO the radial potential R =
+(E(r^2 + a^2) - aL)^2 - Delta (r^2 + (L - aE)^2) has R = R' = R'' = 0. Roots are found by bisection on a sign, so that a
+triple root near a = 1 costs only digits of the working precision.
 """
 
 from mpmath import mp, mpf, sqrt
@@ -25,20 +25,20 @@ def metric(a, r):
 
 
 def omega(a, r):
-    """Root of g_tt' + 2 g_tphi' W + g_phiphi' W^2 = 0 that turns towards +phi."""
+    """The root of g_tt' + 2 g_tphi' W + g_phiphi' W^2 = 0 for an orbit towards +phi."""
     tt, tp, pp = metric(a, r)[1]
     return (-tp + sqrt(tp * tp - tt * pp)) / pp
 
 
 def norm2(a, r):
-    """-(1, W).g.(1, W): positive where the circle is timelike."""
+    """-(1, W).g.(1, W), which is positive where the circle is timelike."""
     tt, tp, pp = metric(a, r)[0]
     w = omega(a, r)
     return -(tt + 2 * tp * w + pp * w * w)
 
 
 def orbit(a, r):
-    """W, E, L, u^t of the circular orbit."""
+    """W, E, L and u^t of the circular orbit."""
     tt, tp, pp = metric(a, r)[0]
     w, ut = omega(a, r), 1 / sqrt(norm2(a, r))
     return w, -(tt + tp * w) * ut, (tp + pp * w) * ut, ut
@@ -56,7 +56,7 @@ def curvature(a, r, energy, momentum):
 
 
 def bisect(f, low, high):
-    """Where f changes from positive (low side) to negative."""
+    """The place where f changes from positive (at low) to negative."""
     assert f(high) < 0, (low, high)
     while (high - low) > mpf(10) ** (15 - mp.dps) * high:
         middle = (low + high) / 2
@@ -68,7 +68,7 @@ def bisect(f, low, high):
 
 
 def orbits(a):
-    """Photon orbit, marginally bound orbit, ISCO."""
+    """Radii of the photon orbit, the marginally bound orbit, and the ISCO."""
     horizon = 1 + sqrt((1 - a) * (1 + a))
     photon = bisect(lambda r: -norm2(a, r), horizon, mpf(20))
     bound = bisect(lambda r: orbit(a, r)[1] - 1, photon, mpf(20))

@@ -111,7 +111,8 @@ static void place(double a, double r, double s, double u, double phi, const doub
         { (r * c - a * d) * u, (r * d + a * c) * u, -r * s, p[1] },
         { -yy, x, 0, p[2] },
     };
-    if (s == 0) /* on the axis any azimuth will do: the third row vanishes, and momentum along e_phi comes from `phi` */
+    if (s == 0) /* on the axis any azimuth is valid: the third row vanishes, and momentum along e_phi is determined
+                 * by `phi` */
         m[2][0] = -d, m[2][1] = c, m[2][3] = 0;
     for (int i = 0; i < 3; i++) {
         int pivot = i;
@@ -140,7 +141,7 @@ static void start(const struct ks_photon *p, double *y)
     y[6] = p->delay + slow(a, r);
 }
 
-/* The step from y that ends on z = 0, where a step of h would cross it. */
+/* Takes the step from y that ends on z = 0, if a step of h would cross it. */
 static void land(const struct system *s, const double *y, double h, double *out)
 {
     double lo = 0, hi = h, z_lo = y[2], t = h;
@@ -242,7 +243,8 @@ struct ks_photon ks_from_infinity(double a, double u, double alpha, double beta)
     p.p_theta = copysign(sqrt(fmax(angular, 0)), beta);
     /* The coordinate time from r_o to here, minus r_o + 2 ln r_o, by the same series. */
     p.delay = -r - 2 * log(r) + (4 + a * a * u * u - 0.5 * pull) * t;
-    if (s == 0) { /* on the axis the azimuth is that of the image point, and the traced ray leaves the axis */
+    if (s == 0) { /* on the axis the azimuth is that of the image point, since the traced ray leaves the axis in this
+                   * direction */
         p.p_theta = copysign(p.p_theta, -u);
         p.phi = atan2(alpha, -u * beta) - a * t * t;
         return p;
@@ -303,7 +305,7 @@ static void medium_at(const struct along *w, const double *from, double t, doubl
     extrapolate(&w->system, from, t, y);
     const double a = w->system.a, r = radius(a, y), u = y[2] / r, s = sqrt((1 - u) * (1 + u)), q = r * r + a * a,
                  delta = r * r - 2 * r + a * a;
-    /* Traced back it is mirrored; ingoing Kerr-Schild t and phi increase with r by 2r/Delta and a/Delta. */
+    /* Traced back, the ray is mirrored; ingoing Kerr-Schild t and phi increase with r by 2r/Delta and a/Delta. */
     const double p_r = ((r * y[0] + a * y[1]) * y[3] + (r * y[1] - a * y[0]) * y[4]) / q + u * y[5];
     struct ks_photon at = *w->photon;
     at.r = r;
@@ -337,7 +339,7 @@ static double radius_after(const struct along *w, const double *from, double t)
 
 static bool holds(const struct along *w, double r) { return r >= w->inner && r <= w->outer; }
 
-/* The same for the part between the radii, of which at most one is passed. */
+/* The same for the part between the two radii, of which at most one is passed. */
 static void add_inside(struct along *w, const double *from, double t0, double t1)
 {
     bool first = holds(w, radius_after(w, from, t0)), last = holds(w, radius_after(w, from, t1));
@@ -391,7 +393,7 @@ struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bo
 
 struct target { double at[3], f, l[3]; };
 
-/* Azimuths are mirrored, as those of the path. */
+/* Azimuths are mirrored, like those of the path. */
 static struct target target_of(double a, double r, double u, double phi)
 {
     const double psi = -phi + atan2(a, r) - twist(a, r), s = sqrt((1 - u) * (1 + u)) * sqrt(r * r + a * a),
@@ -401,7 +403,7 @@ static struct target target_of(double a, double r, double u, double phi)
                              { (r * x + a * y) / q, (r * y - a * x) / q, u } };
 }
 
-/* Derivative of the distance to the target; negative on approach. */
+/* Derivative of the distance to the target, which is negative on approach. */
 static double recedes(const struct system *s, const struct target *c, const double *y)
 {
     state d;

@@ -51,23 +51,23 @@ struct ks_light { double light, depth, length; }; /* length in the affine parame
 struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bool to_plane, ks_medium *medium,
                          void *user);
 
-/* Closest approaches of the path back in time to a place (r, cos(theta), azimuth: source minus observer), each time
- * that it comes within `within` of it, by these Cartesian coordinates. b: distance of the approach, M: the interval,
- * by the metric at the place, from the event there on the same wave front, which is observer-independent. delay: as
- * that of a crossing. */
+/* Closest approaches of the path back in time to a place (r, cos(theta), azimuth: source minus observer). One is
+ * reported each time that the path comes within `within` of the place, measured in these Cartesian coordinates. b:
+ * distance of the approach, in M. It is the interval, by the metric at the place, from the event there on the same wave
+ * front, which does not depend on the observer. delay: as the delay of a crossing. */
 struct ks_near { double b, delay; };
 int ks_passes(struct ks_photon photon, double r, double u, double phi, double within, int most, struct ks_near *out);
 
-/* Delays of light from places (r, cos(theta)) of the path back in time: of the closest point of the path in these
- * two coordinates, and its distance, M. */
+/* Delays of light from places (r, cos(theta)) near the path back in time. For each place: the delay of the path's
+ * closest point in these two coordinates, and its distance, M. */
 #define KS_MOST_PLACES 512
 void ks_delays(struct ks_photon photon, const double (*places)[2], int n, double *delay, double *off);
 
 /* The path back in time of the photon p, a covector of ingoing Kerr-Schild coordinates (kerr_schild_frame.h), from a
- * place that may lie within the horizon; light from outside came there through the outer horizon, where all is
- * regular. Azimuths are Boyer-Lindquist's of the source minus the place's own in these coordinates, which agree at
+ * place that may lie within the horizon. Light from outside came there through the outer horizon, where everything is
+ * regular. Azimuths are Boyer-Lindquist's of the source, minus the place's own in these coordinates; both agree at
  * infinity. A ray from the past horizon counts as captured. Crossings within the horizon count; their phi is
- * meaningless. No delays. */
+ * meaningless. No delays are computed. */
 struct ks_path ks_follow(const struct ks_place *at, const double p[4], int max_crossings);
 
 #endif

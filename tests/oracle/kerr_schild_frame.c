@@ -56,7 +56,8 @@ static void turning(const struct ks_place *at, double p[4])
     p[T] = -f * a * s2, p[R] = -a * s2 * (1 + f), p[THETA] = 0, p[PHI] = s2 * (r * r + a * a + f * a * a * s2);
 }
 
-/* Completes a frame: e_phi along d/dphi, e_theta along dtheta, e_r as given, made orthogonal to e_t and e_phi. */
+/* Completes a frame from e_t and e_r. e_phi is along d/dphi, e_theta along dtheta; e_r is made orthogonal to e_t and
+ * e_phi. */
 static void complete(const struct ks_place *at, struct ks_frame *f)
 {
     turning(at, f->e[PHI]);
@@ -86,8 +87,8 @@ struct ks_frame ks_rain(const struct ks_place *at)
     return f;
 }
 
-/* x -> x + (u + w).x (u + w)/(1 - u.w) - 2 (w.x) u maps the four-velocity w to u, and does not rotate the directions
- * perpendicular to both. */
+/* The map x -> x + (u + w).x (u + w)/(1 - u.w) - 2 (w.x) u takes the four-velocity w to u, and does not rotate the
+ * directions perpendicular to both. */
 struct ks_frame ks_boost(const struct ks_place *at, const struct ks_frame *from, const double u[4])
 {
     struct ks_frame f = *from;

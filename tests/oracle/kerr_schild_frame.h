@@ -13,8 +13,8 @@ struct ks_frame { double e[4][4]; };
 
 double ks_product(const struct ks_place *at, const double p[4], const double q[4]);
 
-/* The covector of a body, mass 1, or of light, mass 0, with this E, L and p_theta that moves inwards, as a body does
- * that falls through the horizon. */
+/* The covector with this E, L and p_theta that moves inwards, like a body that falls through the horizon. mass: 1 for a
+ * body, 0 for light. */
 void ks_inwards(const struct ks_place *at, double mass, double energy, double momentum, double p_theta, double p[4]);
 
 /* Frames of zero angular momentum, outside the horizon; and of rain, from rest at infinity, anywhere. */

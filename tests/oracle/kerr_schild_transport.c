@@ -56,7 +56,7 @@ static void solve(double g[4][4], const double *v, double *w)
         w[i] = m[i][4] / m[i][i];
 }
 
-/* Back in time: dx = -k, dv^m = +Gamma^m_ab k^a v^b. */
+/* Derivatives back in time: dx = -k, dv^m = +Gamma^m_ab k^a v^b. */
 static void derivative(double a, const struct state *s, struct state *d)
 {
     double g[4][4], dg[4][4][4] = { { { 0 } } }, h = 1e-4 * radius(a, s->x);
@@ -204,7 +204,7 @@ static double omega_of(double a, double r)
     return 0.5 * (low + high);
 }
 
-/* Velocity of the gas at x: circular; within the ISCO with the ISCO's E and L, inwards. */
+/* Velocity of the gas at x: on a circle; within the ISCO falling with the ISCO's E and L. */
 static void gas(double a, const double *x, double r_isco, double u[4])
 {
     double r = radius(a, x), turn[4] = { 0, -x[2], x[1], 0 }, g[4][4], t[4] = { 1, 0, 0, 0 };
@@ -220,7 +220,7 @@ static void gas(double a, const double *x, double r_isco, double u[4])
                         round[4] = { 0, 0, y[1], 0 };
     metric(a, y, there);
     const double want[2] = { product(there, v, t), product(there, v, round) };
-    /* u = c t + d turn + e out; c and d from its products with t and turn, e from its length. */
+    /* u = c t + d turn + e out. c and d follow from its products with t and turn, e from its length. */
     double out[4] = { 0, x[1], x[2], 0 }, basis[2][4], c[2] = { 0 };
     memcpy(basis[0], t, sizeof t);
     memcpy(basis[1], turn, sizeof turn);
@@ -304,7 +304,7 @@ struct ks_polarized ks_polarization(const struct ks_screen *screen, int order, e
             continue;
         if (crossed++ < order)
             continue;
-        for (int i = 0; i < 50; i++) { /* steps onto the plane */
+        for (int i = 0; i < 50; i++) { /* repeats steps until the ray is on the plane */
             double part = last.x[3] / last.v[0][3];
             if (fabs(last.x[3]) < 1e-13)
                 break;
@@ -326,7 +326,7 @@ double ks_carried_product(const struct ks_carried *at, const double p[4], const 
     return sum;
 }
 
-/* Ingoing coordinates: t + 2 r/Delta dr, phi + a/Delta dr; and x + i y = (r + i a) sin(theta) exp(i phi). */
+/* In ingoing coordinates dt + 2 r/Delta dr and dphi + a/Delta dr; x + i y = (r + i a) sin(theta) exp(i phi). */
 void ks_carried_vector(const struct ks_carried *at, const double v[4], double out[4])
 {
     const double a = at->a, r = at->r, delta = r * r - 2 * r + a * a, c = at->x[3] / r, s = sqrt(1 - c * c),
@@ -350,7 +350,7 @@ static void tell(const struct state *s, double a, double h, ks_told *told, void 
     told(user, &at);
 }
 
-/* The fraction of a pair of steps after which the ray is at this radius, which it passes within the pair. */
+/* The fraction of a pair of steps after which the ray reaches this radius, which it passes within the pair. */
 static double landing(const struct state *s, double a, double h, double r)
 {
     const bool inwards = radius(a, s->x) > r;

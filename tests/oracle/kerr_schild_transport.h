@@ -22,10 +22,10 @@ struct ks_screen ks_screen_near(const struct ks_place *at, const struct ks_frame
 
 enum ks_field { KS_TOROIDAL, KS_RADIAL, KS_VERTICAL };
 
-/* Where the ray crossed the plane. angle: of the electric field, perpendicular to the magnetic field in the frame of
- * gas on a circle, or falling from the ISCO at r_isco, as the observer sees it: from `up` towards the left, in
- * (-pi/2, pi/2]; cosine: |cos| of the light's angle to the normal in that frame; g: frequency there over that at the
- * observer, inverted. */
+/* The crossing of the plane by a ray. The gas there moves on a circle or, within r_isco, falls from the ISCO. angle:
+ * direction of the electric field that is perpendicular to the magnetic field in the gas's frame, as the observer sees
+ * it: from `up` towards the left, in (-pi/2, pi/2]. cosine: |cos| of the angle between the light and the normal in that
+ * frame. g: frequency at the observer over the frequency in that frame. */
 struct ks_polarized {
     bool there, falls;
     double r, angle, cosine, g;
@@ -34,17 +34,17 @@ struct ks_polarized {
 /* At the crossing of this order, going back in time. */
 struct ks_polarized ks_polarization(const struct ks_screen *screen, int order, enum ks_field field, double r_isco);
 
-/* A place on a ray going back in time from the screen, in Cartesian coordinates; k: of the light, affine, divided by
- * the energy that the screen measures; right and up, transported there. step: of the affine parameter to the next
- * reported place, 0 at the last. */
+/* A place on a ray that is followed back in time from the screen, in Cartesian coordinates. k: wave vector of the
+ * light, affine, divided by the energy that the screen measures. right and up: the screen's vectors transported to the
+ * place. step: of the affine parameter to the next reported place, 0 at the last. */
 struct ks_carried { double a, r, x[4], k[4], right[4], up[4], g[4][4], step; };
 typedef void ks_told(void *user, const struct ks_carried *at);
 
-/* Reports the places of the ray from where it enters `outer` to where it leaves the shell inner < r < outer; the
- * steps of a pair are of equal length. fine: step over r. */
+/* Reports the places of the ray within the shell inner < r < outer, from where it enters `outer` to where it leaves the
+ * shell. The steps of a pair are of equal length. fine: step over r. */
 void ks_carry(const struct ks_screen *screen, double inner, double outer, double fine, ks_told *told, void *user);
-/* Converts a vector in Boyer-Lindquist coordinates (t, r, theta, phi), with components independent of phi, to this
- * place. */
+/* Converts a vector in Boyer-Lindquist coordinates (t, r, theta, phi), whose components do not depend on phi, to
+ * Cartesian coordinates at this place. */
 void ks_carried_vector(const struct ks_carried *at, const double v[4], double out[4]);
 double ks_carried_product(const struct ks_carried *at, const double p[4], const double q[4]);
 

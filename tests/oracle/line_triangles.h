@@ -1,8 +1,8 @@
-/* Oracle for line profiles. It traces a ray for each place of the disk's image, where the profile interpolates a
- * table; uses triangles with linear g and uniform light, where the profile has cells with moments; and extrapolates
- * from two such sums. g is written out (Bardeen, Press & Teukolsky 1972, ApJ 178, 347, eqs. 2.16, 5.4a). The rays
- * themselves are tested by tests/oracle/kerr_schild.h. The cumulative share is accurate to about a tenth of `apart`:
- * 1e-5 to 1e-4 with 1024 directions. */
+/* Oracle for line profiles. It traces a ray for each place of the disk's image, while the profile interpolates a table.
+ * It uses triangles with linear g and uniform light, while the profile has cells with moments. It extrapolates from two
+ * such sums. g is written out (Bardeen, Press & Teukolsky 1972, ApJ 178, 347, eqs. 2.16, 5.4a). The rays themselves are
+ * tested by tests/oracle/kerr_schild.h. The cumulative share is accurate to about a tenth of `apart`: 1e-5 to 1e-4 with
+ * 1024 directions. */
 #ifndef KD_TESTS_LINE_TRIANGLES_H
 #define KD_TESTS_LINE_TRIANGLES_H
 
@@ -65,8 +65,9 @@ static inline double lt_cosine(const struct kd_disk_image *image, const struct l
     return fmin(1, p->g * sqrt(fmax(eta, 0)) / r);
 }
 
-/* cumulative[i]: fraction of photons below edges[i + 1], ascending edges, for a line of this law; n directions, m
- * rings, both even. Returns the largest difference of the two sums over all edges; negative: a place was not found. */
+/* Computes the cumulative share of a line with this law. cumulative[i]: fraction of photons below edges[i + 1]; edges
+ * ascend. n directions and m rings, both even. Returns the largest difference of the two sums over all edges; negative:
+ * a place was not found. */
 static inline double lt_profile_of(const struct kd_disk_image *image, const struct lt_law *law, int n, int m,
                                    const double *edges, int bins, double *cumulative)
 {
@@ -99,7 +100,8 @@ static inline double lt_profile_of(const struct kd_disk_image *image, const stru
     double fine = 0, rough = 0;
     for (int i = 0; i < bins && apart >= 0; i++) {
         fine += sums[0].in[i] / sums[0].total, rough += sums[1].in[i] / sums[1].total;
-        cumulative[i] = fine + (fine - rough) / 3; /* both err as the square of their steps */
+        cumulative[i] = fine + (fine - rough) / 3; /* the errors of both are proportional to the square of their
+                                                    * steps */
         apart = fmax(apart, fabs(fine - rough));
     }
     free(at);

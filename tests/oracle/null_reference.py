@@ -1,19 +1,20 @@
 #!/usr/bin/env python3
 """Reference numbers, to 20 digits, as C tables: crossings of null geodesics of Kerr, and elliptic integrals.
 
-    python3 tests/oracle/null_reference.py rays > tests/oracle/null_reference.h          (needs mpmath; a minute each)
-    python3 tests/oracle/null_reference.py extremes > tests/oracle/null_extremes.h       (ten minutes)
-    python3 tests/oracle/null_reference.py integrals > tests/oracle/carlson_reference.h
+python3 tests/oracle/null_reference.py rays > tests/oracle/null_reference.h          (needs mpmath; a minute each)
+python3 tests/oracle/null_reference.py extremes > tests/oracle/null_extremes.h       (ten minutes)
+python3 tests/oracle/null_reference.py integrals > tests/oracle/carlson_reference.h
 
-The rays are not found in closed form. The equations of motion in Mino time, with w = 1/r and the unit vector n of the
-direction in the spheroidal angles,
+The rays are not found in closed form. These are the equations of motion in Mino time, with w = 1/r and the unit vector
+n of the direction in the spheroidal angles:
 
-    w'' = A w + 3K w^2 + 2C w^3        n'' = a^2 n_z z - (eta + lambda^2 + 2 a^2 n_z^2) n
-    chi' = a (2r - a lambda)/Delta     t' = r^2 + 2r + 4 + ((8 - 2 a lambda) r - 4a^2)/Delta + a^2 n_z^2
+w'' = A w + 3K w^2 + 2C w^3        n'' = a^2 n_z z - (eta + lambda^2 + 2 a^2 n_z^2) n
+chi' = a (2r - a lambda)/Delta     t' = r^2 + 2r + 4 + ((8 - 2 a lambda) r - 4a^2)/Delta + a^2 n_z^2
 
-are summed as Taylor series (no turning point and no axis is special), and a crossing is a root of the series of n_z.
-What is integrated is S = t +- (r + 2 ln r), + on the way in and - on the way out, which stays finite at infinity. The
-radial first integral is checked after each step. The elliptic integrals are quadratures of their definitions.
+They are solved by Taylor series, for which turning points and the axis are not special. A crossing is a root of the
+series of n_z. Instead of t, S = t +- (r + 2 ln r) is integrated, with + on the way in and - on the way out, because S
+stays finite at infinity. The radial first integral is checked after each step. The elliptic integrals are quadratures
+of their definitions.
 """
 
 import sys
@@ -75,7 +76,7 @@ def slope(c, h):
 
 
 def trace(a, u, radius, alpha, beta, outward, orders):
-    """Crossings (r, phi, delay, sense), captured?, (cos theta, phi) of escape."""
+    """Crossings (r, phi, delay, sense), whether the ray is captured, and (cos theta, phi) of the escape."""
     a, u, alpha, beta = mpf(a), mpf(u), mpf(alpha), mpf(beta)
     s = sqrt((1 - u) * (1 + u))
     lam, eta = -alpha * s, (alpha**2 - a * a) * u * u + beta**2
@@ -84,14 +85,15 @@ def trace(a, u, radius, alpha, beta, outward, orders):
     dw = sqrt(1 + A * w * w + 2 * K * w**3 + C * w**4) * (-1 if outward else 1)
     n, dn = [s, mpf(0), u], [-beta * u, alpha, beta * s]
     phi = mpf(0)
-    if s == 0:  # azimuths count from the image's: turn the frame so that the ray sets out along +x
+    # azimuths count from the direction in the image, so the frame is turned so that the ray sets out along +x
+    if s == 0:
         phi = atan2(alpha, -beta * u)
         dn = [sqrt(alpha**2 + beta**2), mpf(0), mpf(0)]
     side = -1 if outward else 1
-    S = side * (1 / w - 2 * log(w)) if w else mpf(0)  # at infinity r + 2 ln r is what is taken off
+    S = side * (1 / w - 2 * log(w)) if w else mpf(0)  # at infinity r + 2 ln r is subtracted
     state = (w, dw, n, dn, mpf(0), S)
     horizon = 1 / (1 + sqrt(1 - a * a))
-    turn = mpf(0)  # of n about the axis, unwound
+    turn = mpf(0)  # azimuth of n about the axis, not reduced to a turn
     found = []
     scale = 1 / sqrt(1 + eta + lam * lam + a * a)
     for _ in range(4000):
@@ -112,7 +114,7 @@ def trace(a, u, radius, alpha, beta, outward, orders):
             ends = findroot(lambda x: at(W, x), (mpf(0), h), solver="anderson", tol=mpf(10) ** -60)
             h = ends
         elif w1 >= horizon * (1 - mpf(10) ** -8) or (w > horizon * (1 - mpf(10) ** -8) and dw > 0):
-            return found, True, None  # the azimuth is infinite at the horizon: steps shrink
+            return found, True, None  # at the horizon the azimuth is infinite, so that steps shrink
         if here != 0 and here * at(N[2], h) < 0:
             x = findroot(lambda x: at(N[2], x), (mpf(0), h), solver="anderson", tol=mpf(10) ** -60)
             if len(found) < orders:
@@ -140,7 +142,7 @@ def trace(a, u, radius, alpha, beta, outward, orders):
 
 
 def turned(N, h):
-    """The angle n turns about the axis over a step, traced backwards: -Int lam / sin^2."""
+    """The angle by which n turns about the axis in a step, traced backwards: -Int lam / sin^2."""
     x0, y0, x1, y1 = N[0][0], N[1][0], at(N[0], h), at(N[1], h)
     return atan2(x0 * y1 - y0 * x1, x0 * x1 + y0 * y1) if (x0 or y0) else atan2(y1, x1)
 
@@ -208,7 +210,7 @@ RAYS = [  # spin, inclination, radius, alpha, beta, outward
     (0.9999, 17, INF, 4.0, 3.0, 0),
     (0.9999, 90, INF, 6.0, 3.0, 0),
     (0.9999, 135, INF, 5.0, -3.0, 0),
-    # far off the hole; all but edge on
+    # far from the hole; almost edge-on
     (0.5, 70, INF, 300.0, 200.0, 0),
     (0.9, 89, INF, 5.0, -4.0, 0),
     (0.9, 60, INF, -40.0, -25.0, 0),
@@ -216,7 +218,7 @@ RAYS = [  # spin, inclination, radius, alpha, beta, outward
     (0.9, 60, INF, 0.25, 0.5, 0),
     (0.9, 60, INF, 0.875, 0.125, 0),
     (0.9, 45, INF, 0.125, 0.25, 0),
-    # in the plane
+    # in the equatorial plane
     (0.9, 90, INF, 7.5, 0.0, 0),
     # an observer nearby, tracing inwards
     (0.9, 70, 50.0, 6.0, 2.0, 0),
@@ -226,7 +228,7 @@ RAYS = [  # spin, inclination, radius, alpha, beta, outward
     (-0.9, 90, 12.0, 3.0, -5.0, 0),
     (0.9, 0, 10.0, 4.0, 3.0, 0),
     (0.5, 120, 1e6, 4.0, 4.0, 0),
-    # outwards: escaping, and turned back below the photon sphere
+    # starting outwards: escaping, or turned back below the photon sphere
     (0.9, 70, 4.0, 1.0, 3.0, 1),
     (0.5, 45, 10.0, 5.0, -4.0, 1),
     (0.0, 60, 2.5, 4.0, 3.5, 1),
@@ -261,8 +263,8 @@ RAYS = [  # spin, inclination, radius, alpha, beta, outward
 
 
 def critical(a, i, r, distance):
-    """The image of the bound orbit of radius r (Bardeen 1973, eqs. 48, 49), moved away from the centre by a
-    fraction."""
+    """The image of the bound orbit of radius r (Bardeen 1973, eqs. 48, 49), moved away from the centre by a fraction of
+    its distance."""
     a, r, u = mpf(a), mpf(r), cosine(i)
     s, delta = sqrt(1 - u * u), r * r - 2 * r + a * a
     if a == 0:
@@ -275,8 +277,8 @@ def critical(a, i, r, distance):
 
 
 def extremes():
-    """Eight orders: spins and inclinations at the end of their ranges, observers from next to the horizon to a million
-    M away, and rays 1e-3 to 1e-12 from the critical curve."""
+    """Rays of eight orders: spins and inclinations at the ends of their ranges, observers from next to the horizon to a
+    million M away, and rays 1e-3 to 1e-12 from the critical curve."""
     below, above = 89.99999999999999, 90.00000000000001
     rays = []
     for what, a in (("a 1-1e-7", 1 - 1e-7), ("a 1-1e-12", 1 - 1e-12), ("a -1+1e-12", 1e-12 - 1)):
@@ -424,7 +426,7 @@ def carlson_table():
 
 
 def half_line2(f, near, width):
-    """The same, split where the integrand peaks at t = near > 0."""
+    """The same integral, split where the integrand peaks at t = near > 0."""
     if near <= 0:
         return half_line(f)
     w = mpf(width)

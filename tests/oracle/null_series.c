@@ -90,7 +90,8 @@ static number root(const number *c, number level, number h)
     return x;
 }
 
-/* Radius of convergence from the last coefficients; including chi unless the ray is falling in, where azimuths end. */
+/* Radius of convergence, from the last coefficients. chi is included unless the ray is falling in, where azimuths
+ * end. */
 static number radius_of(const struct series *s, bool with_chi)
 {
     number least = INFINITY;
@@ -129,7 +130,7 @@ static struct motion motion_of(const struct series_ray *r)
 static struct place start_of(const struct series_ray *r, const struct motion *m)
 {
     struct place p = { .n = { r->sine, 0, r->cosine }, .dn = { -r->beta * r->cosine, r->alpha, r->beta * r->sine } };
-    if (r->sine == 0) { /* azimuths count from the image's */
+    if (r->sine == 0) { /* azimuths count from the direction in the image */
         p.dn[0] = hypotl(r->alpha, r->beta);
         p.dn[1] = p.dn[2] = 0;
     }

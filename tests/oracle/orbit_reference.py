@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""Reference values for bound timelike geodesics of Kerr, in 40 digits, by other means than src/physics:
+"""Reference values for bound timelike geodesics of Kerr, in 40 digits, by other methods than those of src/physics.
 
 constants of motion   Newton's method on R = 0 at both turning points (R = R' = 0 for a circle), not Schmidt's formulae
 frequencies, places   Carter's equations by quadrature in Darwin's phases r = p/(1 + e cos x), cos(theta) = s sin y
 
-    orbit_reference.py > orbit_reference.h
+orbit_reference.py > orbit_reference.h
 """
 
 from mpmath import cos, findroot, linspace, mp, mpf, pi, polyroots, quad, sin, sqrt
 
 mp.dps = 40
 
-# spin, p, e, x = cos(inclination), Mino time of a place on the way
+# spin, p, e, x = cos(inclination), and the Mino time of a place on the way
 ORBITS = [
     (0, 8, 0.5, 1, 3),
     (0, 8, 0.5, 0.5, 40),
@@ -48,7 +48,7 @@ def radial(a, energy, l, q):
 
 
 def carter(a, energy, l_x, x):
-    """Q of L = x l_x: theta turns where cos^2 = 1 - x^2."""
+    """Q of L = x l_x, for a motion whose turning point in theta is at cos^2 = 1 - x^2."""
     return (1 - x * x) * (a * a * (1 - energy**2) + l_x**2)
 
 
@@ -59,7 +59,7 @@ def constants(a, p, e, x):
         value, slope = radial(a, energy, x * l_x, carter(a, energy, l_x, x))
         return [value(r1) / r1**3, value(r2) / r2**3 if e else slope(r1) / r1**2]
 
-    # from the orbit of Schwarzschild, increasing the spin in steps
+    # starts from the orbit in Schwarzschild, and increases the spin in steps
     energy, l_x = (
         sqrt(((p - 2) ** 2 - 4 * e * e) / (p * (p - 3 - e * e))) if p > 3 + e * e else mpf(1),
         p / sqrt(abs(p - 3 - e * e)),
@@ -91,7 +91,7 @@ class Orbit:
         self.rest = lambda r: -(c[0] * r * r + c[1] * r + c[2])
         self.z = 1 - x * x
         flat = a * a * self.b
-        self.pace = lambda u: sqrt(q + l * l + flat - flat * self.z - flat * u * u)  # z+ by the sum of the roots
+        self.pace = lambda u: sqrt(q + l * l + flat - flat * self.z - flat * u * u)  # z+ from the sum of the roots
 
     def r(self, x):
         return self.p / (1 + self.e * cos(x))
@@ -118,13 +118,13 @@ class Orbit:
 
 def integral(f, end, i, start=0):
     pieces = max(2, int(abs(end - start) / pi * 6) + 1)
-    axis = mp.floor(start / pi) * pi + pi / 2  # where an orbit that passes the axis has its peak of phi
+    axis = mp.floor(start / pi) * pi + pi / 2  # where phi of an orbit that passes near the axis changes fastest
     near = [axis + side * mpf(10) ** -k for side in (1, -1) for k in range(1, 6)]
     return quad(lambda x: f(x)[i], sorted(linspace(start, end, pieces + 1) + [x for x in near if start < x < end]))
 
 
 def phase_at(f, mino, half):
-    """The radial phase where the first integral is `mino`: whole half turns, then Newton's method."""
+    """The radial phase where the first integral equals `mino`: whole half turns, then Newton's method."""
     turns = mp.floor(mino / half)
     rest, x = mino - turns * half, (mino / half) * pi
     for _ in range(60):
@@ -167,8 +167,8 @@ def row(spin, p, e, x, mino):
     )
 
 
-# Falls and escapes in the equatorial plane: spin, E, L, r at the start (0: the turning point nearest to it is), and at
-# the end.
+# Falls and escapes in the equatorial plane: spin, E, L, r at the start (0: at the nearest turning point) and at the
+# end.
 FALLS = [
     (0, 0.9375, 0, 0, 2.125),
     (0.5, 0.9375, 1.5, 0, 2),

@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
 """Reference numbers for the plunge from the ISCO of Kerr, to 20 digits, as the C table plunge_reference.h.
 
-    python3 tests/oracle/plunge_reference.py > tests/oracle/plunge_reference.h      (needs mpmath)
+python3 tests/oracle/plunge_reference.py > tests/oracle/plunge_reference.h      (needs mpmath)
 
-The metric alone: the ISCO is where the energy of circular orbits is least, u^t and u^phi come from raising (-E, L), u^r
-from u.u = -1, and coordinate time and azimuth from quadrature of u^t/u^r and u^phi/u^r over r.
+Everything follows from the metric alone. The ISCO is where the energy of circular orbits is least. u^t and u^phi come
+from raising (-E, L), u^r from u.u = -1, and coordinate time and azimuth from quadrature of u^t/u^r and u^phi/u^r over
+r.
 """
 
 from mpmath import mp, mpf, nstr, quad, sqrt
 
 mp.dps = 40
 SPINS = [0.0, 0.5, 0.9, 0.998, -0.9, 0.9999]
-PLACES = [0.0625, 0.25, 0.5, 0.75, 0.96875, 0.9990234375]  # of the way from the ISCO to the horizon
+PLACES = [0.0625, 0.25, 0.5, 0.75, 0.96875, 0.9990234375]  # fractions of the way from the ISCO to the horizon
 START = 0.03125
 
 
@@ -20,7 +21,7 @@ def metric(a, r):
 
 
 def circle(a, r):
-    """E and L, with d(phi)/dt from the r-derivatives of the metric."""
+    """E and L of a circular orbit, with d(phi)/dt from the r-derivatives of the metric."""
     tt, tp, pp = -2 / r**2, 2 * a / r**2, 2 * r - 2 * a * a / r**2
     w = (-tp + sqrt(tp * tp - tt * pp)) / pp
     tt, tp, pp = metric(a, r)
@@ -29,7 +30,7 @@ def circle(a, r):
 
 
 def isco(a):
-    """Where dE/dr = 0, by bisection from the marginally bound orbit, E = 1, outwards."""
+    """The radius where dE/dr = 0, by bisection outwards from the marginally bound orbit, E = 1."""
     step = mpf(10) ** -16
     slope = lambda r: circle(a, r * (1 + step))[0] - circle(a, r * (1 - step))[0]
     low, high = (1 + sqrt(1 - a)) ** 2, mpf(10)

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """Reference numbers for the quasi-normal modes of Kerr, as the C table qnm_reference.h.
 
-    python3 tests/oracle/qnm_reference.py > tests/oracle/qnm_reference.h      (needs mpmath and numpy; a few minutes)
+python3 tests/oracle/qnm_reference.py > tests/oracle/qnm_reference.h      (needs mpmath and numpy; a few minutes)
 
-No continued fraction. Radial: Teukolsky's equation in r itself. The wave into the horizon is a power series in r - r+,
-the outgoing wave an asymptotic series in 1/r far out along the ray arg r = pi/2 - arg omega, where it decays. That one
-is continued by Taylor series through the upper half plane to r = 10 and on to r+ + (r+ - r-)/4, where the two have to
-agree. Angular: the eigenvalue in the basis of spin-weighted spherical harmonics (Cook & Zalutskiy 2014, Phys. Rev. D
-90, 124021, section II.C). Modes are followed from a = 0 in small steps, from Schwarzschild values in print to four
-digits (Leaver 1985, table 1; l = 4: Iyer 1987, Phys. Rev. D 35, 3632).
+No continued fraction is used. Radial: Teukolsky's equation in r itself. The wave into the horizon is a power series in
+r - r+. The outgoing wave is an asymptotic series in 1/r, far out along the ray arg r = pi/2 - arg omega, on which the
+wave decays. From there it is continued by Taylor series through the upper half plane to r = 10, and on to r+ + (r+ -
+r-)/4, where the two waves must agree. Angular: the eigenvalue in the basis of spin-weighted spherical harmonics (Cook &
+Zalutskiy 2014, Phys. Rev. D 90, 124021, section II.C). Modes are followed from a = 0 in small steps, starting with
+published Schwarzschild values of four digits (Leaver 1985, table 1; l = 4: Iyer 1987, Phys. Rev. D 35, 3632).
 """
 
 import cmath
@@ -27,7 +27,7 @@ SEEDS = {
     (4, 0): 0.8092 - 0.0942j,
 }
 SPINS = [0.0, 0.2, 0.5, 0.8, 0.95, 0.99, 0.999]
-EXTREME = [(2, 2, 0), (2, 2, 1), (2, 0, 0)]  # up to 0.9999
+EXTREME = [(2, 2, 0), (2, 2, 1), (2, 0, 0)]  # these are followed up to 0.9999
 MODES = [(2, m, n) for n in (0, 1) for m in range(-2, 3)] + [
     (2, 2, 2),
     (2, -2, 3),
@@ -41,7 +41,7 @@ MODES = [(2, m, n) for n in (0, 1) for m in range(-2, 3)] + [
 
 
 def angular_matrix(m, c, number):
-    """-A as the matrix of the angular equation, cos(theta) being three-diagonal in the harmonics l."""
+    """-A as the matrix of the angular equation. cos(theta) is tridiagonal in the harmonics l."""
     first, size = max(abs(m), -S), 18
     ls = [first + k for k in range(size + 1)]
     step = [
@@ -65,7 +65,7 @@ def angular_matrix(m, c, number):
 
 
 def separation(m, c, near, exact):
-    """The eigenvalue next to `near`; exact: improved by Rayleigh quotients."""
+    """The eigenvalue next to `near`; with `exact` it is improved by Rayleigh quotients."""
     values, vectors = np.linalg.eig(np.array(angular_matrix(m, complex(c), float)))
     k = int(np.argmin(abs(values - complex(near))))
     if not exact:
@@ -114,9 +114,9 @@ def advance(a, m, omega, lam, at, to, y, dy, terms):
 
 
 def horizon(a, m, omega, lam, outer, gap, to, terms):
-    """Frobenius's series with the exponent of the ingoing wave; the power itself is left out of y, but not of dy/y."""
+    """Frobenius's series with the exponent of the ingoing wave. The power itself is left out of y, but not of dy/y."""
     p2, p1, p0 = polynomials(a, m, omega, lam, outer)
-    p2, p1 = p2[2:], p1[1:]  # Delta^2 ~ x^2, p1 ~ x: exact zeros
+    p2, p1 = p2[2:], p1[1:]  # Delta^2 ~ x^2 and p1 ~ x have exact zeros
     rho = -S - 1j * ((outer**2 + a * a) * omega - a * m) / gap
     c = [1 + 0 * omega]
     for k in range(1, terms):
@@ -133,12 +133,13 @@ def horizon(a, m, omega, lam, outer, gap, to, terms):
 
 
 def infinity(a, m, omega, lam, r, terms):
-    """exp(i omega r) r^nu (c0 + c1/r + ...), up to its smallest term; that factor is left out, as above."""
+    """exp(i omega r) r^nu (c0 + c1/r + ...), up to the smallest term of the series. The factor before the brackets is
+    left out of y, as in `horizon`."""
     p2, p1, p0 = polynomials(a, m, omega, lam, 0 * r)
     p2, p1, p0, nu = p2[::-1], [0] + p1[::-1], p0[::-1], 2j * omega - 1 - 2 * S
 
     def factor(i, k):
-        """The factor of r^(4 - i) in what the equation makes of the k-th term."""
+        """The coefficient of r^(4 - i) when the equation is applied to the k-th term."""
         mu, get = nu - k, lambda p, n: p[n] if 0 <= n < len(p) else 0
         return (
             get(p2, i) * -(omega**2)
@@ -164,7 +165,7 @@ def wronskian(a, m, omega, lam, far, terms):
     gap = 2 * (sqrt if isinstance(omega, mpc) else cmath.sqrt)((1 - a) * (1 + a))
     outer, r = 1 + gap / 2, far
     y, dy = infinity(a, m, omega, lam, r, 3 * terms)
-    # not straight there: near r+ the waves keep their size only on the real axis
+    # not in a straight line, because near r+ the waves keep their size only on the real axis
     for goal in (10 + 0 * r, outer + gap / 4 + 0 * r):
         while r != goal:
             room = 0.5 * min(abs(r - outer), abs(r - outer + gap))
@@ -176,21 +177,22 @@ def wronskian(a, m, omega, lam, far, terms):
 
 
 def mode(m, a, omega, sep, final):
-    """Secant from the guess; None if that was too far off. Near a = 1 the wave turns fast at the horizon and its series
-    cancels: more digits."""
+    """The mode by the secant method from the guess; None if the guess was too far off. Near a = 1 the wave changes fast
+    at the horizon and its series cancels, so that more digits are used."""
     gap = 2 * np.sqrt((1 - a) * (1 + a))
-    exact = final or a > 0.6 or omega.imag < -0.4  # what overtones leave of 16 digits is not enough either
+    exact = final or a > 0.6 or omega.imag < -0.4  # overtones lose so many digits that 16 are not enough either
     mp.dps = (26 if final else 16) + int(0.5 * abs((2 + gap) * omega - a * m) / gap)
     terms, reach = (4 * mp.dps, 2.5 * mp.dps) if exact else (50, 25)
     small, start = (mpf(10) ** -12, mpf(10) ** -8) if final else (1e-6, 1e-4)
-    far = 1j * reach / omega  # one for all steps: the function has to be analytic in omega
+    far = 1j * reach / omega  # the same for all steps, because the function must be analytic in omega
     if exact:
         a, omega, far = mpf(a), mpc(omega), mpc(far)
 
     def at(w):
         nonlocal sep
         sep = separation(m, a * w, sep, final)
-        # what infinity() left out, e^(i w r) r^nu, or else the function has the root but hardly a slope
+        # the factor e^(i w r) r^nu that infinity() left out; without it the function has the same root but hardly any
+        # slope
         left = (exp if exact else cmath.exp)(1j * (w - omega) * (far + 2 * (log if exact else cmath.log)(far)))
         return left * wronskian(a, m, w, sep + a * a * w * w - 2 * a * m * w, far, terms)
 

@@ -1,16 +1,15 @@
 #!/usr/bin/env python3
-"""Reference numbers for lensed rings round a hole without spin, and for embedded planes, as the C table
-ring_reference.h.
+"""Reference numbers for lensed rings round a hole without spin, and for embedded planes: the C table ring_reference.h.
 
-    python3 tests/oracle/ring_reference.py > tests/oracle/ring_reference.h      (needs mpmath)
+python3 tests/oracle/ring_reference.py > tests/oracle/ring_reference.h      (needs mpmath)
 
 Ring: a ray stays in a plane, in which (du/dpsi)^2 = 1/b^2 - u^2 + 2u^3, u = 1/r (Darwin 1959). The emitter at (r, phi)
-lies at the angle psi0 from the observer's direction, cos psi0 = sin i cos phi; the ray to its image of order 0 turns by
-psi = psi0, of order 1 by 2 pi - psi0 round the other side. b follows by bisection on that angle, a quadrature in 30
-digits, on either branch (before or after the turning point u_t). From b: alpha = +-b sin phi/sin psi0, beta = -+b cos i
-cos phi/sin psi0 and g = sqrt(1 - 3/r)/(1 + r^(-3/2) alpha sin i).
+lies at the angle psi0 from the observer's direction, cos psi0 = sin i cos phi. The ray to its image of order 0 turns by
+psi = psi0; that of order 1 turns by 2 pi - psi0, round the other side. b is found by bisection on this angle, which is
+a quadrature in 30 digits on either branch (before or after the turning point u_t). From b follow alpha = +-b sin
+phi/sin psi0, beta = -+b cos i cos phi/sin psi0 and g = sqrt(1 - 3/r)/(1 + r^(-3/2) alpha sin i).
 
-Embedding: dz and dl integrated from the metric of Boyer & Lindquist, by quadrature in sqrt(r - r+).
+Embedding: dz and dl from the metric of Boyer & Lindquist are integrated by quadrature in sqrt(r - r+).
 """
 
 from kerr_reference import c
@@ -20,7 +19,8 @@ mp.dps = 30
 
 
 def turned(b, u, beyond):
-    """Angle from u = 0 to u, with the turning point in between if beyond. w = sqrt(u_t - u) removes the root there."""
+    """The angle from u = 0 to u; `beyond`: by way of the turning point. The variable w = sqrt(u_t - u) removes the root
+    there."""
     roots = sorted(
         (x.real for x in polyroots([2, -1, 0, 1 / b**2], maxsteps=200, extraprec=200) if abs(x.imag) < 1e-15)
     )
@@ -35,13 +35,13 @@ def turned(b, u, beyond):
 
 
 def impact(u, psi):
-    """b of the ray that comes from u having turned by psi."""
-    edge = 1 / (u * sqrt(1 - 2 * u))  # the turning point lies at u
+    """b of the ray that comes from u after turning by psi."""
+    edge = 1 / (u * sqrt(1 - 2 * u))  # for this b the turning point lies at u
     if u >= mpf(1) / 3:
         low, high, rising = mpf(10) ** -9, sqrt(mpf(27)) * (1 - mpf(10) ** -20), lambda b: turned(b, u, False)
     elif turned(edge * (1 - mpf(10) ** -25), u, False) >= psi:
         low, high, rising = mpf(10) ** -9, edge * (1 - mpf(10) ** -25), lambda b: turned(b, u, False)
-    else:  # the farther it turns the nearer it passes
+    else:  # beyond the turning point: the more a ray turns, the closer to the hole it passes
         low, high, rising = (
             edge * (1 - mpf(10) ** -25),
             sqrt(mpf(27)) * (1 + mpf(10) ** -20),
@@ -65,7 +65,7 @@ def ring(i, r, phi, order):
 
 
 def embedding(a, r):
-    """R, z, proper distance."""
+    """R, z and proper distance at r."""
     radius = lambda x: sqrt(x * x + a * a + 2 * a * a / x)
     top = 1 + sqrt((1 - a) * (1 + a))
     inner = a * a / top

@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
-"""The numbers that `kerrd doctor --selftest` judges a device by, to 20 digits, as src/render/selftest/reference.c.
+"""The numbers with which `kerrd doctor --selftest` judges a device, to 20 digits: src/render/selftest/reference.c.
 
-    python3 tests/oracle/selftest_reference.py > src/render/selftest/reference.c      (needs mpmath; some minutes)
+python3 tests/oracle/selftest_reference.py > src/render/selftest/reference.c      (needs mpmath; some minutes)
 
-Nothing here is a formula of src/ or shaders/. Circular orbits come from the metric alone (kerr_reference.py), the
-others and the disk's flux by quadrature (orbit_reference.py, disk_reference.py), rays from Taylor series of the
-equations of motion (null_reference.py), deflections from quadrature of dphi/dw, checked against the series of Keeton &
-Petters 2005 where the field is weak, points of the critical curve from R = R' = 0, redshifts from the metric contracted
-with photon and gas, the directions of cameras from tetrads by Gram-Schmidt. A gain is the sum of |x df/dx| over what a
-ray is given by: x = alpha, beta, spin, inclination, radius; by differences in 38 digits.
+No formula of src/ or shaders/ is used.
+- Circular orbits: from the metric alone (kerr_reference.py).
+- Other orbits and the disk's flux: by quadrature (orbit_reference.py, disk_reference.py).
+- Rays: Taylor series of the equations of motion (null_reference.py).
+- Deflections: quadrature of dphi/dw, checked against the series of Keeton & Petters 2005 where the field is weak.
+- Points of the critical curve: from R = R' = 0.
+- Redshifts: the metric contracted with photon and gas.
+- Directions of cameras: tetrads by Gram-Schmidt.
+A gain is the sum of |x df/dx| over the inputs x of a ray: alpha, beta, spin, inclination and radius. The derivatives
+are by differences in 38 digits.
 """
 
 import sys
@@ -79,7 +83,7 @@ def metric(a, r, u):
 
 
 def redshift(a, r, lam, eta, sense):
-    """1/(-p.u), the gas on a circle, or inside the ISCO falling with the ISCO's energy and angular momentum."""
+    """1/(-p.u) for gas on a circle or, inside the ISCO, falling with the ISCO's energy and angular momentum."""
     isco = kerr_reference.orbits(a)[2]
     tt, tp, pp, rr, _ = metric(a, r, mpf(0))
     if r >= isco:
@@ -89,13 +93,13 @@ def redshift(a, r, lam, eta, sense):
     det = tt * pp - tp * tp  # the inverse of the (t, phi) block
     ut, uphi = (-energy * pp - momentum * tp) / det, (energy * tp + momentum * tt) / det
     ur = -sqrt((-1 + energy * ut - momentum * uphi) / rr)
-    norm = -(pp + 2 * tp * lam + tt * lam * lam) / det  # g^tt - 2 lam g^tphi + lam^2 g^phiphi, E = 1
+    norm = -(pp + 2 * tp * lam + tt * lam * lam) / det  # this is g^tt - 2 lam g^tphi + lam^2 g^phiphi, with E = 1
     pr = sense * sqrt((norm - eta / r**2) * rr)  # in the plane p_theta^2 = eta
     return 1 / (ut - lam * uphi - pr * ur)
 
 
 def quantities(ray):
-    """Crossings (r, phi, delay, g), captured, (theta, phi)."""
+    """Crossings (r, phi, delay, g), whether the ray is captured, and (theta, phi) of the escape."""
     a, i, radius, alpha, beta = ray[:5]
     outward = ray[5] if len(ray) > 5 else 0
     u = angles(i)
@@ -106,7 +110,7 @@ def quantities(ray):
 
 
 def changes(of, x):
-    """The sum of |x_k d/dx_k| of the list of numbers of(x), over the x_k that are not zero."""
+    """The sum of |x_k d/dx_k| for each of the numbers of(x), over the x_k that are not zero."""
     here, total = of(x), None
     for k, value in enumerate(x):
         if value == 0 or value == inf or (k == 1 and value in (90, 180)):
@@ -119,7 +123,8 @@ def changes(of, x):
 
 
 def flat(rows, sky):
-    """Relative changes of r and g as changes of their logarithms; of the direction as an angle, in two components."""
+    """Converts the numbers so that relative changes of r and g are changes of their logarithms, and a change of
+    direction is an angle, in two components."""
     out = [y for r, phi, t, g in rows for y in (log(r), phi, t, log(g))]
     return out + ([sky[0], sin(sky[0]) * sky[1]] if sky else [])
 
@@ -154,13 +159,13 @@ def ray_text(job):
 
 
 def contraction(g, p, q):
-    """p.q of two vectors t, r, theta, phi."""
+    """p.q of two vectors with components t, r, theta, phi."""
     tt, tp, pp, rr, hh = g
     return tt * p[0] * q[0] + tp * (p[0] * q[3] + p[3] * q[0]) + pp * p[3] * q[3] + rr * p[1] * q[1] + hh * p[2] * q[2]
 
 
 def orthonormal(g, vectors):
-    """By Gram and Schmidt, in the order given."""
+    """Orthonormalises by Gram and Schmidt's method, in the given order."""
     legs = []
     for v in vectors:
         for e in legs:
@@ -172,18 +177,18 @@ def orthonormal(g, vectors):
 
 
 def frame(a, r, u, observer, velocity):
-    """The four legs t, r, theta, phi of an observer: at rest, dragged along, or boosted from that."""
+    """The four legs t, r, theta, phi of an observer: at rest, of zero angular momentum, or boosted from that."""
     g = metric(a, r, u)
     tt, tp, pp, rr, hh = g
     axes = [[mpf(i == k) for i in range(4)] for k in range(4)]
     rest = [1, 0, 0, 0 if observer == "static" else -tp / pp]
-    if observer == "infall":  # E = 1, L = 0, theta at rest: the norm gives r
+    if observer == "infall":  # E = 1, L = 0, constant theta: the norm gives the r component
         det = tt * pp - tp * tp
         ut, uphi = -pp / det, tp / det
         rest = [ut, -sqrt((-1 + ut) / rr), 0, uphi]
     legs = orthonormal(g, [rest, axes[3], axes[2], axes[1]])
     legs = [legs[0], legs[3], legs[2], legs[1]]
-    if observer in ("keplerian", "retrograde"):  # no force along r on what goes round
+    if observer in ("keplerian", "retrograde"):  # on a circle the force along r vanishes
         d = [mp.diff(lambda x: metric(a, x, u)[k], r) for k in range(3)]
         root = sqrt(d[1] ** 2 - d[0] * d[2])
         w = (-d[1] + (root if observer == "keplerian" else -root)) / d[2]
@@ -199,14 +204,15 @@ def frame(a, r, u, observer, velocity):
 
 
 def camera_ray(spin, i, r, observer, velocity, yaw, pitch):
-    """alpha, beta and the sense of the photon that arrives along the look direction."""
+    """alpha and beta of the photon that arrives in the viewing direction, and the sense of its radial motion."""
     a, r, u = mpf(spin), mpf(r), angles(i)
     s = sqrt(1 - u * u)
     tt, tp, pp, rr, hh = metric(a, r, u)
     legs = frame(a, r, u, observer, velocity)
     Y, P = mpf(yaw) * pi / 180, mpf(pitch) * pi / 180
     look = (-cos(P) * cos(Y), -sin(P), cos(P) * sin(Y))  # along e_r, e_theta, e_phi
-    p = [legs[0][i] - sum(look[k] * legs[k + 1][i] for k in range(3)) for i in range(4)]  # of a photon of unit energy
+    # momentum of a photon of unit energy
+    p = [legs[0][i] - sum(look[k] * legs[k + 1][i] for k in range(3)) for i in range(4)]
     energy, momentum = -(tt * p[0] + tp * p[3]), tp * p[0] + pp * p[3]
     p_theta = p[2] * hh
     alpha, q = -momentum / energy / s, (p_theta**2 + u * u * (momentum**2 / s**2 - a * a * energy**2)) / energy**2
@@ -215,7 +221,7 @@ def camera_ray(spin, i, r, observer, velocity, yaw, pitch):
 
 
 def in_plane(a, b):
-    """Azimuth swept by a ray in the equatorial plane, lambda = b: 2 Int dphi/dw dw to the turning point w0."""
+    """Azimuth swept by a ray in the equatorial plane with lambda = b: 2 Int dphi/dw dw up to the turning point w0."""
     P = lambda w: 1 + (a * a - b * b) * w * w + 2 * (b - a) ** 2 * w**3
     # the smallest positive root of the cubic
     roots = mp.polyroots([2 * (b - a) ** 2, a * a - b * b, 0, 1], maxsteps=200, extraprec=200)
@@ -248,7 +254,7 @@ def deflections():
 
 def critical():
     def spherical(a, r):
-        """lambda and eta of the bound orbit at r: R = R' = 0."""
+        """lambda and eta of the bound orbit at r, by R = R' = 0."""
         R = lambda x, l, q: (x * x + a * a - a * l) ** 2 - (x * x - 2 * x + a * a) * (q + (l - a) ** 2)
         dR = lambda x, l, q: 4 * x * (x * x + a * a - a * l) - (2 * x - 2) * (q + (l - a) ** 2)
         return findroot(lambda l, q: (R(r, l, q), dR(r, l, q)), (mpf(0), mpf(25)), tol=mpf(10) ** -60)
@@ -256,7 +262,8 @@ def critical():
     b = 3 * sqrt(mpf(3))
     yield "a = 0: 3 sqrt 3", 0.0, 45, b * mpf("0.8"), b * mpf("0.6")
     a = mpf(0.9)
-    r = findroot(lambda x: spherical(a, x)[0], mpf("2.6"))  # no angular momentum: seen on the axis
+    # the orbit without angular momentum, which is seen from the axis
+    r = findroot(lambda x: spherical(a, x)[0], mpf("2.6"))
     b = sqrt(spherical(a, r)[1] + a * a)
     yield "a = 0.9 on the axis", 0.9, 0, mpf("0.6") * b, mpf("0.8") * b
     lam, eta = spherical(a, mpf("2.5"))
@@ -305,7 +312,7 @@ def flux_rows():
 
 
 def pixel_rows():
-    """A ray of RAYS, and g^4 F/F_max where it meets the disk first."""
+    """A ray of RAYS, and g^4 F/F_max where it first meets the disk."""
     peaks = {}
     for k, (name, *ray) in enumerate(RAYS):
         if name not in ("bulk", "edge-on", "nearly extremal") or ray[2] != INF:
@@ -336,8 +343,8 @@ def srgb(x):
 
 
 def grey_rows():
-    """Linear, as sRGB (IEC 61966-2-1), and through S. Hill's fit of ACES first, whose matrices keep grey grey to
-    1e-4."""
+    """Grey levels: linear, as sRGB (IEC 61966-2-1), and first through S. Hill's fit of ACES, whose matrices keep grey
+    grey to 1e-4."""
     for c in (0.0, 0.0009765625, 0.0031308, 0.01, 0.18, 0.5, 0.75, 1.0, 4.0):
         seen = mp.matrix(OUT_OF) * mp.matrix([film(x) for x in mp.matrix(INTO) * mp.matrix([c, c, c])])
         yield f"      {{ {c!r}, {number(srgb(mpf(c)))}, {{ {', '.join(number(srgb(x)) for x in seen)} }} }},"

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Makes stokes_reference.h: light that comes out of a length of matter, and what becomes of light from behind, by
-exponentials of matrices in 40 digits.
+"""Makes stokes_reference.h: the light of a length of matter, and its effect on light from behind.
 
-dS/ds = j - K S has S(1) = exp(-K) S(0) + (the integral of exp(-K s) ds) j: both blocks of the exponential of [[-K, 1],
-[0, 0]], taken by Taylor's series of a 256th part that is squared as often. No eigenvalue, no Pauli matrix, no case for
-what is small."""
+dS/ds = j - K S has the solution S(1) = exp(-K) S(0) + (the integral of exp(-K s) ds) j. Both terms are blocks of the
+exponential of [[-K, 1], [0, 0]], which is computed in 40 digits: Taylor's series of the matrix divided by at least 256,
+and repeated squaring. There are no eigenvalues, no Pauli matrices, and no special cases for small numbers.
+"""
 
 import random
 
@@ -43,7 +43,7 @@ def both(light, depth, a, rho):
 
 
 def single(x):
-    """The nearest that 32 bits hold."""
+    """The nearest number that 32 bits can hold."""
     import struct
 
     return struct.unpack("f", struct.pack("f", x))[0]
@@ -69,7 +69,7 @@ def cases():
         0.5,
         2.0,
         10.0,
-    ):  # lambda of no size: a and rho as long as each other, at a right angle; and along each other
+    ):  # lambda vanishes if a and rho are equally long and perpendicular; the second row has them parallel
         yield [0.5, 0.2, -0.1], depth, [0.8 * depth, 0, 0], [0, 0.8 * depth, 0]
         yield [0.5, 0.2, -0.1], depth, [0, 0.6 * depth, 0], [0, 0.6 * depth, 0]
         yield [-0.9, 0.3, 0.1], depth, [0, 0, 0.999 * depth], [1e-4 * depth, 0, 0]

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* Finds by bisection the angular velocity with u^t u_phi = l, from g_tt, g_tphi and g_phiphi; gives u, and ln h = ln
+/* Finds by bisection the angular velocity with u^t u_phi = l, from g_tt, g_tphi and g_phiphi. Gives u, and ln h = ln
  * u^t - l Omega up to a constant. */
 static inline double torus_turns(double tt, double tp, double pp, double l, double out[4])
 {

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Reference values for bodies in the equatorial plane that come to whirl at an unstable circle: Carter's equations in
-1/r by quadrature in 30 digits, with nodes crowded where the radial motion all but stops. E and L are rounded to double
-first: what follows is the motion of these very numbers.
+"""Reference values for bodies in the equatorial plane that whirl at an unstable circle.
 
-    whirl_reference.py > whirl_reference.h
+Carter's equations in 1/r are integrated by quadrature in 30 digits, with nodes crowded where the radial motion almost
+stops. E and L are first rounded to double: the values are those of the motion with exactly these numbers.
+
+whirl_reference.py > whirl_reference.h
 """
 
 from mpmath import findroot, im, mp, mpf, polyroots, quad, sqrt
@@ -12,7 +13,7 @@ mp.dps = 30
 
 SPINS = [0, 0.9, -0.9, 0.998]
 ENERGIES = ["0.97", "0.9999999999999999", "1", "1.000001", "1.25"]
-BESIDE = ["1e-3", "-1e-3", "1e-7", "-1e-7", "3e-10", "-3e-10", "1e-12", "-1e-12"]  # of L, relative
+BESIDE = ["1e-3", "-1e-3", "1e-7", "-1e-7", "3e-10", "-3e-10", "1e-12", "-1e-12"]  # relative differences of L
 FAR = mpf(1) / 100
 
 
@@ -30,7 +31,7 @@ def slope(c, w):
 
 
 def whirl(a, energy):
-    """w and L of the unstable circle, from the marginally bound one by small steps of E."""
+    """w and L of the unstable circle, followed from the marginally bound one in small steps of E."""
     r = 2 - a + 2 * sqrt(1 - a)
     w, l = 1 / r, 2 * (1 + sqrt(1 - a))
     for k in range(1, 21):
@@ -47,13 +48,13 @@ def rates(a, energy, l, w):
 
 
 def crowded(low, high, at):
-    """Nodes between low and high, denser towards `at`."""
+    """Nodes between low and high, which are denser towards `at`."""
     steps = [at + side * mpf(10) ** -k for side in (1, -1) for k in range(1, 9)]
     return sorted({low, high, *[x for x in steps if low < x < high], *([at] if low < at < high else [])})
 
 
 def inwards(a, energy, l, low, high, middle):
-    """From low to the horizon, over the minimum of W at `middle`: Mino and proper time."""
+    """Mino time and proper time from low to the horizon, over the minimum of W at `middle`."""
     c = quartic(a, energy, l)
     return [
         quad(lambda w: rates(a, energy, l, w)[i] / sqrt(value(c, w)), crowded(low, high, middle)) for i in range(2)
@@ -61,7 +62,7 @@ def inwards(a, energy, l, low, high, middle):
 
 
 def to_turn(a, energy, l, start, turn, others):
-    """From start to the turning point: w = turn - side s^2, and W divided by that root."""
+    """Integrals from start to the turning point, with w = turn - side s^2 and W divided by that root."""
     c = quartic(a, energy, l)
     side = 1 if turn > start else -1
 
@@ -89,7 +90,7 @@ def row(a, energy_text, beside):
     roots = sorted(x.real for x in polyroots(c, maxsteps=1000, extraprec=400) if abs(im(x)) < mpf(10) ** -25)
     low = [x for x in roots if x > 0 and x < minimum] if energy < 1 else []
     start = FAR if not low or low[0] < FAR else low[0]
-    if value(c, minimum) > 0:  # falls in; from the outer turning point if that is within 100
+    if value(c, minimum) > 0:  # the body falls in, from the outer turning point if that is within 100
         if start == FAR:
             sums = inwards(a, energy, l, FAR, horizon, minimum)
         else:

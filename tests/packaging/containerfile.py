@@ -1,5 +1,8 @@
-"""packaging/Containerfile as buildah and docker would read it: nothing that was built here goes in, and it runs with
-what the program is linked with. containerfile.py SOURCE KERRD"""
+"""Checks packaging/Containerfile as buildah and docker read it. Nothing that was built here is copied, and the image
+has the libraries that the program is linked with.
+
+containerfile.py SOURCE KERRD
+"""
 
 import fnmatch
 import pathlib
@@ -14,8 +17,8 @@ TEXT = (SOURCE / "packaging/Containerfile").read_text()
 
 class Containerfile(unittest.TestCase):
     def test_what_is_built_here_stays_out(self):
-        """`COPY .` takes everything that the file of ignored names does not exclude. podman reads either name of
-        that file, docker only this one."""
+        """`COPY .` takes everything that the file of ignored names does not exclude. podman reads that file under
+        either name, docker only under this one."""
         self.assertFalse((SOURCE / ".containerignore").exists(), "podman would read it in the place of .dockerignore")
         patterns = (SOURCE / ".dockerignore").read_text().split()
         for name in ("build", "build-asan", "build-package", "venv", "venv-jupyter", ".git"):
@@ -50,7 +53,8 @@ class Containerfile(unittest.TestCase):
         )
 
     def test_of_itself_it_serves_nobody_else(self):
-        """What makes it reachable is in the command that a person types, and in the documented one."""
+        """Without options the server is not reachable from outside. What makes it reachable is in the command that a
+        user types, and in the documented one."""
         commands = re.findall(r"^CMD (.*)$", TEXT, re.M)
         self.assertEqual(commands[0], '["serve"]')
         documented = re.findall(
@@ -70,7 +74,7 @@ class Containerfile(unittest.TestCase):
         self.assertLessEqual({"distributed", "dask", "zarr", "numpy", "httpx", "pillow"}, names)
 
     def test_no_address_is_invalid(self):
-        """Of the addresses given for contact: no domain that is reserved for examples (RFC 2606)."""
+        """No contact address has a domain that is reserved for examples (RFC 2606)."""
         for name in (
             "packaging/debian/control",
             "packaging/debian/changelog",
@@ -87,8 +91,8 @@ class Containerfile(unittest.TestCase):
         "libraries have the names of Debian 12 there",
     )
     def test_it_has_the_libraries_of_the_program_and_no_others(self):
-        """The libraries that the program itself is linked with, by package, against those that the stage `server`
-        installs; apt adds what these need."""
+        """The packages of the libraries that the program is linked with are those that the stage `server` installs. apt
+        adds the packages that these need."""
         needed = re.findall(
             r"NEEDED.*\[(.+)\]",
             subprocess.run(["readelf", "-d", KERRD], capture_output=True, text=True, check=True).stdout,

@@ -1,5 +1,7 @@
-"""What `meson install` installs, by name, and that none of it names the folder it was built in. installed.py BUILD
-SOURCE"""
+"""Checks what `meson install` installs, by name, and that no file names the folder in which it was built.
+
+installed.py BUILD SOURCE
+"""
 
 import os
 import pathlib
@@ -82,14 +84,14 @@ class Installed(unittest.TestCase):
         self.assertEqual({folder + name for name in documents} - self.names, set())
 
     def test_licences_of_what_it_has_inside(self):
-        """Each licence in the tree is installed unchanged, and Debian's copyright file has its folder, its holders
-        and the first words of its text."""
+        """Each licence in the tree is installed unchanged. Debian's copyright file names its folder, its holders, and
+        the first words of its text."""
         stanzas = (SOURCE / "packaging/debian/copyright").read_text().split("\n\n")
         found = [
             path
             for folder in ("clients", "data", "shaders", "src")
             for path in sorted((SOURCE / folder).rglob("*LICEN[SC]E*"))
-            if not path.is_symlink()  # the client has the one of the whole
+            if not path.is_symlink()  # the client's licence is a link to that of the whole
         ]
         self.assertGreater(len(found), 1)
         installed = {
@@ -118,7 +120,8 @@ class Installed(unittest.TestCase):
 
     def test_nothing_names_the_folder_it_was_built_in(self):
         def named(folder):
-            """/usr/bin/kerrd does not count as naming a folder /kerrd, and neither does an address that ends so."""
+            """True if a file names the folder. /usr/bin/kerrd does not count as naming a folder /kerrd, and neither
+            does a URL that ends so."""
             end = rb"(?![\w-])" if len(folder.parts) > 2 else rb"/(src|build)\b"
             return re.compile(rb"(?<![\w/.])" + re.escape(bytes(folder)) + end)
 

@@ -1,5 +1,8 @@
-"""The manifests of packaging/kubernetes: valid by the schemas of Kubernetes, and of one piece: ports, names, images and
-labels that belong together. kubernetes.py FOLDER"""
+"""Checks the manifests of packaging/kubernetes: they are valid by the schemas of Kubernetes, and ports, names, images
+and labels agree.
+
+kubernetes.py FOLDER
+"""
 
 import copy
 import os

@@ -1,5 +1,8 @@
-"""scripts/release in a clone: the archive of a commit, the list of what is within, checksums, a signature; what it
-refuses. The parts that build for minutes are tried by what they are made of. release.py ROOT"""
+"""Tests scripts/release in a clone: the archive of a commit, the list of its contents, checksums, a signature, and
+refusals. Of the parts that build for minutes only the components are tested.
+
+release.py ROOT
+"""
 
 import hashlib
 import json

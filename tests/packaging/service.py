@@ -1,5 +1,7 @@
-"""The unit of packaging/, as it is configured for this build: what systemd says of it, and that its options are the
-program's. service.py UNIT KERRD"""
+"""Tests the unit of packaging/ as configured for this build: systemd accepts it, and its options are the program's.
+
+service.py UNIT KERRD
+"""
 
 import pathlib
 import re
@@ -11,7 +13,7 @@ import unittest
 
 UNIT, KERRD = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MOST = 2.0  # exposure by `systemd-analyze security`: 0 is nothing that could be reached, 10 all
+MOST = 2.0  # exposure by `systemd-analyze security`: 0 is not exposed at all, 10 is fully exposed
 if not shutil.which("systemd-analyze"):
     print("skipped: there is no systemd-analyze; scripts/setup --packaging installs it")
     sys.exit(77)
@@ -34,7 +36,7 @@ class Unit(unittest.TestCase):
             )
 
     def test_systemd_takes_it(self):
-        """With the program of this build instead of the installed one, which may be missing."""
+        """The program of this build replaces the installed one, which may be missing."""
         text = re.sub(r"^ExecStart=\S+", f"ExecStart={KERRD}", UNIT.read_text(), flags=re.M)
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "kerrd.service")

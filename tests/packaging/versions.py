@@ -1,5 +1,8 @@
-"""The version is one: all files that name it agree, scripts/version sees where one does not, sets and releases it; the
-program and its service tell it. versions.py ROOT KERRD SERVER"""
+"""Tests that there is one version. All files that name it agree; scripts/version notices one that does not, and sets
+and releases versions; the program and its service report it.
+
+versions.py ROOT KERRD SERVER
+"""
 
 import pathlib
 import shutil

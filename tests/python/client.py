@@ -1,4 +1,7 @@
-"""The Python client against the real server, whose answers are read here by other means. client.py KERRD FOLDER"""
+"""Tests of the Python client with the real server. The answers are read here by other means, too.
+
+client.py KERRD FOLDER
+"""
 
 import asyncio
 import contextlib
@@ -71,8 +74,8 @@ class Case(unittest.TestCase):
 
 
 class Said(Case):
-    """Values of numpy and dataclasses are accepted wherever a document may have them, and errors are explained
-    before anything is sent."""
+    """Values of numpy and dataclasses are accepted wherever a document may have them. Errors are explained before
+    anything is sent."""
 
     def test_numbers_of_numpy(self):
         at = self.hole.pixel(np.int64(3), np.float32(4), {"image": SIZE})
@@ -251,7 +254,7 @@ class Blocking(Case):
         self.assertIn("gargantua", [preset["name"] for preset in self.hole.presets()])
 
     def test_a_scene_beside_an_observation(self):
-        """Given as a file, as its bytes, and by the hash that it has at the server."""
+        """The observation is given as a file, as its bytes, and by its hash at the server."""
         file = pathlib.Path(__file__).resolve().parents[2] / "data/eht/m87-2017-04-05-lo.uvfits"
         options = {"preset": "m87", "pixels": 32, "average_s": 600, "check": "none", "flux_jy": 0.6}
         told = self.hole.compare(file, **options)
@@ -380,7 +383,7 @@ class Saved(Case):
                 (frame.scene["time"], frame.scene["camera"]["inclination_deg"]),
                 (float(frame.headers["kerrd-time"]), 50),
             )
-            with kerrd.Client(self.hole.url, trust_env=False) as other:  # another hand at the same session
+            with kerrd.Client(self.hole.url, trust_env=False) as other:  # another client of the same session
                 other._run(kerrd.calls.patch(live.id, live.token, {"camera": {"inclination_deg": 40}}))
             self.assertEqual(
                 next(frame for frame in live if frame.revision == 3).scene["camera"]["inclination_deg"], 40
@@ -424,7 +427,7 @@ class Saved(Case):
         self.assertEqual(notes, sweep.notes)
 
     def test_an_image_for_ehtim(self):
-        """Tests what ehtim, which is not installed here, would be given; tests/cli/ehtim_reads.py uses ehtim itself.
+        """Tests the image object for ehtim, which is not installed here. tests/cli/ehtim_reads.py uses ehtim itself.
         The scale equals that in the FITS file of the same picture."""
         given = {}
 
@@ -477,7 +480,7 @@ class Saved(Case):
             self.assertTrue(np.allclose(given[name], ratio * frame.layers["stokes_" + name], rtol=1e-6))
 
     def test_a_field_in_microarcseconds(self):
-        """What is changed last holds, also over a scene that was given completely."""
+        """The last change counts, also over a scene that was given completely."""
         told = self.hole.render({"camera": {"field_uas": 40}}, size=(16, 9)).scene
         self.assertEqual(told["camera"]["field_uas"], 40)
         again = self.hole.render(told, spacetime={"mass_msun": 2e8}).scene["camera"]
@@ -575,7 +578,7 @@ class Async(Case):
 
 
 class Busy(http.server.BaseHTTPRequestHandler):
-    """Answers twice that it is busy, then normally."""
+    """A server that answers twice that it is busy, and then normally."""
 
     asked = 0
 
@@ -595,7 +598,7 @@ class Busy(http.server.BaseHTTPRequestHandler):
 
 
 class Stranger(http.server.BaseHTTPRequestHandler):
-    """Another program: it has a page for each path, or answers that there is none."""
+    """Another program's server: it has a page for each path, or answers that there is none."""
 
     def answer(self):
         self.rfile.read(int(self.headers.get("Content-Length", 0)))
@@ -613,7 +616,7 @@ class Stranger(http.server.BaseHTTPRequestHandler):
 
 
 class Loses(http.server.BaseHTTPRequestHandler):
-    """Passes requests on to the server `to`, and drops the first answer to a POST of each path."""
+    """Forwards requests to the server `to`, but drops the first answer to a POST of each path."""
 
     def pass_on(self):
         body = self.rfile.read(int(self.headers.get("Content-Length", 0)))
@@ -639,7 +642,7 @@ class Loses(http.server.BaseHTTPRequestHandler):
 
 
 class Broken(Case):
-    """What a broken connection may have carried is sent again if that cannot create anything twice."""
+    """After a broken connection a request is repeated only if it cannot create anything twice."""
 
     def test_a_lost_answer(self):
         server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Loses)
@@ -661,7 +664,7 @@ class Broken(Case):
 
 
 class Absent(unittest.TestCase):
-    """One sentence if the server is not there."""
+    """If the server is not there, the error is one sentence."""
 
     def test_a_server_that_is_off(self):
         with contextlib.closing(socket.socket()) as free:
@@ -698,14 +701,15 @@ class Absent(unittest.TestCase):
 
 
 class Documented(unittest.TestCase):
-    """The Python of README and docs/python.md, as it stands."""
+    """Runs the Python code of README and docs/python.md verbatim."""
 
     def test_it_runs(self):
         root = FOLDER.resolve().parents[1]
         blocks = re.findall(r"^```python\n(.*?)^```$", (root / "docs/python.md").read_text(), re.M | re.S)
         blocks += re.findall(r"^    python -c '(.*)'$", (root / "README.md").read_text(), re.M)
         blocks += re.findall(r"^```python\n(.*?)^```$", (FOLDER / "README.md").read_text(), re.M | re.S)
-        run = [block for block in blocks if "tcp://scheduler" not in block]  # a cluster: tests/python/cluster.py
+        # tests/python/cluster.py tests the code that needs a cluster
+        run = [block for block in blocks if "tcp://scheduler" not in block]
         self.assertEqual((len(blocks), len(run)), (6, 5))
         with tempfile.TemporaryDirectory() as folder:
             for block in run:
@@ -717,7 +721,7 @@ class Documented(unittest.TestCase):
                 done = subprocess.run(
                     [sys.executable, "-c", block], cwd=folder, env=env, capture_output=True, text=True, timeout=200
                 )
-                # A server that still had work reports how long it waits, which is not an error.
+                # A server that still has work reports how long it waits, which is not an error.
                 said = [line for line in done.stderr.splitlines() if not line.startswith("kerrd: warning: stopping:")]
                 self.assertEqual((done.returncode, said), (0, []), block)
                 self.assertNotRegex(done.stdout, r"\bnan\b")
@@ -735,7 +739,8 @@ class Documented(unittest.TestCase):
 
 class Elsewhere(unittest.TestCase):
     def test_where_there_is_no_posix(self):
-        """A client on Windows, simulated by a platform without what Windows lacks; libraries are imported before."""
+        """A client on Windows, simulated by a platform without what Windows lacks. Libraries are imported
+        beforehand."""
         code = f"""
 import sys, asyncio, subprocess, httpx, numpy, PIL.Image, PIL.PngImagePlugin, atexit, shutil
 sys.path.insert(0, {str(FOLDER / "src")!r})
@@ -807,7 +812,7 @@ class Local(unittest.TestCase):
                 self.assertEqual(list(live)[-1].revision, 2)
 
     def test_an_access_token(self):
-        """An access token beside the tokens of a session and a job, which differ from it."""
+        """The server needs an access token, besides the tokens of a session and a job, which differ from it."""
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "tokens")
             file.write_text("ann view ann-0123456789abcdef\nbob render bob-0123456789abcdef\n")
@@ -853,7 +858,7 @@ class Local(unittest.TestCase):
         self.assertTrue(self.gone(pid))
 
     def test_an_interrupt_does_not_stop_it(self):
-        """Jupyter's interrupts go to the kernel's whole group of processes, as Ctrl+C does."""
+        """Jupyter's interrupts go to the kernel's whole process group, like Ctrl+C."""
         code = f"""
 import os, signal, sys, time
 sys.path.insert(0, {str(FOLDER / "src")!r})

@@ -17,7 +17,7 @@ KERRD, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
 sys.path.insert(0, str(FOLDER / "src"))
 os.environ["PYTHONPATH"] = os.pathsep.join(
     filter(None, (str(FOLDER / "src"), os.environ.get("PYTHONPATH")))
-)  # of the workers
+)  # options of the workers
 try:
     import distributed
     import numpy as np

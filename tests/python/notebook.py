@@ -1,7 +1,7 @@
-"""The widget in JupyterLab, in headless Chromium: turned by a hand, changed from a cell, and without its server.
+"""Tests of the widget in JupyterLab, in headless Chromium: dragged, changed from a cell, and without its server.
 
-    notebook.py KERRD FOLDER SHOTS              pictures of what was seen go to SHOTS
-    notebook.py KERRD FOLDER --picture FILE     no test, but the picture of docs/python.md
+notebook.py KERRD FOLDER SHOTS              pictures of what was seen go to SHOTS
+notebook.py KERRD FOLDER --picture FILE     no test: makes the picture of docs/python.md
 
 JupyterLab is that of venv-jupyter/ (scripts/setup --jupyter), Playwright that of venv/.
 """
@@ -79,7 +79,7 @@ def notebook(url):
 
 
 class Lab:
-    """JupyterLab with a folder of its own and without the user's settings."""
+    """JupyterLab with a folder of its own, without the user's settings."""
 
     def __init__(self, folder, url):
         with socket.socket() as free:
@@ -182,7 +182,7 @@ class Notebook(unittest.TestCase):
         self.assertEqual(self.complaints, [])
 
     def run_cell(self, name, wait=True):
-        """Runs a cell by its place; returns what it printed."""
+        """Runs a cell of this name; returns what it printed."""
         cell = self.page.locator(".jp-Notebook .jp-Cell").nth(list(CELLS).index(name))
         prompt = cell.locator(".jp-InputPrompt")
         before = prompt.inner_text()
@@ -196,7 +196,7 @@ class Notebook(unittest.TestCase):
             self.assertLess(time.monotonic() - begun, PATIENCE_MS / 1000, f"{name} does not end: {prompt.inner_text()}")
             if (
                 prompt.inner_text().strip() == "[ ]:" and time.monotonic() - pressed > 5
-            ):  # a kernel that is not connected yet
+            ):  # the kernel is not connected yet
                 self.page.keyboard.press("Control+Enter")
                 pressed = time.monotonic()
             time.sleep(0.05)
@@ -232,7 +232,7 @@ class Notebook(unittest.TestCase):
         return float(self.page.locator(f'.kerrd input[type=number][data-path="{path}"]').first.input_value())
 
     def shown_while(self, going_on):
-        """The number of pictures shown meanwhile."""
+        """The number of pictures shown while `going_on` is true."""
         serials = set()
         while going_on():
             serials.add(self.stage.get_attribute("data-serial"))
@@ -240,7 +240,8 @@ class Notebook(unittest.TestCase):
         return len(serials)
 
     def test_1_a_drag_turns(self):
-        """A quarter of the width is 45 degrees, a third of the height 60, as on the page."""
+        """A drag over a quarter of the width turns by 45 degrees, one over a third of the height by 60, as on the
+        page."""
         first, box = self.rest(), self.stage.bounding_box()
         self.assertEqual((box["width"], box["height"]), (640, 360))
         self.assertEqual(self.where()[:4], [0, 86.56, 74.1, 0.9])
@@ -268,7 +269,8 @@ class Notebook(unittest.TestCase):
         page.mouse.click(*[(box := self.stage.bounding_box())["x"] + 100, box["y"] + 100])
         page.mouse.wheel(0, -200)
         self.until(lambda: self.box("camera.r") < 74, "the camera comes nearer")
-        for key in ("ArrowLeft", "ArrowDown", "Shift+ArrowDown", "+"):  # for which the notebook has other uses
+        # the notebook itself has other uses for these keys
+        for key in ("ArrowLeft", "ArrowDown", "Shift+ArrowDown", "+"):
             page.keyboard.press(key)
         self.until(lambda: self.box("camera.inclination_deg") == 98.56, "the keys turn")
         self.assertTrue(self.stage.evaluate("node => node === document.activeElement"))
@@ -319,7 +321,7 @@ class Notebook(unittest.TestCase):
         )
 
     def test_6_while_a_cell_runs(self):
-        """Pictures follow the values it sets, though the kernel receives no acknowledgment meanwhile."""
+        """Pictures follow the values that the cell sets, although the kernel receives no acknowledgment meanwhile."""
         self.run_cell("busy", wait=False)
         self.assertGreater(self.shown_while(lambda: "azimuth 39°" not in self.stage.get_attribute("aria-label")), 5)
         self.assertEqual(self.where()[0], 39)
@@ -344,7 +346,7 @@ class Notebook(unittest.TestCase):
         self.assertEqual([url for url in self.requests if not url.startswith(own)], [], "it speaks to Jupyter alone")
 
     def test_9_the_end(self):
-        """When the server ends, this is reported; when the kernel ends, the other widget's session ends too."""
+        """The widget reports that the server has ended. When the kernel ends, the other widget's session ends too."""
         before = self.where()
         self.run_cell("second")
         self.page.locator(".kerrd-stage[data-final=true]").nth(1).wait_for()

@@ -1,5 +1,7 @@
-"""The client's source: typed throughout, and what is made of something else is as it would be made now. source.py KERRD
-FOLDER"""
+"""Checks the client's source: it is typed throughout, and generated files are up to date.
+
+source.py KERRD FOLDER
+"""
 
 import importlib
 import os

@@ -1,4 +1,7 @@
-"""The client's wheels: what PyPI would take, what pip makes of them, and that two builds are equal. wheel.py KERRD TREE"""
+"""Tests of the client's wheels: what PyPI would accept, what pip installs, and that two builds are equal.
+
+wheel.py KERRD TREE
+"""
 
 import base64
 import hashlib
@@ -82,7 +85,7 @@ class Wheels(unittest.TestCase):
             self.assertEqual(path.read_bytes(), again[which].read_bytes(), which)
 
     def test_pip_installs_the_program(self):
-        """What the client needs comes from the packages of this Python."""
+        """The client's dependencies come from the packages of this Python."""
         home = Path(self.folder.name) / "venv"
         subprocess.run([sys.executable, "-m", "venv", home], check=True)
         python, program = home / "bin/python", home / "bin/kerrd"
@@ -108,7 +111,7 @@ class Wheels(unittest.TestCase):
 
 class Portable(unittest.TestCase):
     def test_what_needs_more_is_refused(self):
-        """A program that needs libraries beside it, as this tree's build does, is refused."""
+        """A program that needs private libraries, as this tree's build does, is refused."""
         done = subprocess.run([TREE / "scripts/portable", "--check", KERRD], capture_output=True, text=True)
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertRegex(done.stderr, r"must need (glibc 2\.31 or older|the C library alone)")

@@ -1,7 +1,8 @@
-"""The widget's Python side against the real server; the browser's side is played here by its messages. widget.py KERRD
-FOLDER
+"""Tests of the widget's Python side with the real server. The browser's side is simulated by its messages.
 
-In a browser: notebook.py (scripts/matrix jupyter).
+widget.py KERRD FOLDER
+
+notebook.py tests the widget in a browser (scripts/matrix jupyter).
 """
 
 import io
@@ -37,7 +38,7 @@ PATIENCE_S = 60
 
 
 class Comm(BaseComm):
-    """Records what would be sent to the browser."""
+    """Records the messages to the browser."""
 
     def __init__(self, *args, **keys):
         self.sent = []
@@ -111,7 +112,7 @@ class Case(unittest.TestCase):
         return widget
 
     def there(self, widget, hole=None):
-        """Whether the widget's session exists."""
+        """True if the widget's session exists."""
         return httpx.get(f"{(hole or self.hole).url}v1/sessions/{widget._follower._session.id}").status_code == 200
 
     def rested(self, page):
@@ -182,7 +183,7 @@ class Names(Case):
                     for a, b in zip(stops, stops[1:])
                     if a > 0 and stops[0] > 0 and field.unit != "degrees" and stops[-1] / stops[0] > 30
                 ]
-                self.assertLess(max(steps, default=1), 2.1, path)  # an integer goes from 1 to 2
+                self.assertLess(max(steps, default=1), 2.1, path)  # the step from 1 to 2 of an integer is a factor of 2
 
     def test_controls_that_cannot_be(self):
         with self.assertRaisesRegex(kerrd.KerrdError, "spinn"):
@@ -245,7 +246,7 @@ class Browser(Case):
         self.rested(page)
         widget.observe(lambda change: changes.append(change.new.camera.azimuth_deg), "scene")
         revision = widget._follower._session.revision
-        with widget._follower._patching:  # the server is slow
+        with widget._follower._patching:  # simulates a slow server
             for k in range(50):
                 page.change(camera__azimuth_deg=float(k), camera__inclination_deg=80 - k / 10)
         until(lambda: len(page.told("took")) == 50, "answers")
@@ -269,7 +270,7 @@ class Browser(Case):
             until(lambda: page.told("frame")[-1][0]["serial"] > before, "the next")
         self.assertEqual(page.told("frame")[-1][0]["type"], "image/jpeg")
         until(lambda: page.show() and widget.scene.camera.azimuth_deg > 5, "an azimuth that goes on")
-        self.assertNotEqual(page.state("scene")["camera"]["azimuth_deg"], 0)  # beyond 180 it goes on at -180
+        self.assertNotEqual(page.state("scene")["camera"]["azimuth_deg"], 0)  # beyond 180 the azimuth continues at -180
         self.assertEqual(widget.png[:4], b"\x89PNG")
         widget.set(azimuth_rate_deg=0)
         self.rested(page)

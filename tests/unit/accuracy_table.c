@@ -1,5 +1,5 @@
-/* The accuracy table: choices from synthetic tables, the JSON document in both directions, the file, and the sets of
- * rays. */
+/* Tests of the accuracy table: choices from synthetic tables, the JSON document in both directions, the file, and the
+ * sets of rays. */
 #include "physics/spacetime/kerr.h"
 #include "render/device/accuracy_store.h"
 
@@ -25,7 +25,7 @@ static struct kd_accuracy_row *add(enum kd_engine engine, enum kd_precision prec
     for (int k = 0; k < KD_ACCURACY_SETS; k++) {
         struct kd_accuracy_entry *e = &row->sets[k];
         *e = (struct kd_accuracy_entry) { .rays_per_s = speed, .rays = 1000, .crossings = 1500 };
-        /* Only radii are judged, and nothing near the critical curve. */
+        /* Only errors of radii are used, and none near the critical curve. */
         for (int q = 0; q < KD_ACCURACY_QUANTITIES; q++)
             e->of[q] = k == KD_ACCURACY_NEAR_CRITICAL || q ? (struct kd_accuracy_errors) { 1, 1, 1 }
                                                            : (struct kd_accuracy_errors) { median, 4 * median, 1 };
@@ -74,7 +74,8 @@ static void the_cheapest_that_holds(void **state)
     (void)state;
     expect(0.5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4);
     expect(1e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4);
-    expect(0.99e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8); /* the fastest below, not the least accurate */
+    expect(0.99e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8); /* the fastest row below the tolerance, not the least
+                                                                * accurate one */
     expect(1e-8, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8);
     expect(0.99e-8, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16);
     expect(1e-11, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16);
@@ -95,20 +96,20 @@ static void what_none_holds(void **state)
 {
     (void)state;
     refused(0.99e-11, "1.01e-11 and above (mino-rkn6 f64 with 16 steps)");
-    expect(1.01e-11, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16); /* a tolerance that it offers is accepted */
+    expect(1.01e-11, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16); /* a tolerance that a message offers is accepted */
     table.n = 4;                                                 /* a device without double precision */
     refused(0.99e-6, "mino-rkn6 f32 with 8 steps");
     refused(0, "above 0");
     refused(-1e-6, "above 0");
     refused(NAN, "nan");
     refused(1, "below 1");
-    table.n = 1; /* the closed form's errors are not in its own table */
+    table.n = 1; /* the closed form's own row does not contain its errors */
     refused(0.5, "kerrd bench accuracy");
     table.n = 0;
     refused(0.5, "kerrd bench accuracy");
 }
 
-/* A number of steps may suffice for the bulk and not edge-on. */
+/* With some number of steps the bulk may be accurate enough, but not edge-on rays. */
 static void other_sets(void **state)
 {
     (void)state;
@@ -184,7 +185,7 @@ static void there_and_back(void **state)
     kd_buffer_finish(&text);
 }
 
-/* Every prefix, and damaged documents, give an error and never a table. */
+/* Every prefix of a document, and every damaged document, gives an error and never a table. */
 static void no_table(void **state)
 {
     (void)state;

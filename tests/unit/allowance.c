@@ -1,4 +1,4 @@
-/* A client's long-term allowance of device time, with a simulated clock. */
+/* Tests of a client's long-term allowance of device time, with a simulated clock. */
 #include "server/http/allowance.h"
 
 #include <math.h>
@@ -71,7 +71,7 @@ static void test_patient_work_leaves_a_half(void **state)
     assert_true(kd_allowance_may(&all, "b", true, NOW));
 }
 
-/* A debtor is not forgotten when other clients come and go. */
+/* A client in debt is not forgotten when other clients come and go. */
 static void test_the_fullest_gives_way(void **state)
 {
     (void)state;

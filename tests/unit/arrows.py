@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Arrows point one way: base <- physics <- scene <- render -> vk, image; scene <- quantity; server and the command line
-on top.
+"""Includes point one way: base <- physics <- scene <- render -> vk, image; scene <- quantity; server and cli on top.
 
 arrows.py SRC     exit 1 naming every #include in SRC that points the wrong way, after proving that it finds some
 """
@@ -10,18 +9,18 @@ import re
 import sys
 import tempfile
 
-# What each module may include besides itself. The server uses no Vulkan type, so not vk; whoever adds a module adds a
-# row.
+# What each module may include besides itself. The server uses no Vulkan type, so it does not include vk. A new module
+# needs a row here.
 MODULES = {
     "base": set(),
     "physics": {"base"},
     "scene": {"base", "physics"},
     "quantity": {"base", "physics", "scene"},  # of scene: how numbers and names are read and written
     "image": {"base"},
-    "orbit": {"base", "physics", "scene", "image"},  # of scene: as quantity
+    "orbit": {"base", "physics", "scene", "image"},  # of scene, the same as quantity
     "observe": {"base"},
     "integral": {"base", "observe", "physics", "scene", "image", "render"},  # of render: plans and frames
-    "playground": {"base", "physics", "scene", "image"},  # of scene: as quantity
+    "playground": {"base", "physics", "scene", "image"},  # of scene, the same as quantity
     "vk": {"base"},
     "render": {"base", "physics", "scene", "image", "vk"},
     "job": {"base", "scene", "playground", "render"},  # of render: what frames become
@@ -55,7 +54,7 @@ MODULES = {
     },
     "main.c": {"base", "cli"},
 }
-# Inside the large modules a folder may include those listed before it; files in none of them are at the top and may
+# Inside a large module, a folder may include those listed before it. Files of the module that are in no folder may
 # include all.
 FOLDERS = {
     "render": [
@@ -75,7 +74,7 @@ FOLDERS = {
     ],
     "server": ["http", "asset", "render", "session", "playground", "job", "openapi", "answers"],
 }
-# Inside physics each folder may include itself and these; every file is in a folder.
+# Inside physics, a folder may include itself and the listed ones; every file is in a folder.
 ROOMS = {
     "physics": {
         "math": set(),
@@ -86,7 +85,7 @@ ROOMS = {
         "waves": {"math", "spacetime"},
     }
 }
-# In these modules files must not include each other in a circle: a header and its source count as one, with the
+# In these modules files must not include each other in a circle. A header and its source count as one, with the
 # includes of both.
 NO_CIRCLES = {"base", "physics", "scene", "quantity", "orbit", "observe", "integral", "playground", "job", "cli"}
 # Headers of other projects, and who may include them.
@@ -102,7 +101,7 @@ FOREIGN = {
     "argp.h": {"cli"},
     "sixel.h": {"cli"},
 }
-# Made from shaders/, which has no other way to be included.
+# Files made from shaders/, which cannot be included in another way.
 SHADERS = re.compile(r"^(\w+\.spv\.h|(interface|emitters|faces|layers|lens|spec)\.h)$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.M)
 
@@ -114,7 +113,8 @@ def rank(module, parts):
 
 
 def room_knows(module, mine, its):
-    """Whether a file in the folder mine of a module may include one in the folder its; None is no folder."""
+    """True if a file in the folder `mine` of a module may include one in the folder `its`; None stands for no
+    folder."""
     rooms = ROOMS[module]
     return mine in rooms and its in rooms and (mine == its or its in rooms[mine])
 
@@ -132,7 +132,7 @@ def wrong(src):
             yield f"{where}: {module} is no module that arrows.py knows"
             continue
         for own, foreign in INCLUDE.findall(path.read_text(encoding="utf-8")):
-            # <scene/scene.h> and "vulkan/vulkan.h" would be found as well
+            # also finds <scene/scene.h> and "vulkan/vulkan.h"
             header = own or foreign
             other = header.split("/")[0]
             for prefix, allowed in FOREIGN.items():
@@ -156,7 +156,7 @@ def wrong(src):
 
 
 def circle(known):
-    """Files each of which includes the next, and the last one the first; [] if there is no circle."""
+    """Files of which each includes the next, and the last one the first; [] if there is no circle."""
     done, way = set(), []
 
     def follow(file):
@@ -186,7 +186,7 @@ def circles(src):
 
 
 def self_test():
-    """Each kind of wrong include is found, a right one is not reported."""
+    """Each kind of wrong include is found, and a right one is not reported."""
     faults = {
         "base/a.c": '#include "physics/spacetime/kerr.h"',
         "physics/a.h": "#include <vulkan/vulkan.h>",

@@ -1,4 +1,4 @@
-/* Shares of the device's time, with a simulated clock, and against another algorithm. */
+/* Tests of the shares of the device's time, with a simulated clock and compared with another algorithm. */
 #include "server/session/budget.h"
 
 #include <math.h>
@@ -51,7 +51,7 @@ static void want(struct bench *b, struct kd_budget_entry *e, double demand)
         kd_budget_end(e, b->now, ms);
         b->now += k ? 0 : pause;
     }
-    kd_budget_ask(e, b->now + (demand > 0 ? pause : 0)); /* it is waiting now, for as long as it takes */
+    kd_budget_ask(e, b->now + (demand > 0 ? pause : 0)); /* the frame waits from now on, for as long as necessary */
 }
 
 static void who_is_alone_has_everything(void **state)
@@ -97,13 +97,13 @@ static void a_single_pause_or_a_slow_frame_says_little(void **state)
         frame(&b, e, 0, 20, 10);
     frame(&b, e, 0, 20, 390);
     assert_true(kd_budget_demand(e, b.now) > 0.66);
-    frame(&b, e, 0, 20, 1e5); /* a long rest */
+    frame(&b, e, 0, 20, 1e5); /* a long pause */
     assert_true(kd_budget_demand(e, b.now) == 0);
-    kd_budget_ask(e, b.now); /* counts at once */
+    kd_budget_ask(e, b.now); /* the request counts immediately */
     assert_true(kd_budget_demand(e, b.now) > 0.66);
     kd_budget_end(e, b.now, 100);
     assert_true(kd_budget_demand(e, b.now) < 0.81);
-    for (int k = 0; k < 9; k++) /* rare, regular requests are a small demand */
+    for (int k = 0; k < 9; k++) /* requests that are rare and regular are a small demand */
         frame(&b, e, 0, 20, 380);
     assert_true(fabs(kd_budget_demand(e, b.now) - 0.05) < 1e-9);
 }
@@ -118,7 +118,7 @@ static void frames_that_are_given_up_measure_nothing(void **state)
     kd_budget_ask(e, b.now);
     kd_budget_end(e, b.now + 5, 0);
     assert_true(fabs(kd_budget_demand(e, b.now + 10) - 0.5) < 1e-9);
-    assert_true(kd_budget_demand(e, b.now + 1e3) == 0); /* and it has stopped waiting */
+    assert_true(kd_budget_demand(e, b.now + 1e3) == 0); /* the entry has stopped waiting */
 }
 
 /* Pauses between the hold time and 2 s belong to the same gesture. */
@@ -175,7 +175,8 @@ static void clients_come_before_their_sessions(void **state)
         assert_true(fabs(kd_budget_share(&b.budget, &b.entries[i], b.now) - 1.0 / 14) < 1e-9);
 }
 
-/* Poured drop by drop, each to the least full vessel with room: n bowls, one without a bottom. */
+/* Another algorithm, which pours drop by drop, each drop to the least full vessel with room: n bowls, and one without a
+ * bottom. */
 static double pour(const double *sizes, int n, double whole)
 {
     static const double drop = 1e-4;

@@ -1,4 +1,5 @@
-/* Bytes held by clients: the total, a client's share, the reserve for small ones, and the one that may exceed. */
+/* Tests of the bytes that clients hold: the total, a client's share, the reserve for small ones, and the one that may
+ * exceed the total. */
 #include "server/http/bytes.h"
 
 #include <setjmp.h>
@@ -60,14 +61,16 @@ static void test_room_for_small_ones(void **state)
     kd_bytes_destroy(b);
 }
 
-/* A client that holds nothing may hold any size that the others leave room for; alone, any size at all. */
+/* A client that holds nothing may hold any size that the others leave room for. If nobody holds anything, any size at
+ * all is allowed. */
 static void test_a_lone_one(void **state)
 {
     struct kd_bytes *b = make(true);
     (void)state;
     assert_int_equal(take(b, "a", 150), TAKEN);
     assert_int_equal(take(b, "a", 1), OVER_SHARE);
-    assert_int_equal(take(b, "b", 1), FULL); /* there is no reserve for small ones beside one that exceeds the total */
+    assert_int_equal(take(b, "b", 1), FULL); /* the reserve for small ones is not available beside one that exceeds
+                                              * the total */
     kd_bytes_give(b, "a", 150);
     assert_int_equal(take(b, "b", 30), TAKEN);
     assert_int_equal(take(b, "a", 70), TAKEN);
@@ -90,7 +93,7 @@ static void test_what_is_there_already(void **state)
     kd_bytes_destroy(b);
 }
 
-/* More clients than the table distinguishes: they count together, and all bytes are returned. */
+/* There are more clients than the table distinguishes. The surplus is counted together, and all bytes are returned. */
 static void test_many_clients(void **state)
 {
     struct kd_bytes *b = make(false);

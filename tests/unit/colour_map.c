@@ -1,4 +1,4 @@
-/* Colour maps, judged by lightness and hue as displayed: sRGB decoded, XYZ by the standard's matrix, CIELAB. */
+/* Tests of colour maps by lightness and hue as displayed: sRGB decoded, XYZ by the standard's matrix, CIELAB. */
 #include "image/colour_map.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ struct lab { double l, a, b; };
 static double decode(double c) { return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4); }
 static double cube_root(double t) { return t > 216.0 / 24389 ? cbrt(t) : (24389.0 / 27 * t + 16) / 116; }
 
-/* IEC 61966-2-1: linear to XYZ, the inverse of the matrix that the maps are made with. */
+/* The matrix of IEC 61966-2-1 from linear RGB to XYZ. It is the inverse of the matrix with which the maps are made. */
 static struct lab lab_of(struct kd_map_colour c)
 {
     double r = decode(c.r), g = decode(c.g), b = decode(c.b);

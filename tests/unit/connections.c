@@ -1,4 +1,5 @@
-/* Deadlines of connections: a sweep shuts down those whose client is late, and none whose daemon is late. */
+/* Tests of the deadlines of connections: a sweep shuts down those whose client is late, and none for which only the
+ * daemon is late. */
 #include "server/http/connections.h"
 
 #include <setjmp.h>
@@ -63,7 +64,7 @@ static void test_a_silent_client_is_late(void **state)
     closed(&p);
 }
 
-/* Half a request line that has not been read yet: its client may not keep a connection with it. */
+/* Half a request line has not been read yet. Its client must not keep a connection with it. */
 static void test_half_a_line_is_late(void **state)
 {
     (void)state;
@@ -84,7 +85,7 @@ static void test_a_request_that_waits_for_its_daemon_is_not_late(void **state)
     assert_int_equal(kd_connections_hand_on(p.all, p.one, true), KD_HANDED_ON);
     sweep_past_the_deadline(&p);
     assert_false(is_shut(&p));
-    assert_int_equal(recv(p.server, read, sizeof read, 0), sizeof request); /* the daemon starts at last */
+    assert_int_equal(recv(p.server, read, sizeof read, 0), sizeof request); /* now the daemon starts reading */
     sweep_past_the_deadline(&p);
     assert_true(is_shut(&p));
     closed(&p);

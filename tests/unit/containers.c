@@ -1,5 +1,5 @@
-/* Numeric files read back: texts of any length in FITS cards, the checksum by its definition, members of a ZIP file,
- * attributes of an EXR file; and each of them truncated. tests/cli/files.py uses third-party readers. */
+/* Tests that numeric files read back: texts of any length in FITS cards, the checksum by its definition, members of a
+ * ZIP file, and attributes of an EXR file. Each file is also truncated. tests/cli/files.py uses third-party readers. */
 #include "image/exr.h"
 #include "image/fits.h"
 #include "image/unzip.h"
@@ -41,7 +41,8 @@ static bool found(const struct kd_buffer *file, const char *key, const char *exp
     return same;
 }
 
-/* Quotes at every position of texts that fill one, two and three cards: doubled, and never split. */
+/* Texts that fill one, two and three cards have quotes at every position. Quotes are doubled, and the two halves are
+ * never split. */
 static void texts_of_any_length(void **state)
 {
     (void)state;
@@ -61,7 +62,7 @@ static void texts_of_any_length(void **state)
     kd_buffer_finish(&file);
 }
 
-/* By definition: the ones' complement sum of all words of a unit is all ones, and that of the data is DATASUM. */
+/* By definition the ones' complement sum of all words of a unit is all ones, and that of its data is DATASUM. */
 static void checksums(void **state)
 {
     (void)state;
@@ -156,8 +157,8 @@ static void zip_members(void **state)
     }
 }
 
-/* A file truncated anywhere, or with any byte changed, is refused or read: a sanitizer detects overruns, and what is
- * read equals what was written. */
+/* A file that is truncated anywhere, or has any byte changed, is refused or read. A sanitizer detects overruns, and
+ * what is read equals what was written. */
 static void damaged_zip(void **state)
 {
     (void)state;
@@ -194,7 +195,8 @@ static void damaged_zip(void **state)
     kd_buffer_finish(&file);
 }
 
-/* A directory of 700 000 entries is refused by the count in either end record: going through it would take seconds. */
+/* A directory of 700 000 entries is refused because of the count in either end record. Going through it would take
+ * seconds. */
 static void too_many_members(void **state)
 {
     (void)state;
@@ -213,7 +215,7 @@ static void too_many_members(void **state)
     for (int liar = 0; liar < 2; liar++) {
         struct kd_unzip zip;
         struct kd_error error;
-        const uint16_t said = liar ? 3 : 0xffff; /* a liar has more entries than it says */
+        const uint16_t said = liar ? 3 : 0xffff; /* if `liar`, the record states fewer entries than there are */
         const uint32_t bytes_said = liar ? (uint32_t)size : 0xffffffff;
         memcpy(end + 84, &said, 2);
         memcpy(end + 86, &said, 2);
@@ -229,8 +231,8 @@ static void too_many_members(void **state)
     free(bytes);
 }
 
-/* Members beyond 4 GiB read back as the writer declared them: sizes are in the fields of ZIP64. The bytes themselves
- * are taken off, as for a film. */
+/* Members beyond 4 GiB read back with the sizes that the writer declared, which are in the fields of ZIP64. The bytes
+ * themselves are removed, as for a film. */
 static void long_members(void **state)
 {
     (void)state;
@@ -239,7 +241,7 @@ static void long_members(void **state)
     struct kd_buffer file = { 0 };
     struct kd_zip *writer;
     uint8_t *piece = calloc(1, PIECE);
-    uint64_t taken = 0; /* from the buffer */
+    uint64_t taken = 0; /* bytes removed from the buffer */
     OK(kd_zip_create(&file, false, &writer));
     OK(kd_zip_begin(writer, "long", size));
     for (uint64_t left = size, n; left; left -= n) {
@@ -278,7 +280,7 @@ static void exr_texts(void **state)
     OK(kd_exr_find_text(file.data + 6, file.size - 6, "kerrd:scene", &got, &error));
     assert_true(got.size == 13 && !memcmp(got.data, "{\"version\":1}", 13));
     assert_int_equal(kd_exr_find_text(file.data + 6, file.size - 6, "kerrd:none", &got, &error), KD_EINVAL);
-    for (size_t size = 0; size < 300; size += 7) { /* within its header */
+    for (size_t size = 0; size < 300; size += 7) { /* truncated within its header */
         uint8_t *cut = malloc(size + 1);           /* exact size, so that a sanitizer detects an overrun */
         memcpy(cut, file.data + 6, size);
         assert_int_equal(kd_exr_find_text(cut, size, "kerrd:scene", &got, &error), KD_EINVAL);

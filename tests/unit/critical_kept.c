@@ -1,5 +1,5 @@
-/* The cached list of a camera is computed once, equals that of kd_critical_pixels_of whatever was cached before, and
- * is evicted eventually. */
+/* Tests of the cached list of a camera: it is computed once, is eventually evicted, and equals that of
+ * kd_critical_pixels_of whatever was cached before. */
 #include "render/view/critical_kept.h"
 
 #include "scene/table.h"
@@ -51,7 +51,7 @@ static void made_once(void **state)
     scene.image.samples = 3;
     scene.style.exposure = 1;
     assert_int_equal(check(&scene), 0);
-    scene.camera.field_m = 1e-6; /* none: an empty list is cached as well */
+    scene.camera.field_m = 1e-6; /* no pixels: an empty list is cached as well */
     assert_int_equal(check(&scene), 1);
     assert_int_equal(check(&scene), 0);
 }
@@ -91,7 +91,7 @@ static void the_oldest_goes(void **state)
     for (int i = 0; i < KD_CRITICAL_KEPT - 1; i++) {
         struct kd_scene other = scene_of(0.6 + 0.001 * i, 64);
         assert_int_equal(check(&other), 1);
-        assert_int_equal(check(&first), 0); /* used, and so stays */
+        assert_int_equal(check(&first), 0); /* it was used recently, and so stays */
     }
     assert_int_equal(check(&second), 1);
 }

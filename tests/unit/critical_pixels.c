@@ -1,5 +1,5 @@
-/* Pixels on the critical curve, judged by the fates of rays in closed form, which do not use the curve; and the
- * places of rays within such a pixel. */
+/* Tests of the pixels on the critical curve. They are judged by the fates of rays in closed form, which do not use the
+ * curve. Also tests the places of rays within such a pixel. */
 #include "render/view/critical_pixels.h"
 
 #include "physics/null/null_geodesic.h"
@@ -76,7 +76,8 @@ static size_t judge(const struct kd_scene *scene, const char *what)
         assert_true(list.pixels[i].x < WIDTH && list.pixels[i].y < HEIGHT && (!i || at > before));
         listed[before = at] = true;
     }
-    /* Beyond the picture nothing is judged: near its edge a pixel may be listed because of a curve outside. */
+    /* Beyond the picture nothing is judged: near its edge a pixel may be listed because of a part of the curve
+     * outside. */
     const int far = (int)KD_CRITICAL_NEAR + 2;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
@@ -114,7 +115,7 @@ static void from_infinity(void **state)
         }
 }
 
-/* Yawed, rolled, and with the hole all round; and one that looks away from it. */
+/* Cameras that are yawed and rolled, one with the hole all round, and one that looks away from it. */
 static void from_nearby(void **state)
 {
     (void)state;
@@ -158,7 +159,7 @@ static void from_nearby(void **state)
     }
 }
 
-/* A small hole, one with only its edge in the picture, one that fills it, and one outside it. */
+/* A small hole, one of which only the edge is in the picture, one that fills it, and one outside it. */
 static void sizes(void **state)
 {
     (void)state;
@@ -197,8 +198,8 @@ void *__wrap_calloc(size_t n, size_t size)
     return __real_calloc(n, size);
 }
 
-/* Planning the largest picture takes memory for the length of the curve, and not for its 2^30 pixels: a bit for each
- * is 128 MiB. */
+/* Planning the largest picture takes memory for the length of the curve, not for its 2^30 pixels, of which a bit each
+ * would be 128 MiB. */
 static void the_largest_picture(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Shortest decimals against printf and strtod, which are independent. */
+/* Tests of shortest decimals, compared with printf and strtod, which are independent. */
 #include "base/decimal.h"
 
 #include <math.h>
@@ -68,7 +68,8 @@ static int digits_of(const char *text)
     return n - zeros; /* trailing zeros of whole numbers are not significant digits */
 }
 
-/* Reads back as itself; with one digit fewer no text does; and none of as many digits is closer. */
+/* The decimal reads back as the same value. No text with one digit fewer does, and none with as many digits is
+ * closer. */
 static void check(double value)
 {
     char out[KD_DECIMAL_SIZE], fewer[40], same[40];
@@ -110,7 +111,7 @@ static void any_bits(void **state)
     }
 }
 
-/* Same as printf and strtod, unless the two decimals are equally close within rounding. */
+/* The result is that of printf and strtod, unless the two candidates are equally close within rounding. */
 static void rounded(void **state)
 {
     (void)state;

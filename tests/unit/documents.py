@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""What the documents name exists: links, their headings, and the files and folders that stand in backquotes; and
-docs/web.md names each module of the page.
+"""Checks that what the documents name exists: links, headings, and files and folders in backquotes.
 
-    documents.py ROOT     exit 1 naming each document and what it names in vain
+It also checks that docs/web.md names each module of the page.
 
-A name in backquotes is one of a file if it begins with a folder of ROOT or ends as a source does; `job/run.c` may stand
-for src/server/job/run.c, and stars and braces are those of a shell. What a build or a benchmark makes, in build/ and
-with a DATE, need not be there.
+documents.py ROOT     exit 1 naming each document and each missing thing that it names
+
+A text in backquotes is the name of a file if it begins with a folder of ROOT or has the suffix of a source. `job/run.c`
+may stand for src/server/job/run.c; stars and braces have their meaning in a shell. Files made by a build or a
+benchmark, in build/ and with a DATE, need not exist.
 """
 
 import os
@@ -22,7 +23,7 @@ CODE = re.compile(r"^```.*?^```", re.M | re.S)
 
 
 def braces(name):
-    """a{b,c} as a shell has it: ab, ac."""
+    """Expands a{b,c} as a shell does: ab, ac."""
     found = re.search(r"\{([^{}]*)\}", name)
     if not found:
         return [name]
@@ -30,7 +31,7 @@ def braces(name):
 
 
 def anchors(text):
-    """The names that the headings of a document have in links to them."""
+    """The anchors of a document's headings, as links use them."""
     return {
         re.sub(r"[^\w\- ]", "", line.lstrip("#").strip().lower()).replace(" ", "-")
         for line in text.splitlines()
@@ -39,7 +40,7 @@ def anchors(text):
 
 
 def tree(root):
-    """Every file and folder of ROOT that people write, as paths relative to it."""
+    """Every file and folder of ROOT that people write, as paths relative to ROOT."""
     for folder, folders, names in os.walk(root):
         if "build.ninja" in names or "pyvenv.cfg" in names:
             folders.clear()
@@ -49,7 +50,7 @@ def tree(root):
 
 
 def named(name, paths, tops):
-    """Whether a quoted text is the name of a file or folder, and whether that exists."""
+    """Whether a quoted text is the name of a file or folder, and whether this exists."""
     if not re.fullmatch(r"[\w.*{},/-]+", name) or name.startswith("build/") or "DATE" in name or name.startswith("."):
         return True
     for each in braces(name):
@@ -97,7 +98,7 @@ def untold(root):
 
 
 def self_test():
-    """Each kind of wrong name is found, a right one is not reported."""
+    """Each kind of wrong name is found, and a right one is not reported."""
     files = {
         "src/job/run.c": "",
         "docs/right.md": "# A b\n[x](wrong.md#c-1) [y](#a-b) `src/job` `job/run.c` `run.{c,c}` `src/*/run.c` `a/b` `GET /v1` [z](https://a.b/c.md)\n```\n`no.c`\n```\n",

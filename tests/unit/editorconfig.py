@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Every text of the tree is as .editorconfig says: UTF-8, LF, no blanks at the ends of lines, no tabs, one newline at
-the end.
+"""Checks that every text of the tree follows .editorconfig.
 
-editorconfig.py ROOT     exit 1 naming each file and line that is otherwise
+The rules are UTF-8, LF, no blanks at the ends of lines, no tabs, and one newline at the end.
+
+editorconfig.py ROOT     exit 1 naming each file and line that does not follow them
 """
 
 import os
@@ -27,13 +28,13 @@ SUFFIXES = {
     ".supp",
     "",
 }
-# Files that we do not write: other people's files, results that a program wrote, and what git or a build makes.
+# Files that we do not write: third-party files, results that a program wrote, and files made by git or a build.
 LEFT_OUT = ("clients/web/vendor", "bench/results", "venv")
 
 
 def texts(root):
-    """The files of ROOT that people write, except in hidden folders and those of builds, which are recognised by the
-    names that git ignores or by a build.ninja."""
+    """The files of ROOT that people write. Hidden folders are left out, and those of builds, which are recognised by
+    the names that git ignores or by a build.ninja."""
     for folder, folders, names in os.walk(root):
         where = pathlib.Path(folder).relative_to(root).as_posix()
         if where in LEFT_OUT or "build.ninja" in names or "pyvenv.cfg" in names:
@@ -42,7 +43,7 @@ def texts(root):
         folders[:] = sorted(
             name
             for name in folders
-            if name == ".ci" or not name.startswith((".", "__", "build")) and not name.endswith(".egg-info")
+            if name == ".ci" or not name.startswith((".", "__", "build", "venv-")) and not name.endswith(".egg-info")
         )
         for name in sorted(names):
             path = pathlib.Path(folder) / name
@@ -71,12 +72,12 @@ def wrong(root):
                 yield f"{where}:{number}: blanks or CR at the end"
             if b"\t" in line and not (
                 number > 1 and line.startswith(b"\t") and data.startswith(b"#!/usr/bin/make ")
-            ):  # which asks for them
+            ):  # make requires tabs
                 yield f"{where}:{number}: a tab"
 
 
 def self_test():
-    """Each kind of fault is found, a right text is not reported."""
+    """Each kind of fault is found, and a right text is not reported."""
     faults = {
         "a.c": b"int a; \n",
         "b.py": b"if 1:\n\tpass\n",

@@ -24,11 +24,11 @@ static void all_are_there(void **state)
         assert_non_null(kd_emitters[i]->present);
         assert_true(kd_emitters[i]->n_sentences > 0); /* each has approximations */
         assert_true(!kd_emitters[i]->fill ||
-                    kd_emitters[i]->depends[0].size); /* otherwise it would be filled only once */
+                    kd_emitters[i]->depends[0].size); /* otherwise the numbers would be filled only once */
     }
 }
 
-/* None is dropped silently: a plan has room for all sentences. */
+/* No sentence is dropped silently: a plan has room for all of them. */
 static void sentences_have_room(void **state)
 {
     (void)state;
@@ -122,7 +122,7 @@ static const char GAS[] =
     "{\"disk\": {\"slow_light\": true, \"emission_opacity\": 10, \"gas\": {\"amplitude\": 1}}, \"time\": 7, "
     "\"camera\": {\"r\": 40}}";
 
-/* Numbers depend on the present scene only, whatever was filled before, in any order. */
+/* Numbers depend only on the present scene, whatever was filled before, in any order. */
 static void numbers_follow_the_scene(void **state)
 {
     (void)state;
@@ -294,7 +294,7 @@ static void what_shines_is_told(void **state)
     kd_buffer_finish(&json);
 }
 
-/* Stars are a pass of their own, diffuse light is not; without either the sky is only black. */
+/* Stars have a pass of their own, diffuse light has none; without either the sky is simply black. */
 static void skies(void **state)
 {
     (void)state;
@@ -387,7 +387,7 @@ static void brightness_of_skies(void **state)
         scene.disk.model = KD_DISK_NONE;
         assert_true(kd_scene_sky_brightness(&scene) == 0.2);
         scene.spots.count = 1;
-        assert_true(kd_scene_sky_brightness(&scene) == 0.2); /* it is off */
+        assert_true(kd_scene_sky_brightness(&scene) == 0.2); /* the spot is off */
         scene.spots.at[0].brightness = 1;
         assert_true(kd_scene_sky_brightness(&scene) == 0.01);
         scene.sky.brightness = 3;

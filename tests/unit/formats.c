@@ -121,8 +121,8 @@ static int shows(const struct kd_plan *plan)
     return n;
 }
 
-/* For a picture the plan exposes, renders and reads back, and does not measure light; for light alone it measures,
- * without a picture. */
+/* For a picture, the plan exposes, renders and reads back, and does not measure light. For light alone, it measures and
+ * makes no picture. */
 static void a_plan_is_for_what_is_carried(void **state)
 {
     (void)state;

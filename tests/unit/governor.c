@@ -1,4 +1,5 @@
-/* Governor and ladder, on machines that are steady, noisy, temporarily loaded, recorded, and adversarial. */
+/* Tests of the governor and its ladder, on machines that are steady, noisy, temporarily loaded, recorded, and
+ * adversarial. */
 #include "governor_recorded.h"
 #include "governor_simulation.h"
 
@@ -44,7 +45,7 @@ static void assert_same_scene(const struct kd_scene *a, const struct kd_scene *b
 
 static int rank(int samples) { return samples ? samples : 9; }
 
-/* The order of qualities: nothing is given up before everything that precedes it. */
+/* Checks the order of qualities: nothing is reduced before everything that precedes it in the order is reduced. */
 static void assert_order(const struct kd_quality *before, const struct kd_quality *after)
 {
     bool scale = after->scale < before->scale, samples = rank(after->samples) < rank(before->samples);
@@ -140,7 +141,8 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
     }
     assert_int_equal(ladder.rungs[4].quality.width, 640);
     assert_int_equal(ladder.rungs[4].quality.height, 360);
-    asked.camera.projection = KD_PROJECTION_RING; /* photon rings, one above the other: as many as requested */
+    asked.camera.projection = KD_PROJECTION_RING; /* the picture has as many photon rings, one above the other, as
+                                                   * were requested */
     asked.accuracy.orders = 7;
     kd_ladder_make(&asked, &bounds, &ladder);
     for (size_t i = 0; i < ladder.n_rungs; i++)
@@ -157,8 +159,8 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
     assert_true(ladder.rungs[without].quality.sketch && ladder.rungs[without].quality.profile == KD_PROFILE_DRAFT);
 }
 
-/* An adaptively sampled view moves with one ray a pixel if that is too slow, and comes to rest with all; the scale
- * is not reduced for it. */
+/* If an adaptively sampled view is too slow, it has one ray a pixel while it moves, and all rays at rest. The scale is
+ * not reduced for this. */
 static void adaptive_pictures_move_with_one_ray(void **state)
 {
     (void)state;
@@ -203,7 +205,7 @@ static void settles_on_a_steady_machine(void **state)
             assert_true(true_cost(&s, last_rung(&s), pattern == PLAY) > 1.1 * (may - fixed) + fixed);
             hopeless++;
         }
-        if (rung > 0) /* a rung that uses 80 % of the room was climbed to */
+        if (rung > 0) /* a rung at which a frame uses 80 % of the target is reached by climbing */
             assert_true(true_cost(&s, rung - 1, pattern == PLAY) - fixed > 0.8 * (may - fixed) ||
                         (pattern == PLAY && true_cost(&s, rung - 1, false) - fixed > 0.7 * s.governor.params.stall_ms));
     }
@@ -211,7 +213,7 @@ static void settles_on_a_steady_machine(void **state)
     assert_true(reached > 200 && hopeless > 20);
 }
 
-/* Frames report only their total time. */
+/* The same if frames report only their total time. */
 static void settles_when_told_only_totals(void **state)
 {
     (void)state;
@@ -230,7 +232,7 @@ static void settles_when_told_only_totals(void **state)
     }
 }
 
-/* A first estimate avoids the slow frames. */
+/* With a first estimate there are no slow frames at the beginning. */
 static void begins_where_it_is_told_to_expect(void **state)
 {
     (void)state;
@@ -274,7 +276,7 @@ static void two_slow_frames_are_enough(void **state)
     assert_true(true_cost(&s, s.governor.paces[1].rung, false) <= 33);
 }
 
-/* What does not go with the size */
+/* Costs that do not depend on the size */
 
 /* Ten million particles take 220 ms: no size of picture brings them to 33. */
 static void what_cannot_be_mended_costs_no_resolution(void **state)
@@ -301,7 +303,8 @@ static void what_cannot_be_mended_costs_no_resolution(void **state)
         }
 }
 
-/* But the picture's own part is kept within a quarter of that, and within half the target. */
+/* But the part of the time that depends on the picture's size is limited to the larger of half the target and a quarter
+ * of the fixed part. */
 static void what_can_be_mended_is(void **state)
 {
     (void)state;
@@ -318,7 +321,7 @@ static void what_can_be_mended_is(void **state)
     }
 }
 
-/* Full size again soon, however slow the first frames were. */
+/* Full size returns soon, however slow the first frames were. */
 static void recovers_from_a_slow_beginning(void **state)
 {
     (void)state;
@@ -340,8 +343,8 @@ static void recovers_from_a_slow_beginning(void **state)
     }
 }
 
-/* Time advances for minutes; then a drag; afterwards it continues at full size, however long ago the last change
- * was. */
+/* Time advances for minutes; then the view is dragged; afterwards time advances at full size, however long ago the last
+ * change was. */
 static void a_drag_is_soon_forgotten(void **state)
 {
     (void)state;
@@ -377,7 +380,7 @@ static void another_kind_of_scene_begins_anew(void **state)
     }
 }
 
-/* A ringing smooth disk does not move: the picture keeps its size on any machine, and regains it. */
+/* A smooth disk that rings does not move: the picture keeps its size on any machine, and regains it. */
 static void what_only_rings_keeps_its_size(void **state)
 {
     (void)state;
@@ -431,10 +434,11 @@ static void what_refinement_measured_is_believed(void **state)
     change(&s, true);
     frame(&s);
     assert_true(s.last.final);
-    /* And one that is much too low. */
+    /* and a first estimate that is much too low */
     begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 180, .reused = 6, .pixels = 4 });
     change(&s, true);
-    /* Nothing was rendered while the camera moved: that frames trace is learnt from one that misses its lens map. */
+    /* Nothing was rendered while the camera moved. The governor learns that frames trace from one that misses its
+     * lens map. */
     s.now += 1000;
     frame(&s);
     change(&s, true);
@@ -493,9 +497,9 @@ static void load_that_comes_and_goes_is_followed(void **state)
     }
 }
 
-/* Machines that want it to oscillate */
+/* Machines that provoke oscillation */
 
-/* Cheap until it climbs a rung, expensive while it stays there. */
+/* A machine that is cheap until the governor climbs a rung, and expensive while it stays there. */
 static struct kd_frame_cost slow_after_each_climb(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     (void)scene, (void)reused;
@@ -504,7 +508,7 @@ static struct kd_frame_cost slow_after_each_climb(const struct simulation *s, co
     return (struct kd_frame_cost) { .rays_ms = ms / 2, .pixels_ms = ms / 2, .total_ms = ms };
 }
 
-/* The same, and without a climb to punish it forces it down a rung at a time. */
+/* The same machine, which also forces the governor down a rung at a time when it does not climb. */
 static struct kd_frame_cost greedy(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     (void)scene, (void)reused;
@@ -542,7 +546,7 @@ static struct kd_frame_cost liar(const struct simulation *s, const struct kd_sce
         struct kd_frame_cost) { .fixed_ms = large ? 0 : 70, .rays_ms = large ? 80 : 1, .total_ms = large ? 80 : 71 };
 }
 
-/* Its fixed part comes and goes. */
+/* A machine whose fixed part comes and goes. */
 static struct kd_frame_cost restless(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     struct kd_frame_cost c = truthful(s, scene, reused);
@@ -552,8 +556,8 @@ static struct kd_frame_cost restless(const struct simulation *s, const struct kd
     return c;
 }
 
-/* Bounds failed climbs: since the wait doubles after each, 3 s (2^n - 1) <= T, plus those before the first wait, one
- * a rung; each is at most between a descent and a climb of the whole ladder. */
+/* Bounds the number n of failed climbs: since the wait doubles after each, 3 s (2^n - 1) <= T. In addition there are
+ * those before the first wait, one for each rung. Each causes at most a descent and a climb of the whole ladder. */
 static void assert_settles(machine *adversary, struct truth truth, int hours)
 {
     struct simulation s;
@@ -631,7 +635,7 @@ static void slow_traced_frames_leave_cheap_ones_alone(void **state)
     assert_int_equal(s.changes, changes);
 }
 
-/* After a drag the first frame in which only time advances traces, on its own rung. */
+/* The first frame after a drag in which only time advances traces rays, and is on the rung of such frames. */
 static void the_end_of_a_drag_is_no_stall(void **state)
 {
     (void)state;
@@ -649,13 +653,13 @@ static void the_end_of_a_drag_is_no_stall(void **state)
         assert_true(longest <= 1.1 * 500);
         uint32_t rung = s.governor.paces[0].rung;
         assert_true(full > 0.7 * 500 ? true_cost(&s, rung, false) <= 1.1 * 500 : s.last.final);
-        /* And not less than necessary, as far as can be told: orders and steps cost less on this machine than the
-         * governor assumes. */
+        /* The rung is not lower than necessary, as far as the governor can know: on this machine orders and steps cost
+         * less than it assumes. */
         assert_true(rung == 0 || true_cost(&s, rung - 1, false) > 0.4 * 500);
     }
 }
 
-/* The visible quality settles too, not only each rung. */
+/* The visible quality settles too, and not only the rung of each kind of frame. */
 static void mixed_changes_do_not_flicker(void **state)
 {
     (void)state;
@@ -691,7 +695,7 @@ static void lens_maps_that_are_never_kept(void **state)
         seen += s.last.scale != last;
     }
     print_message("hoped for %llu times more\n", (unsigned long long)seen);
-    assert_true(seen <= 4); /* there and back; each retry is twice as rare as the one before */
+    assert_true(seen <= 4); /* down and up again; each retry is twice as rare as the one before */
 }
 
 /* Rest */
@@ -705,7 +709,7 @@ static double refine_to_rest(struct simulation *s, int *n)
             assert_true(turn.quality.final);
             break;
         }
-        s->now += turn.wait_ms; /* exactly until it says so */
+        s->now += turn.wait_ms; /* waits exactly as long as the governor says */
         assert_true(frame(s));
         assert_true(s->last.scale >= before.scale &&
                     (s->last.samples >= before.samples || s->last.scale > before.scale));
@@ -729,7 +733,7 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
         assert_true(frame(&s)); /* at once, at the present rung */
         const bool final = s.last.final, slow = s.now > changed + 150;
         struct kd_frame_decision turn = kd_governor_decide(&s.governor, s.now);
-        if (!slow) { /* what is shown is in force */
+        if (!slow) { /* the shown quality is the one in use */
             assert_int_equal(turn.quality.width, s.last.width);
             assert_int_equal(turn.quality.samples, s.last.samples);
         }
@@ -774,12 +778,12 @@ static void a_change_breaks_into_refinement(void **state)
     struct kd_frame_decision turn = kd_governor_decide(&s.governor, s.now);
     assert_true(turn.refining && turn.wait_ms == 0 && turn.quality.samples == 1 &&
                 turn.quality.profile == KD_PROFILE_BALANCED);
-    /* Not reported: it is offered again. */
+    /* The refinement was not reported, so it is offered again. */
     assert_true(kd_governor_decide(&s.governor, s.now + 50).refining);
     change(&s, true);
     struct kd_frame_decision next = kd_governor_decide(&s.governor, s.now);
     assert_true(!next.refining && next.wait_ms == 0 && next.quality.scale < 1);
-    /* The old frame arrives after all: it is neither what is wanted now, nor a measurement. */
+    /* The old frame arrives after all. It is not what is wanted now, and does not count as a measurement. */
     struct kd_pace pace = s.governor.paces[1];
     kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .rays_ms = 9e5, .total_ms = 9e5 });
     assert_same_pace(&pace, &s.governor.paces[1]);
@@ -814,8 +818,8 @@ static void time_keeps_the_rays_at_the_curve(void **state)
     assert_true(dragged.rung && dragged.quality.critical == 2);
 }
 
-/* In a drag the rays near the critical curve and the stars are reduced, on any rung but the first; while time
- * advances and at rest all are there. */
+/* In a drag there are fewer rays near the critical curve and fewer stars, on any rung but the first. While time
+ * advances, and at rest, all are there. */
 static void a_drag_has_fewer_rays_at_the_curve(void **state)
 {
     (void)state;
@@ -920,9 +924,9 @@ static void whatever_happens_the_answer_is_sound(void **state)
     }
 }
 
-/* A starry view whose azimuth changes: 7.2 ms of the rays' time, from the frames of a session, do not depend on the
- * picture's size, and this is not reported. It was too slow for a while because of other load; then it regains the
- * size that meets the target. */
+/* A starry view whose azimuth changes. By the frames of a session, 7.2 ms of the rays' time do not depend on the
+ * picture's size, which frames do not report. The view was too slow for a while because of other load. Then it must
+ * regain the size that meets the target. */
 static struct kd_frame_cost starry(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     const double pixels = 1e-3 * scene->image.width * scene->image.height,
@@ -957,8 +961,8 @@ static void what_stays_at_any_size_is_learned(void **state)
     }
 }
 
-/* The same view in a session whose first frame, for which kernels were compiled, made it start on the lowest rung:
- * it has seen no other rung, from which the fixed part could be inferred. */
+/* The same view in a session that started on the lowest rung, because kernels were compiled during its first frame. It
+ * has seen no other rung from which the fixed part could be inferred. */
 static void who_began_low_finds_out(void **state)
 {
     (void)state;
@@ -1058,8 +1062,8 @@ static double after_frames(struct kd_governor *governor, const struct kd_scene *
     return after_frames_of(governor, scene, now, 0, full_ms, frames);
 }
 
-/* If much of a frame's time is independent of its size, half the width returns as soon as there is time for it, and
- * not earlier. */
+/* If much of a frame's time is independent of its size, half the width returns as soon as there is time for it, and not
+ * before. */
 static void wide_frames_come_back_where_much_stays(void **state)
 {
     (void)state;
@@ -1074,15 +1078,16 @@ static void wide_frames_come_back_where_much_stays(void **state)
     kd_governor_least(&governor, 0.5, 100);
     double now = 0;
     assert_true(after_frames_of(&governor, &scene, &now, 20, 140, 300) == 0.5); /* 56 ms */
-    assert_true(after_frames_of(&governor, &scene, &now, 40, 280, 50) == 0.25); /* 111 ms, on a quarter 59 */
+    /* 111 ms; with a quarter of the width 59 ms */
+    assert_true(after_frames_of(&governor, &scene, &now, 40, 280, 50) == 0.25);
     for (int i = 0; i < 300; i++)
         assert_true(after_frames_of(&governor, &scene, &now, 40, 280, 1) < 0.5);
     assert_true(after_frames_of(&governor, &scene, &now, 20, 140, 60) == 0.5);
     assert_true(after_frames_of(&governor, &scene, &now, 20, 140, 300) == 0.5);
 }
 
-/* Half the width is kept while such a frame is within the patience, given up beyond it, and regained when it would be
- * within it again, or when the scene is another. */
+/* Half the width is kept while such a frame is within the patience, and given up beyond it. It returns when such a
+ * frame would be within the patience again, or when the scene is another. */
 static void wide_frames_give_way_to_slowness(void **state)
 {
     (void)state;

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Frame times for the simulations of governor.c: kd_bench_frame at each resolution of the ladder, on whatever machine
-this is.
+"""Frame times for the simulations of governor.c: kd_bench_frame at each resolution of the ladder, on this machine.
 
 governor_record.py BUILD > governor_recorded.h
 """

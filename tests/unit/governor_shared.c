@@ -32,7 +32,7 @@ static double rate(const struct sharer *s, double ms) { return 1e3 * (double)s->
 
 static uint32_t rung(const struct sharer *s) { return s->sim.governor.paces[1].rung; }
 
-/* A session among resting ones gets the same service as alone. */
+/* A session beside resting ones is served as if it were alone. */
 static void alone_is_as_it_was(void **state)
 {
     (void)state;
@@ -87,8 +87,8 @@ static void tell(const char *what, int n, const struct device *d, const struct s
                   (unsigned long long)sum->seen);
 }
 
-/* Without knowledge of its share a session keeps a picture that takes 30 ms, and loses frames: 4 a second for eight.
- * With it all have the same rate, none falls below 12 for eight, and quality is stable. */
+/* A session that does not know its share keeps a picture that takes 30 ms, and loses frames: with eight sessions each
+ * has 4 a second. If they know it, all have the same rate, with eight at least 12, and quality is stable. */
 static void many_keep_moving(void **state)
 {
     (void)state;
@@ -128,7 +128,7 @@ static void noise_divides_nobody(void **state)
     }
 }
 
-/* On any machine, with any pause: each gets its share, and comes as close to its target as it would alone. */
+/* On any machine, with any pause, each session gets its share, and comes as close to its target as it would alone. */
 static void parts_are_equal_on_any_machine(void **state)
 {
     (void)state;
@@ -151,7 +151,7 @@ static void parts_are_equal_on_any_machine(void **state)
         for (int i = 0; i < n; i++)
             assert_true(d.sharers[i].sim.governor.share >= 0.999 / n);
         if (rung(s) + 1 < s->sim.governor.ladder.n_rungs &&
-            sum.used > 0.9) { /* otherwise it is too slow at its minimum, or idle */
+            sum.used > 0.9) { /* otherwise the machine is too slow at its minimum, or idle */
             assert_true(cost <= 1.1001 * may_take(period * share, truth.fixed));
             assert_true(sum.most <= 1.25 * sum.least);
             reached++;
@@ -161,7 +161,7 @@ static void parts_are_equal_on_any_machine(void **state)
     assert_true(reached > 60 && seen <= 40);
 }
 
-/* A frame that waits for others for longer than a hand's rest is not taken for a resting hand. */
+/* A frame that waits for others longer than a hand rests is not taken for a resting hand. */
 static void who_waits_is_not_taken_for_resting(void **state)
 {
     (void)state;
@@ -177,7 +177,7 @@ static void who_waits_is_not_taken_for_resting(void **state)
     }
 }
 
-/* One governor that is told */
+/* One governor that is told its share */
 
 static void with_share(struct simulation *s, double share, enum pattern pattern, double ms)
 {
@@ -185,7 +185,7 @@ static void with_share(struct simulation *s, double share, enum pattern pattern,
     run(s, pattern, ms);
 }
 
-/* Slowness with an eighth of the device says nothing about all of it. */
+/* Being slow with an eighth of the device says nothing about the whole device. */
 static void a_ceiling_of_less_is_none(void **state)
 {
     (void)state;
@@ -197,8 +197,8 @@ static void a_ceiling_of_less_is_none(void **state)
     assert_true(s.last.final);
 }
 
-/* However often others come: a climb that they end does not count as failed, and the wait before the next does not
- * grow. */
+/* However often other sessions come, a climb that ends because of them does not count as failed, and the wait before
+ * the next climb does not grow. */
 static void climbs_that_others_end_are_not_in_vain(void **state)
 {
     (void)state;
@@ -234,8 +234,8 @@ static void a_stall_is_shared(void **state)
 
 /* Coming and going */
 
-/* Within two and a half seconds a session recovers what it had alone; in the seconds after others come all have
- * their frames. */
+/* When the others leave, a session recovers within two and a half seconds what it had alone. In the seconds after they
+ * come, all have their frames. */
 static void others_come_and_go(void **state)
 {
     (void)state;
@@ -264,7 +264,8 @@ static void others_come_and_go(void **state)
         }
 }
 
-/* A pause of less than two seconds in a gesture is not lent: what others see does not fluctuate with it. */
+/* If another session pauses for less than two seconds in a gesture, its time is not lent, so that the rates of the
+ * others do not fluctuate. */
 static void strokes_of_another_are_not_seen(void **state)
 {
     (void)state;
@@ -283,9 +284,9 @@ static void strokes_of_another_are_not_seen(void **state)
         }
 }
 
-/* What is not used is lent */
+/* Unused time is lent */
 
-/* A session with a small demand, at whatever rate, costs the others only that. */
+/* A session with a small demand takes from the others only this demand, whatever its rate of requests. */
 static void who_asks_for_little_gets_little(void **state)
 {
     (void)state;
@@ -301,7 +302,7 @@ static void who_asks_for_little_gets_little(void **state)
         print_message("another asks after %.0f ms: %.1f and %.1f frames/s, a share of %.2f, scale %g\n", pause,
                       rate(one, 60e3), rate(&d.sharers[1], 60e3), one->sim.governor.share, one->sim.last.scale);
         assert_true(rate(one, 60e3) > 22 && one->seen <= 2 && one->sim.governor.share > 0.55);
-        assert_true(pause < 200 || one->sim.last.scale == 0.625); /* as it has alone */
+        assert_true(pause < 200 || one->sim.last.scale == 0.625); /* as it is alone */
     }
 }
 
@@ -329,8 +330,8 @@ static void clients_share_before_sessions(void **state)
 
 /* Refinement */
 
-/* A picture that takes long to refine yields to moving ones: it has a fifth of their client's time, or its own
- * client's half. */
+/* A picture that takes long to refine yields to moving ones. It has a fifth of the time of the client that they share
+ * or, if it belongs to another client, the half of that client. */
 static void refinement_makes_way(void **state)
 {
     (void)state;

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""What the compiler was asked to guard against is in the program.
+"""Checks that the program contains the protections that the compiler was asked for.
 
-hardening.py PROGRAM FLAG...    FLAG: what the compiler has been given. Exit 77: no readelf."""
+hardening.py PROGRAM FLAG...    FLAG: a flag that the compiler was given. Exit 77: there is no readelf.
+"""
 
 import re
 import shutil
@@ -27,7 +28,7 @@ def main(program, flags):
     }
     if any("FORTIFY_SOURCE=" in f for f in flags):
         found["fortified"] = re.search(r"__\w+_chk\b", symbols.replace("__stack_chk_fail", ""))
-    # Debian's C library does not mark its own start files, so that the linker marks no program: landing pads are
+    # Debian's C library does not mark its own start files, so that the linker marks no program. Landing pads are
     # counted instead.
     with open(program, "rb") as f:
         code = f.read()

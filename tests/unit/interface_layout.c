@@ -45,7 +45,7 @@ struct spirv {
 };
 #define SPIRV(name) { #name, kd_spv_##name, sizeof kd_spv_##name / 4 }
 
-/* The next instruction of this opcode whose first operand is `id` (0: any) after *at; NULL at the end. */
+/* Finds the next instruction with this opcode whose first operand is `id` (0: any), from *at on; NULL at the end. */
 static const uint32_t *next(const struct spirv *s, size_t *at, uint32_t opcode, uint32_t id)
 {
     while (*at < s->n) {
@@ -59,7 +59,7 @@ static const uint32_t *next(const struct spirv *s, size_t *at, uint32_t opcode, 
     return NULL;
 }
 
-/* The struct as laid out in a buffer; one that variables use as well exists a second time, without offsets. */
+/* The struct as laid out in a buffer. A struct that variables use as well exists a second time, without offsets. */
 static uint32_t struct_called(const struct spirv *s, const char *name)
 {
     size_t at = 5;
@@ -269,8 +269,8 @@ static void particles_kernel(void **state)
     assert_int_equal(sizeof(struct kd_guide), 4 * COUNT(guide_fields));
 }
 
-/* The blocks of all emitters: their members, and the offsets of the blocks. A list in a block, which ends in an
- * unnamed element, may have only arrays; their elements are checked separately. */
+/* Checks the blocks of all emitters: their members, and the offsets of the blocks. A list in a block ends in an unnamed
+ * element and may have only arrays; the elements are checked separately. */
 #undef F
 #undef U
 #define F(name) { #name, offsetof(BLOCK, name), OP_TYPE_FLOAT },

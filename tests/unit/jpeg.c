@@ -1,5 +1,5 @@
-/* JPEG in strips: libjpeg decodes it like the same picture in one scan, and the bytes are the same for any number of
- * threads. */
+/* Tests of JPEG in strips: libjpeg decodes it like the same picture in one scan, and the bytes are the same for any
+ * number of threads. */
 #include "image/jpeg.h"
 #include "base/parallel.h"
 

@@ -89,7 +89,8 @@ static bool is_precise(const struct spirv *s, uint32_t id)
     return false;
 }
 
-/* Counts sums, differences and products in functions whose name begins with this, and how many of them are precise. */
+/* Counts sums, differences and products in functions whose name begins with `name`, and how many of them are
+ * precise. */
 static void count(const struct spirv *s, const char *name, int *all, int *precise)
 {
     uint32_t id = 0;
@@ -111,8 +112,8 @@ static void count(const struct spirv *s, const char *name, int *all, int *precis
     }
 }
 
-/* Delta and the turning-point test: every operation. Nystroem steps: those that produce y and v, at least six in
- * each of the two orders. */
+/* Delta and the turning-point test: every operation must be precise. Nystroem steps: at least six operations that
+ * produce y and v in each of the two orders. */
 static void what_must_not_be_reordered(void **state)
 {
     (void)state;
@@ -133,7 +134,7 @@ static void what_must_not_be_reordered(void **state)
                          all);
             found += all > 0 && kernels[k].motion;
         }
-    assert_true(found >= 10); /* the names are still valid */
+    assert_true(found >= 10); /* the functions still have these names */
 }
 
 /* Counts decorations of all operations of these kinds. */

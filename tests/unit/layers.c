@@ -206,7 +206,7 @@ static void formats_take_what_they_hold(void **state)
     assert_true(plan.n_layers == 0 && plan.picture && !plan.radiance);
 }
 
-/* Layers that are not requested are not in the plan; requested ones are, in bytes and quantities. */
+/* Layers that are not requested are not in the plan. Requested ones are, in its bytes and its quantities. */
 static void plans_have_what_is_asked_for(void **state)
 {
     (void)state;

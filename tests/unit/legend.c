@@ -58,12 +58,13 @@ static void numbers_are_round(void **state)
     check_labels(&(struct kd_map_scale) { 1e-3, 10, true }, 24, "0.001 0.01 0.1 1 10");
     check_labels(&(struct kd_map_scale) { 1.03, 1.05, true }, 18, "1.03 1.04 1.05");
     check_labels(&(struct kd_map_scale) { 4, 4, false }, 18, "4");
-    check_labels(&(struct kd_map_scale) { 0, 2, true }, 18, ""); /* none, and without delay: this is not a scale */
+    check_labels(&(struct kd_map_scale) { 0, 2, true }, 18, ""); /* no number, and no long search: this is not a
+                                                                  * scale */
     check_labels(&(struct kd_map_scale) { -1, 2, true }, 18, "");
     check_labels(&(struct kd_map_scale) { 1, INFINITY, true }, 18, "1");
 }
 
-/* For any scale: at least two numbers, at their places, without touching. */
+/* For any scale, the bar has at least two numbers, at the right places, without touching each other. */
 static void numbers_fit(void **state)
 {
     (void)state;
@@ -181,7 +182,7 @@ static void classes_have_boxes(void **state)
     free(canvas.pixels);
 }
 
-/* Two titles that differ only in their last letter give different pictures: the panel is as wide as its title. */
+/* Two titles that differ only in their last letter give different pictures, since the panel is as wide as its title. */
 static void a_long_title_is_whole(void **state)
 {
     (void)state;

@@ -144,7 +144,8 @@ static void a_mount_of_a_part(void **state)
     assert_int_equal(limit().left, 512 * MIB);
     machine("35 31 0:32 /docker/c0ffee /sys/fs/cgroup/memory ro - cgroup cgroup rw,memory\n",
             "4:memory:/docker/c0ffee00\n");
-    assert_int_equal(limit().left, 1024 * MIB); /* another group, whose name begins with this one's */
+    assert_int_equal(limit().left, 1024 * MIB); /* the limit of another group, whose name begins with this one's,
+                                                 * does not apply */
     machine(V2, "0::/../../user.slice\n");      /* outside the namespace */
     put("/sys/fs/cgroup/memory.max", "805306368\n");
     assert_int_equal(limit().left, 768 * MIB);

@@ -1,4 +1,5 @@
-/* Memory that a picture may take, on devices that share the host's memory and on those with their own. */
+/* Tests of the memory that a picture may take, on devices that share the host's memory and on devices with their
+ * own. */
 #include "render/device/memory_share.h"
 
 #include "render/accuracy/table.h"
@@ -36,13 +37,13 @@ static void a_device_that_is_the_host(void **state)
     /* with half as much on the host, three quarters */
     assert_true(c.memory_bytes <= GIB && c.memory_bytes > GIB * 9 / 10);
     assert_string_equal(c.memory_by, "the memory.max of a control group");
-    c = device(GIB / 2, true); /* less than the host's */
+    c = device(GIB / 2, true); /* less than what is free on the host */
     kd_memory_narrow(&c, &container, 0);
     assert_int_equal(c.memory_bytes, GIB / 2);
     assert_null(c.memory_by);
 }
 
-/* Memory held by the last picture is available to the next, but only as far as it was ever written. */
+/* Memory held for the last picture is available to the next, but only the part that was ever written. */
 static void what_is_held_counts_once(void **state)
 {
     (void)state;
@@ -92,7 +93,7 @@ static void plans_keep_to_it(void **state)
     assert_non_null(strstr(error.message, "GiB of host memory"));
 }
 
-/* Pixels on the host count for a device that is the host. */
+/* Pixels on the host count if the device is the host. */
 static void frames_count(void **state)
 {
     (void)state;

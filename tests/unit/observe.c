@@ -142,7 +142,7 @@ static void test_both_files_say_the_same(void **state)
     kd_observation_finish(&b);
 }
 
-/* If the model is the data times a factor, that scale is found and, without debiasing, chi^2 is 0. */
+/* If the data are the model times a factor, this factor is found and, without debiasing, chi^2 is 0. */
 static void test_the_flux_that_fits(void **state)
 {
     (void)state;
@@ -282,8 +282,8 @@ static void test_a_table_that_is_shorter_than_its_rows(void **state)
     free(data);
 }
 
-/* A file that is cut anywhere is an error, unless the part cut off was not needed; nothing beyond the end is read
- * (the sanitizers watch). */
+/* A file that is cut anywhere is an error, unless the missing part is not needed. Nothing beyond the end is read (the
+ * sanitizers watch). */
 static void test_files_that_are_cut(void **state)
 {
     (void)state;
@@ -303,7 +303,7 @@ static void test_files_that_are_cut(void **state)
             free(copy);
         }
         if (!f)
-            assert_true(good <= 4); /* within the last table, which is not read */
+            assert_true(good <= 4); /* the cut was within the last table, which is not read */
         free(data);
     }
 }

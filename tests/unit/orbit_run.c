@@ -27,7 +27,7 @@ static enum kd_status read_exact(const char *text, size_t length, struct kd_orbi
     return status;
 }
 
-/* Read, solved and prepared. */
+/* Reads, solves and prepares a request. */
 static enum kd_status try (const char *text, struct kd_error *error) {
     struct kd_orbit_request request; struct kd_buffer out = { 0 }; struct kd_orbit_feed *feed = calloc(1, sizeof *feed);
     assert_non_null(feed);
@@ -167,8 +167,8 @@ static void pieces_change_nothing(void **state)
     }
 }
 
-/* A duration in periods with "or_end": an orbit that has no periods is followed to its end, as without a duration;
- * for a bound one periods count as usual. */
+/* A duration in periods with "or_end". An orbit without periods is followed to its end, as without a duration; for a
+ * bound one periods count as usual. */
 static void to_its_end_instead(void **state)
 {
     (void)state;
@@ -206,8 +206,8 @@ static void to_its_end_instead(void **state)
     free(samples);
 }
 
-/* The tolerance is per period: within ten times it after ten periods, and t, compared with r, within a hundred
- * times. */
+/* The tolerance is per period. After ten periods the error is at most ten tolerances, and the error of t, compared with
+ * the error of r, at most a hundred. */
 static void methods_agree(void **state)
 {
     (void)state;
@@ -235,7 +235,7 @@ static void methods_agree(void **state)
                 const struct kd_orbit_place *a = &samples[k][n].place, *b = &samples[2][n].place;
                 double off = fmax(fabs(a->r / b->r - 1), fmax(fabs(a->theta - b->theta), fabs(a->phi - b->phi)));
                 off = fmax(off, fmax(fabs(a->t - b->t) / (1 + b->t), fabs(a->proper - b->proper) / (1 + b->proper)));
-                if (!(off < (k == KD_WAY_RKN6 ? 1e-9 : 1e-10))) /* whose errors grow with the square of time */
+                if (!(off < (k == KD_WAY_RKN6 ? 1e-9 : 1e-10))) /* the errors of RKN6 grow with the square of time */
                     fail_msg("%s by %s, sample %d: off by %.2g", orbits[i], kd_orbit_way_name((enum kd_orbit_way)k), n,
                              off);
             }
@@ -273,7 +273,8 @@ static void ends(void **state)
         { "{\"orbit\":{\"position\":{\"r\":10,\"theta_deg\":0}},\"spin\":0.9}", KD_ORBIT_PLUNGE, KD_END_HORIZON },
         { "{\"orbit\":{\"p\":5.9,\"e\":0}}", KD_ORBIT_PLUNGE, KD_END_HORIZON },
         { "{\"orbit\":{\"p\":5.9999999999999991,\"e\":0}}", KD_ORBIT_PLUNGE,
-          KD_END_DURATION }, /* starts as a circle, but its instability grows by a factor of e in some 1e7 turns */
+          KD_END_DURATION }, /* starts as a circle, but it is unstable: a deviation grows by a factor of e in some
+                              * 1e7 turns */
         { "{\"orbit\":{\"p\":6,\"e\":0}}", KD_ORBIT_BOUND, KD_END_DURATION },
     };
     for (size_t i = 0; i < COUNT(rows); i++) {

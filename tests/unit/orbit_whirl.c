@@ -135,9 +135,9 @@ static void lets_go_before_infinity(void **state)
         fail_msg("t %.15g, Mino time %.15g, r %.15g, stated %.2g", a.t, a.mino, a.r, a.stated);
 }
 
-/* If r_max is far away, the first search for the end takes steps that are too long for the whirl: with these values
- * the body once fell through the circle instead of whirling. Expected values by the quadrature of
- * tests/oracle/whirl_reference.py, from r_max and back, with nodes that crowd towards infinity as well. */
+/* If r_max is far away, the first search for the end takes steps that are too long for the whirl. With these values the
+ * body once fell through the circle instead of whirling. Expected values are by the quadrature of
+ * tests/oracle/whirl_reference.py, from r_max to the whirl and back, with nodes that crowd towards infinity as well. */
 static void ends_where_r_max_is_far(void **state)
 {
     (void)state;
@@ -182,7 +182,7 @@ static void ends_where_r_max_is_far(void **state)
     print_message("r_max far away: the worst error is %.2g\n", worst);
 }
 
-/* The message must show enough digits to tell the given value from that of the whirl. */
+/* The message must show enough digits to distinguish the given value from that of the whirl. */
 static void refusal_shows_every_digit(void **state)
 {
     (void)state;

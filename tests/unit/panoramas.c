@@ -74,7 +74,7 @@ static int fetch(struct kd_panoramas *all, const char *image, enum kd_status wan
 static void ahead(struct kd_panoramas *all, const char *image)
 {
     kd_panorama_ahead(all, image);
-    kd_panoramas_stop(all); /* waits for it */
+    kd_panoramas_stop(all); /* waits for the thread */
 }
 
 static void is_there_when_it_is_asked_for(void **state)
@@ -84,14 +84,14 @@ static void is_there_when_it_is_asked_for(void **state)
     kd_panoramas_init(&all, &assets, NULL, NULL);
     ahead(&all, "a");
     assert_int_equal(fetch(&all, "a", KD_OK), 0);
-    ahead(&all, "a"); /* does nothing: it is there already */
+    ahead(&all, "a"); /* has no effect, since the panorama exists already */
     assert_int_equal(fetch(&all, "a", KD_OK), 0);
     assert_int_equal(fetch(&all, "b", KD_OK), 1);
     kd_panoramas_finish(&all);
 }
 
-/* A panorama made ahead takes only a free place, never that of a requested one, and its own place is given to one
- * that is requested. */
+/* A panorama made ahead takes only a free place, never that of a requested one. Its place is given to one that is
+ * requested. */
 static void has_a_free_place_only(void **state)
 {
     struct kd_panoramas all;
@@ -113,8 +113,8 @@ static void has_a_free_place_only(void **state)
     kd_panoramas_finish(&all);
 }
 
-/* A failure to make a panorama ahead is not reported; the next request for it tries again and gets the result of
- * that. */
+/* A failure to make a panorama ahead is not reported. The next request tries again and gets the result of this
+ * attempt. */
 static void what_fails_is_tried_again(void **state)
 {
     struct kd_panoramas all;
@@ -155,8 +155,8 @@ static void put(const char *path, long at, uint8_t byte)
 /* The position in the file of the first word of a texel. */
 static long place(uint32_t row, uint32_t column) { return 32 + 4 * ((long)row * KD_MILKY_WAY_WIDTH + column); }
 
-/* A Milky Way read from the kept file equals the one that was made, to the bit. If the file is of another seed,
- * damaged, cut short, or has other values than the program computes, the Milky Way is made anew and the file
+/* A Milky Way read from the stored file equals the one that was made, to the bit. If the file is of another seed,
+ * damaged, cut short, or has other values than the program computes, the Milky Way is made anew and the file is
  * replaced. */
 static void what_is_kept_is_what_was_made(void **state)
 {
@@ -193,7 +193,7 @@ static void what_is_kept_is_what_was_made(void **state)
     free(made);
 }
 
-/* If the folder cannot be written, nothing is lost except time. */
+/* If the folder cannot be written, the only loss is time. */
 static void nowhere_to_keep_it(void **state)
 {
     (void)state;

@@ -63,7 +63,7 @@ static void test_idle_each_once(void **state)
     kd_parallel_threads = 0;
 }
 
-/* Each item ends only when another has begun: shows that as many threads run at once as were asked for. */
+/* Each item ends only when another has begun, which shows that as many threads run at once as were requested. */
 static atomic_uint begun;
 
 static void meet(void *user, size_t item)

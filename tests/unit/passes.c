@@ -1,5 +1,5 @@
-/* Tests that the table of passes is consistent: every pass occurs in some plan, and every figure of cost is measured
- * by some pass. The same for the emitters that have a figure. */
+/* Tests that the table of passes is consistent: every pass occurs in some plan, and every figure of cost is measured by
+ * some pass. The same is tested for the emitters that have a figure. */
 #include "render/accuracy/table.h"
 #include "render/emit/emitter.h"
 #include "render/frame/frame.h"
@@ -34,8 +34,7 @@ static struct kd_plan planned(const char *json, const struct kd_capacity *c)
     return plan;
 }
 
-/* Scenes of which each pass and each figure has at least one: whoever adds a pass or a figure adds a scene that uses
- * it. */
+/* Each pass and each figure occurs in at least one of these scenes. A new pass or figure needs a scene that uses it. */
 static const char *const scenes[] = {
     "{}",
     "{\"image\": {\"samples\": \"auto\"}}",
@@ -77,7 +76,7 @@ static void words_stay(void **state)
         assert_true(kd_figures[i].guess > 0);
 }
 
-/* A plan with footprints, as whoever makes the plan may ask for; an emitter that needs them has the same effect. */
+/* A plan with footprints, as a caller may request. An emitter that needs them has the same effect. */
 static struct kd_plan with_footprints(const struct kd_capacity *c)
 {
     struct kd_scene scene;
@@ -118,7 +117,7 @@ static void each_is_in_a_plan_and_each_figure_learned(void **state)
             fail_msg("no pass is measured for \"%s\"", kd_figures[i].word);
 }
 
-/* An emitter with buffers of its own has a way to fill them, and if that is a pass, one whose name exists. */
+/* An emitter with buffers of its own has a way to fill them. If that is a pass, a pass of this name exists. */
 static void emitters_are_prepared(void **state)
 {
     (void)state;
@@ -201,7 +200,7 @@ static uint64_t class_of(const char *json)
     return planned(json, &c).cost_class;
 }
 
-/* What is learned from one picture is the estimate for others of its class, whatever their size and from which side
+/* What is learned from one picture is the estimate for others of its class, whatever their size and the side from which
  * the hole is seen, and for no other class. */
 static void estimates_are_of_a_class(void **state)
 {

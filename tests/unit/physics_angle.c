@@ -1,5 +1,5 @@
-/* Cosines and sines of angles in degrees against values of 40 digits (mpmath), especially near multiples of 90
- * degrees. */
+/* Tests of cosines and sines of angles in degrees, compared with values of 40 digits (mpmath), especially near
+ * multiples of 90 degrees. */
 #include "physics/math/angle.h"
 
 #include <float.h>

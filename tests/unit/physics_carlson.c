@@ -1,5 +1,5 @@
-/* Carlson's and Legendre's integrals against quadratures of their definitions to 40 digits
- * (tests/oracle/null_reference.py); Jacobi's functions against the integrals that they invert. */
+/* Tests of Carlson's and Legendre's integrals, compared with quadratures of their definitions to 40 digits
+ * (tests/oracle/null_reference.py). Jacobi's functions are compared with the integrals that they invert. */
 #include "physics/math/carlson.h"
 #include "physics/math/elliptic.h"
 
@@ -24,7 +24,7 @@ static void close_to(const char *what, double x, double y, double got, double wa
                  fabs(got / want - 1), relative);
 }
 
-/* Some five steps with a few roundings each, and all terms positive: 2e-15. */
+/* Some five steps with a few roundings each, in which all terms are positive: 2e-15. */
 static void symmetric(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The colour of a black body against published chromaticities and efficacies, and against a second quadrature whose
- * Planck function is itself tested by the Stefan-Boltzmann law. */
+/* Tests of the colour of a black body. It is compared with published chromaticities and efficacies, and with a second
+ * quadrature, whose Planck function is itself tested by the Stefan-Boltzmann law. */
 #include "physics/disk/colour.h"
 
 #include <math.h>
@@ -123,7 +123,7 @@ static void stefan_and_boltzmann(void **state)
             total += radiance(exp(y), t) * exp(y) * log(1e7) / n;
         }
         double want = 5.670374419e-8 * pow(t, 4) / M_PI;
-        near("total radiance", t, total / want, 1, 1e-8); /* the constants have nine digits */
+        near("total radiance", t, total / want, 1, 1e-8); /* the published constants have nine digits */
         struct kd_colour_xyz got = kd_colour_blackbody(t), fine = second_opinion(t);
         near("X", t, got.x / fine.x, 1, 3e-4);
         near("Y", t, got.y / fine.y, 1, 3e-4);

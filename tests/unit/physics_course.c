@@ -1,6 +1,6 @@
-/* The course of a ray, place by place, against the Hamiltonian integrated in Kerr-Schild coordinates: another method
- * and other coordinates, without a formula in common. Places between crossings are checked by rays that start from
- * there. */
+/* Tests of the course of a ray, place by place. It is compared with the Hamiltonian integrated in Kerr-Schild
+ * coordinates, which is another method in other coordinates, without a formula in common. Places between crossings are
+ * checked by rays that start from there. */
 #include "physics/null/null_course.h"
 
 #include "kerr_schild.h"
@@ -48,7 +48,7 @@ static void say(const struct kd_null_ray *ray, const char *what, int n, double g
 
 static double horizon(double a) { return 1 + sqrt((1 - a) * (1 + a)); }
 
-/* How far neighbours may be apart: 0.03 rad on the sphere, or the steps of w that straight rays take. */
+/* The maximum distance of neighbours: 0.03 rad on the sphere, or the steps of w that straight rays take. */
 static void check_neighbours(const struct kd_null_ray *ray, const struct kd_null_place *p,
                              const struct kd_null_place *q)
 {
@@ -97,7 +97,7 @@ static void judge(const struct kd_null_ray *ray, const struct ks_photon *photon)
         if (!(fabs(p->phi - closed.crossing[n].phi) <= phi)) /* the number of turns counts, too */
             say(ray, "turns of crossing", n, p->phi, closed.crossing[n].phi, phi);
     }
-    int there = 0; /* crossings farther out than the path goes, or closer to the horizon, are not part of it */
+    int there = 0; /* crossings farther out than the path, or closer to the horizon than it, are not part of it */
     for (int n = 0; n < oracle.crossings; n++)
         there += oracle.r[n] < 0.999 * far && oracle.r[n] > 1.001 * (horizon(ray->spin) + near);
     if (met < there)
@@ -155,8 +155,8 @@ static void from_nearby(void **state)
     assert_true(compared > 1000);
 }
 
-/* Any place of a path lies on it: a ray in closed form that starts there with the same constants has the same
- * crossings ahead, with the same azimuths and delays except for the part already covered. */
+/* Any place of a path lies on the ray. A ray in closed form that starts there with the same constants has the same
+ * crossings ahead, with the same azimuths and delays, except for the part already covered. */
 static void between_crossings(void **state)
 {
     static struct kd_null_place places[MOST];

@@ -1,6 +1,6 @@
-/* Critical curve, spherical photon orbits and local frames against searches with 60 digits for the ray that just
- * does not turn (tests/oracle/critical_reference.py), against published values, and against closed-form rays on both
- * sides of the curve. */
+/* Tests of the critical curve, spherical photon orbits and local frames. They are compared with searches in 60 digits
+ * for the ray that just does not turn (tests/oracle/critical_reference.py), with published values, and with closed-form
+ * rays on both sides of the curve. */
 #include "physics/null/critical.h"
 
 #include "physics/null/null_geodesic.h"
@@ -114,8 +114,8 @@ static void equatorial_orbits_keep_time(void **state)
     }
 }
 
-/* Orbits given by their radius or by their place on the curve satisfy the conditions of a double root, R = R' = 0,
- * in the textbook's form. */
+/* Orbits given by their radius or by their place on the curve satisfy the conditions of a double root, R = R' = 0, in
+ * textbook form. */
 static void orbits_are_double_roots(void **state)
 {
     (void)state;
@@ -169,7 +169,7 @@ static void symmetric_and_continuous(void **state)
     }
 }
 
-/* A ray traced in closed form, 1e-9 outside the curve, leaves; inside it falls in. */
+/* A ray traced in closed form that is 1e-9 outside the curve escapes; one that is 1e-9 inside falls in. */
 static void the_edge_of_the_shadow(void **state)
 {
     (void)state;
@@ -265,7 +265,7 @@ static void from_far_away(void **state)
 }
 
 /* Area and mean radius by another rule: polygons with points at equal steps of Bardeen's parameter, extrapolated.
- * And Johannsen & Psaltis' asymmetry A of a displaced circle is 0. */
+ * Johannsen & Psaltis' asymmetry A of a displaced circle must be 0. */
 static double polygon(double a, double u, int n)
 {
     double s = sqrt(1 - u * u), low = kd_kerr_photon_orbit(kd_hole(a)), high = kd_kerr_photon_orbit(kd_hole(-a)),
@@ -297,7 +297,7 @@ static void measures(void **state)
     near(m.asymmetry, 0, 1e-14, "asymmetry", 0.9, 0);
     near(m.area, M_PI * m.mean_radius * m.mean_radius, 1e-12, "area", 0.9, 0);
     near(m.width, m.height, 1e-13, "width", 0.9, 0);
-    /* D is 2 a sin(i) for slow holes (Bardeen 1973; Chan et al. 2013 fit the rest). */
+    /* For slow holes D is 2 a sin(i) (Bardeen 1973; Chan et al. 2013 fit the rest). */
     struct kd_critical slow = curve_of(1e-5, 0.5, INFINITY, KD_OBSERVER_STATIC);
     near(kd_critical_measure(&slow).displacement, 2e-5 * sqrt(0.75), 1e-13, "displacement", 1e-5, 0);
 }
@@ -318,7 +318,7 @@ static void bad_input(void **state)
     assert_int_equal(kd_critical_of(&held).status, KD_CRITICAL_NO_OBSERVER);
 }
 
-/* The points for drawing lie on the curve and reach from one end to the other. */
+/* The points of the curve that are meant for drawing lie on the curve and reach from one end to the other. */
 static void drawn(void **state)
 {
     (void)state;

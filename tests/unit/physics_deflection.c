@@ -1,5 +1,5 @@
-/* Bending of light against quadrature from the metric (tests/oracle/deflection_reference.py), published numbers, and
- * its limits of weak and strong fields. */
+/* Tests of the bending of light, compared with quadrature from the metric (tests/oracle/deflection_reference.py), with
+ * published numbers, and with its limits of weak and strong fields. */
 #include "physics/math/quadrature.h"
 #include "physics/null/deflection.h"
 #include "physics/spacetime/kerr.h"
@@ -38,8 +38,8 @@ static void critical(void **state)
     close_to("critical", -1, 0, kd_deflection_critical(kd_hole(-most)), 7, 1e-14);
 }
 
-/* The errors are within what the header promises. The closest approach is a root that becomes double on the critical
- * ray: near it it moves with the square root. */
+/* The errors are within those of the header. The closest approach is a root that becomes double on the critical ray, so
+ * that near it the root changes as a square root. */
 static void angles(void **state)
 {
     (void)state;
@@ -150,7 +150,7 @@ static void outside_the_domain(void **state)
     assert_true(isnan(kd_deflection(kd_hole(0.5), -30)));
 }
 
-/* x^p y^q, whose integral is Euler's beta function: an integrable singularity at either end. */
+/* x^p y^q, whose integral is Euler's beta function. It has an integrable singularity at either end. */
 static double power(double x, double y, const void *context)
 {
     const double *p = context;

@@ -1,5 +1,6 @@
-/* The thin disk against quadrature of the integral that defines its flux (tests/oracle/disk_reference.py), against
- * energy conservation, and the redshift against a contraction with the metric. */
+/* Tests of the thin disk. It is compared with quadrature of the integral that defines its flux
+ * (tests/oracle/disk_reference.py) and with energy conservation; the redshift is compared with a contraction with the
+ * metric. */
 #include "physics/disk/thin_disk.h"
 #include "physics/spacetime/kerr.h"
 
@@ -35,8 +36,8 @@ static void flux_is_the_integral(void **state)
 
 typedef double (*function)(const struct kd_hole *hole, double r);
 
-/* Integral of 4 pi r F(r) weight(r) from the ISCO to infinity, in y = sqrt(r_isco/r), where the integrand is
- * a power series that starts with y: Simpson's rule. */
+/* Integral of 4 pi r F(r) weight(r) from the ISCO to infinity, by Simpson's rule in y = sqrt(r_isco/r). In y the
+ * integrand is a power series that starts with y. */
 static double luminosity(function flux, function weight, double a)
 {
     const int n = 20000;

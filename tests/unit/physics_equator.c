@@ -1,5 +1,5 @@
-/* Epicyclic frequencies, effective potentials and frame dragging against numbers worked out from the metric and
- * Carter's potentials (tests/oracle/equator_reference.py). */
+/* Tests of epicyclic frequencies, effective potentials and frame dragging, compared with numbers computed from the
+ * metric and Carter's potentials (tests/oracle/equator_reference.py). */
 #include "physics/orbit/orbit_bound.h"
 #include "physics/spacetime/epicyclic.h"
 #include "physics/spacetime/kerr.h"
@@ -46,8 +46,8 @@ static void frequencies(void **state)
                1e-14 * pow(r, -1.5));
 }
 
-/* Against geodesics of small eccentricity by elliptic functions: the azimuth runs ahead of its mean by the shear.
- * The orbit starts at periastron, r = r0 (1 - e cos kappa t), so that phi lags by shear r0 e sin(kappa t)/kappa.
+/* Compared with geodesics of small eccentricity, by elliptic functions: the azimuth runs ahead of its mean by the
+ * shear. The orbit starts at periastron, r = r0 (1 - e cos kappa t), so that phi lags by shear r0 e sin(kappa t)/kappa.
  * This holds to first order in e over the distance to the ISCO. */
 static void shear(void **state)
 {

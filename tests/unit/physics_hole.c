@@ -1,4 +1,4 @@
-/* The struct of a hole's constants, and the metric, against the same formulas in long double. */
+/* Tests of the struct of a hole's constants and of the metric, compared with the same formulas in long double. */
 #include "physics/spacetime/hole.h"
 
 #include <float.h>

@@ -1,5 +1,5 @@
-/* Peters's inspiral against the quadrupole formula itself summed over an orbit, against quadrature
- * (tests/oracle/inspiral_reference.py) and against published data of pulsars. */
+/* Tests of Peters's inspiral. It is compared with the quadrupole formula summed over an orbit, with quadrature
+ * (tests/oracle/inspiral_reference.py), and with published data of pulsars. */
 #include "physics/waves/inspiral.h"
 
 #include "inspiral_reference.h"
@@ -137,9 +137,9 @@ static void pulsars(void **state)
     }
 }
 
-/* f' = 96/5 pi^(8/3) Mc^(5/3) f^(11/3), and known numbers: 4.4 kHz for the last stable orbit of one solar mass; 134
- * Hz one second before the end for 1.21 solar masses (Maggiore 4.20), which is 2.8 % more than Kepler's law gives
- * for the wave of a circle at that time. */
+/* The chirp obeys f' = 96/5 pi^(8/3) Mc^(5/3) f^(11/3). Known numbers: 4.4 kHz for the last stable orbit of one solar
+ * mass; 134 Hz one second before the end for 1.21 solar masses (Maggiore 4.20), which is 2.8 % more than Kepler's law
+ * gives for the wave of a circle at that time. */
 static void chirp(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Circular orbits of Kerr against numbers computed from the metric alone (tests/oracle/kerr_reference.py), and
- * against properties that hold at any spin. */
+/* Tests of circular orbits of Kerr, compared with numbers computed from the metric alone
+ * (tests/oracle/kerr_reference.py), and with properties that hold at any spin. */
 #include "physics/spacetime/kerr.h"
 
 #include "kerr_reference.h"

@@ -1,5 +1,5 @@
-/* Lensing bands against quadratures with 60 digits (tests/oracle/critical_reference.py), published intervals, and
- * rays traced in closed form; and the demagnification from order to order. */
+/* Tests of lensing bands, compared with quadratures in 60 digits (tests/oracle/critical_reference.py), with published
+ * intervals, and with rays traced in closed form. Also tests the demagnification from order to order. */
 #include "physics/null/lensing.h"
 
 #include "physics/math/root.h"
@@ -34,7 +34,7 @@ static void against_the_oracle(void **state)
         double d = kd_lensing_edge(&c, &p, e->order, e->source);
         if (!(fabs(d / e->distance - 1) < 4e-14 + 1e-16 / sqrt(1 - e->spin)))
             fail_msg("row %zu: %.17g, not %.17g", i, d, e->distance);
-        /* and back to the source; d ln r/d ln d is some 10 at most, except at infinity and at the horizon */
+        /* and from d back to the source; d ln r/d ln d is some 10 at most, except at infinity and at the horizon */
         double r = kd_lensing_source(&c, &p, e->order, d);
         if (e->source == 6 && !(fabs(r / 6 - 1) < 1e-12))
             fail_msg("row %zu: source at %.17g", i, r);
@@ -56,7 +56,7 @@ static void the_rings_of_gralla_holz_wald(void **state)
     }
 }
 
-/* The same edges found by rays in closed form, as close to the critical curve as alpha and beta can resolve: just
+/* The same edges are found by rays in closed form, as close to the critical curve as alpha and beta can resolve. Just
  * inside an edge the source is nearer. */
 static void rays_agree(void **state)
 {

@@ -1,6 +1,6 @@
-/* Line profiles and spectra of disks against sums over rays of the image plane; transfer functions and the image of
- * the disk against rays integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h); lamps against rays in
- * flat space and in Schwarzschild's metric. */
+/* Tests of line profiles and spectra of disks, compared with sums over rays of the image plane. Transfer functions and
+ * the image of the disk are compared with rays integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h), and
+ * lamps with rays in flat space and in Schwarzschild's metric. */
 #include "physics/disk/disk_image.h"
 #include "physics/disk/disk_spectrum.h"
 #include "physics/disk/lamppost.h"
@@ -65,8 +65,8 @@ static void test_rings_are_where_rays_lead(void **state)
         }
 }
 
-/* The nodes of the table lie where rays meet their ring, although most are found from one ray and one step whose
- * result is not checked: within 5e-7 of r up to 80 degrees, 3e-6 at 85. Next to edge on within 2e-5. */
+/* The nodes of the table lie where rays meet their ring, although most are found from one ray and one step whose result
+ * is not checked. The error is within 5e-7 of r up to 80 degrees, 3e-6 at 85, and 2e-5 next to edge-on. */
 static void test_nodes(void **state)
 {
     static const double spins[] = { 0, 0.9, 0.998, 0.99999, -0.998 }, inclinations[] = { 0, 40, 72, 80, 85, 86.9 };
@@ -139,7 +139,7 @@ static void sum_over_rays(double a, double i, double outer, const double *edges,
     memset(in, 0, EDGES * sizeof *in);
     for (int k = 0; k < across; k++)
         for (int j = 0; j < around; j++) {
-            /* Each direction begins at another offset, so that no edge of the disk runs along the grid. */
+            /* each direction has another offset, so that no edge of the disk runs along the grid */
             double rho = exp(first + (k + fmod(0.6180339887498949 * j, 1)) * step), chi = 2 * M_PI * (j + 0.5) / around;
             struct kd_null_ray ray = {
                 .spin = a, .radius = INFINITY, .cos_theta = cos(i), .sin_theta = sin(i), .orders = 1
@@ -158,8 +158,8 @@ static void sum_over_rays(double a, double i, double outer, const double *edges,
         in[e] /= all;
 }
 
-/* A sum whose permitted error is set: it is within that error of the sum over rays, and not many times more accurate
- * (then it would waste work); its total is within 0.2 parts in a thousand of that of the most accurate one. */
+/* A sum with a given tolerance is within this error of the sum over rays. It is not many times more accurate, which
+ * would be wasted work. Its total is within 0.2 parts in a thousand of that of the most accurate sum. */
 static void tolerated(double a, double i, const struct kd_line_params *closest, const double *edges, const double *in,
                       double total)
 {
@@ -178,8 +178,8 @@ static void tolerated(double a, double i, const struct kd_line_params *closest, 
     within("total", a, i, profile.total / total, 1, 2e-4);
 }
 
-/* 200 000 rays: this sum itself is off by up to 5e-4; with 36 times as many rays by 1e-4. The profile's estimate of
- * its error must hold, and be below the 0.3 % that is asked for. */
+/* The sum over 200 000 rays is itself off by up to 5e-4; with 36 times as many rays by 1e-4. The profile's estimate of
+ * its error must hold, and be below the requested 0.3 %. */
 static void test_cumulative_share(void **state)
 {
     static const struct { double a, i; } cases[] = { { 0, 30 }, { 0.5, 60 }, { 0.998, 30 }, { 0.998, 80 } };
@@ -209,8 +209,8 @@ static void test_cumulative_share(void **state)
     }
 }
 
-/* Against triangles between rays (tests/oracle/line_triangles.h), where the horns are sharpest and the light falls
- * steeply: the stated error is larger than the actual one, within what is asked for, and not ten times too large. */
+/* Compared with triangles between rays (tests/oracle/line_triangles.h), where the horns are sharpest and the light
+ * falls steeply. The stated error is larger than the actual one, within the tolerance, and not ten times too large. */
 static void test_told_error(void **state)
 {
     static const struct {
@@ -275,8 +275,8 @@ static void test_bins_add_up(void **state)
         within("bin", 0.9, fine[2 * e], many[2 * e] + many[2 * e + 1], few[e], 1e-12);
 }
 
-/* The laws of limb darkening and emissivity, and the conversion to photons, seen face on, where all the light of a
- * ring has one energy. */
+/* Tests the laws of limb darkening and emissivity, and the conversion to photons, for a disk seen face-on, where all
+ * the light of a ring has one energy. */
 static void test_face_on(void **state)
 {
     double edges[] = { 0.1, 0.6, 0.7, 0.8, 0.9, 0.99 }, share[5];
@@ -287,7 +287,8 @@ static void test_face_on(void **state)
         struct kd_line_profile profile;
         struct kd_error error;
         assert_int_equal(kd_line_profile(&image, &params, edges, 5, share, &profile, &error), KD_OK);
-        /* g = sqrt(1 - 3/r), b of the ring by its ray: rings of equal width in r, with an area of pi d(b^2) */
+        /* the rings have equal widths in r and areas of pi d(b^2), with g = sqrt(1 - 3/r) and b of the ring by its
+         * ray */
         double in[5] = { 0 }, all = 0, b2 = 0;
         for (int k = 0; k <= 4000; k++) {
             double r = 6 * pow(200. / 6, k / 4000.), low = 0, high = 2 * r;
@@ -381,8 +382,8 @@ static struct start start_of(double a, double u, double alpha, double beta)
     return (struct start) { path.r[0], kd_disk_redshift(kd_hole(a), path.r[0], path.momentum[0]) };
 }
 
-/* The Jacobian d(g, r)/d(alpha, beta) by rays of the reference; their error of 1e-11 over the step is 1e-8, and the
- * square of the step leaves 1e-6. */
+/* The Jacobian d(g, r)/d(alpha, beta), by differences between rays of the reference. The rays' error of 1e-11 divided
+ * by the step is 1e-8; the square of the step leaves 1e-6. */
 static double slopes_of(double a, double u, double alpha, double beta)
 {
     const double h = 2e-3;
@@ -404,7 +405,7 @@ static void test_transfer_function(void **state)
         struct kd_transfer_ring ring;
         assert_true(kd_disk_image_init(&image, kd_hole(a), i * RADIAN));
         assert_true(kd_transfer_ring_of(&image, r, &ring));
-        /* At its ends g does not change along the ring, so that the Jacobian is the slope of r times a factor; the
+        /* At the ends of a ring g does not change along it, so that the Jacobian is the slope of r times a factor. The
          * ends are taken from rays of the reference. */
         for (int end = 0; end < 2; end++) {
             alpha = ring.alpha[end], beta = ring.beta[end];

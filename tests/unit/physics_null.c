@@ -1,5 +1,5 @@
-/* Null geodesics in closed form against Taylor series with 20 digits (tests/oracle/null_reference.py): every case of
- * roots, start and degeneracy, and rays 1e-10 from the critical curve. */
+/* Tests of null geodesics in closed form, compared with Taylor series of 20 digits (tests/oracle/null_reference.py):
+ * every case of roots, start and degeneracy, and rays 1e-10 from the critical curve. */
 #include "physics/null/null_geodesic.h"
 
 #include "null_reference.h"
@@ -120,8 +120,9 @@ static void mirrors(void **state)
     }
 }
 
-/* No jump at a = 0, on the axis, at beta = 0 or in the equatorial plane: the answers differ by the slope times the
- * change. A change of 1e-13 is far below any tolerance and some 500 roundings; slopes here are below 100. */
+/* The answers do not jump at a = 0, on the axis, at beta = 0 or in the equatorial plane: they differ by the slope times
+ * the change of the input. A change of 1e-13 is far below any tolerance and equals some 500 roundings; slopes here are
+ * below 100. */
 static void continuity(void **state)
 {
     (void)state;
@@ -156,8 +157,8 @@ static void continuity(void **state)
     within(0, 0, "r below beta = 0", fabs(kd_null_trace(&down).crossing[0].r / r - 1), 1e-12);
 }
 
-/* Across the axis: alpha -> 0 from the two sides gives azimuths that differ by pi to either side, and alpha = 0
- * exactly one of them. */
+/* Across the axis: alpha -> 0 from the two sides gives azimuths that differ by 2 pi. alpha = 0 gives exactly one of
+ * them. */
 static void the_axis(void **state)
 {
     (void)state;
@@ -230,7 +231,7 @@ static void principal_rays(void **state)
     double turn = a / (plus - minus) * log((10 - minus) / (10 - plus));
     assert_true(p.fate == KD_NULL_ESCAPED && p.crossings == 0);
     within(0, 0, "u of a principal ray", fabs(p.sky_u - 0.5),
-           1e-7); /* a double root of U: the rounding of alpha under a square root */
+           1e-7); /* at a double root of U the rounding of alpha is under a square root */
     within(0, 0, "phi of a principal ray", fabs(p.sky_phi + turn), 1e-7);
     struct kd_null_ray axis = { .spin = a, .radius = 10, .cos_theta = 1, .orders = 3, .outward = true };
     p = kd_null_trace(&axis);
@@ -243,8 +244,8 @@ static void principal_rays(void **state)
     within(0, 0, "phi in the plane", fabs(p.sky_phi + turn), 1e-14);
 }
 
-/* All 32 orders near the critical curve: each half turn takes the same time, until errors have grown to the distance
- * from the photon sphere; all numbers are finite, and the estimates grow. */
+/* All 32 orders near the critical curve. Each half turn takes the same time, until errors have grown to the distance
+ * from the photon sphere. All numbers are finite, and the estimates grow. */
 static void many_orders(void **state)
 {
     (void)state;

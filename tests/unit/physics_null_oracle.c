@@ -1,5 +1,5 @@
-/* Random null geodesics in closed form against the Hamiltonian integrated in Kerr-Schild coordinates: another method
- * and other coordinates, without a formula in common. */
+/* Tests of random null geodesics in closed form, compared with the Hamiltonian integrated in Kerr-Schild coordinates.
+ * This is another method in other coordinates, without a formula in common. */
 #include "physics/null/null_geodesic.h"
 
 #include "kerr_schild.h"
@@ -51,8 +51,8 @@ static void say(const struct kd_null_ray *ray, const char *what, int n, double g
 }
 
 /* The reference has an error of 1e-12 a step in a coordinate that is 1e6 at first, some 1e-11 on arrival. Errors of
- * both grow along the way by the condition number, which the estimates contain, times about ten DBL_EPSILON. `start`
- * is the error of the reference's start. Returns whether there was anything to compare. */
+ * both methods grow along the way by the condition number, which the estimates contain, times about ten DBL_EPSILON.
+ * `start` is the error of the reference's start. Returns whether there was anything to compare. */
 static void compare(const struct kd_null_ray *ray, struct ks_photon photon, double start)
 {
     struct kd_null_path p = kd_null_trace(ray);

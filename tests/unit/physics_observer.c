@@ -1,6 +1,6 @@
-/* Every kind of observer against a metric that is written here in the form of its line element (Boyer & Lindquist
- * 1967, J. Math. Phys. 8, 265) and inverted by elimination in extended precision; constants of motion against frames
- * computed in Kerr-Schild coordinates. */
+/* Tests of every kind of observer. The metric used for comparison is written here in the form of its line element
+ * (Boyer & Lindquist 1967, J. Math. Phys. 8, 265) and inverted by elimination in extended precision. Constants of
+ * motion are compared with frames computed in Kerr-Schild coordinates. */
 #include "kerr_schild.h"
 #include "kerr_schild_frame.h"
 #include "physics/spacetime/kerr.h"
@@ -381,8 +381,8 @@ static double square_gamma(const struct kd_observer_motion *m, const struct kd_v
     return m->observer > KD_OBSERVER_ZAMO ? gamma * gamma * (1 + at->r / (at->r - kd_hole(at->spin)->outer)) : 1;
 }
 
-/* Components survive the way into the frame and back, and a photon is seen in the direction it comes from; also for
- * a frame whose axes are mixed by rotations. */
+/* Components survive the conversion into the frame and back, and a photon is seen in the direction it comes from; also
+ * for a frame whose axes are mixed by rotations. */
 static void back_and_forth_at(const struct kd_observer_motion *m, const struct kd_vantage *at,
                               const struct kd_tetrad *frame)
 {

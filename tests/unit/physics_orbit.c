@@ -1,5 +1,5 @@
-/* Timelike geodesics against quadrature (tests/oracle/orbit_reference.py), against each other, and against known
- * properties. */
+/* Tests of timelike geodesics, compared with quadrature (tests/oracle/orbit_reference.py), with each other, and with
+ * known properties. */
 #include "physics/orbit/orbit_lanes.h"
 #include "physics/spacetime/kerr.h"
 
@@ -67,7 +67,7 @@ static void frequencies_are_the_averages(void **state)
         struct kd_orbit_bound b = bound_of(&o);
         struct kd_orbit_frequencies f = kd_orbit_frequencies_of(&b);
         double bound = 1e-14 * condition(e);
-        if (e->e == 0 && e->p < 6.01) /* so near the ISCO Upsilon_r is the root of a difference of 1e-4 */
+        if (e->e == 0 && e->p < 6.01) /* so near the ISCO, Upsilon_r is the square root of a difference of 1e-4 */
             bound = 1e-12;
         close_to(i, "Upsilon_r", f.mino_r, e->mino_r, 2 * bound * e->mino_r);
         close_to(i, "Upsilon_theta", f.mino_theta, e->mino_theta, bound * e->mino_theta);
@@ -135,7 +135,7 @@ static void falls_are_the_quadratures(void **state)
                 kd_orbit_path_step(&path, h);
             path = kd_orbit_path_to_radius(&path, 20 * h, 1 / e->to);
             struct kd_orbit_place at = kd_orbit_path_place(&path);
-            /* the rounding of r, a double, corresponds to so much of the time to get there */
+            /* the rounding of r, a double, corresponds to this error of the time to get there */
             close_to(i, "Mino time", at.mino, e->mino, 1e-12);
             close_to(i, "r", at.r, e->to, 1e-13 * e->to);
             close_to(i, "proper time", at.proper, e->proper, 2e-11 * e->proper);
@@ -259,7 +259,7 @@ static void circles_at_the_edge(void **state)
         struct kd_orbit inside = shape(a, nextafter(isco, 0), 0, 1);
         assert_int_equal(inside.fate, KD_ORBIT_PLUNGE);
         assert_true(kd_orbit_start(&inside, NAN, true).w > inside.w_high); /* starts inwards */
-        /* the nearer to the ISCO the longer this takes: followed from 2 % inside */
+        /* the nearer to the ISCO, the longer the plunge takes; so the start is 2 % inside */
         struct kd_orbit well_inside = shape(a, 0.98 * isco, 0, 1);
         struct kd_orbit_state start = kd_orbit_start(&well_inside, NAN, true);
         struct kd_orbit_path path;
@@ -269,11 +269,11 @@ static void circles_at_the_edge(void **state)
         for (; k < 100 * 64 && path.place[KD_PATH_W].value < horizon; k++)
             kd_orbit_path_step(&path, 2 * M_PI / o.momentum / 64);
         assert_true(path.place[KD_PATH_W].value >= horizon);
-        assert_true(k > 64); /* it stayed near the circle for a while */
+        assert_true(k > 64); /* the body stayed near the circle for a while */
     }
 }
 
-/* From E, L and Q back to the turning points; just inside them the same constants give another kind of motion. */
+/* E, L and Q give the turning points again. Just inside them the same constants give another kind of motion. */
 static void constants_and_back(void **state)
 {
     (void)state;
@@ -419,8 +419,8 @@ static void see(void *user, int lane)
     seen->w[lane] = seen->lanes->path[lane]->place[KD_PATH_W].value;
 }
 
-/* Equal to the last bit, each lane with its own number of steps of its own length, and each reports every
- * periastron. */
+/* The lanes equal single paths to the last bit, although each lane takes its own number of steps of its own length.
+ * Each lane reports every periastron. */
 static void lanes_are_paths(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* Images of places: those in the equatorial plane of a spinning hole against rays in closed form, which cross it
- * there; those off the plane, for a hole without spin, against the same rays in a plane rotated to be the equator's. */
+/* Tests of images of places. Places in the equatorial plane of a spinning hole are compared with rays in closed form,
+ * which cross the plane there. Places off the plane of a hole without spin are compared with the same rays in a plane
+ * that is rotated to be the equator's. */
 #include "physics/null/null_geodesic.h"
 #include "physics/null/place_image.h"
 
@@ -85,8 +86,8 @@ static void test_off_the_plane_without_spin(void **state)
         const double psi = acos(n[0]), b = hypot(here.alpha, here.beta);
         const double side = atan2(n[2], n[1]);
         assert_true(fabs(turn(atan2(here.beta, here.alpha) - side)) < 1e-6);
-        /* In the equator seen at 60 degrees, the place at that angle from the line of sight: cos(psi) = sin(60)
-         * cos(phi'). */
+        /* The place in the equator, seen at 60 degrees, that is at this angle from the line of sight: cos(psi) =
+         * sin(60) cos(phi'). */
         const double c = cos(psi) / sin(60 * RADIAN);
         if (fabs(c) > 1)
             continue;

@@ -1,5 +1,5 @@
-/* The plunge from the ISCO: closed forms against quadratures from the metric (tests/oracle/plunge_reference.py),
- * published formulas, and conserved quantities. */
+/* Tests of the plunge from the ISCO. The closed forms are compared with quadratures from the metric
+ * (tests/oracle/plunge_reference.py), published formulas, and conserved quantities. */
 #include "physics/orbit/plunge.h"
 
 #include "physics/spacetime/kerr.h"

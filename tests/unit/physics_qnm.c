@@ -1,5 +1,5 @@
-/* Quasi-normal modes against Teukolsky's equation solved by another method (tests/oracle/qnm_reference.py), against
- * published numbers, and against properties of all modes. */
+/* Tests of quasi-normal modes, compared with Teukolsky's equation solved by another method
+ * (tests/oracle/qnm_reference.py), with published numbers, and with properties that all modes have. */
 #include "physics/spacetime/hole.h"
 #include "physics/waves/qnm.h"
 #include "physics/waves/ringdown.h"

@@ -1,5 +1,6 @@
-/* The lensed image of a ring, and embedded planes, against quadratures (tests/oracle/ring_reference.py) and, with
- * spin, against rays integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h). */
+/* Tests of the lensed image of a ring and of embedded planes. They are compared with quadratures
+ * (tests/oracle/ring_reference.py) and, with spin, with rays integrated in Kerr-Schild coordinates
+ * (tests/oracle/kerr_schild.h). */
 #include "physics/disk/thin_disk.h"
 #include "physics/spacetime/embedding.h"
 #include "physics/spacetime/kerr.h"
@@ -38,7 +39,7 @@ static struct kd_ring_image_point image_of(double a, double i_deg, double r, dou
     return point;
 }
 
-/* The constants of the ray are determined by the place of the image: 1e-12, and so is g. */
+/* The constants of the ray follow from the place of the image, and so does g; all agree to 1e-12. */
 static void without_spin(void **state)
 {
     (void)state;

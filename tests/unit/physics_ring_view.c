@@ -1,5 +1,6 @@
-/* Rings seen by observers inside them, next to the hole and beyond the horizon, against rays integrated in ingoing
- * Kerr-Schild coordinates, from frames computed in these coordinates (tests/oracle/kerr_schild.h). */
+/* Tests of rings seen by observers inside them, next to the hole and beyond the horizon. They are compared with rays
+ * integrated in ingoing Kerr-Schild coordinates, from frames computed in these coordinates
+ * (tests/oracle/kerr_schild.h). */
 #include "physics/null/ring_view.h"
 #include "physics/spacetime/kerr.h"
 
@@ -40,8 +41,8 @@ static struct ks_frame oracle_frame(const struct kd_observer_motion *m, const st
     return ks_boost(&at, &rain, u);
 }
 
-/* Checks that light seen in that direction comes from the ring. magnified: the factor by which an error of its
- * direction grows on the way, about 25 each half turn, and for light that lingers at the horizon more. */
+/* Checks that light seen in this direction comes from the ring. magnified: the factor by which an error of the
+ * direction grows on the way. It is about 25 for each half turn, and more for light that lingers at the horizon. */
 static void comes_from(const struct kd_observer_motion *m, const struct kd_vantage *v, double r, int order, double chi,
                        double magnified)
 {
@@ -119,8 +120,8 @@ static void from_nearby(void **state)
         }
 }
 
-/* An infalling observer sees every ring outside the horizon, from anywhere. Where azimuth or time do not exist they
- * are not given. */
+/* An infalling observer sees every ring outside the horizon, from anywhere. Azimuth and time are not given where they
+ * do not exist. */
 static void everywhere(void **state)
 {
     static const double spins[] = { 0, 0.5, -0.9, 0.998 }, inclinations[] = { 0, 60, 89, 130 };

@@ -1,4 +1,5 @@
-/* Light from an electron-scattering atmosphere against Chandrasekhar's table, and against the flux that leaves it. */
+/* Tests of light from an electron-scattering atmosphere, compared with Chandrasekhar's table and with the flux that
+ * leaves it. */
 #include "physics/disk/scattering.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* The sky that observers see, against frames and rays in Kerr-Schild coordinates: which directions are dark, the
- * shift of light from the others, its smallest and largest value, and the size of the dark disk. */
+/* Tests of the sky that observers see, compared with frames and rays in Kerr-Schild coordinates: which directions are
+ * dark, the shift of light from the others, its smallest and largest value, and the size of the dark disk. */
 #include "kerr_schild.h"
 #include "physics/null/sky_view.h"
 #include "physics/spacetime/kerr.h"
@@ -139,8 +139,9 @@ static void directions(void **state)
     }
 }
 
-/* Directions with one value of g form a circle about the axis along which E changes most. For g 1e-5 beyond an
- * extreme value the whole circle is dark, or there is none; for g 1e-5 short of it some of it is seen. */
+/* Directions with one value of g form a circle about the axis along which E changes most. For a g that is 1e-5 beyond
+ * an extreme value, the whole circle is dark, or there is none. For a g that is 1e-5 short of it, some of the circle is
+ * seen. */
 static bool circle_is_seen(const struct seer *s, const struct ks_frame *f, double g, int directions)
 {
     static const double axes[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
@@ -180,7 +181,7 @@ static void extremes(void **state)
         const struct ks_frame f = frame_of(&seers[i]);
         const struct kd_sky_view v = view_of(&seers[i]);
         const double step = 1e-5;
-        /* sees the whole sky with the same shift, given by its lapse */
+        /* a static observer sees the whole sky with the same shift, which follows from the lapse */
         if (seers[i].motion.observer == KD_OBSERVER_STATIC) {
             double want = 1 / oracle_energy(&seers[i], &f, (double[]) { 0, 0, 1 }, NULL);
             assert_true(fabs(v.least / want - 1) < 1e-12 && fabs(v.greatest / want - 1) < 1e-12);
@@ -196,8 +197,8 @@ static void extremes(void **state)
     }
 }
 
-/* The dark disk for rain in Schwarzschild: r sin = b (1 - cos sqrt(2/r)), b = sqrt(27), a quadratic equation for the
- * tangent of half the angle; for an observer at rest sin = b sqrt(1 - 2/r)/r (Synge 1966). */
+/* The dark disk in Schwarzschild. For rain r sin = b (1 - cos sqrt(2/r)), b = sqrt(27), which is a quadratic equation
+ * for the tangent of half the angle. For an observer at rest sin = b sqrt(1 - 2/r)/r (Synge 1966). */
 static void round_disks(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Tidal disruption against published numbers and for consistency. */
+/* Tests of tidal disruption, compared with published numbers and tested for consistency. */
 #include "physics/waves/tidal.h"
 #include "physics/spacetime/kerr.h"
 #include "physics/math/quadrature.h"
@@ -22,8 +22,9 @@ static void close_to(const char *what, double got, double want, double relative)
         fail_msg("%s: %.17g, not %.17g: off by %.2g", what, got, want, fabs(got / want - 1));
 }
 
-/* Stone, Sari & Loeb 2013, section 2: 3.5e6 s; Rees 1988: r_t = 47 M for the sun and 1e6, Hills's mass about 1e8
- * (1.1e8 for the horizon of Schwarzschild, e.g. Stone et al. 2019, Gen. Relativ. Gravit. 51, 30). */
+/* Published numbers: 3.5e6 s (Stone, Sari & Loeb 2013, section 2); r_t = 47 M for the sun and 1e6 solar masses, and
+ * Hills's mass about 1e8 (Rees 1988), or 1.1e8 for the horizon of Schwarzschild (e.g. Stone et al. 2019, Gen. Relativ.
+ * Gravit. 51, 30). */
 static void in_print(void **state)
 {
     (void)state;

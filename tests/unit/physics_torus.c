@@ -1,5 +1,5 @@
-/* The torus of Fishbone & Moncrief against the equation of motion: pressure supports the gas, d ln h = g_ab,r u^a
- * u^b dr/2, integrated from the inner edge. */
+/* Tests of the torus of Fishbone & Moncrief, compared with the equation of motion: pressure supports the gas, d ln h =
+ * g_ab,r u^a u^b dr/2, integrated from the inner edge. */
 #include "physics/disk/torus.h"
 #include "physics/spacetime/hole.h"
 

@@ -1,6 +1,6 @@
-/* Observers that move on by their own clock, against Hamilton's equations in ingoing Kerr-Schild coordinates,
- * integrated through the horizon by Runge and Kutta's method of fourth order, with derivatives of the metric by
- * differences. No separation of variables, and no integral over r. */
+/* Tests of observers that move by their own clock. They are compared with Hamilton's equations in ingoing Kerr-Schild
+ * coordinates, integrated through the horizon by Runge and Kutta's method of fourth order, with derivatives of the
+ * metric by differences. This uses no separation of variables, and no integral over r. */
 #include "kerr_schild_frame.h"
 #include "physics/spacetime/infall.h"
 #include "physics/spacetime/kerr.h"
@@ -82,7 +82,7 @@ static void near(const char *what, const struct fall *f, double proper_time, dou
         fail_msg("spin %g from %g M, after %g M: %s %.15g, wanted %.15g", f->a, f->r, proper_time, what, got, wanted);
 }
 
-/* The reference is good to some 1e-10; next to r = 0 its steps are too long, so that it stops when half of the
+/* The reference is accurate to some 1e-10. Next to r = 0 its steps are too long, so that it stops when half of the
  * remaining way to the end is left. */
 static void what_falls_is_where_its_clock_says(void **state)
 {
@@ -154,7 +154,8 @@ static void rain_in_schwarzschild(void **state)
         const struct kd_worldline_place got = kd_worldline_after(&m, &at, whole - left);
         const double r = pow(3 / sqrt(2) * left, 2. / 3);
         const struct fall rain = { 0, 0, 20, 0, 0, 0 };
-        near("r", &rain, whole - left, got.r / r, 1, 1e-12 + 1e-14 * whole / left); /* the time left is a difference */
+        /* the remaining time is a difference */
+        near("r", &rain, whole - left, got.r / r, 1, 1e-12 + 1e-14 * whole / left);
         near("time", &rain, whole - left, got.time, advanced(20) - advanced(r) - r + 20, 1e-11);
         near("azimuth", &rain, whole - left, got.azimuth, 0, 0);
         if (r > 2.001)
@@ -186,8 +187,8 @@ static void it_ends_where_a_camera_can_be_at_last(void **state)
     }
 }
 
-/* Observers that stay at one radius: by the metric their proper time advances as it should; and each one's other
- * properties. */
+/* Observers that stay at one radius: by the metric their proper time advances as it should. Other properties of each
+ * kind are tested too. */
 static void others_stay_and_go_round(void **state)
 {
     (void)state;

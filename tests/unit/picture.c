@@ -1,5 +1,5 @@
-/* Tests that a picture can be rendered again from its own file: the scene, and how it was processed, are stored in
- * it. */
+/* Tests that a picture can be rendered again from its own file, in which the scene and the settings of its processing
+ * are stored. */
 #include "image/png.h"
 #include "render/output/png.h"
 
@@ -27,8 +27,8 @@ static void encode(const struct kd_scene *scene, const struct kd_plan *plan, str
     encode_as(scene, plan, NULL, file);
 }
 
-/* A caller that knows the scene's hash already (from the ETag of the answer) can pass it instead of having it
- * computed again. */
+/* A caller that already knows the scene's hash (from the answer's ETag) can pass it instead of having it computed
+ * again. */
 static void a_hash_that_is_known_is_taken(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Events in the playground: inspiral against Peters' closed form, mergers to rounding, debris that comes back, and
- * hostile scenes. */
+/* Tests of events in the playground: inspiral, compared with Peters' closed form; mergers, exact to rounding; debris
+ * that comes back; and hostile scenes. */
 #include "playground_support.h"
 
 #include "physics/waves/inspiral.h"
@@ -8,9 +8,9 @@
 
 #include <stdio.h>
 
-/* Two equal bodies far from the hole spiral together; the loss is exaggerated A times, and the distance enlarged
- * A^(2/5) times, so that the ratio of attraction and loss is the same. P. C. Peters 1964, eq. 5.10, by
- * physics/waves/inspiral.c: from d0 to d1 it takes T(d0) - T(d1). */
+/* Two equal bodies far from the hole spiral together. The loss is amplified A times, and the distance enlarged A^(2/5)
+ * times, so that the ratio of attraction and loss is the same. The time from d0 to d1 is T(d0) - T(d1), by P. C. Peters
+ * 1964, eq. 5.10, in physics/waves/inspiral.c. */
 static void pairs_spiral_in_as_peters_says(void **state)
 {
     (void)state;
@@ -150,7 +150,7 @@ static void mergers_keep_mass_and_momentum(void **state)
         p, (struct kd_playground_body) { .mass = 3e-4, .radius = 0.5, .x = { 1e5, 5, 0.1 }, .v = { 0.01, -0.2, 0 } });
     playground_put(
         p, (struct kd_playground_body) { .mass = 1e-4, .radius = 0.3, .x = { 1e5, -5, 0 }, .v = { 0, 0.3, 0.01 } });
-    /* Bodies so fast that they do not touch at the end of any step. */
+    /* The bodies are so fast that they do not touch at the end of any step. */
     playground_put(
         p, (struct kd_playground_body) { .mass = 1e-5, .radius = 0.01, .x = { -1e5, -5, 0 }, .v = { 0, 0.99, 0 } });
     playground_put(
@@ -160,7 +160,7 @@ static void mergers_keep_mass_and_momentum(void **state)
     const struct kd_playground_totals after = kd_playground_totals(p);
     assert_int_equal(p->n, 2);
     assert_true(fabs(after.mass / before.mass - 1) < 4e-16);
-    /* Meanwhile the hole attracts them with 1e-10 a M; the effect is known to the rounding of itself. */
+    /* Meanwhile the hole attracts them with 1e-10 per M; this effect is known to its own rounding. */
     for (int k = 0; k < 3; k++) {
         const double pulled = k ? 0 : -p->t * 1e-10 * (4e-4 - 3e-5);
         assert_true(fabs(after.momentum[k] - before.momentum[k] - pulled) < 2e-15);
@@ -173,8 +173,8 @@ static void mergers_keep_mass_and_momentum(void **state)
     kd_playground_destroy(p);
 }
 
-/* The slope of the rate at which debris comes back, by least squares over the decade that begins at twice the time
- * of the first piece; the counting does not use Kepler's law. Half of the debris is bound. */
+/* The slope of the rate at which debris comes back, by least squares over the decade that begins at twice the time of
+ * the first piece. The counting does not use Kepler's law. Half of the debris is bound. */
 static void debris_comes_back_as_the_fifth_third_power(void **state)
 {
     (void)state;
@@ -210,8 +210,8 @@ static void debris_comes_back_as_the_fifth_third_power(void **state)
     kd_playground_destroy(p);
 }
 
-/* J. Guillochon & E. Ramirez-Ruiz 2013, figure 10: at depth 0.7 a fifth to a quarter of the mass is lost; and a star
- * whose depth at periastron is d has lost what the fit gives for d. */
+/* J. Guillochon & E. Ramirez-Ruiz 2013, figure 10: at depth 0.7 a fifth to a quarter of the mass is lost. A star whose
+ * depth at periastron is d has lost the fraction that the fit gives for d. */
 static void a_grazing_star_sheds_and_goes_on(void **state)
 {
     (void)state;
@@ -346,8 +346,8 @@ static void four_thousand_at_one_point(void **state)
     }
 }
 
-/* Debris far out moves by the same distance however short the strides are: in single precision it, and its velocity,
- * would not change at all. */
+/* Debris far out moves by the same distance however short the strides are. In single precision neither its place nor
+ * its velocity would change at all. */
 static void far_debris_moves(void **state)
 {
     (void)state;
@@ -401,7 +401,8 @@ static void the_greatest_merge(void **state)
     kd_playground_destroy(q);
 }
 
-/* The smallest stars and radii allowed give no NaN, torn apart or not, and a snapshot of them can be continued. */
+/* The smallest allowed stars and radii give no NaN, whether they are torn apart or not, and a snapshot of them can be
+ * continued. */
 static void the_least_stars(void **state)
 {
     (void)state;
@@ -432,8 +433,8 @@ static void the_least_stars(void **state)
     }
 }
 
-/* A series without end, however long it gets, has rows at equal distances from the beginning, and in files the
- * present as the last row. */
+/* A series without end has, however long it gets, rows at equal distances from the beginning. In files the present is
+ * the last row. */
 static void series_of_no_end_are_even(void **state)
 {
     (void)state;

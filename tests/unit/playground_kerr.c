@@ -1,5 +1,5 @@
-/* Test bodies of gravity "kerr" against the closed form of bound orbits (physics/orbit/orbit_bound.h), which does
- * not integrate in steps; and snapshots, which continue to the bit. */
+/* Tests of bodies with gravity "kerr", compared with the closed form of bound orbits (physics/orbit/orbit_bound.h),
+ * which does not integrate in steps. Also tests that a snapshot continues to the bit. */
 #include "playground_support.h"
 
 #include "physics/orbit/orbit_bound.h"
@@ -9,7 +9,8 @@
 #include <stdlib.h>
 
 /* A body starts with the velocity v measured by an observer of zero angular momentum, and moves for a hundred radial
- * periods: its place at each of a thousand times is that of the closed form at the same time, found by bisection. */
+ * periods. At each of a thousand times its place is that of the closed form at the same time, which is found by
+ * bisection. */
 static void test_bodies_follow_the_closed_form(void **state)
 {
     (void)state;
@@ -80,7 +81,7 @@ static void the_velocity_told_begins_the_same_motion(void **state)
     kd_playground_destroy(q);
 }
 
-/* Bodies that fall in or fly away are reported as such; no body has a speed of c. */
+/* Bodies that fall in or fly away are reported; no body has a speed of c. */
 static void who_leaves_is_told(void **state)
 {
     (void)state;
@@ -104,9 +105,9 @@ static void who_leaves_is_told(void **state)
     kd_playground_destroy(p);
 }
 
-/* A body that starts on a circle, next to one, or at a turning point but for rounding, is never refused. And the
- * middle of the motion is where W has its maximum, which fixes its rate of oscillation: W is even about the middle
- * except for its cubic part, whose share is the width squared. */
+/* A body that starts on a circle, next to one, or at a turning point up to rounding, is never refused. The middle of
+ * the motion is where W has its maximum, which fixes the rate of oscillation: W is even about the middle except for its
+ * cubic part, whose share is the width squared. */
 static void circles_are_no_refusals(void **state)
 {
     (void)state;
@@ -134,8 +135,8 @@ static void circles_are_no_refusals(void **state)
     assert_true(worst < 1e-11);
 }
 
-/* On Schwarzschild's circle of r = 12 the azimuth is t/12^(3/2), also exactly at the times when steps end, 256 of
- * them a turn. */
+/* On Schwarzschild's circle of r = 12 the azimuth is t/12^(3/2). It is exact also at the times when steps end, of which
+ * there are 256 in a turn. */
 static void circles_go_round_evenly(void **state)
 {
     (void)state;
@@ -169,7 +170,7 @@ static void bodies_are_at_one_time(void **state)
         kd_playground_advance(q, 2000 - q->t, &progress);
         assert_true(progress.slowed || q->t == 2000);
         assert_true(q->t > t || q->bodies[2].x[0] == x);
-        if (k % 50 == 0) { /* compare with one that has all the budget it needs up to this time */
+        if (k % 50 == 0) { /* compare with a playground that has all the budget it needs up to this time */
             struct kd_playground *whole = playground_read(text);
             playground_advance(whole, q->t);
             assert_true(whole->t == q->t && whole->n == 3 && q->n == 3);
@@ -185,7 +186,8 @@ static void bodies_are_at_one_time(void **state)
             kd_buffer_finish(&out);
         }
     }
-    /* a stride interrupted in the middle, after which a shorter time is asked for: it must not go farther than that */
+    /* A stride is interrupted in the middle, and then a shorter time is requested: the playground must not go farther
+     * than that time. */
     struct kd_playground_run run;
     const double before = q->t;
     q->params.budget = 100000000;
@@ -195,7 +197,7 @@ static void bodies_are_at_one_time(void **state)
     assert_true(!progress.slowed && progress.done <= progress.asked && q->t == before + 1e-3);
     playground_advance(p, q->t - p->t);
     assert_true(p->t == q->t);
-    for (int i = 0; i < 3; i++) { /* each body is where it is when it is alone */
+    for (int i = 0; i < 3; i++) { /* each body is where it would be alone */
         single[i] = playground_read("{\"gravity\":\"kerr\",\"spin\":0.9,\"h_max\":500,\"budget\":100000000}");
         struct kd_playground *begun = playground_read(text);
         playground_put(single[i], begun->bodies[i]);
@@ -255,8 +257,8 @@ static struct kd_buffer snapshot(struct kd_playground *p)
     return out;
 }
 
-/* Take a snapshot, go on, take another; read the first, go on, take one: the same bytes as the second. In the middle
- * of shedding, of an inspiral, of geodesics. */
+/* A snapshot is taken, the playground goes on, and a second one is taken. After reading the first and going on, a new
+ * one has the same bytes as the second. This is tested in the middle of shedding, of an inspiral, and of geodesics. */
 static void snapshots_start_again_to_the_bit(void **state)
 {
     (void)state;
@@ -363,7 +365,7 @@ static void documents_are_checked_and_changes_are_whole(void **state)
     assert_true(p->params.waves && kd_playground_find(p, 2)->mass == 0.5 && !kd_playground_find(p, 1));
     assert_string_equal(kd_playground_find(p, 7)->name, "new");
     kd_playground_destroy(p);
-    /* A star that is being torn at its periastron continues to be so when its temperature is changed; a snapshot
+    /* A star that is being torn at its periastron continues to be torn when its temperature is changed. A snapshot
      * records the energy added with new bodies. */
     p = playground_read("{\"preset\":\"disruption\",\"debris_per_body\":1000}");
     playground_advance(p, 2600);

@@ -1,4 +1,4 @@
-/* Orbits of bodies of the playground against known results, which share no equation with the stepping. */
+/* Tests of orbits of the playground's bodies, compared with known results that share no equation with the stepping. */
 #include "playground_support.h"
 
 static void add(struct kd_playground *p, double mass, double x, double y, double vx, double vy)
@@ -6,8 +6,8 @@ static void add(struct kd_playground *p, double mass, double x, double y, double
     playground_put(p, (struct kd_playground_body) { .mass = mass, .x = { x, y, 0 }, .v = { vx, vy, 0 } });
 }
 
-/* A bound ellipse round the hole and a bound pair, a thousand turns of each: the error of the energy oscillates, and
- * its mean over the last tenth equals that of the first within a hundredth of the amplitude. */
+/* A thousand turns of an ellipse round the hole, and of a bound pair. The error of the energy oscillates; its mean over
+ * the last tenth equals that over the first within a hundredth of the amplitude. */
 static void energy_has_no_trend_over_a_thousand_orbits(void **state)
 {
     (void)state;
@@ -94,7 +94,7 @@ static void the_marginally_bound_orbit_is_at_four(void **state)
     }
 }
 
-/* However the time is divided into calls, and with a budget that stops them, the result is the same to the bit. */
+/* However the time is divided into calls, also with a budget that stops them, the result is the same to the bit. */
 static void calls_do_not_matter(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* What pictures of a playground are made of: bodies in the metric's coordinates, and debris on a grid whose total is
+/* The contents of pictures of a playground: bodies in the metric's coordinates, and debris on a grid whose total is
  * that of the pieces. */
 #include "playground_support.h"
 
@@ -17,7 +17,7 @@ static struct kd_dynamic_bodies *shown(struct kd_playground *p)
     return crowd;
 }
 
-/* Places are the body's; the energy of a body moving by Newton's law, u^2/2, becomes (gamma v)^2/2, and its
+/* The place shown is the body's. The energy of a body that moves by Newton's law, u^2/2, becomes (gamma v)^2/2, and its
  * direction stays. */
 static void bodies(void **state)
 {
@@ -112,8 +112,8 @@ static struct sums sums_of(const struct kd_dynamic_bodies_debris *d)
     return s;
 }
 
-/* The grid neither loses nor adds any debris, whatever the shape: a stream across azimuth 0, a ring, a cloud, all in
- * the plane. */
+/* The grid neither loses nor adds any debris, whatever its shape: a stream across azimuth 0, a ring, or a cloud, all
+ * within the plane. */
 static void debris_is_all_there(void **state)
 {
     (void)state;
@@ -157,7 +157,7 @@ static void debris_is_all_there(void **state)
     free(pieces);
 }
 
-/* A single piece is at its place: the centroid of its four nodes. */
+/* A single piece is at the right place: the centroid of its four nodes. */
 static void a_piece_is_at_its_place(void **state)
 {
     (void)state;
@@ -180,7 +180,7 @@ static void a_piece_is_at_its_place(void **state)
     }
 }
 
-/* A torn star is complete on the grid, whatever the number of pieces; and how it is shown does not change how it
+/* A torn star is complete on the grid, whatever the number of pieces. Settings of its appearance do not change how it
  * moves. */
 static void a_star_is_shown(void **state)
 {
@@ -194,7 +194,7 @@ static void a_star_is_shown(void **state)
     looks.debris_temperature_k = 7000;
     assert_int_equal(kd_playground_set(p, &looks, &error), KD_OK);
     assert_true(p->rate == rate && rate > 0);
-    looks.debris_per_body = 500; /* applies to what is torn off from now on: the existing pieces keep their weight */
+    looks.debris_per_body = 500; /* applies to pieces torn off from now on; the existing ones keep their weight */
     assert_int_equal(kd_playground_set(p, &looks, &error), KD_OK);
     struct kd_dynamic_bodies *crowd = shown(p);
     const struct sums s = sums_of(&crowd->debris);
@@ -216,8 +216,8 @@ static double width_of(const struct kd_playground *p)
     return scene.camera.field_m;
 }
 
-/* The view is as wide as the distance of the bodies requires, or of the debris where there is more of that: nine in
- * ten pieces are within half of it. */
+/* The view is as wide as the distance of the bodies requires, or of the debris if that is wider: nine in ten pieces are
+ * within half of it. */
 static void a_view_is_as_wide_as_what_there_is(void **state)
 {
     (void)state;
@@ -245,8 +245,8 @@ static void a_view_is_as_wide_as_what_there_is(void **state)
     kd_playground_destroy(p);
 }
 
-/* Pieces already torn off keep their weight, whatever number of pieces is set for later bodies: here, and in a
- * snapshot. With two stars each has its own. */
+/* Pieces already torn off keep their weight, whatever number of pieces is set for later bodies; also in a snapshot.
+ * With two stars each keeps its own. */
 static void a_piece_keeps_its_worth(void **state)
 {
     (void)state;

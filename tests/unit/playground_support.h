@@ -32,7 +32,7 @@ static inline struct kd_playground *playground_read(const char *text)
     return p;
 }
 
-/* Parameters without tides, mergers and debris, and with as many sub-steps as it takes. */
+/* Parameters without tides, mergers and debris, and without a limit of sub-steps. */
 static inline struct kd_playground_params playground_quiet(void)
 {
     struct kd_playground_params params = kd_playground_defaults();

@@ -1,5 +1,5 @@
-/* Tests of the curve that plunging particles share: its table of radii, in both directions, against the closed form,
- * at any spin. */
+/* Tests of the curve on which all plunging particles move: its table of radii is compared with the closed form, in both
+ * directions, at any spin. */
 #include "render/emit/plunging.h"
 
 #include "physics/spacetime/kerr.h"

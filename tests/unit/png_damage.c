@@ -1,5 +1,5 @@
-/* PNG files that are cut, altered or inconsistent give KD_EINVAL and a message, never a crash or a leak (the
- * sanitizers watch for those). */
+/* PNG files that are cut, altered or inconsistent give KD_EINVAL and a message, and never a crash or a leak (the
+ * sanitizers watch). */
 #include "image/png.h"
 
 #include <setjmp.h>
@@ -67,7 +67,7 @@ static void every_cut_is_refused(void **state)
     }
 }
 
-/* Every chunk has a checksum, so a flipped bit anywhere behind the lengths must be noticed. */
+/* Every chunk has a checksum, so that a flipped bit anywhere after the lengths must be noticed. */
 static void every_flipped_bit_is_refused(void **state)
 {
     (void)state;
@@ -189,12 +189,12 @@ static void text_is_limited(void **state)
     memset(body, 'x', HUGE_TEXT);
     memcpy(bomb, "key\0", 5);
     assert_int_equal(compress(bomb + 5, &packed, (const Bytef *)body, HUGE_TEXT), Z_OK);
-    assert_int_equal(with_chunk("zTXt", bomb, 5 + (uint32_t)packed), KD_EINVAL); /* and was not decompressed */
+    assert_int_equal(with_chunk("zTXt", bomb, 5 + (uint32_t)packed), KD_EINVAL); /* the text was not decompressed */
     free(body);
 }
 
-/* A chunk that libpng would skip with a warning might be the one with the scene: such a file is refused, not read
- * without it. */
+/* libpng would skip such a chunk with a warning, but it might be the one with the scene. So the file is refused and not
+ * read without it. */
 static void no_text_is_lost_in_silence(void **state)
 {
     (void)state;
@@ -214,7 +214,7 @@ static void no_text_is_lost_in_silence(void **state)
     struct kd_buffer file = { 0 }, out = { 0 };
     static const uint8_t text[] = "\0\0\0\5tEXtkey\0x\0\0\0\0";
     struct kd_png png;
-    sample(&file, 8); /* holds two */
+    sample(&file, 8); /* this file has two texts */
     size_t before = (size_t)((uint8_t *)memmem(file.data, file.size, "IDAT", 4) - file.data) - 4;
     kd_buffer_append(&out, file.data, before);
     for (int n = 3; n <= 110; n++) {

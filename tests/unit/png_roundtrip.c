@@ -116,7 +116,7 @@ static void large_pictures_survive(void **state)
     strips_survive(23, 32768, 16, 5);
 }
 
-/* Rows that continue downwards, or as the mean of left and above, are small only with the filter for that: with any
+/* Rows that repeat downwards, or that are the mean of left and above, are small only with the matching filter. With any
  * other they take as many bytes as noise. */
 static void each_row_has_the_filter_that_suits_it(void **state)
 {
@@ -192,7 +192,7 @@ static void sixteen_bits_are_big_endian(void **state)
     kd_buffer_finish(&file);
 }
 
-/* Same input, same bytes; and a buffer's previous content stays, also when encoding fails. */
+/* The same input gives the same bytes. The previous contents of the buffer stay, also when encoding fails. */
 static void appends_the_same_bytes(void **state)
 {
     (void)state;
@@ -371,7 +371,7 @@ static void every_colour_type_is_read(void **state)
     }
 }
 
-/* Printed, not asserted: what the live view costs for every frame. */
+/* Printed, not asserted: the cost of the live view for every frame. */
 static void time_of_a_live_frame(void **state)
 {
     (void)state;

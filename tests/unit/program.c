@@ -49,8 +49,8 @@ static int end_of(struct kd_program *p)
     return code;
 }
 
-/* A child of the program keeps its standard error open and sleeps: this must neither hold us up nor may the child
- * live on. */
+/* A child of the program keeps its standard error open and sleeps. The caller must not wait for it, and the child must
+ * not live on. */
 static void test_a_child_that_stays(void **state)
 {
     (void)state;
@@ -82,7 +82,7 @@ static void test_it_has_four_descriptors(void **state)
     assert_int_equal(end_of(&p), 0);
 }
 
-/* Of long output the beginning and the end are kept. */
+/* The beginning and the end of long output are kept. */
 static void test_a_long_story(void **state)
 {
     (void)state;
@@ -110,7 +110,7 @@ static void test_one_that_does_nothing(void **state)
     (void)state;
     struct kd_program p = start("read line; while :; do :; done");
     double now = 1e6, before = -1;
-    for (int still = 0; still < 5; doze()) { /* until it waits for its line */
+    for (int still = 0; still < 5; doze()) { /* until the program waits for its input line */
         still = p.used_ms == before ? still + 1 : 0;
         before = p.used_ms;
         kd_program_idle_ms(&p, false, now);

@@ -1,5 +1,5 @@
-/* Tests of kd_pulse, which tells a thread that hangs from one that works and from a process that was stopped for a
- * while. */
+/* Tests of kd_pulse, which distinguishes a thread that hangs from one that works, and from a process that was stopped
+ * for a while. */
 #include "server/render/pulse.h"
 
 #include <setjmp.h>
@@ -44,7 +44,7 @@ static void a_thread_without_a_beat_hangs(void **state)
     const double since = kd_clock_ms(), s = look(&pulse, 60e3, false);
     assert_true(s > 1e-3 * KD_PULSE_DEADLINES * DEADLINE_MS);
     assert_true(kd_clock_ms() - since > KD_PULSE_DEADLINES * DEADLINE_MS - 2);
-    kd_pulse_beat(&pulse); /* it came back */
+    kd_pulse_beat(&pulse); /* the thread has returned */
     assert_true(kd_pulse_missing_s(&pulse, DEADLINE_MS) == 0);
 }
 

@@ -122,7 +122,7 @@ static void points_of(struct kd_quantity_request request, size_t i)
     kd_quantity_answer_finish(&curve);
 }
 
-/* Values kept from point to point change nothing, whether or not the other parameters are ranges. */
+/* Values kept from point to point do not change the results, whether or not other parameters are ranges. */
 static void points_stand_alone(void **state)
 {
     (void)state;
@@ -222,7 +222,7 @@ static void ranges_nest(void **state)
     kd_quantity_answer_finish(&answer);
 }
 
-/* In a curve along r, properties of the hole alone stay a single number. */
+/* In a curve along r, a property of the hole alone is a single number. */
 static void json_of_a_curve(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* Quantities against published figures, each with its source, and against conservation laws and symmetries. */
+/* Tests of quantities, compared with published figures, each with its source, and with conservation laws and
+ * symmetries. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -94,7 +95,7 @@ static void rings(void **state)
         double fifth = ASK("photon-rings", "width", "order=5", angles[k]),
                sixth = ASK("photon-rings", "width", "order=6", angles[k]);
         published("a ring over the one before", log(fifth / sixth), ASK("photon-rings", "gamma", angles[k]), 1e-3);
-        /* upside down when seen from below */
+        /* the picture is upside down when seen from below */
         const char *const mirrored[] = { "angle_deg=0", "angle_deg=-70", "angle_deg=-160", "angle_deg=-250" };
         published("from below", ASK("photon-rings", "width", "order=3", "inclination_deg=120", mirrored[k]),
                   ASK("photon-rings", "width", "order=3", angles[k]), 1e-16);
@@ -218,9 +219,9 @@ static void fall(void **state)
     published("rain into Kerr", ASK("infall", "proper_time_to_end", "spin=0.9", "r=3"), rain, 1e-10);
 }
 
-/* The sky that rain sees in Schwarzschild: light from behind is as above; light from the side, with L = 0 and p^r =
- * 0 in rain's frame, is unshifted; and at the horizon the dark disk has the radius 2 atan(2/sqrt(27)), with E = 1/(1
- * - cos sqrt(2/r)) at its edge. */
+/* The sky that rain sees in Schwarzschild. Light from behind is as above. Light from the side, with L = 0 and p^r = 0
+ * in rain's frame, is unshifted. At the horizon the dark disk has the radius 2 atan(2/sqrt(27)), with E = 1/(1 - cos
+ * sqrt(2/r)) at its edge. */
 static void sky_of_rain(void **state)
 {
     (void)state;
@@ -238,8 +239,8 @@ static void sky_of_rain(void **state)
     published("its edge", ASK("sky", "g_greatest", RAIN, "observer_r=2"), 1 / (1 - cosine), 1e-12);
     assert_true(isnan(ASK("sky", "g_ahead", RAIN, "observer_r=2")));
     published("far away", ASK("sky", "g_greatest", "observer_r=infinity"), 1, 0);
-    /* An observer at rest at 6 M sees it shifted by 1/sqrt(2/3); one on the orbit, with v = 1/2, sees light from
-     * behind shifted by sqrt((1 - v)/(1 + v)) of that. */
+    /* An observer at rest at 6 M sees the sky shifted by 1/sqrt(2/3). An observer on the orbit there, with v = 1/2,
+     * sees light from behind shifted further, by sqrt((1 - v)/(1 + v)). */
     published("from behind one that goes round",
               ASK("sky", "g_left", "spin=0", "observer=keplerian", "observer_r=6", "inclination_deg=90"), sqrt(0.5),
               1e-14);

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
-"""The model of bench/queueing.py against closed forms of queues: M/M/1, M/D/1, Erlang's C, weights of shares.h, and
-what limits refuse.
+"""Compares the model of bench/queueing.py with closed forms of queues.
+
+These are M/M/1, M/D/1, Erlang's C, the shares that follow from the weights of shares.h, and the refusals that follow
+from limits.
 
 queueing.py BENCH
 """
@@ -20,11 +22,11 @@ except ImportError as missing:
     print(f"skipped: {missing}; scripts/setup --browser installs it")
     sys.exit(77)
 
-MEAN = 0.02  # seconds of a work
+MEAN = 0.02  # mean seconds of a piece of work
 
 
 def erlang_c(n, load):
-    """The probability that one who comes to n servers has to wait; load: that of each server."""
+    """The probability that a new arrival at n servers has to wait; load: that of each server."""
     offered, term, total = n * load, 1.0, 1.0
     for k in range(1, n):
         term *= offered / k
@@ -34,7 +36,7 @@ def erlang_c(n, load):
 
 
 def waits(n, load, count, draw, seed, maxconn=1, limit=10**9, retries=5, patience=math.inf):
-    """Seconds that works waited beyond their own time, by number, and the statuses answered. All have the same
+    """Seconds that pieces of work waited beyond their own time, by number, and the statuses answered. All have the same
     estimate, so that the scheduler cannot know which are short."""
     rng, env = random.Random(seed), simpy.Environment()
     servers = [queueing.Server(env, limit) for _ in range(n)]
@@ -56,8 +58,8 @@ def exponential(rng):
 
 class Queues(unittest.TestCase):
     def near(self, found, expected):
-        """Within four standard errors of the mean, estimated from the means of thirty batches, because successive
-        waits are correlated. The error must be small, otherwise the test would show nothing."""
+        """The mean is within four standard errors, which are estimated from the means of thirty batches because
+        successive waits are correlated. The standard error must be small; otherwise the test would show nothing."""
         size = len(found) // 30
         batches = [statistics.mean(found[k * size : (k + 1) * size]) for k in range(30)]
         error = statistics.stdev(batches) / math.sqrt(len(batches))
@@ -66,14 +68,14 @@ class Queues(unittest.TestCase):
 
     def test_one_server(self):
         for load, count in ((0.3, 8000), (0.6, 10000), (0.8, 20000)):
-            for maxconn in (1, 10**6) if load < 0.7 else (1,):  # waiting before HAProxy, or in the server's queue
+            for maxconn in (1, 10**6) if load < 0.7 else (1,):  # requests wait at HAProxy, or in the server's queue
                 with self.subTest(load=load, maxconn=maxconn):
                     found, statuses = waits(1, load, count, exponential, 11, maxconn)
                     self.assertEqual(set(statuses), {200})
                     self.near(found, MEAN * load / (1 - load))
 
     def test_works_of_one_length(self):
-        """Pollaczek and Khinchine: half of the wait with exponential lengths."""
+        """By Pollaczek and Khinchine the wait is half of that with exponential lengths."""
         found, _ = waits(1, 0.7, 10000, lambda rng: MEAN, 5)
         self.near(found, MEAN * 0.7 / (1 - 0.7) / 2)
 
@@ -86,14 +88,14 @@ class Queues(unittest.TestCase):
                 self.near([float(wait > 1e-9) for wait in found], chance)
 
     def test_two_connections_a_server_wait_longer_than_one(self):
-        """Who waits at a server waits for that one although the other may be free; and yet the two ways of waiting
-        differ by no more than a service time."""
+        """A request that waits at a server waits for this server although the other may be free. Yet the two ways of
+        waiting differ by no more than a service time."""
         one, two = (statistics.mean(waits(4, 0.7, 10000, exponential, 9, maxconn)[0]) for maxconn in (1, 2))
         self.assertGreater(two, 1.2 * one)
         self.assertLess(two, one + MEAN)
 
     def test_a_full_queue_refuses(self):
-        """M/M/1/K: one device, a limited number of waiting works, and no retries."""
+        """M/M/1/K: one device, a limited number of waiting requests, and no retries."""
         limit, load = 3, 1.2
         k = limit + 1
         expected = load**k * (1 - load) / (1 - load ** (k + 1))
@@ -103,12 +105,12 @@ class Queues(unittest.TestCase):
     def test_patience_ends(self):
         found, statuses = waits(1, 1.5, 10000, lambda rng: MEAN, 4, patience=0.2)
         self.assertLess(max(found), 0.2 + 1e-9)
-        self.assertLess(abs(statuses.count(503) / len(statuses) - 1 / 3), 0.02)  # what is beyond the capacity
+        self.assertLess(abs(statuses.count(503) / len(statuses) - 1 / 3), 0.02)  # the part beyond the capacity
 
 
 class Shares(unittest.TestCase):
     def served(self, works, seconds):
-        """Seconds of the device for each of these clients, who ask again as soon as they are served."""
+        """Device seconds of each of these clients, who request again as soon as they are served."""
         env = simpy.Environment()
         server, had = queueing.Server(env), [0.0] * len(works)
 
@@ -123,7 +125,7 @@ class Shares(unittest.TestCase):
         return had
 
     def test_classes_by_their_weights(self):
-        """Two endless works in each class: device time is shared as 8 : 4 : 2."""
+        """Each class has two endless pieces of work: device time is shared as 8 : 4 : 2."""
         had = self.served(
             [(kind, takes, "a") for kind in ("live", "picture", "refinement") for takes in (0.010, 0.013)], 30
         )
@@ -132,7 +134,7 @@ class Shares(unittest.TestCase):
         self.assertAlmostEqual(picture / refinement, 2, delta=0.1)
 
     def test_clients_have_the_same(self):
-        """Also if one of them asks for much more."""
+        """Clients have equal shares, also if one of them requests much more."""
         had = self.served([("picture", 0.02, "a")] * 5 + [("picture", 0.01, "b")] * 2, 40)
         self.assertAlmostEqual(sum(had[:5]) / sum(had[5:]), 1, delta=0.05)
 
@@ -152,7 +154,8 @@ class Shares(unittest.TestCase):
         self.assertAlmostEqual(ended["long"], 2.03, delta=1e-6)
 
     def test_a_frame_is_as_the_governor_says(self):
-        """The figures of governor.h: 33 ms alone, for two sessions 23 each every 47, for eight 7.5 each every 60."""
+        """The figures of governor.h: 33 ms alone; two sessions 23 ms each, every 47; eight sessions 7.5 ms each, every
+        60."""
         habits = queueing.Habits(fill=1, floor=0, full=1)
         for n, milliseconds in ((1, 33), (2, 23.3), (8, 7.5)):
             self.assertAlmostEqual(1e3 * queueing.frame_seconds(habits, n), milliseconds, delta=0.1)

@@ -1,5 +1,5 @@
-/* Tests of kd_rays_trace with the closed-form engine, against geodesics in Kerr-Schild coordinates; and of its
- * threads, cancellation and errors. */
+/* Tests of kd_rays_trace with the closed-form engine, compared with geodesics in Kerr-Schild coordinates; and tests of
+ * its threads, cancellation and errors. */
 #include "physics/disk/thin_disk.h"
 #include "physics/spacetime/kerr.h"
 #include "render/rays/rays.h"
@@ -74,7 +74,7 @@ static void against_the_oracle(void **state)
     assert_true(compared > 200);
 }
 
-/* Across the ISCO g is continuous, and every number that should exist is there. */
+/* g is continuous across the ISCO, and no number is missing. */
 static void redshift(void **state)
 {
     (void)state;
@@ -99,9 +99,9 @@ static void redshift(void **state)
     assert_true(inside && outside && step > 0 && step < 2e-3);
 }
 
-/* Radii fall until the turning point and rise after it: if the next crossing is nearer the hole, the ray is still on
- * its way in (so the photon leaves outwards), and if the last one was nearer, it is on its way out. Rays close to
- * the critical curve cross the plane on both parts, always inside the ISCO at a = 0. */
+/* Radii fall until the turning point and rise after it. If the next crossing is nearer the hole, the ray is still on
+ * its way in (so that the photon leaves outwards). If the last crossing was nearer, the ray is on its way out. Rays
+ * close to the critical curve cross the plane on both parts, always inside the ISCO at a = 0. */
 static void redshift_knows_the_turning_point(void **state)
 {
     (void)state;
@@ -139,7 +139,7 @@ static bool count(void *user, double fraction)
     return ++watch->calls < 3;
 }
 
-/* A list shared among threads gives what each of its rays gives alone; and it stops when it is cancelled. */
+/* A list shared among threads gives the same results as each ray alone; and it stops when it is cancelled. */
 static void many(void **state)
 {
     (void)state;

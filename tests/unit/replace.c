@@ -1,4 +1,4 @@
-/* Tests of writing whole files: in which order things reach the disk, and what becomes of files left by killed
+/* Tests of writing whole files: the order in which things reach the disk, and the fate of files left by killed
  * processes. */
 #include "base/replace.h"
 

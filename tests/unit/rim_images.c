@@ -135,7 +135,7 @@ static void by_the_lens_equation(void **state)
         look(0, 90);
         assert_int_equal(kd_rim_images(&scene, &rim, &star, NULL, 1, keep, NULL, &error), KD_OK);
         const size_t images = judge(psi, angle, &place, &area);
-        if (n_seen < images || n_seen > images + 2) /* at each edge one more may be there, which is not tested */
+        if (n_seen < images || n_seen > images + 2) /* at each edge there may be one more image, which is not tested */
             fail_msg("psi %g: %zu images instead of %zu", psi, n_seen, images);
         all += images;
     }
@@ -161,7 +161,8 @@ static double shown(double u, double off)
                 area);
 }
 
-/* A place next to the critical curve, and the star where the reference's ray from there ends. */
+/* A place next to the critical curve, and the star in the direction in which the reference's ray from this place
+ * ends. */
 struct place { double u, off, x, y; };
 
 static struct kd_vec star_of(double spin, double inclination, struct place *at)

@@ -1,5 +1,5 @@
-/* Tests of the origin of rays next to the critical curve: by integration in Kerr-Schild coordinates, and by closed
- * form for each ray of the rim. */
+/* Tests of the origin of rays next to the critical curve. It is compared with integration in Kerr-Schild coordinates,
+ * and with the closed form for each ray of the rim. */
 #include "kerr_schild.h"
 #include "render/view/camera.h"
 #include "render/view/rim_sky.h"
@@ -135,8 +135,8 @@ static void each_ray(void **state)
     assert_true(rims >= 165);
 }
 
-/* However narrow the view on some place of the curve is, the last row is one that double precision can resolve, and
- * all rays escape. */
+/* However narrow the view of some place of the curve is, the last row is one that double precision can resolve, and all
+ * rays escape. */
 static void close_up(void **state)
 {
     (void)state;

@@ -360,7 +360,7 @@ static void random_damage_is_harmless(void **state)
             assert_true(*error.message);
             assert_memory_equal(&target, &before, sizeof before);
         } else {
-            accepted++; /* a changed digit, say: then it is a scene like any other */
+            accepted++; /* for example a changed digit: then the document is a scene like any other */
             for (size_t s = 0; s < KD_SECTION_COUNT; s++) {
                 const struct kd_section *section = &kd_sections[s];
                 assert_true(!section->most || kd_section_size(&target, section) <= section->most);

@@ -153,7 +153,8 @@ static void assets_have_names(void **state)
     assert_int_equal(n, 2);
 }
 
-/* What strtod accepts and JSON does not is refused, except half-written numbers: whoever types .5 means it. */
+/* Numbers that strtod accepts but JSON does not are refused, except unfinished ones: .5 is accepted, because its
+ * meaning is clear. */
 static void set_reads_numbers(void **state)
 {
     (void)state;
@@ -317,7 +318,7 @@ static void schema_names_each_field(void **state)
     kd_buffer_finish(&text);
 }
 
-/* Each group on the page has some fields in front, so that none opens empty; and some known fields have the right
+/* Each group on the page has some fields in front, so that none opens empty. Some known fields have the right
  * nature. */
 static void natures_and_groups(void **state)
 {

@@ -73,8 +73,7 @@ static void documents_merge(void **state)
     assert_true(isinf(scene.camera.r));
 }
 
-/* RFC 7396: null sets a field or a section to its default; what is not named stays; a patch that fails changes
- * nothing. */
+/* RFC 7396: null sets a field or a section to its default; what is not named stays; a failing patch changes nothing. */
 static void patches(void **state)
 {
     (void)state;
@@ -127,7 +126,7 @@ static void expect_spots(const struct kd_scene *scene, size_t count, const doubl
         assert_true(scene->spots.at[i].r == 9 && scene->spots.at[i].brightness == 0);
 }
 
-/* An array replaces the whole list, with defaults for what its objects do not name; an object names elements by
+/* An array replaces the whole list, with defaults for fields that its objects do not name. An object names elements by
  * their index. */
 static void lists_merge(void **state)
 {
@@ -210,8 +209,8 @@ static void old_names_are_read(void **state)
     assert_int_equal(support_parse(&picture, hot_spot, NULL), KD_OK);
     assert_int_equal(kd_scene_preset(&preset, "hot-spot", NULL), KD_OK);
     picture.spacetime.distance_pc = preset.spacetime.distance_pc; /* this field did not exist then */
-    picture.sky.brightness = preset.sky.brightness;               /* nor this word */
-    picture.source = preset.source;                               /* nor these */
+    picture.sky.brightness = preset.sky.brightness;               /* nor did this word */
+    picture.source = preset.source;                               /* nor did these fields */
     assert_memory_equal(&picture, &preset, sizeof picture);
     struct kd_scene scene = of("{\"spots\":[{\"r\":10},{\"r\":11},{\"r\":12},{\"r\":13}]}");
     patched(&scene, "{\"spot2\":{\"r\":20},\"spot3\":null,\"spot1\":{\"size\":2}}");
@@ -257,7 +256,7 @@ static void elements_are_set(void **state)
 }
 
 /* A file from an earlier version must keep its meaning. */
-/* A section nested in another is a member of it: in documents, in patches, in paths, and in what is written. */
+/* A section nested in another is a member of it, in documents, in patches, in paths, and in written documents. */
 static void sections_stand_in_sections(void **state)
 {
     (void)state;
@@ -305,7 +304,7 @@ static void sections_stand_in_sections(void **state)
     assert_string_equal(error.pointer, "/disk/gas/sed");
 }
 
-/* One width given in two units. M is 3.8189932 uas at m87's mass and distance. */
+/* One width may be given in two units. M is 3.8189932 uas at m87's mass and distance. */
 static void a_field_in_microarcseconds(void **state)
 {
     (void)state;
@@ -346,7 +345,7 @@ static void a_field_in_microarcseconds(void **state)
     patched(&scene, "{\"camera\":null}");
     assert_true(scene.camera.field_m == 46 && isinf(scene.camera.field_uas));
 
-    /* outside the range of the field in M: the message is about the one that was given */
+    /* The width is outside the range of the field in M: the message is about the field that was given */
     patched(&scene, "{\"camera\":{\"field_uas\":1e10}}");
     assert_int_equal(kd_scene_validate(&scene, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/camera/field_uas");
@@ -521,8 +520,9 @@ static void locale_does_not_matter(void **state)
     free(text);
 }
 
-/* Pauses in which a large document lets other work go first while it is read and freed: their number, which shows
- * that its pieces are short, and the share of this thread's time that the longest piece took. */
+/* How often the reader of a large document lets other work go first while the document is read and freed. The number
+ * shows that its pieces are short. The test also measures the share of this thread's time that the longest piece
+ * took. */
 static unsigned pauses;
 static double last_s, longest_s, longest_share;
 static double thread_s(void)

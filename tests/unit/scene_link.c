@@ -113,7 +113,7 @@ static void changes_come_back(void **state)
     }
 }
 
-/* A style sets fields; one that is set back to its default is part of the link all the same. */
+/* A style sets fields. A field that is set back to its default is still part of the link. */
 static void a_style_does_not_hide_what_it_sets(void **state)
 {
     (void)state;
@@ -149,7 +149,7 @@ static void minus_zero_has_a_link(void **state)
     free(link);
 }
 
-/* No field can shorten a list: in that case the link is based on another preset or on the default scene. */
+/* No field can shorten a list. In that case the link is based on another preset, or on the default scene. */
 static void a_shorter_list_has_another_base(void **state)
 {
     (void)state;

@@ -62,8 +62,8 @@ static void rings_move_while_time_does(void **state)
     assert_false(kd_emit_moves(&scene));
 }
 
-/* The slope of the sRGB curve at white is 0.44: when the motion ends, less than half of one of 255 steps is left,
- * and the motion does not go on until it is less than a fortieth of one. The decay time is by another method. */
+/* The slope of the sRGB curve at white is 0.44. When the motion ends, less than half of one of 255 steps is left, and
+ * it does not go on until less than a fortieth of one is left. The decay time is by another method. */
 static void it_ends_when_it_cannot_be_seen(void **state)
 {
     (void)state;
@@ -87,7 +87,7 @@ static void it_ends_when_it_cannot_be_seen(void **state)
     }
 }
 
-/* An infalling observer moves whatever there is to see, until it is at the last place where a camera can be; an
+/* An infalling observer moves, whatever there is to see, until it is at the last place where a camera can be. An
  * orbiting one counts as moving only if something in the scene is not axially symmetric. */
 static void an_observer_goes_on_by_its_own_clock(void **state)
 {

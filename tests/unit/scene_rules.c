@@ -288,7 +288,7 @@ static void ranges_are_checked_again(void **state)
         size_t last = section->most ? section->most - 1 : 0;
         put_wrong(&scene, field, last);
         kd_field_pointer(field, last, pointer);
-        if (section->most) { /* what lies beyond the end of a list is not checked */
+        if (section->most) { /* elements beyond the end of a list are not checked */
             assert_int_equal(kd_scene_validate(&scene, &error), KD_OK);
             kd_section_resize(&scene, section, last);
             kd_section_resize(&scene, section, last + 1);
@@ -373,7 +373,7 @@ static void presets_show_what_they_say(void **state)
     (void)state;
     static const char *const stirred[] = { "falling", "infall", "jet", "thick-disk", "companions" };
     struct kd_scene scene, base;
-    for (size_t i = 0; i < kd_scene_preset_count(); i++) { /* only those of gas have any */
+    for (size_t i = 0; i < kd_scene_preset_count(); i++) { /* only scenes with gas have any */
         assert_int_equal(kd_scene_preset(&scene, kd_scene_preset_name(i), NULL), KD_OK);
         bool gas = strstr(kd_scene_preset_name(i), "gas");
         for (size_t k = 0; k < sizeof stirred / sizeof *stirred; k++)

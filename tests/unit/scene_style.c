@@ -52,7 +52,7 @@ static void each_sets_its_fields(void **state)
     }
 }
 
-/* Fields that a document sets stay, whatever the order within it, in a patch, and with null. */
+/* Fields that a document sets keep their values, whatever the order within the document, in a patch, and with null. */
 static void what_the_document_sets_stays(void **state)
 {
     (void)state;
@@ -72,7 +72,7 @@ static void what_the_document_sets_stays(void **state)
     assert_true(patched.disk.doppler && patched.disk.redshift);
 }
 
-/* A document that does not name the style changes only what it names, whatever the style was. */
+/* A document that does not name the style changes only the fields that it names, whatever the style was. */
 static void the_name_alone_does_nothing_later(void **state)
 {
     (void)state;
@@ -84,7 +84,7 @@ static void the_name_alone_does_nothing_later(void **state)
     scene = parsed(&scene, "{\"style\":{\"name\":null}}", true); /* the default, which is a style itself */
     assert_true(scene.style.name == KD_STYLE_FILM && scene.disk.redshift);
     char *text = support_canonical(&dngr);
-    const struct kd_scene again = of(text); /* names the style, and each field */
+    const struct kd_scene again = of(text); /* this text names the style and each field */
     assert_memory_equal(&again, &dngr, sizeof again);
     scene = of("{\"style\":{\"name\":\"dngr\",\"bloom\":0.25,\"dither\":false}}");
     free(text);

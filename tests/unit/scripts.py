@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""What the scripts answer to a mistake: one sentence and exit code 2, never a traceback or a success of nothing. Builds
-nothing.
+"""Tests how the scripts answer mistakes: one sentence and exit code 2, never a traceback or an empty success.
+
+It builds nothing.
 
 scripts.py SCRIPTS BUILD
 """
@@ -90,7 +91,7 @@ class Scripts(unittest.TestCase):
         self.assertTrue(text.startswith("scripts/matrix: there is no way debian14"), text)
 
     def test_the_report(self):
-        """Seconds suite by suite, the slowest, and what was skipped."""
+        """The report has the seconds of each suite, the slowest tests, and what was skipped."""
         tests = [("kerrd:gpu / a", 20), ("kerrd:gpu+long / b", 300.4), ("kerrd:unit / c", 1)] + [
             (f"kerrd:http / d{i}", 2) for i in range(6)
         ]
@@ -126,8 +127,7 @@ class Scripts(unittest.TestCase):
         )
 
     def test_what_is_not_installed_is_skipped(self):
-        """On a machine with what scripts/setup installs and no more, tests of the suite `extra` end with 77 and say
-        why."""
+        """On a machine with only what scripts/setup installs, tests of the suite `extra` end with 77 and say why."""
         tests = [
             test
             for test in json.loads((BUILD / "meson-info/intro-tests.json").read_text())
@@ -152,7 +152,7 @@ class Scripts(unittest.TestCase):
                     self.assertEqual((done.returncode, bool(done.stdout)), (77, True), done)
 
     def test_help_needs_nothing(self):
-        """Not even scripts/setup, which is not there."""
+        """--help needs nothing installed, not even by scripts/setup."""
         with tempfile.TemporaryDirectory() as alone:
             script = shutil.copy(SCRIPTS / "test", alone)
             for options in (["--help"], ["-h"], ["--clang", "--help"]):

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""The sense of a circular orbit is decided in one place: kd_observer_sense() in physics/spacetime/observer.h.
+"""Checks that the sense of a circular orbit is decided only by kd_observer_sense() of physics/spacetime/observer.h.
 
-senses.py SRC     exit 1 naming every other place of SRC that asks whether an observer is one of the circular orbits
-                  by its name, after proving that it finds some
+senses.py SRC     exit 1 naming every other place of SRC that compares an observer with one of the circular orbits by
+    name, after proving that it finds some
 """
 
 import pathlib
@@ -12,13 +12,13 @@ import sys
 HOME = "physics/spacetime/observer.h"
 NAME = r"KD_OBSERVER_(?:KEPLERIAN|RETROGRADE)\b"
 WORD = r'"(?:keplerian|retrograde)"'
-# Either side of a comparison, the case of a switch, the index of a table, or a word that is compared. Default values
-# and rows of tables name an observer, too, and decide nothing.
+# Matches either side of a comparison, the case of a switch, the index of a table, and a word that is compared. Default
+# values and rows of tables name an observer, too, but decide nothing.
 ASKS = re.compile(rf"[=!]=\s*{NAME}|{NAME}\s*\)?\s*[=!]=|\bcase\s+{NAME}|\[\s*{NAME}\s*\]|\bstr\w*cmp\([^;]*?{WORD}")
 
 
 def asks(text):
-    """The numbers of the lines where a text does so."""
+    """The numbers of the lines on which a text makes such a comparison."""
     return [text.count("\n", 0, found.start()) + 1 for found in ASKS.finditer(text)]
 
 

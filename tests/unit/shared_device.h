@@ -1,7 +1,7 @@
-/* A simulation of sessions that share a device: each has a governor and a viewer who asks for the next frame a while
- * after the last. The budget divides the device's time among them, shares.h decides whose turn it is, and costs of
- * frames are those of governor_simulation.h. Events are processed in the order of their times; a frame has the
- * device until it is done, a refinement for 40 ms at a time. */
+/* A simulation of sessions that share a device. Each has a governor, and a viewer who requests the next frame some time
+ * after the last. The budget divides the device's time among them, shares.h decides whose turn it is, and the costs of
+ * frames are those of governor_simulation.h. Events are processed in the order of their times. A frame has the device
+ * until it is done, a refinement for 40 ms at a time. */
 #ifndef KD_TESTS_SHARED_DEVICE_H
 #define KD_TESTS_SHARED_DEVICE_H
 
@@ -16,7 +16,7 @@ struct sharer {
     struct kd_claim claim; /* of its frame */
     double pause; /* mean time from a frame to the next request; the actual one is half to one and a half times that */
     double from, to;     /* its scene changes at each request between these times, */
-    double stroke, lift; /* for `stroke`, and then not for `lift`, in turn; 0: without a break */
+    double stroke, lift; /* alternately for `stroke` and not for `lift`; 0: without a break */
     bool still;          /* the changes reuse the lens map, as a change of time does */
     /* internal */
     double due; /* time of the next request; INFINITY: a frame is in the queue */
@@ -38,7 +38,7 @@ struct device {
     struct kd_budget budget;
     struct sharer *served; /* NULL: nobody */
     double now, until, slice;
-    bool alone; /* governors are not told of each other */
+    bool alone; /* governors do not learn of each other */
 };
 
 static void open_device(struct device *d, struct sharer *sharers, int n)
@@ -91,7 +91,7 @@ static void request(struct device *d, struct sharer *s)
     const bool first = sim->lens == 0;
     if (first || dragged(s, d->now))
         change(sim, first || !s->still);
-    if (first) /* the server takes this from the plan */
+    if (first) /* the server takes this estimate from the plan */
         kd_governor_expect(&sim->governor, &(struct kd_frame_cost) { .fixed_ms = sim->truth.fixed,
                                                                      .rays_ms = sim->truth.traced,
                                                                      .pixels_ms = sim->truth.pixels,
@@ -100,7 +100,8 @@ static void request(struct device *d, struct sharer *s)
     s->turn = kd_governor_decide(&sim->governor, d->now);
     if (s->turn.wait_ms > 0) {
         double next = next_drag(s, d->now);
-        s->due = fmin(d->now + s->turn.wait_ms, next) + 1e-6; /* so that rounding does not put it before that time */
+        s->due = fmin(d->now + s->turn.wait_ms, next) + 1e-6; /* later by rounding, so that it is not before that
+                                                               * time */
         return;
     }
     struct kd_scene scene;

@@ -43,7 +43,7 @@ static bool may(const struct kd_claim *claim, void *user)
     return !((const struct work *)claim)->barred;
 }
 
-/* One turn: a short work is done completely, others for a slice. NULL: idle. */
+/* Serves one turn: a short piece of work is done completely, others for a slice. NULL: idle. */
 static struct work *turn(struct bench *b)
 {
     struct work *w = (struct work *)kd_shares_next(&b->shares, may, NULL);
@@ -70,7 +70,8 @@ static void run(struct bench *b, double until)
         ;
 }
 
-/* A client with less work than its share waits for at most one slice of each other client, whatever they ask for. */
+/* A client with less work than its share waits for at most one slice of each other client, whatever the others
+ * request. */
 static void a_small_one_beside_any_load(void **state)
 {
     (void)state;
@@ -92,7 +93,7 @@ static void a_small_one_beside_any_load(void **state)
         }
 }
 
-/* Two clients get half each, whether they have one work or thirty; three get a third each. */
+/* Two clients get half each, whether they have one piece of work or thirty; three get a third each. */
 static void shares_are_by_client(void **state)
 {
     (void)state;
@@ -125,7 +126,7 @@ static void classes_of_a_client(void **state)
         assert_true(fabs(w[i]->served - 10000 * weight[i]) <= 8 * SLICE);
 }
 
-/* A probe of a pixel is served after the slice that is being computed, whatever else the same client has asked for. */
+/* A probe of a pixel is served after the slice that is being computed, whatever else the same client has requested. */
 static void a_pixel_is_next(void **state)
 {
     (void)state;
@@ -142,7 +143,7 @@ static void a_pixel_is_next(void **state)
     }
 }
 
-/* A film goes before a view of the same client that moves by itself or is refined: these get a twentieth, and
+/* A film goes before a view of the same client that moves by itself or is refined. These get a twentieth, and
  * continue. */
 static void a_film_beside_an_idle_view(void **state)
 {
@@ -209,7 +210,7 @@ static void short_first(void **state)
                 long_one->began <= 4 * 5000); /* not before a time of its own length, nor after four times that */
 }
 
-/* Nobody saves up time, neither by being away nor by being blocked, and nobody pays for having been alone. */
+/* A client cannot save up time by being away or blocked, and does not pay for having been alone. */
 static void no_savings_and_no_debts(void **state)
 {
     (void)state;
@@ -229,7 +230,7 @@ static void no_savings_and_no_debts(void **state)
     assert_true(late->served - before >= 1000 - 200 - 2 * SLICE);
 }
 
-/* The same for one class of a client's work: whatever its weight, one that was blocked catches up by at most 200 ms
+/* The same for one class of a client's work: whatever its weight, a class that was blocked catches up by at most 200 ms
  * of the device. */
 static void a_class_that_was_barred(void **state)
 {
@@ -247,13 +248,13 @@ static void a_class_that_was_barred(void **state)
             const double before = other->served, waited = b.now;
             while (other->served <= before)
                 assert_non_null(turn(&b));
-            /* 200 ms; its own share between two slices of the other one, by their weights; a slice of the other one
-             * that is being computed; and the rounding to one slice. */
+            /* The sum of 200 ms; its own share between two slices of the other class, by their weights; a slice of the
+             * other class that is being computed; and the rounding to one slice. */
             assert_true(b.now - waited <= 200 + SLICE * (weight[i] / weight[k]) + 3 * SLICE);
         }
 }
 
-/* A client that comes and goes, each time with a new work, gets no more than its share. */
+/* A client that comes and goes, each time with new work, gets no more than its share. */
 static void coming_and_going(void **state)
 {
     (void)state;
@@ -273,7 +274,7 @@ static void coming_and_going(void **state)
     assert_true(taken <= 10000 + 100 && steady->served >= 10000 - 100);
 }
 
-/* If there are more clients than can be told apart, some share a place, and all are served. */
+/* If there are more clients than the table can distinguish, some share a place, and all are served. */
 static void more_clients_than_places(void **state)
 {
     (void)state;

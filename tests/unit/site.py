@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What scripts/site finds in a built site: pages that ask another server, links to nothing, tables that are none.
+"""Tests what scripts/site finds in a built site: links to other servers, dead links, and malformed tables.
 
 site.py ROOT
 """
@@ -18,7 +18,7 @@ GOOD = {
     "s.css": "a { background: url(p.png) }",
     "p.png": "",
 }
-BAD = {  # what is put into index.html, and the words about it
+BAD = {  # what is put into index.html, and the words of the message about it
     '<script src="https://a.org/x.js"></script>': "asks another server: https://a.org/x.js",
     '<img src="//a.org/p.png">': "asks another server: //a.org/p.png",
     '<link rel="preconnect" href="http://a.org">': "asks another server: http://a.org",

@@ -1,5 +1,5 @@
-/* Tests of skies: the catalogue and its counts, orientations against published places, generated stars, the panorama
- * and its packing. */
+/* Tests of skies: the catalogue and its star counts, orientations compared with published places, generated stars, the
+ * panorama and its packing. */
 #include "render/sky/frame.h"
 #include "render/sky/panorama.h"
 #include "render/sky/star.h"
@@ -81,7 +81,8 @@ static double determinant(const struct kd_rotation *r)
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/* No orientation mirrors the sky, and what each is named after lies where it should, whatever the inclination. */
+/* No orientation mirrors the sky. The thing after which an orientation is named lies where it should, whatever the
+ * inclination. */
 static void orientations(void **state)
 {
     (void)state;
@@ -126,8 +127,8 @@ static struct kd_stars stars_of(int model, int seed, double limit)
     return stars;
 }
 
-/* As many generated stars as the catalogue has where it is complete, within a quarter; the same for one seed, others
- * for another. */
+/* The number of generated stars is that of the catalogue where it is complete, within a quarter. One seed always gives
+ * the same stars, and another seed gives others. */
 static void made_up_stars(void **state)
 {
     (void)state;
@@ -172,8 +173,8 @@ static void packing(void **state)
     }
 }
 
-/* The Milky Way is black at the poles and on average some 22 magnitudes a square arcsecond in its plane, and nowhere
- * negative; the coarsest level is the mean. */
+/* The Milky Way is black at the poles. In its plane it has on average some 22 magnitudes a square arcsecond. It is
+ * nowhere negative, and the coarsest level is the mean. */
 static void the_milky_way(void **state)
 {
     (void)state;

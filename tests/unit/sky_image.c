@@ -32,8 +32,8 @@ static struct kd_sky_picture read_it(const struct kd_buffer *png, char credit[KD
     return picture;
 }
 
-/* Values of IEC 61966-2-1, computed by other means: 188 of 255 is 0.502886 of white, 10 is 0.00303527; 30000 of
- * 65535 is 0.177015. */
+/* Values of IEC 61966-2-1 that were computed by other means: 188 of 255 is 0.502886 of white, 10 of 255 is 0.00303527,
+ * and 30000 of 65535 is 0.177015. */
 static void light(void **state)
 {
     (void)state;

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Nothing is made anew that has not changed, also where a folder on the way has a space in its name.
+"""Checks that nothing is rebuilt that has not changed, also if a folder of the path has a space in its name.
 
-spaces.py SHADERS: kernels of its folder are built alone, one by each kind of command, under such a name; it is all that
-has dependencies found while building.
+spaces.py SHADERS
+
+Some kernels of SHADERS are built by themselves under such a name, one with each kind of command. Only kernels have
+dependencies that are found while building.
 """
 
 import os
@@ -14,7 +16,7 @@ import tempfile
 
 KERNELS = ["shaders/" + name + ".spv.h" for name in ("expose", "post_texels", "rays_f64")]
 
-if not any(shutil.which(name) for name in ("cc", "gcc", "clang")):  # where all else is compiled for another machine
+if not any(shutil.which(name) for name in ("cc", "gcc", "clang")):  # everything else is compiled for another machine
     print("skipped: no compiler for this machine")
     sys.exit(77)
 

@@ -55,9 +55,9 @@ static struct kd_sky_map map_of(const struct sky *sky)
     return (struct kd_sky_map) { .width = WIDTH, .height = HEIGHT, .coarse = 0.15, .of = sky, .row = row_of };
 }
 
-/* Each star in the picture has one image, where the camera has it, with the pixel's own solid angle, cos^3 over the
- * square of the distance; left stays left unless mirrored. If the observer circles, the star it matches is the one
- * rotated back. */
+/* Each star in the picture has one image, at the place that the camera gives. It has the pixel's own solid angle, cos^3
+ * over the square of the distance. Left stays left unless the camera mirrors. If the observer circles, the star that an
+ * image belongs to is the one rotated back. */
 static void a_plain_camera(void **state)
 {
     (void)state;
@@ -101,8 +101,8 @@ static void a_plain_camera(void **state)
     }
 }
 
-/* A map that takes the two halves of the picture to the same sky shows each star twice, the second time mirrored;
- * there are no images among rays that do not escape, nor between rays that are too far apart. */
+/* A map that shows the same sky in both halves of the picture shows each star twice, the second time mirrored. There
+ * are no images among rays that do not escape, nor between rays that are too far apart. */
 static void doubles_and_holes(void **state)
 {
     (void)state;
@@ -150,8 +150,8 @@ static bool folded_exactly(const void *of, double x, double y, struct kd_vec *ou
     return true;
 }
 
-/* Both images of a star next to the caustic are found, one of them mirrored, however close to each other; none
- * beyond it. */
+/* Both images of a star next to the caustic are found, one of them mirrored, however close to each other. There is none
+ * beyond the caustic. */
 static void pairs_that_merge(void **state)
 {
     (void)state;

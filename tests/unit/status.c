@@ -1,5 +1,5 @@
-/* Tests of steps that can fail: each is taken once, none after the first that fails, and what is held is released in
- * either case. */
+/* Tests of steps that can fail: each is taken once, none after the first that fails, and resources are released in both
+ * cases. */
 #include "base/error.h"
 
 #include <setjmp.h>

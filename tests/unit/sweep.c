@@ -126,8 +126,8 @@ static void what_is_refused(void **state)
     }
 }
 
-/* Each value may be valid and a combination not; a style is set before the fields it sets; an axis creates the list
- * element it belongs to. */
+/* Each value may be valid and their combination not. A style is set before the fields that it sets. An axis creates the
+ * list element that it belongs to. */
 static void combinations(void **state)
 {
     struct kd_scene scene;
@@ -188,7 +188,7 @@ static void those_that_share_a_lens_map_follow_one_another(void **state)
     unsigned changes = 0;
     char seen[24] = "";
     (void)state;
-    /* its deadline has passed already, so that only a piece is done */
+    /* the deadline has passed already, so that only one piece is done */
     assert_int_equal(kd_sweep_order_go_on(&order, s, 0), KD_OK);
     assert_null(order.frames);
     assert_int_equal(kd_sweep_order_go_on(&order, s, INFINITY), KD_OK);
@@ -219,7 +219,7 @@ static void what_is_shared(void **state)
     kd_sweep_order_finish(&order);
 }
 
-/* For the plans of scenes: equal groups have equal lens maps, and whatever changes the map changes the group. */
+/* For the plans of scenes: equal groups have equal lens maps, and a change that affects the map changes the group. */
 static void groups_are_those_of_lens_maps(void **state)
 {
     static const char *const changes[][2] = {
@@ -259,8 +259,8 @@ static void groups_are_those_of_lens_maps(void **state)
     assert_true(same >= 4 && same < sizeof changes / sizeof *changes - 4);
 }
 
-/* Scenes of one cube must agree in what is no axis: refused are a plan of another size and a scene with other
- * layers. */
+/* Scenes of one cube must agree in everything that is not an axis. A plan of another size and a scene with other layers
+ * are refused. */
 static void a_cube_has_one_shape(void **state)
 {
     struct kd_cube_shape shape;

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""A name that the whole program knows means one thing: no tag with the prefix kd_ is declared twice.
+"""Checks that a name which the whole program knows means one thing: no tag with the prefix kd_ is declared twice.
 
-    tags.py SRC SHADERS     exit 1 naming every tag that has two meanings in C and GLSL together
+tags.py SRC SHADERS     exit 1 naming every tag that has two meanings in C and GLSL together
 
-A tag is the name of a struct, enum or union. The same text behind it is one meaning: C and GLSL expand the lists of
-interface.h alike. A function may have the name of a tag that its own declaration mentions, as one that makes such a
-struct does.
+A tag is the name of a struct, enum or union. Declarations with the same text have one meaning, because C and GLSL
+expand the same lists of interface.h. A function may have the name of a tag that its declaration mentions, such as one
+that makes this struct.
 """
 
 import collections
@@ -50,7 +50,7 @@ def wrong(src, shaders):
 
 
 def self_test():
-    """Each kind of doubled name is found, a permitted repetition is not reported."""
+    """Each kind of doubled name is found, and a permitted repetition is not reported."""
     files = {
         "src/a.h": "struct kd_one { int a; };\nenum kd_two { KD_A };\nstruct kd_three { KD_FIELDS };\nstruct kd_four { int n; };\n",
         "src/b.h": "struct kd_one { int b; };\nstruct kd_two;\n/* struct kd_three { int none; }; */\nstruct own { int a; };\n",

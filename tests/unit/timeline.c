@@ -213,8 +213,8 @@ static double seconds_of(const struct kd_timeline *t, int frames)
     return least;
 }
 
-/* Angles that go the shorter way accumulate turns from the first key on, and yet a frame needs only the keys next to
- * it. */
+/* Angles that go the shorter way accumulate turns from the first key on. Nevertheless a frame needs only the keys next
+ * to it. */
 static void a_great_many_keys(void **state)
 {
     (void)state;
@@ -232,7 +232,7 @@ static void a_great_many_keys(void **state)
         }
     const double slow = seconds_of(&t, 1000), quick = seconds_of(&few, 1000);
     print_message("a frame: %.1f us of %d keys, %.1f us of %d\n", slow * 1e3, MANY, quick * 1e3, SOME);
-    /* neither fits in a cache; if the time were proportional to the keys it would be ten times */
+    /* neither fits in a cache; if the time were proportional to the number of keys, the ratio would be ten */
     assert_true(slow < 5 * quick);
     kd_timeline_finish(&t);
     kd_timeline_finish(&few);

@@ -59,7 +59,7 @@ static void ask_light(struct kd_random *random, struct kd_line_params *p, double
     p->photon_index = between(random, 1, 3.5);
 }
 
-/* Even bins as by default, or a few edges at random places. */
+/* Chooses even bins as by default, or a few edges at random places. */
 static void ask_edges(struct kd_random *random, struct asked *q)
 {
     double at = 0;

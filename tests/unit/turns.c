@@ -1,4 +1,4 @@
-/* Tests of jobs that take turns: one that computes for long lets others go first in the middle of its turn. */
+/* Tests of jobs that take turns: a job that computes for a long time lets others go first in the middle of its turn. */
 #include "server/http/task_scheduler.h"
 
 #include "base/clock.h"
@@ -77,7 +77,7 @@ static struct kd_scheduler *begin(void)
     return turns;
 }
 
-/* There are more long turns than workers, and the short one comes last. */
+/* There are more long turns than workers, and the short turn comes last. */
 static void test_a_short_turn_comes_between_long_ones(void **state)
 {
     (void)state;
@@ -98,7 +98,8 @@ static void test_a_short_turn_comes_between_long_ones(void **state)
     kd_scheduler_destroy(turns);
 }
 
-/* While it waits, a job whose turns are shared by several workers begins no more of them than there are workers. */
+/* While a short turn waits, a job whose turns are shared by several workers begins no more of them than there are
+ * workers. */
 static void test_a_shared_job_does_not_begin_all_its_turns(void **state)
 {
     (void)state;
@@ -130,7 +131,7 @@ static void *destroy(void *turns)
     return NULL;
 }
 
-/* A paused turn ends when the queue is destroyed, as one that is running does. */
+/* A paused turn ends when the queue is destroyed, like one that is running. */
 static void test_a_queue_is_destroyed_while_turns_are_paused(void **state)
 {
     (void)state;
@@ -142,10 +143,11 @@ static void test_a_queue_is_destroyed_while_turns_are_paused(void **state)
         jobs[i] = (struct kd_scheduler_job) { .turn = compute, .done = count_done };
         kd_scheduler_push(turns, &jobs[i]);
     }
-    while (atomic_load(&computing) <= kd_cores()) /* then at least one of them has paused */
+    while (atomic_load(&computing) <= kd_cores()) /* so that at least one of them has paused */
         nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
     assert_int_equal(pthread_create(&thread, NULL, destroy, turns), 0);
-    nanosleep(&(struct timespec) { .tv_nsec = 50000000 }, NULL); /* the queue is closing, and turns are under way */
+    nanosleep(&(struct timespec) { .tv_nsec = 50000000 }, NULL); /* the queue is being closed, and turns are under
+                                                                  * way */
     atomic_store(&over, true);
     for (const double since = kd_clock_ms(); !atomic_load(&destroyed) && kd_clock_ms() - since < PATIENCE_MS;)
         nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);

@@ -1,4 +1,4 @@
-/* A build that watches its threads aborts where one breaks a rule, and only there: each rule is broken once, in a
+/* A build that watches its threads aborts where a thread breaks a rule, and only there. Each rule is broken once, in a
  * process of its own. */
 #include "base/watch.h"
 

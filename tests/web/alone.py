@@ -7,8 +7,8 @@ import daemon
 
 class Alone(Browser):
     def covers(self, page):
-        """Whether only the picture is visible: it has the window's size, at its own aspect ratio, and is the topmost
-        element at any point of it."""
+        """True if only the picture is visible: it has the window's size, at its own aspect ratio, and is the topmost
+        element at every point."""
         return page.evaluate("""() => {
             const stage = document.getElementById('stage'), box = stage.getBoundingClientRect(), picture = document.getElementById('picture');
             const points = [[0.02, 0.02], [0.5, 0.5], [0.98, 0.02], [0.02, 0.98], [0.97, 0.9]];
@@ -48,7 +48,7 @@ class Alone(Browser):
         self.assertNotEqual(float(self.field(page, "camera.azimuth_deg")), 0)
 
     def test_buttons_come_with_the_pointer(self):
-        """And with the keyboard's focus; a button that was not visible is not pressed by the key that shows it."""
+        """Buttons also come with the keyboard's focus. A key that shows a hidden button does not press it."""
         page = self.open()
         page.keyboard.press("f")
         shown = lambda: page.evaluate('() => getComputedStyle(document.querySelector(".buttons")).opacity') == "1"
@@ -59,7 +59,7 @@ class Alone(Browser):
         self.assertTrue(daemon.eventually(lambda: not shown()))
         page.keyboard.press("Tab")
         self.assertTrue(daemon.eventually(shown))
-        page.keyboard.press("Tab")  # over the one that asks what a light is
+        page.keyboard.press("Tab")  # past the button that explains a light
         self.assertEqual(page.get_attribute("#full", "aria-label"), "Leave the picture (Esc)")
         page.keyboard.press("Enter")
         self.assertTrue(daemon.eventually(lambda: page.is_visible("#panel")))

@@ -1,6 +1,9 @@
-"""The server behind proxies that give it a part of a site: HAProxy, which takes the prefix away or passes it on
-(docs/examples/haproxy-prefix.cfg), and jupyter-server-proxy, which takes it away. behind.py KERRD FOLDER
-haproxy|jupyter"""
+"""Tests of the server behind proxies that give it a part of a site.
+
+HAProxy removes the prefix or passes it on (docs/examples/haproxy-prefix.cfg), and jupyter-server-proxy removes it.
+
+behind.py KERRD FOLDER haproxy|jupyter
+"""
 
 import http.client
 import json
@@ -25,12 +28,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "docs/examples"
 HAPROXY = shutil.which("haproxy") or shutil.which("haproxy", path="/usr/sbin")
 JUPYTER = ROOT / "venv-jupyter/bin/jupyter-server"
-USER = "/user/someone@example.org/"  # as a hub names one
+USER = "/user/someone@example.org/"  # as JupyterHub names a user
 TINY = {"image": {"width": 64, "height": 36}, "motion": {"time_rate": 1}}
 
 
 class Behind(browser.Browser):
-    """Tests that hold behind each proxy. base is the address that a browser uses."""
+    """Tests for every proxy. base is the address that a browser uses."""
 
     options, headers, query = (), {}, ""
 
@@ -59,7 +62,8 @@ class Behind(browser.Browser):
 
     @classmethod
     def ask(cls, method, path, document=None, read=http.client.HTTPResponse.read, **headers):
-        """Status, body and header. path: relative to base, or absolute. read: takes the body from the answer."""
+        """Status, body and header of an answer. path: relative to base, or absolute. read: how the body is read from
+        the answer."""
         connection = http.client.HTTPConnection("127.0.0.1", cls.port, timeout=60)
         headers = {**cls.headers, **({"Content-Type": "application/json"} if document is not None else {}), **headers}
         try:
@@ -77,7 +81,7 @@ class Behind(browser.Browser):
             connection.close()
 
     def session(self, scene):
-        """Opens one, and closes it with the test; returns its address and its token."""
+        """Opens a session, and closes it with the test; returns its address and its token."""
         status, body, headers = self.ask("POST", "v1/sessions", scene)
         self.assertEqual(status, 201, body)
         at = urllib.parse.urljoin(self.prefix + "/v1/sessions", headers["Location"])
@@ -159,7 +163,7 @@ class Behind(browser.Browser):
 
 
 class Forwards:
-    """A proxy that passes everything on unchanged, and leads the bare prefix to the page."""
+    """A proxy that passes everything on unchanged, and redirects the bare prefix to the page."""
 
     moves, streams = True, {}
 
@@ -190,9 +194,9 @@ class Passed(Forwards, Behind):
 
 
 class Jupyter(Behind):
-    """The user has logged in with Jupyter's token, and has had a cookie since."""
+    """The user has logged in with Jupyter's token, and has a cookie since then."""
 
-    moves, streams = False, {"Accept": "text/event-stream"}  # any other answer it keeps until that has ended
+    moves, streams = False, {"Accept": "text/event-stream"}  # the proxy buffers any other answer until it has ended
     token = "b1a" * 8
 
     @classmethod
@@ -202,7 +206,7 @@ class Jupyter(Behind):
         home.joinpath("kerrd").write_text("#!/bin/sh\nexec " + shlex.quote(browser.KERRD) + ' "$@"\n')
         home.joinpath("kerrd").chmod(0o755)
         env = {**os.environ, "HOME": str(home), "JUPYTER_CONFIG_DIR": str(home), "PATH": f"{home}:{os.environ['PATH']}"}
-        env.pop("PYTHONPATH", None)  # of another venv
+        env.pop("PYTHONPATH", None)  # it belongs to another virtual environment
         cls.proxy = subprocess.Popen(
             [
                 JUPYTER,

@@ -1,6 +1,8 @@
-"""The page in a headless browser, in front of the program itself. Each view's tests are a file: FILE.py KERRD FOLDER,
-where screenshots go. They are skipped, with the reason, where Playwright for Python, Chromium or a Vulkan device is
-missing."""
+"""Tests of the page in a headless browser, with the program itself as the server.
+
+Each view's tests are a file: FILE.py KERRD FOLDER, where screenshots go. They are skipped, with the reason, if
+Playwright for Python, Chromium or a Vulkan device is missing.
+"""
 
 import json
 import os
@@ -19,7 +21,7 @@ try:
 except ImportError:
     sync_playwright = None
 
-PATIENCE_MS = 240_000  # after which what is waited for is taken not to come; a busy machine is slow
+PATIENCE_MS = 240_000  # after which an expected event counts as missing; a busy machine is slow
 AT_REST = "#stage[data-final=true]"
 FINE = '#stage[data-final=true][data-samples="2"]'
 VIEWS = ("lensing", "orbits", "playground", "physics", "scale")
@@ -34,7 +36,7 @@ KERRD, SHOTS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv.pop(2)) / "sc
 # KERRD_SLOW="4 400": scripts of every page run at a quarter of their speed, and every answer comes 400 ms late
 # (docs/web.md).
 SLOW, LATE_MS = map(float, os.environ.get("KERRD_SLOW", "1 0").split())
-# No GPU and no WebGL: the page must need neither.
+# No GPU and no WebGL, because the page must need neither.
 FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -54,7 +56,7 @@ def value(cell):
 
 
 def rows(schema, before="", group=None):
-    """(path, row, group) of each field of a schema; for a list the rows of its first element."""
+    """(path, row, group) of each field of a schema. A list is represented by the rows of its first element."""
     for name, spec in schema["properties"].items():
         if before + name == "image.tile":
             continue  # the page shows whole pictures
@@ -75,12 +77,12 @@ def paths(document, before=""):
             yield before + name, value
 
 
-# a scene in a link that stays as it is: a disk at rest, without slow light
+# a scene that looks the same at any time: a disk at rest, without slow light
 SMOOTH = "disk.gas.amplitude=0&disk.emission_opacity=0&style.bloom=0"
 
 
 class Browser(unittest.TestCase):
-    """Tests that share a server and a browser; each page has a browser context of its own."""
+    """Tests that share a server and a browser. Each page has a browser context of its own."""
 
     @classmethod
     def setUpClass(cls, *options):
@@ -98,7 +100,7 @@ class Browser(unittest.TestCase):
             raise AssertionError(f"kerrd exited with {code}")
 
     def leave(self, context):
-        """Leaving a page ends its session; chromium-headless-shell closes a page without telling it."""
+        """Ends the sessions of a page. chromium-headless-shell closes a page without telling it."""
         for page in context.pages:
             page.goto("about:blank", wait_until="commit")
         context.close()
@@ -107,7 +109,7 @@ class Browser(unittest.TestCase):
         self.complaints, self.requests, self.frames, self.contexts, self.expected = [], [], [], [], ""
 
     def tearDown(self):
-        # Before the pages close: messages about requests dropped by a closing page are not errors.
+        # before the pages close, because messages about requests that a closing page drops are not errors
         for context in self.contexts:
             for page in context.pages:
                 page.evaluate("0")
@@ -132,8 +134,8 @@ class Browser(unittest.TestCase):
         return page
 
     def context(self, gallery=False, **options):
-        """Small pictures of presets are requested only if gallery is set: otherwise they would come at any moment,
-        and disturb what a test counts."""
+        """A browser context. Small pictures of presets are requested only if gallery is set; otherwise they would come
+        at any moment, and disturb what a test counts."""
         options.setdefault("viewport", {"width": 1000, "height": 640})
         context = self.browser.new_context(**options)
         if not gallery:
@@ -197,7 +199,7 @@ class Browser(unittest.TestCase):
         }""")
 
     def rows(self, page, selector):
-        """The texts of a table's cells, row by row, at one moment, because a live table is soon replaced."""
+        """The texts of a table's cells, row by row, read at one moment, because a live table is soon replaced."""
         return page.evaluate(
             "within => [...document.querySelectorAll(within + ' tbody tr')].map(row => [...row.cells].map(c => c.textContent))",
             selector,
@@ -217,12 +219,12 @@ class Browser(unittest.TestCase):
         page.wait_for_selector(AT_REST)
 
     def there(self, page, words, selector, text=False):
-        """Waits for words to appear; text: also in what is folded up."""
+        """Waits for words to appear. text: also in what is folded up."""
         read = page.text_content if text else page.inner_text
         self.assertTrue(daemon.eventually(lambda: words in read(selector)), f"{words!r} in {read(selector)!r}")
 
     def linked(self, page, *parts):
-        """The address changes shortly after an action."""
+        """Waits until the address contains these parts; it changes shortly after an action."""
         self.assertTrue(
             daemon.eventually(lambda: page.evaluate("0") or all(part in page.url for part in parts)), page.url
         )

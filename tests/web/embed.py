@@ -1,9 +1,12 @@
-"""A hole in a page of another origin: embed.py KERRD FOLDER (browser.py). The page stands at localhost, the server at
-127.0.0.1, which is another site to a browser."""
+"""Tests of a picture embedded in a page of another origin: embed.py KERRD FOLDER (browser.py).
+
+The page is at localhost and the server at 127.0.0.1, which are different sites to a browser.
+"""
 
 import base64
 import gzip
 import http.server
+import pathlib
 import threading
 import urllib.request
 import zlib
@@ -12,6 +15,8 @@ from browser import Browser, main
 
 import daemon
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
 
 def code_of(text):
     packer = zlib.compressobj(9, zlib.DEFLATED, -15)
@@ -19,7 +24,7 @@ def code_of(text):
 
 
 class Page(http.server.SimpleHTTPRequestHandler):
-    """A site of its own; each page contains what its query says."""
+    """Serves the other site. Each page contains what its query says."""
 
     bodies = {}
 
@@ -45,7 +50,7 @@ class Embed(Browser):
         cls.addClassCleanup(site.shutdown)
         super().setUpClass("--embed-origin", cls.origin if cls.listed else "https://elsewhere.example")
 
-    def tearDown(self):  # requests go to the site as well
+    def tearDown(self):  # requests go to the other site as well
         for context in self.contexts:
             for page in context.pages:
                 page.goto("about:blank")
@@ -83,7 +88,7 @@ class Embed(Browser):
         )
 
     def canvas(self, page):
-        """A checksum of the live picture; None: there is none."""
+        """A checksum of the live picture; None if there is none."""
         return page.evaluate("""() => {
             const canvas = document.querySelector('kerr-hole').shadowRoot.querySelector('canvas');
             if (canvas.hidden) return null;
@@ -126,11 +131,49 @@ class Listed(Embed):
         self.assertTrue(daemon.eventually(lambda: self.sessions() == 0))
         self.assertEqual(page.get_by_role("button", name="Move it").count(), 1)
 
+    def test_the_client_of_the_package(self):
+        """clients/javascript in a browser, in a page of another origin; tests/javascript has all that it does."""
+        client = ROOT.joinpath("clients/javascript/client.js").read_text()
+        page = self.show("")
+        page.route("**/client.js", lambda route: route.fulfill(body=client, content_type="text/javascript"))
+        told = page.evaluate(
+            """async url => {
+                const { Client, Problem } = await import('/client.js'), hole = new Client(url), image = { width: 64, height: 36 };
+                const { width, height } = await createImageBitmap((await hole.render({ image })).blob);
+                const { accuracy, approximations } = await hole.render({ image });
+                const live = await hole.session({ image }), first = await live.frame();
+                await live.patch({ spacetime: { spin: 0.5 } });
+                let last;
+                for await (last of live.frames({ quality: 50, untilFinal: true }));
+                await live.close();
+                const job = await hole.job({ scene: { image } });
+                await job.wait();
+                const { type } = await job.result();
+                await job.close();
+                const pointer = await hole.render({ image: { width: 0 } }).catch(error => error instanceof Problem && error.pointer);
+                return { size: [width, height], rays: accuracy.rays, approximations: approximations.length, first: first.revision,
+                    last: last.revision, final: last.final, type, pointer };
+            }""",
+            self.base,
+        )
+        self.complaints.clear()  # the refusal is one
+        self.assertGreaterEqual(told.pop("rays"), 64 * 36)
+        self.assertGreater(told.pop("approximations"), 3)
+        wanted = {
+            "size": [64, 36],
+            "first": 1,
+            "last": 2,
+            "final": True,
+            "type": "image/png",
+            "pointer": "/image/width",
+        }
+        self.assertEqual(told, wanted)
+
     def test_twenty_on_a_page(self):
         page = self.show(self.element('preset="smooth" interactive', 20), viewport={"width": 1000, "height": 640})
         self.assertTrue(daemon.eventually(lambda: self.posters(page) >= 2))
         self.assertEqual(self.sessions(), 0)
-        page.evaluate("document.body.style.columns = 3")  # several in sight
+        page.evaluate("document.body.style.columns = 3")  # several pictures are visible
         buttons = page.get_by_role("button", name="Move it")
         page.wait_for_timeout(500)
         for k in range(3):

@@ -1,4 +1,5 @@
-"""A near camera: the fall through the horizon, looking around, names of stars: falling.py KERRD FOLDER (browser.py)."""
+"""Tests of a near camera: the fall through the horizon, looking around, names of stars. falling.py KERRD FOLDER
+(browser.py)."""
 
 import json
 import math
@@ -21,13 +22,13 @@ class Falling(Browser):
         return [json.loads(q.post_data) for q in self.requests if q.method == "PATCH"]
 
     def named(self, page):
-        """Lists images of stars, which the page requests when a pointer moves over the picture, but not before it
-        has everything that this needs."""
+        """The listed images of stars. The page requests them when a pointer moves over the picture, once it has
+        everything that this needs."""
 
         def asked():
             for x in (100, 120):
                 page.mouse.move(x, x)
-            page.wait_for_timeout(600)  # it asks once a pointer rests
+            page.wait_for_timeout(600)  # the page sends the request once a pointer rests
             return next((q for q in self.requests if q.url.endswith("/v1/render")), None)
 
         self.assertTrue(daemon.eventually(asked))
@@ -40,8 +41,8 @@ class Falling(Browser):
         return 4 * x**3 / 3 + 4 * x - 4 * math.log(1 + x)
 
     def test_the_fall_and_its_clock(self):
-        """By the closed form of rain without spin: 2^(1/2)/3 r^(3/2) to the end, starlight from behind at 1/(1 +
-        (2/r)^(1/2))."""
+        """Compared with the closed form of rain without spin: the time to the end is 2^(1/2)/3 r^(3/2), and starlight
+        from behind has 1/(1 + (2/r)^(1/2)) of its frequency."""
         page = self.open(
             SMOOTH + "&lang=en&spacetime.spin=0&spacetime.mass_msun=1e6&look=0", viewport={"width": 500, "height": 400}
         )
@@ -115,21 +116,23 @@ class Falling(Browser):
         speed, half = math.sqrt(2 / 2.001), math.radians(value(wide) / 2)
         self.assertAlmostEqual(value(part.split(" %")[0]), 50 * (1 - math.cos(half)), delta=0.55)
         least, most = (value(word) for word in self.told(page, "sky")[2:].split(" to "))
-        self.assertAlmostEqual(least, 1 / (1 + speed), delta=1e-3)  # from behind
-        self.assertAlmostEqual(most, 1 / (1 - speed * math.cos(half)), delta=0.02)  # next to the disk
+        self.assertAlmostEqual(least, 1 / (1 + speed), delta=1e-3)  # light from behind
+        self.assertAlmostEqual(most, 1 / (1 - speed * math.cos(half)), delta=0.02)  # light next to the disk
         self.assertTrue(daemon.eventually(lambda: self.told(page, "where") == "Falling freely"))
         page.focus("#fall-at")
         page.keyboard.press("ArrowRight")
         self.assertTrue(daemon.eventually(lambda: self.told(page, "where") == "Within the horizon"))
-        self.expected = "422"  # nothing stays where it is there
+        self.expected = "422"  # an observer at rest cannot exist there
         self.open_groups(page)
         page.select_option('[data-path="camera.observer"] select', "static")
         self.assertFalse(page.is_visible("#fall"), "who changes the observer has the camera")
 
     def test_a_fall_that_the_server_goes_on_with(self):
-        """The button stops and continues it; what is shown, linked and saved is for the place that is seen."""
+        """The button stops and continues the fall. The numbers shown, the link and the saved picture are for the
+        visible place."""
         page = self.open(
-            "lang=en&preset=infall&motion.proper_time_rate=0.3",  # slow: a busy machine shows few pictures of it
+            # slow, because a busy machine shows few pictures of the fall
+            "lang=en&preset=infall&motion.proper_time_rate=0.3",
             "#stage[data-final]",
             viewport={"width": 400, "height": 400},
         )
@@ -145,7 +148,7 @@ class Falling(Browser):
         page.click("#play")
         went_on = daemon.eventually(lambda: self.camera_r(page) < r - 0.5)
         self.assertTrue(went_on, f"it goes on from r {r}: {self.seen(page, stood)}")
-        # By number, because two requests are running at once and the browser may report their answers in any order.
+        # sorted by number, because two requests run at once and the browser may report their answers in any order
         frames = sorted(self.frames[stood:], key=lambda frame: int(frame.headers["kerrd-frame"]))
         places = [float(frame.headers["kerrd-clock"].split()[0][2:]) for frame in frames]
         self.assertGreater(places[0], r - 4)
@@ -159,7 +162,8 @@ class Falling(Browser):
         self.assertTrue(put, f"and from where it is put: {self.seen(page, stood)}")
 
     def seen(self, page, since):
-        """What a failed test reports of the page and of its session: the frames after `since`, and the patches."""
+        """The state of the page and its session, for the report of a failed test: the frames after `since`, and the
+        patches."""
         return {
             "r": self.camera_r(page),
             "status": page.inner_text("#status"),
@@ -183,7 +187,7 @@ class Falling(Browser):
         wide = page.evaluate('document.getElementById("stage").clientWidth')
         self.assertAlmostEqual(
             yaw, -100 * 2 / wide * 180 / math.pi, delta=0.02
-        )  # 90 degrees across: a tangent of 1 at the edge
+        )  # 90 degrees wide: the tangent is 1 at the edge
         self.assertAlmostEqual(pitch, 50 * 2 / wide * 180 / math.pi, delta=0.02)
         self.assertEqual((azimuth, tilt), (0, 82))
         page.keyboard.press("Shift+ArrowUp")
@@ -203,7 +207,7 @@ class Falling(Browser):
         self.assertFalse(self.open("lang=en").is_visible("#look"), "from far there is nothing to look around at")
 
     def test_a_star_says_its_name(self):
-        """Where the server places an image the picture has its brightest point; a pointer there is shown the star's
+        """Where the server lists an image, the picture has its brightest point. A pointer there is shown the star's
         name."""
         page = self.open(
             SKY + "&camera.r=60&camera.inclination_deg=90&sky.orientation=equatorial",
@@ -226,7 +230,7 @@ class Falling(Browser):
         self.assertTrue(daemon.eventually(lambda: page.is_hidden("#star")))
         self.assertEqual(len([r for r in self.requests if r.url.endswith("/v1/render")]), asked, "once is enough")
         self.open_groups(page)
-        page.check("#over-names")  # for who has no pointer
+        page.check("#over-names")  # names for users without a pointer
         self.assertTrue(daemon.eventually(lambda: page.locator("#overlay text").count() == 16))
         self.there(page, images[0]["name"], "#over-names-words")
         words = page.inner_text("#over-names-words")
@@ -249,11 +253,11 @@ class Falling(Browser):
         for star, told in ((clear, True), (lost, False)):
             page.mouse.move(box["x"] + star["x"], box["y"] + star["y"])
             self.assertTrue(daemon.eventually(lambda: page.is_visible("#star") == told), star)
-        page.wait_for_timeout(400)  # longer than a pointer rests before it is told
+        page.wait_for_timeout(400)  # longer than the delay after which a resting pointer is told
         self.assertFalse(page.is_visible("#star"), lost)
 
     def test_a_name_stays_while_the_picture_turns(self):
-        """The pointer rests where a star passes: the star's mark moves with it, at the pace of the picture."""
+        """The pointer rests where a star passes. The star's mark moves with it, at the speed of the picture."""
         page = self.open(
             SKY + "&camera.r=60&camera.inclination_deg=90&sky.orientation=equatorial&motion.azimuth_rate_deg=0.5",
             wait="#stage[data-final]",
@@ -270,7 +274,7 @@ class Falling(Browser):
             and 60 < i["y"] < high - 60
             and math.hypot(i["x_by_azimuth"], i["y_by_azimuth"]) > 3
         )
-        # The star moves past the pointer, and then has no mark: the page itself records each mark.
+        # The star moves past the pointer, and then has no mark, so that the page itself records each mark.
         page.evaluate(
             """() => {
                 window.marks = [];

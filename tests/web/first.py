@@ -1,4 +1,4 @@
-"""The first view: a preset, where a link says nothing of the scene: first.py KERRD FOLDER (browser.py)."""
+"""Tests of the first view: a preset, if a link contains no scene. first.py KERRD FOLDER (browser.py)."""
 
 import json
 import re
@@ -10,14 +10,14 @@ import daemon
 
 class First(Browser):
     def opened(self, first, fragment, wait="#stage[data-final]"):
-        """A page whose first view is that preset."""
+        """Opens a page whose first view is this preset."""
         page = self.page(self.context())
 
         def answer(route):
             text = route.fetch().text()
             changed, n = re.subn(
                 r"""(first_view ?= ?)(['"])[^'"]*\2""", rf'\1"{first}"', text
-            )  # as it is written or shortened
+            )  # the script as it is written, or minified
             self.assertEqual(n, 1)
             route.fulfill(body=changed, content_type="text/javascript")
 
@@ -28,8 +28,8 @@ class First(Browser):
         return page
 
     def test_it_is_gas_that_turns_before_stars(self):
-        """With the default scene: black between the stars, a disk, and other parts of the gas after some time; a
-        picture at rest has all pixels of the window."""
+        """Compared with the default scene: the sky is black between the stars, there is a disk, and after some time
+        other parts of the gas are seen. At rest the picture has all pixels of the window."""
         for lang, width, height in (("en", 1440, 900), ("it", 390, 844)):
             page = self.page(self.context(viewport={"width": width, "height": height}))
             page.goto(self.base + f"#lang={lang}")
@@ -78,8 +78,8 @@ class First(Browser):
             self.assertGreater(black, 80)
 
     def test_its_picture_is_ahead_of_the_page(self):
-        """Its session is opened, and its picture shown, before the rest of the page is loaded, which then uses both;
-        not in a window that widens the field."""
+        """The session is opened, and its picture shown, before the rest of the page is loaded, which then uses both.
+        This does not happen in a window that widens the field."""
         context = self.context(viewport={"width": 800, "height": 600})
         page, opened, held = self.page(context), [], []
         page.on(
@@ -136,7 +136,8 @@ class First(Browser):
         self.assertTrue(daemon.eventually(lambda: page.text_content("#play") == "Play"))
 
     def test_a_preset_after_another_has_its_own_colours(self):
-        """A named style sets its colours anew at the server: those that both scenes share must be sent again."""
+        """A named style sets its colours anew at the server, so that colours which both scenes share must be sent
+        again."""
         page = self.open()
         names = [preset["name"] for preset in self.daemon.get("/v1/presets").json()["presets"]]
         scenes = {name: self.daemon.get("/v1/presets/" + name).json() for name in names}
@@ -159,8 +160,8 @@ class First(Browser):
         )
 
     def test_the_quality_of_pictures_follows_the_line(self):
-        """A simulated line of limited bytes a second, on which pictures follow one another, with sizes measured for
-        the default scene at 670 x 500."""
+        """A simulated connection transmits a limited number of bytes a second, and pictures follow one another. Sizes
+        were measured for the default scene at 670 x 500."""
         page = self.open()
         paces = page.evaluate(
             """async lines => {
@@ -214,7 +215,7 @@ class First(Browser):
         )
         self.assertEqual(page.locator('#gallery [tabindex="0"]').count(), 1, "one stop of the tab key")
         card("smooth").focus()
-        page.keyboard.press("ArrowLeft")  # the one before it: smooth is the last
+        page.keyboard.press("ArrowLeft")  # to the preset before; smooth is the last
         there = lambda: page.evaluate("document.activeElement.dataset.preset")
         self.assertTrue(daemon.eventually(lambda: there() not in (None, "smooth")))
         name = there()

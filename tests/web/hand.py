@@ -1,4 +1,4 @@
-"""What is done by hand: asking what a light is, taking back, keys: hand.py KERRD FOLDER (browser.py)."""
+"""Tests of direct manipulation: asking about a light, undo, keys. hand.py KERRD FOLDER (browser.py)."""
 
 import json
 import math
@@ -37,7 +37,7 @@ class Hand(Browser):
         )
 
     def test_from_the_disk(self):
-        """Face on and without spin light that bends by a quarter of a turn leaves from r = (1 + b^2)^(1/2) - 1, by
+        """Face-on and without spin, light that bends by a quarter turn leaves from r = (1 + b^2)^(1/2) - 1, by
         Beloborodov's approximation (2002), with g = (1 - 3/r)^(1/2)."""
         page = self.open(FACE_ON, viewport=SIZE)
         wide = page.locator("#stage").bounding_box()["width"]
@@ -74,7 +74,7 @@ class Hand(Browser):
         self.assertTrue(daemon.eventually(lambda: self.field(page, "camera.azimuth_deg") != camera))
 
     def test_the_card_follows_the_pointer_until_it_is_pinned(self):
-        page = self.open(FACE_ON)  # so wide that the card leaves room beside it
+        page = self.open(FACE_ON)  # in this window there is room beside the card
         self.card(page, lambda: page.click("#ask"))
         box = page.locator("#stage").bounding_box()
         cross = lambda: page.evaluate('(({ style }) => [style.left, style.top])(document.getElementById("cross"))')
@@ -89,11 +89,11 @@ class Hand(Browser):
         self.assertEqual(cross()[0][:2], "70", "pinned")
 
     def test_which_way_gas_goes(self):
-        """On the left it comes towards the observer, and its light is bluer; on the right it goes away."""
+        """On the left the gas approaches the observer, and its light is bluer; on the right it recedes."""
         page = self.open(FACE_ON.replace("inclination_deg=0", "inclination_deg=70"), viewport=SIZE)
         wide = page.locator("#stage").bounding_box()["width"]
         left = self.tap(page, -0.25 * wide, 0)
-        page.keyboard.press("Escape")  # the card lies there
+        page.keyboard.press("Escape")  # the card covers this place
         right = self.tap(page, 0.25 * wide, 0)
         self.assertRegex(left, r"from the hole, coming towards you\. Its light is \S+ % bluer and \S+ times brighter\.")
         self.assertRegex(right, r"from the hole, going away from you\. Its light is \S+ % redder")
@@ -146,8 +146,8 @@ class Hand(Browser):
         self.assertEqual(page.evaluate("document.documentElement.scrollWidth"), 390)
 
     def test_a_sheet_on_a_telephone(self):
-        """Three heights by key, tap and drag; the picture stays visible. A swipe sideways below the picture shows
-        the next preset."""
+        """The sheet has three heights, by key, tap and drag, and the picture stays visible. A horizontal swipe below
+        the picture shows the next preset."""
         page = self.open(
             "lang=en&preset=gas-stars",
             "#stage[data-final]",
@@ -198,7 +198,7 @@ class Hand(Browser):
             y = box["y"] + 12
             touch((195, y), (195 + way * 40, y), (195 + way * 110, y + 4))
             page.wait_for_selector(f"#gallery [data-preset={chosen}][aria-pressed=true]")
-        stands("low", "out of the way")  # that was no tap on its handle
+        stands("low", "out of the way")  # the swipe was no tap on the handle of the sheet
         touch((195, line["y"] + 12), (170, line["y"] + 12))
         touch((195, line["y"] + 12), (130, line["y"] - 60))
         tilt = self.field(page, "camera.inclination_deg")
@@ -248,8 +248,8 @@ class Hand(Browser):
         )
 
     def test_undo_leaves_nothing_in_the_address(self):
-        """Neither the time that has passed in a preset, nor the direction to which it turned the camera, nor the
-        width that fits the window."""
+        """Undo removes from the address the time that has passed in a preset, the direction to which it turned the
+        camera, and the width that fits the window."""
         state = lambda: sorted(page.evaluate("location.hash").removeprefix("#").split("&"))
         for preset, has, height in (
             ("jet", "time=", 640),
@@ -264,7 +264,7 @@ class Hand(Browser):
             self.linked(page, has)
             page.wait_for_selector("#undo:enabled")
             page.click("#undo")
-            # The address may, or may not yet, have contained the width that fits the window.
+            # the address may or may not have contained the width that fits the window
             self.assertTrue(
                 daemon.eventually(lambda: "preset=default" in state() and not set(state()) - set(before)),
                 (state(), before),
@@ -284,7 +284,8 @@ class Hand(Browser):
         self.assertFalse(page.is_visible("#pixel"))
 
     def points_at(self, page, stop):
-        """The ring of the tour lies on what its words are of: gas as the server finds it in that pixel, or the edge."""
+        """The ring of the tour is at the thing that its words describe: gas, as the server finds it in this pixel, or
+        the edge."""
         u, v = page.evaluate("""() => { const ring = document.getElementById('tour-ring');
             return [ring.style.left, ring.style.top].map(x => parseFloat(x) / 100); }""")
         scene = json.loads(page.input_value("#scene-text"))
@@ -308,8 +309,8 @@ class Hand(Browser):
             self.assertLess(told["path"]["least_r"], 5, "a ray of the critical curve")
 
     def test_what_there_is_to_see(self):
-        """Five views and five texts, after which everything is as before; the line that introduces the page
-        disappears with the first touch."""
+        """Five views and five texts, after which everything is as before. The line that introduces the page disappears
+        with the first touch."""
         page = self.page(self.context(viewport={"width": 900, "height": 520}))
         page.goto(self.base + "#lang=en&pause=1")
         page.wait_for_selector(AT_REST)
@@ -351,8 +352,8 @@ class Hand(Browser):
         )
 
     def test_the_shown_picture_goes_along_until_the_next_comes(self):
-        """Pictures are held back in the page, including those on their way: what is under the pointer moves along
-        all the same, and what comes nearer grows."""
+        """New pictures are held back in the page, including those on their way. The shown picture still moves along
+        under the pointer, and grows when the camera comes nearer."""
         HOLD = """(() => { const real = window.fetch; window.hold = false;
             window.fetch = async (...asked) => { const answer = await real(...asked);
                 while (window.hold && String(asked[0]).includes('/frame')) await new Promise(done => setTimeout(done, 20));
@@ -366,7 +367,7 @@ class Hand(Browser):
             ),
             ("preset=default", lambda page: page.click("#nearer"), (1.25, 0, 0)),
             ("preset=default", lambda page: self.hold(page, 90, 40), None),
-        ):  # it goes round the hole: another picture
+        ):  # the camera goes round the hole, which needs another picture
             with self.subTest(fragment):
                 context = self.context()
                 context.add_init_script(HOLD)

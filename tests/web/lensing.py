@@ -1,4 +1,5 @@
-"""The picture, its controls, the lines over it and what can be taken away: lensing.py KERRD FOLDER (browser.py)."""
+"""Tests of the picture, its controls, the lines over it and what can be removed: lensing.py KERRD FOLDER
+(browser.py)."""
 
 import json
 import math
@@ -10,7 +11,7 @@ from browser import AT_REST, FINE, KERRD, READY, SMOOTH, VIEWS, Browser, main, p
 
 import daemon
 
-# bytes of everything that a visit to every view loads, as sent, without pictures and the updates of a playground
+# bytes that a visit to every view loads, as transmitted, without pictures and the updates of a playground
 BUDGET = 350_000
 
 
@@ -56,7 +57,7 @@ class Lensing(Browser):
         for view in VIEWS[1:]:
             page.click(f"nav [data-view={view}]")
             page.wait_for_selector(READY[view])
-            page.wait_for_timeout(500)  # what comes after that is a few answers
+            page.wait_for_timeout(500)  # a few answers may still follow
         sizes = {}
         for request in self.requests:
             goes_on = "/frame" in request.url or "/v1/render?" in request.url or "/v1/playground/" in request.url
@@ -156,8 +157,8 @@ class Lensing(Browser):
             self.assertEqual(float(self.field(page, "spacetime.spin")), end)
 
     def test_sliders_over_decades_go_by_factors(self):
-        """From one position to the next a value grows by a few per cent, over the whole range; angles and values
-        with a sign stay linear."""
+        """From one position to the next a value grows by a few per cent, over the whole range. Angles and values with a
+        sign are linear."""
         page = self.open()
         slide = lambda path, at: page.evaluate(
             """([path, at]) => {
@@ -219,8 +220,8 @@ class Lensing(Browser):
         self.assertEqual(self.pixels(again), self.pixels(page))
 
     def test_a_style_sets_its_fields(self):
-        """As in a document: except for fields that a link or the user sets. A link also contains values that equal
-        the default, because the style would change them."""
+        """A style sets its fields as in a document, except for fields that a link or the user sets. A link also
+        contains values that equal the default, because the style would change them."""
         page = self.open("lang=en&style.name=dngr&style.bloom=0.25")
         self.open_groups(page)
 
@@ -256,7 +257,7 @@ class Lensing(Browser):
         self.assertEqual(sent()["style"]["tone_map"], "aces")
 
     def test_a_measured_ring_lies_over_the_picture(self):
-        """M87* and Sgr A* open as the telescope showed them, with the measured ring and its error drawn to scale; a
+        """M87* and Sgr A* open as the telescope showed them, with the measured ring and its error drawn to scale. A
         slider removes ring and beam."""
         for name, spread, error in (("m87", 42, 3), ("sgra", 51.8, 2.3)):
             page = self.open(f"lang=en&preset={name}")
@@ -305,8 +306,8 @@ class Lensing(Browser):
         page.wait_for_selector("#overlay .over-ring", state="detached")
 
     def test_photon_rings_have_axes(self):
-        """Orders are drawn where their light is: for light of a small disk at 20 M each is closer to the curve than
-        the one before by e^-gamma; the wheel reduces the number of decades."""
+        """Each order is drawn where its light is. For light of a small disk at 20 M each is closer to the curve than
+        the one before by e^-gamma. The wheel reduces the number of decades."""
         page = self.open("lang=en&preset=photon-rings", "#stage[data-final]")
         page.wait_for_selector("#overlay .order >> nth=5", state="attached")
         names, places, high = (
@@ -325,9 +326,9 @@ class Lensing(Browser):
         self.assertTrue(daemon.eventually(lambda: float(self.field(page, "camera.ring_decades_min")) > least))
 
     def test_the_style_of_a_radio_telescope(self):
-        """Its fields appear with it; controls that make no sense without false colours are hidden otherwise, and
-        where one of them prevents a change that is explained."""
-        self.expected = "422"  # of the bar without its colours
+        """Its fields appear with the style. Controls that make no sense without false colours are hidden otherwise;
+        where one of them prevents a change, this is explained."""
+        self.expected = "422"  # the answer to a colour bar without its colours
         page = self.open("lang=en&preset=edge-on")
         self.open_groups(page)
         field = lambda path: page.locator(f'[data-path="{path}"]')
@@ -387,7 +388,7 @@ class Lensing(Browser):
         )
 
     def test_a_link_is_a_preset_with_fields_over_it(self):
-        """As the server interprets ?preset=gargantua&camera.r=30, which states the result here."""
+        """The server's result for ?preset=gargantua&camera.r=30 must be the same."""
         over = "spacetime.spin=0.5&style.name=eht&disk.doppler=false&camera.azimuth_deg=0"
         told = subprocess.run(
             [
@@ -430,8 +431,8 @@ class Lensing(Browser):
         self.assertEqual(json.loads(again.input_value("#scene-text")), json.loads(page.input_value("#scene-text")))
 
     def test_a_low_window_holds_the_whole_hole(self):
-        """The same height is visible as in a window of 16:9; a width chosen by the user stays, and a link without
-        one has none."""
+        """The same height is visible as in a window of 16:9. A width chosen by the user stays, and a link does not
+        contain one that was not chosen."""
         shape = lambda page: page.evaluate(
             '() => document.getElementById("stage").clientWidth / document.getElementById("stage").clientHeight'
         )
@@ -460,7 +461,7 @@ class Lensing(Browser):
         self.assertEqual(wide(), 33)
 
     def test_a_field_in_microarcseconds(self):
-        """The width in M is shown with its result, and follows the mass; the wheel continues from it."""
+        """The width in M is shown as the result, and follows the mass. The wheel continues from this width."""
         page = self.open(f"lang=en&{SMOOTH}&camera.field_uas=40")
         self.open_groups(page)
         scale = self.physics("scale", mass_msun=1e8, distance_pc=260000)["m_uas"]
@@ -491,7 +492,7 @@ class Lensing(Browser):
         self.assertEqual((saved[:4], saved[16:24]), (b"\x89PNG", (1280).to_bytes(4, "big") + (720).to_bytes(4, "big")))
 
     def test_ticks_are_along_the_electric_field(self):
-        """A toroidal field seen face on, far from a hole without spin, polarises along the radius."""
+        """A toroidal field seen face-on, far from a hole without spin, polarises light along the radius."""
         view = "lang=en&spacetime.spin=0&camera.inclination_deg=0&camera.field_m=60&disk.outer=20&disk.taper=0&over=polarization"
         page = self.open(view)
         self.open_groups(page)
@@ -564,7 +565,7 @@ class Lensing(Browser):
         self.shot(page, "named-lines")
 
     def test_the_shadow_line_lies_on_the_shadow(self):
-        """With nothing but a sky behind, the picture is black inside the line and not outside."""
+        """With only a sky behind the hole, the picture is black inside the line and not outside."""
         page = self.open(
             "lang=en&disk.model=none&style.bloom=0&sky.model=grid&sky.grid_deg=1&sky.brightness=1&style.exposure=3&spacetime.spin=0.95"
             "&camera.field_m=16&camera.inclination_deg=80&camera.roll_deg=25&over=shadow",
@@ -591,8 +592,8 @@ class Lensing(Browser):
         self.assertGreater(bright["lit_outside"] / bright["outside"], 0.3, bright)
 
     def lines_lie_on_the_disk(self, page, within=1e9):
-        """Between the direct images of its edges the picture is lit; outside all images of its outer edge it is
-        black. within: the area that is examined, in units of half the shorter side."""
+        """Between the direct images of the disk's edges the picture is bright. Outside all images of its outer edge it
+        is black. within: the area that is examined, in units of half the shorter side."""
         page.wait_for_selector("#overlay .over-orders path", state="attached")
         seen = page.evaluate(
             """async within => {
@@ -615,7 +616,7 @@ class Lensing(Browser):
         )
         self.assertGreater(min(seen["on"], seen["off"]), 1500, seen)
         self.assertGreater(seen["lit_on"] / seen["on"], 0.998, seen)
-        self.assertLess(seen["lit_off"] / seen["off"], 0.006, seen)  # what dashes leave free of a line
+        self.assertLess(seen["lit_off"] / seen["off"], 0.006, seen)  # the gaps of a dashed line
 
     def test_lines_of_a_near_camera_lie_on_the_disk(self):
         page = self.open(
@@ -651,7 +652,7 @@ class Lensing(Browser):
         self.open_groups(page)
         page.fill('[data-path="spacetime.spin"] input[type=number]', "2")
         page.keyboard.press("Enter")
-        page.wait_for_timeout(300)  # nothing takes it away
+        page.wait_for_timeout(300)  # nothing removes it
         self.assertEqual(
             (self.field(page, "spacetime.spin"), page.locator('[data-path="spacetime.spin"] input:invalid').count()),
             ("2", 1),

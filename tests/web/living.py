@@ -1,4 +1,4 @@
-"""Time that goes on: particles, spots, a struck hole: living.py KERRD FOLDER (browser.py)."""
+"""Tests of running time: particles, spots, a struck hole. living.py KERRD FOLDER (browser.py)."""
 
 import json
 import math
@@ -14,7 +14,7 @@ class Living(Browser):
     def test_a_scene_that_goes_on(self):
         page = self.open(
             "lang=en&sky.model=grid&motion.azimuth_rate_deg=30", "#stage[data-final]"
-        )  # it may never be at rest
+        )  # the picture may never be at rest
         seen = set()
         self.assertTrue(daemon.eventually(lambda: seen.add(self.pixels(page)) or len(seen) > 5))
         self.there(page, "pictures a second", "#exactly-words", text=True)
@@ -94,7 +94,7 @@ class Living(Browser):
         )
 
     def test_whatever_varies_can_be_set_going(self):
-        """The server reports for the scene what shines and varies; the page does not know this itself."""
+        """The server reports which parts of the scene shine and vary; the page does not know this itself."""
         page = self.open(SMOOTH + "&lang=en")
         there = lambda: (page.is_visible("#play"), page.is_visible('[data-path="time"]'))
         self.assertEqual(there(), (False, False))
@@ -112,8 +112,8 @@ class Living(Browser):
         )
 
     def test_a_list_grows(self):
-        """A group of controls for each spot and for the next one; what is saved and sent has their order, whichever
-        is switched on first."""
+        """There is a group of controls for each spot and for the next one. What is saved and sent has the order of the
+        groups, whichever is switched on first."""
         page = self.open("lang=en&spots.2.brightness=4&spots.2.r=14", FINE)
         self.open_groups(page)
         groups = lambda: [g for g in page.locator("#fields summary").all_inner_texts() if g.startswith("Spot ")]
@@ -183,7 +183,7 @@ class Living(Browser):
         page.wait_for_selector("#light tbody tr >> nth=5")
         self.assertLess(
             value(page.locator("#light tbody th").first.inner_text()), struck, "the curve goes on over a strike"
-        )  # of a long one the oldest points go
+        )  # the oldest points of a long curve are dropped
         with page.expect_download() as download:
             page.click("#light a >> nth=0")
         lines = pathlib.Path(download.value.path()).read_text().splitlines()
@@ -226,15 +226,15 @@ class Living(Browser):
         loop.locator("tbody tr >> nth=3").wait_for()
 
         def turned():
-            """Whether a row of the table shows strongly polarised light."""
+            """True if a row of the table shows strongly polarised light."""
             rows = [[value(cell) for cell in row[1:3]] for row in self.rows(page, "#light figure:has(#loop-caption)")]
             return any(math.hypot(*row) > 1 for row in rows)
 
         self.assertTrue(daemon.eventually(turned))
         page.click("#play")
         self.quiet(page)
-        # The line through the dot: half the angle that the dot is seen under, from upwards to the left
-        # (docs/physics/polarization.md).
+        # The line through the dot is at half the angle of the dot as seen from the origin, counted from upwards to the
+        # left (docs/physics/polarization.md).
         line, x, y = loop.evaluate(
             """node => [node.querySelector('.field').getAttribute('d').match(/[-\\d.e]+/g).map(Number), ...['cx', 'cy'].map(name => Number(node.querySelector('.body').getAttribute(name)))]"""
         )
@@ -246,7 +246,9 @@ class Living(Browser):
     def test_no_light_curve_of_a_ring(self):
         page = self.open("lang=en&preset=photon-rings", "#stage[data-final]")
         self.expected = (
-            "422"  # this disk's inner edge is none for a spin of 0, so a film of all spins is refused, with the reason
+            # this disk's inner edge is impossible for a spin of 0, so that a film over all spins is refused, with the
+            # reason
+            "422"
         )
         self.open_groups(page)
         page.click("#set-spots-0-brightness")
@@ -319,7 +321,7 @@ class Living(Browser):
         self.assertTrue(daemon.eventually(lambda: self.clock(page) > before + 90))
         self.assertEqual(
             [r.url for r in self.requests[asked:] if "/v1/" in r.url and "qnm" not in r.url], []
-        )  # what is heard was asked for by the strike
+        )  # the sound follows from the strike
 
         def later():
             link = dict(pair.split("=") for pair in page.evaluate("location.hash")[1:].split("&"))

@@ -1,4 +1,4 @@
-"""The view of orbits: orbits.py KERRD FOLDER (browser.py)."""
+"""Tests of the view of orbits: orbits.py KERRD FOLDER (browser.py)."""
 
 import re
 
@@ -33,8 +33,8 @@ class Orbits(Browser):
         self.assertIn("42.98″", page.inner_text("#orbit-facts"))
 
     def test_less_angular_momentum_turns_it_into_a_plunge(self):
-        """The constants of motion start as those of the orbit shown; L then passes the separatrix without a blank
-        picture."""
+        """The constants of motion start as those of the shown orbit. L then passes the separatrix, and the picture is
+        never blank."""
         page = self.open("lang=en&view=orbits", "#orbit-picture .front")
         page.wait_for_selector("#orbit-facts >> text=bound")
         before = self.facts(page)
@@ -136,11 +136,11 @@ class Orbits(Browser):
         page.wait_for_function(
             '() => document.getElementById("in-orbit-orbit").value === "thrown" && location.hash.includes("orbit.orbit=thrown")'
         )
-        # Farthest at first was 16 M, drawn 70 units from the middle.
+        # At first the farthest point was at 16 M, drawn 70 units from the centre.
         self.assertAlmostEqual(float(page.input_value("#in-orbit-r")), 16 * 40 / 70, delta=0.4)
         page.wait_for_selector("#orbit-facts >> text=bound")
         page.wait_for_function('() => document.getElementById("orbit-live").textContent.startsWith("t = 0 M")')
-        body = page.locator("#orbit-picture .body").bounding_box()  # all of its new orbit is in the picture
+        body = page.locator("#orbit-picture .body").bounding_box()  # the whole new orbit is in the picture
         drag((body["x"] + body["width"] / 2, body["y"] - 16 * unit))
         page.wait_for_selector("#orbit-picture .throw[d]")
         self.shot(page, "orbits-throw")
@@ -156,8 +156,8 @@ class Orbits(Browser):
         self.assertEqual(page.inner_text("#orbit-fault"), "")
 
     def test_nothing_that_a_hand_does_is_refused(self):
-        """Dragged through the hole and beyond the picture, thrown into it, past the separatrix and away: the console
-        has no errors, and each answer is drawn."""
+        """The body is dragged through the hole and beyond the picture, and thrown into the hole, past the separatrix
+        and away. The console has no errors, and each answer is drawn."""
         page = self.open("lang=en&view=orbits", "#orbit-picture .body[cx]", reduced_motion="reduce")
         box = page.locator("#orbit-picture svg").bounding_box()
         middle = (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
@@ -210,12 +210,13 @@ class Orbits(Browser):
             )
 
     def worded(self, page, pattern):
-        """Waits for the words beside the orbit in the picture, which are "computing" whenever it is computed again."""
+        """Waits for the words beside the orbit in the picture. They are "computing" whenever the orbit is computed
+        again."""
         read = lambda: page.text_content("#over-orbit-words")
         self.assertTrue(daemon.eventually(lambda: re.search(pattern, read())), f"{pattern!r} in {read()!r}")
 
     def test_it_is_shown_in_the_picture(self):
-        """A circle in the plane of the disk is drawn where the overlay has the disk's own circles; it follows the
+        """A circle in the plane of the disk is drawn where the overlay draws the disk's own circles. It follows the
         camera, and can be switched off."""
         view = f"lang=en&{SMOOTH}&spacetime.spin=0.5&disk.inner=9&orbit.spin=0.5&orbit.p=9&orbit.e=0&orbit.inclination_deg=0"
         page = self.open(view + "&view=orbits", READY["orbits"])
@@ -250,8 +251,8 @@ class Orbits(Browser):
         self.shot(page, "orbit-lensed-inclined")
 
     def test_a_whirl_is_no_chords(self):
-        """Seen along the axis neighbouring points are a few degrees apart round the hole, and no line crosses its
-        shadow."""
+        """Seen along the axis, neighbouring points of a whirl are a few degrees apart round the hole, and no line
+        crosses its shadow."""
         page = self.open(
             f"lang=en&{SMOOTH}&spacetime.spin=0.9&camera.inclination_deg=1&camera.field_m=40&over=orbit&orbit.orbit=zoom-whirl",
             "#stage",

@@ -1,6 +1,9 @@
-"""A page of another origin in a headless browser (browser.py): where the server names it, its scripts render, see
-answers' headers and errors, and drag a session; elsewhere they see nothing. It stands at localhost, the server at
-127.0.0.1, which is another site to a browser. The server has a token file."""
+"""Tests of a page of another origin in a headless browser (browser.py).
+
+If the server lists the origin, the page's scripts render, read answers' headers and errors, and drag a session.
+Otherwise they see nothing. The page is at localhost and the server at 127.0.0.1, which are different sites to a
+browser. The server has a token file.
+"""
 
 import http.server
 import pathlib
@@ -13,8 +16,7 @@ import browser
 import daemon
 
 TOKEN = "render-0123456789abcdef"
-# What the page's scripts do, given the server's address and an access token: returns an object with what they could
-# see.
+# The script of the page, given the server's address and an access token. It returns an object with what it could see.
 SCRIPT = """async ([server, token]) => {
   const seen = {}, headers = { Authorization: `Bearer ${token}`, 'Content-Type': 'application/json' };
   const scene = { image: { width: 64, height: 36 } };
@@ -49,7 +51,7 @@ SCRIPT = """async ([server, token]) => {
 
 
 class Page(http.server.SimpleHTTPRequestHandler):
-    """A site of its own, with one empty page."""
+    """Serves the other site, with one empty page."""
 
     def do_GET(self):
         self.send_response(200)

@@ -1,6 +1,8 @@
-"""The page in Firefox or in WebKit: others.py KERRD firefox|webkit, from scripts/matrix. One flow for both: what it
-needs of a browser is in the two classes below. Firefox is spoken to by Marionette, WebKitGTK by its WebDriver; what a
-driver cannot do (forced colours in WebKit) is said and left out."""
+"""Tests of the page in Firefox or in WebKit: others.py KERRD firefox|webkit, run by scripts/matrix.
+
+Both run the same test; the two classes below have what is particular to a browser. Firefox is driven by Marionette,
+WebKitGTK by its WebDriver. What a driver cannot do (forced colours in WebKit) is reported and left out.
+"""
 
 import asyncio
 import atexit
@@ -120,8 +122,8 @@ class WebKit:
 
 
 class SlowLine(threading.Thread):
-    """A line to a port of this machine: 150 ms each way, and a limited number of bytes a second for all connections
-    together."""
+    """A simulated connection to a port of this machine: 150 ms each way, and a limited number of bytes a second for all
+    connections together."""
 
     late_s, bytes_s = 0.15, 1e6 / 8
 
@@ -148,8 +150,8 @@ class SlowLine(threading.Thread):
         await asyncio.gather(self.carry(reader, far_writer), self.carry(far_reader, writer), return_exceptions=True)
 
     async def carry(self, reader, writer):
-        """Bytes leave in the order in which they came, each piece once the line is free and its delay is over; a
-        piece on its way does not hold up those that follow."""
+        """Forwards bytes in the order in which they came, each piece once the line is free and its delay is over. A
+        piece on its way does not delay those that follow."""
         way = asyncio.Queue(64)
 
         async def arrive():
@@ -167,7 +169,7 @@ class SlowLine(threading.Thread):
             while True:
                 try:
                     piece = await reader.read(4096)
-                except OSError:  # the browser has dropped it
+                except OSError:  # the browser has closed the connection
                     piece = b""
                 self.free = max(self.free, time.monotonic()) + len(piece) / self.bytes_s
                 await way.put((self.free + self.late_s, piece))
@@ -267,7 +269,7 @@ class Others(unittest.TestCase):
                 self.wait(f"return !!document.querySelector('{ready}')")
 
     def test_small_windows(self):
-        """As narrow as a telephone, or the narrowest that this browser allows; and 1440 x 900 at 200 %."""
+        """Windows as narrow as a telephone, or the narrowest that this browser allows; and 1440 x 900 at 200 %."""
         self.start((500, 844))
         for size in ((500, 844), (720, 450)):
             self.browser.resize(*size)

@@ -1,4 +1,5 @@
-"""What all views share: two languages, small windows, Back, who reads by ear: pages.py KERRD FOLDER (browser.py)."""
+"""Tests of what all views share: two languages, small windows, the Back button, screen readers. pages.py KERRD FOLDER
+(browser.py)."""
 
 import json
 import pathlib
@@ -8,7 +9,7 @@ from browser import AT_REST, FINE, READY, VIEWS, Browser, main, rows
 
 import daemon
 
-# Controls that extend beyond the page, and buttons that overlap.
+# Finds controls that extend beyond the page, and buttons that overlap.
 CROWDED = """() => {
     const shown = [...document.querySelectorAll('button, a.button, select, summary, label, input')].filter(n => n.checkVisibility() && !n.closest('[aria-hidden=true]'));
     const box = n => n.getBoundingClientRect(), text = n => n.outerHTML.slice(0, 80);
@@ -39,8 +40,8 @@ class Pages(Browser):
         self.shot(self.open("lang=it&over=shadow,flamm&camera.inclination_deg=75", FINE), "lensing-it")
 
     def test_each_choice_has_its_word(self):
-        """For each field with choices, in Italian; in English no word is shown as in the program: with an
-        underscore, or a name of letters and digits with a hyphen."""
+        """Each choice of a field has an Italian word. In English no word is shown in the program's own spelling, with
+        an underscore, or with letters and digits joined by a hyphen."""
         schema = self.schema()
         choices = [
             (path, word)
@@ -121,7 +122,7 @@ class Pages(Browser):
         )
 
     def test_what_shines_is_told_in_italian(self):
-        """For every emitter: its name, the description of what is visible, and the name of its button."""
+        """Every emitter has an Italian name, a description of what is visible, and a name of its button."""
         page, seen = self.open("lang=it"), []
         buttons = [spec["x-button"]["title"] for _, spec, _ in rows(self.schema()) if "x-button" in spec]
         for scene in (
@@ -148,7 +149,7 @@ class Pages(Browser):
 
     def test_each_approximation_has_its_italian(self):
         page = self.open("lang=it")
-        # the page asks for none of those
+        # the page requests none of these
         text = (
             (pathlib.Path(__file__).resolve().parents[2] / "docs/approximations.md")
             .read_text()
@@ -180,7 +181,7 @@ class Pages(Browser):
                 self.shot(page, "phone-" + view)
                 page.set_viewport_size(
                     {"width": 720, "height": 450}
-                )  # a window of 1440 x 900 where everything is shown at 200 %
+                )  # a window of 1440 x 900 at 200 %, where everything is shown
                 self.assertTrue(
                     daemon.eventually(lambda: page.evaluate("() => document.documentElement.scrollWidth") <= 720)
                 )
@@ -225,7 +226,7 @@ class Pages(Browser):
             )
 
     def test_four_times_the_size(self):
-        """A window of 1280 × 1024 at 400 %: the hole is visible, and every control is within the picture or beside
+        """In a window of 1280 × 1024 at 400 % the hole is visible, and every control is within the picture or beside
         it."""
         page = self.open("lang=it", viewport={"width": 320, "height": 256}, device_scale_factor=4)
         covered, beyond = page.evaluate("""() => {
@@ -246,7 +247,7 @@ class Pages(Browser):
         )
         page = self.open(
             viewport={"width": 500, "height": 320}, device_scale_factor=2
-        )  # a small window, and twice the size
+        )  # a small window, at twice the size
         box = page.locator("#stage").bounding_box()
         self.assertLess(box["y"] + box["height"], 300)
         page = self.open("lang=it", viewport={"width": 844, "height": 390}, has_touch=True)
@@ -279,7 +280,7 @@ class Pages(Browser):
         page.wait_for_selector("body[data-view=physics]")
         self.assertTrue(daemon.eventually(lambda: page.input_value("#in-qnm-spin") == "0.9"))
         self.assertEqual(len([r for r in self.requests if r.url.endswith("/app.js")]), loaded, "without a new load")
-        page.evaluate('() => { location.hash = "lang=it&spacetime.spin=0.5"; }')  # as if typed
+        page.evaluate('() => { location.hash = "lang=it&spacetime.spin=0.5"; }')  # as if typed by a user
         page.wait_for_selector("html[lang=it] " + AT_REST)
         self.assertTrue(daemon.eventually(lambda: self.field(page, "spacetime.spin") == "0.5"))
         page.go_back()
@@ -318,7 +319,7 @@ class Pages(Browser):
             ("spot", "preset=hot-spot&pause=1", "#light .body")
         ]
         for i, (view, fragment, there) in enumerate(scenes):
-            lang = ("en", "it")[i % 2]  # they take turns: the rules see no words
+            lang = ("en", "it")[i % 2]  # the languages take turns, because the rules do not depend on words
             with self.subTest(view=view, lang=lang):
                 page = self.open(f"lang={lang}&{fragment}", there)
                 self.open_groups(page)
@@ -349,7 +350,7 @@ class Pages(Browser):
         }""",
             view,
         )
-        self.assertGreater(count, 4)  # real scale has five
+        self.assertGreater(count, 4)  # the view of real scale has five
         self.assertEqual(bare, [])
 
 

@@ -1,4 +1,4 @@
-"""The panel: controls in groups, what each of them changes: panel.py KERRD FOLDER (browser.py)."""
+"""Tests of the panel: controls in groups, and what each of them changes. panel.py KERRD FOLDER (browser.py)."""
 
 import json
 import re
@@ -13,7 +13,7 @@ SIZES = ((390, 844), (1024, 700), (1440, 900))
 
 class Panel(Browser):
     def test_numbers_beside_a_word_have_their_bounds(self):
-        """A field that takes a word as well still has its bounds as a number: "infinity" or 0.01 to 1e7."""
+        """A field that also takes a word still has its bounds as a number: "infinity", or 0.01 to 1e7."""
         told = self.open().evaluate("""async () => { const { Scene } = await import("./web/scene.js"), scene = await Scene.load();
             return [...scene.fields.values()].filter(f => f.word).map(f => [f.path, f.type, f.minimum, f.maximum, f.word]); }""")
         wanted = {
@@ -54,8 +54,8 @@ class Panel(Browser):
         self.assertTrue(daemon.eventually(lambda: "camera.inclination_deg=33" in page.evaluate("location.hash")))
 
     def test_each_field_stands_in_its_group(self):
-        """In front where the field table says so, otherwise behind a summary; the button that starts and stops time
-        has its fields beside it."""
+        """A field is in front if the table of fields says so, and otherwise folded behind a summary. The fields of the
+        button that starts and stops time are beside it."""
         page, schema = self.open(), self.schema()
         self.assertEqual(tuple(schema["x-groups"]), GROUPS)
         there = page.evaluate("""() => Object.fromEntries([...document.querySelectorAll('[data-path]')].map(node => [node.dataset.path,
@@ -210,7 +210,7 @@ class Panel(Browser):
         self.assertTrue(page.is_disabled('[data-path="image.samples"] input[type=range]'))
 
     def test_a_sky_and_an_observer_have_their_own_fields(self):
-        """And a sentence that describes the choice, different in each language."""
+        """There is also a sentence that describes the choice, in both languages."""
         page, told = self.open("lang=en&camera.r=30&sky.model=grid&pause=1"), {}
         self.open_groups(page)
         sky = {
@@ -255,7 +255,7 @@ class Panel(Browser):
     )
 
     def test_four_sliders_are_in_step_with_their_fields(self):
-        """Both ways, by pointer and by keys, and with words for those who hear them."""
+        """Sliders and fields follow each other, by pointer and by keys. Screen readers get words for the values."""
         page = self.open("lang=en&pause=1&spacetime.spin=0.3&camera.inclination_deg=40&camera.r=60&style.bloom=0.2")
         self.open_groups(page)
         self.assertEqual(page.locator("#leading label").all_inner_texts(), [name for *_, name in self.LEADING])
@@ -280,7 +280,7 @@ class Panel(Browser):
             self.assertTrue(same(), path)
 
     def scene_value(self, page, path):
-        """What the scene as text says of a field."""
+        """The value of a field in the text of the scene."""
         section, name = path.split(".")
         return json.loads(page.input_value("#scene-text")).get(section, {}).get(name)
 
@@ -295,7 +295,7 @@ class Panel(Browser):
         self.linked(page, "camera.field_m=40")
 
     def test_m_is_told_in_metres_and_seconds(self):
-        """Of the scene's own mass, with the figures of /v1/physics/scale."""
+        """For the scene's own mass the panel shows the figures of /v1/physics/scale."""
         for mass, lang, words in (
             (10, "en", ("10 suns", "14.8 km", "49.3 µs")),
             (6.5e9, "it", ("6,5 miliardi di soli", "64,2 ua", "8,89 ore")),
@@ -318,7 +318,8 @@ class Panel(Browser):
         return page.locator("#fields [data-path]:visible").evaluate_all("all => all.map(n => n.dataset.path)")
 
     def test_a_setting_is_found(self):
-        """By label, help, choice and name, in both languages; its group opens, and closes when the search ends."""
+        """A setting is found by label, help, choice and name, in both languages. Its group opens, and closes when the
+        search ends."""
         for lang in ("en", "it"):
             page = self.open("lang=" + lang)
             page.click("#all > summary")
@@ -329,7 +330,7 @@ class Panel(Browser):
                 ("Tone map" if lang == "en" else "tone_map", "style.tone_map"),
                 ("camera.roll_deg", "camera.roll_deg"),
                 ("roll deg", "camera.roll_deg"),
-                ("knee", "style.bloom"),
+                ("smooth transition", "style.bloom"),
                 ("kerr–schild tao", "accuracy.engine"),
             ):
                 page.fill("#find", words)

@@ -1,4 +1,4 @@
-"""The curves, the sound of a ringdown, and the view of real scale: physics.py KERRD FOLDER (browser.py)."""
+"""Tests of the curves, the sound of a ringdown, and the view of real scale: physics.py KERRD FOLDER (browser.py)."""
 
 import pathlib
 import re
@@ -30,8 +30,8 @@ class Physics(Browser):
         self.linked(page, "qnm.spin=0.95")
 
     def test_what_a_scene_adds_up_to(self):
-        """Line, spectrum and visibilities of the scene shown: requested when one is chosen, again when the scene has
-        changed, and saved as CSV."""
+        """Line, spectrum and visibilities of the shown scene are requested when one is chosen, requested again when the
+        scene has changed, and saved as CSV."""
         page = self.open(SMOOTH + "&lang=en&spacetime.spin=0.5&camera.inclination_deg=40")
         page.click("#integrals > summary")
         figure = "#integral-plot figure"
@@ -106,7 +106,7 @@ class Physics(Browser):
         page.wait_for_selector("#integral-plot .fault", state="hidden")
 
     def test_flux_of_a_volume(self):
-        """In the caption of the picture, and as a spectrum of small pictures."""
+        """The flux is in the caption of the picture, and a spectrum consists of small pictures."""
         page = self.open(
             "lang=it&preset=riaf&pace=fast&accuracy.profile=draft",
             "#stage[data-final]",
@@ -171,7 +171,7 @@ class Physics(Browser):
         self.assertEqual(page.locator("#curve-qnm a[href*=wav]").count(), 0)
 
     def test_each_curve_is_explained(self):
-        """In both languages: about three to six sentences under each, and the derivation, folded."""
+        """Each curve has about three to six sentences in both languages, and a derivation, folded."""
         told = {}
         for lang in ("en", "it"):
             page = self.open(f"lang={lang}&view=physics", "#curves .card:last-child canvas")
@@ -269,7 +269,8 @@ class Physics(Browser):
         self.shot(page, "scale")
         self.assertIn("a ring 42 ± 3 µas across", page.get_attribute("#sky-m87 .sky-stack", "aria-label"))
         self.assertIn("a ring 51.8 ± 2.3 µas across", page.get_attribute("#sky-sgra .sky-stack", "aria-label"))
-        # To scale: the ring's diameter and its error over the panel's width, and the same bar, in both.
+        # In both views the ring's diameter and its error are drawn to scale, relative to the panel's width, with the
+        # same bar.
         drawn = page.evaluate("""() => ['m87', 'sgra'].map(hole => {
             const of = name => document.querySelector(`#sky-${hole} ${name}`), wide = of('.sky-stack').clientWidth;
             const ring = of('.sky-ring').getBoundingClientRect(), band = of('.sky-ring-width').getBBox();

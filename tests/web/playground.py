@@ -1,4 +1,4 @@
-"""The playground's view: playground.py KERRD FOLDER (browser.py)."""
+"""Tests of the playground's view: playground.py KERRD FOLDER (browser.py)."""
 
 import json
 import math
@@ -10,7 +10,7 @@ from browser import KERRD, Browser, main, value
 import daemon
 
 THERE = "#play-plane[data-bodies]"
-ARROW_PX = 90  # of the speed of a circle, clients/web/hands.js
+ARROW_PX = 90  # length of an arrow with the speed of a circle; as in clients/web/hands.js
 
 
 class Playground(Browser):
@@ -19,7 +19,7 @@ class Playground(Browser):
         return self.open("view=playground&" + fragment, THERE, **options)
 
     def address(self):
-        """Of the newest playground that a page has started."""
+        """The address of the newest playground that a page has started."""
         return [
             r.response().json()["id"]
             for r in self.requests
@@ -58,8 +58,8 @@ class Playground(Browser):
         return [float(page.input_value(f"#play-{what}-{axis}")) for axis in "xyz"]
 
     def test_a_body_is_thrown_by_a_drag(self):
-        """It starts where the drag began, with the velocity given by the arrow's length; the path predicted by the
-        page is where the server has it later."""
+        """The body starts where the drag began, with the velocity given by the arrow's length. Later the server has it
+        on the path that the page predicted."""
         page = self.open_play()
         self.pause(page)
         before, (x, y) = self.bodies(), self.stage(page)
@@ -72,8 +72,8 @@ class Playground(Browser):
         (got,) = (body for i, body in self.bodies().items() if i not in before)
         for a, b in zip(got[:6], place + velocity):
             self.assertAlmostEqual(a, b, delta=2e-4 * max(abs(b), 0.01))
-        # The arrow: 10 pixels to the left, 90 up, of which ARROW_PX are a circle's speed in the potential of Paczynski
-        # and Wiita.
+        # The arrow goes 10 pixels to the left and 90 up. ARROW_PX are the speed of a circle in the potential of
+        # Paczynski and Wiita.
         r = math.hypot(*place)
         circle = math.sqrt(r) / (r - 2)
         self.assertAlmostEqual(velocity[0], -10 / ARROW_PX * circle, delta=0.03 * circle)
@@ -140,19 +140,19 @@ class Playground(Browser):
     def test_a_body_is_thrown_anew_changed_and_removed(self):
         page = self.open_play(
             "lang=en&play.preset=emri&play.paused=1"
-        )  # what moves is elsewhere in the page than on the server
+        )  # a moving body is elsewhere in the page than on the server
         ((only, body),) = self.bodies().items()
         x, y = self.stage(page)
         scale = (
             page.evaluate('document.getElementById("play-stage").clientHeight') / 2 / (1.1 * 16)
-        )  # fitted: 16 M, and a tenth
+        )  # the view was fitted: 16 M, and a tenth more
         at = (x + body[0] * scale, y - body[1] * scale)
         self.pull(page, at, (at[0] + 45, at[1]))
         page.mouse.up()
         self.assertTrue(daemon.eventually(lambda: self.bodies()[only][3] > 0.1 and abs(self.bodies()[only][4]) < 0.02))
         self.assertTrue(
             daemon.eventually(lambda: page.input_value("#play-body") == str(only))
-        )  # the server has it first: its answer has a way to go
+        )  # the server has the body before its answer reaches the page
         page.fill("#play-body-mass", "0.002")
         page.press("#play-body-mass", "Tab")
         self.assertTrue(daemon.eventually(lambda: abs(self.bodies()[only][6] - 0.002) < 1e-9))
@@ -232,7 +232,7 @@ class Playground(Browser):
         self.shot(page, "playground", full_page=True)
 
     def test_a_star_was_torn_and_falls_back(self):
-        """And a snapshot from the command line continues in the page, with the debris that has returned so far."""
+        """A snapshot from the command line continues in the page, with the debris that has returned so far."""
         made = subprocess.run(
             [
                 KERRD,
@@ -296,7 +296,7 @@ class Playground(Browser):
         self.assertGreaterEqual(again["t"] if "t" in again else again["state"]["t"], was["t"])
 
     def test_the_chirp_is_heard_where_somebody_wants_it(self):
-        """No sound before a gesture; once switched on it stays on, and once off it stays off."""
+        """There is no sound before a gesture. Once switched on it stays on, and once off it stays off."""
         count = "window.opened = 0; { const Real = AudioContext; window.AudioContext = class extends Real { constructor() { super(); window.opened++; } }; }"
         context = self.context(viewport={"width": 1200, "height": 900})
         context.add_init_script(count)
@@ -309,7 +309,7 @@ class Playground(Browser):
         self.assertEqual(page.evaluate("opened"), 1)
         self.assertIn("Heard as with a hole of", page.inner_text("#play-heard"))
         begin = float(page.get_attribute("#play-sound", "data-hz"))
-        self.assertTrue(90 < begin < 400, begin)  # it rises while a busy machine comes to say it
+        self.assertTrue(90 < begin < 400, begin)  # the frequency rises until a busy machine reports it
         page.wait_for_function('hz => Number(document.getElementById("play-sound").dataset.hz) > 1.1 * hz', arg=begin)
         page.reload()
         page.wait_for_selector(THERE)
@@ -349,7 +349,7 @@ class Playground(Browser):
         self.assertGreater(len(texts), 30)
 
     def test_what_one_sees_is_said(self):
-        """For each preset, in both languages; without a link both pictures are shown where there is room, and time
+        """Each preset has texts in both languages. Without a link both pictures are shown if there is room, and time
         runs at once."""
         for lang in ("en", "it"):
             page = self.open(
@@ -398,7 +398,7 @@ class Playground(Browser):
         self.assertFalse(page.is_visible("#play-lensed"))
 
     def test_what_was_left_goes_on(self):
-        """A playground that nobody watches ends; a user who comes back finds it as it was."""
+        """A playground that nobody watches ends. A user who comes back finds it as it was."""
         self.expected = "404"
         page = self.open_play("lang=en&play.preset=emri&play.paused=1")
         page.fill("#play-at-y", "15")

@@ -1,4 +1,4 @@
-"""A picture saved at any size, through a job: saving.py KERRD FOLDER (browser.py)."""
+"""Tests of a picture saved at any size, through a job: saving.py KERRD FOLDER (browser.py)."""
 
 import json
 import pathlib
@@ -88,7 +88,7 @@ class Saving(Browser):
         )
 
     def test_as_large_as_the_window_it_is_what_is_seen(self):
-        """Including gas, glare and automatic exposure: equal to the pixel."""
+        """The saved picture equals the shown one to the pixel, including gas, glare and automatic exposure."""
         page = self.open("lang=en&preset=gas&pause=1", FINE, viewport={"width": 700, "height": 420})
         seen = self.pixels(page)
         self.choose(page, "window")
@@ -104,7 +104,7 @@ class Saving(Browser):
         self.assertEqual(self.pixels(page), seen)
 
     def test_sizes(self):
-        """The sizes that the choices request; the real pictures would take minutes."""
+        """Tests the sizes that the choices request; the real pictures would take minutes."""
         page = self.open()
         page.route("**/v1/jobs", lambda route: route.fulfill(status=202, json={"id": "0" * 16, "token": "t"}))
         page.route(
@@ -137,8 +137,8 @@ class Saving(Browser):
         self.assertEqual((asked["window-3840"][0], asked["window-7680"][0]), (3840, 7680))
 
     def test_what_is_left_follows_from_what_was_done(self):
-        """No number until there is something to base it on; then from the pace so far, whatever the server
-        estimates."""
+        """No remaining time is shown until it can be estimated. It then follows from the pace so far, whatever the
+        server estimates."""
         page = self.open()
         left = page.evaluate("""async () => {
             const { remaining } = await import('./web/remaining.js');
@@ -172,7 +172,8 @@ class Saving(Browser):
         page.click("#save-cancel")
 
     def test_what_is_saved_is_what_is_seen(self):
-        """At the window's own size to the rounding of a level, and at a larger one when it is averaged down."""
+        """At the window's own size the picture is equal to the rounding of a level. A larger one is equal after it is
+        averaged down."""
         for preset in ("gargantua", "living-disk"):
             page = self.open(f"lang=en&pause=1&preset={preset}", FINE)
             seen = page.evaluate(
@@ -201,7 +202,7 @@ class Saving(Browser):
                 self.assertLessEqual(worst, 2 if times == 1 else 40, (preset, times))
 
     def test_it_is_cancelled(self):
-        self.expected = "404"  # of what is cancelled the page may just be asking how far it has come
+        self.expected = "404"  # the page may be asking for the progress of a job that is just being cancelled
         page = self.open()
         self.choose(page, "3840x2160")
         page.click("#save")
@@ -274,7 +275,7 @@ class Saving(Browser):
         self.assertEqual(len(self.jobs()), 1)
 
     def film(self, page):
-        """At its real size and length a film takes a minute: the request is made smaller on its way."""
+        """A film of real size and length would take a minute, so the request is made smaller on its way."""
         page.evaluate('() => { document.getElementById("take").open = true; }')
         page.wait_for_selector('#film-spin-takes:text-matches("^(about|some) ")')
 
@@ -288,7 +289,7 @@ class Saving(Browser):
         page.route("**/v1/jobs", smaller)
 
     def made(self, page, button):
-        """The keyframes of the request, and the pictures' scenes."""
+        """The keyframes of the request, and the scenes of the pictures."""
         with page.expect_download() as download:
             page.click(button)
         self.assertEqual(download.value.suggested_filename, f"kerrd-{button.removeprefix('#film-')}-1280x720.zip")

@@ -1,4 +1,4 @@
-"""Sessions and servers that come and go: sessions.py KERRD FOLDER (browser.py)."""
+"""Tests of sessions and servers that come and go: sessions.py KERRD FOLDER (browser.py)."""
 
 import itertools
 import json
@@ -32,12 +32,13 @@ class Sessions(Browser):
             self.assertIsNone(page.get_attribute("#status", "data-wrong"))
 
     def test_what_a_finer_picture_lacks_is_told(self):
-        """If it takes the server long: in words below the picture, in both languages, and as a bar at its edge."""
+        """If a finer picture takes the server long, the page shows the progress: in words below the picture, in both
+        languages, and as a bar at its edge."""
         for lang, words in (("en", "finer picture: 40 %, 8 s to go"), ("it", "immagine più fine: 40 %, mancano 8 s")):
             page = self.page(self.context())
             page.route(
                 "**/frame?*", lambda route: route.continue_() if "after=0" in route.request.url else None
-            )  # the next one does not come
+            )  # the next picture never comes
             page.route(
                 re.compile(r"/v1/sessions/[^/?]+$"),
                 lambda route: (
@@ -58,7 +59,8 @@ class Sessions(Browser):
             )
 
     def test_what_the_first_picture_lacks_is_told(self):
-        """Where the picture will be, in both languages, with a bar; for one that follows another, below that one."""
+        """The progress of the first picture is shown where the picture will be, in both languages, with a bar. If it
+        follows another picture, it is shown below that one."""
         told = lambda frame: (
             lambda route: (
                 route.fulfill(json={"frame": frame, "rendering": {"fraction": 0.25, "remaining_s": 3.2}})
@@ -71,7 +73,7 @@ class Sessions(Browser):
             ("it", "Il server calcola la prima immagine: 25 %, mancano 4 s", "prossima immagine: 25 %, mancano 4 s"),
         ):
             page = self.page(self.context())
-            page.route("**/frame?*", lambda route: None)  # it does not come
+            page.route("**/frame?*", lambda route: None)  # the frame never comes
             page.route(re.compile(r"/v1/sessions/[^/?]+$"), told(0))
             page.goto(self.base + f"#lang={lang}&preset=default&pace=fast")
             self.there(page, words, "#first")
@@ -87,7 +89,8 @@ class Sessions(Browser):
             page.keyboard.press("Shift+ArrowUp")
             self.assertTrue(
                 daemon.eventually(lambda: page.evaluate("0") or held)
-            )  # the question that was open before may have brought this change's picture, at once the finest
+                # the request that was open before may have brought this change's picture, at once in its final quality
+            )
             page.keyboard.press("Shift+ArrowUp")
             self.there(page, others, "#status")
             self.assertTrue(page.is_visible("#refined"))
@@ -119,14 +122,14 @@ class Sessions(Browser):
         self.assertEqual((len(gone), len(opened())), (1, 2))
 
     def test_a_session_that_ends_while_nobody_looks(self):
-        """It is opened anew when a user looks again, with the size that the window then has."""
+        """The session is opened anew when a user looks again, with the size that the window then has."""
         page = self.open()
         self.expected = "404"
         own = next(r.response().json() for r in self.requests if "/v1/sessions?" in r.url)
         page.click("nav [data-view=physics]")
         page.wait_for_selector(READY["physics"])
-        # A poll that is running is told of it; if the last picture came just as the user left the view there is none,
-        # and the page learns it later.
+        # A poll under way gets the end of the session. If the last picture came just as the user left the view, there
+        # is no poll, and the page notices later.
         self.daemon.request("DELETE", "/v1/sessions/" + own["id"], headers={"Authorization": "Bearer " + own["token"]})
         page.wait_for_timeout(300)
         page.click("nav [data-view=lensing]")
@@ -154,10 +157,10 @@ class Sessions(Browser):
                 page.goto(f"{self.base}#preset=default&lang=en&view={view}")
                 page.wait_for_selector(f"{told} >> text=The server does not answer – trying again")
                 page.unroute(fails)
-                if view != "physics":  # that one goes by itself
+                if view != "physics":  # that view changes by itself
                     page.click(f'{told} button:has-text("Try again")')
-                    # A browser may remember that a module could not be loaded (Chromium 150 does, 156 does not): the
-                    # user's next try reloads the page.
+                    # A browser may remember that a module could not be loaded (Chromium 150 does, 156 does not). The
+                    # user's next try then reloads the page.
                     again = lambda: page.evaluate('told => document.querySelector(told + " button")?.click()', told)
                     self.assertTrue(
                         daemon.eventually(
@@ -182,7 +185,7 @@ class Sessions(Browser):
             away()
 
             def still():
-                """Whether a second passes without a picture: one that was already on its way may come first."""
+                """True if a second passes without a picture. A picture that was already on its way may come first."""
                 before = pictures()
                 page.wait_for_timeout(1000)
                 return pictures() == before
@@ -193,8 +196,8 @@ class Sessions(Browser):
             self.assertTrue(daemon.eventually(lambda: pictures() > before + 5))
 
     def test_a_picture_that_is_too_much_work_comes_smaller_and_says_so(self):
-        """If the server accepts no picture of a scene at this window's size, the page requests half of it; for
-        another scene the full size again."""
+        """If the server accepts no picture of a scene at this window's size, the page requests half of the size, and
+        for another scene the full size again."""
         sizes, scene, refused = (
             [],
             {},
@@ -231,8 +234,8 @@ class Sessions(Browser):
         self.assertTrue(daemon.eventually(lambda: "(1/" not in page.inner_text("#status")))
 
     def test_a_drag_over_a_long_line(self):
-        """Changes are sent with requests for pictures, several of which are running; in the end the server has what
-        the page shows, and the last picture is exact."""
+        """Changes are sent with requests for pictures, several of which are under way. In the end the server has the
+        scene that the page shows, and the last picture is exact."""
         page = self.open("lang=en&preset=default&pause=1")
         own = next(r.response().json() for r in self.requests if "/v1/sessions?" in r.url)
         page.context.new_cdp_session(page).send(
@@ -241,7 +244,7 @@ class Sessions(Browser):
         )
         page.focus("#stage")
         carried = lambda: page.evaluate("0") or [r for r in self.requests if r.method == "PATCH" and "/frame?" in r.url]
-        for _ in range(3):  # by the answer to the first the page learns how long the line is
+        for _ in range(3):  # by the answer to the first request the page learns the delay of the line
             page.keyboard.press("ArrowUp")
             page.wait_for_timeout(700)
 

@@ -1,4 +1,4 @@
-"""A scene sent on from the page: share.py KERRD FOLDER (browser.py)."""
+"""Tests of a scene shared from the page: share.py KERRD FOLDER (browser.py)."""
 
 import base64
 import json
@@ -45,7 +45,7 @@ class Share(Browser):
         self.assertEqual(other.url, "about:blank", "the page of the link is no stop on the way back")
 
     def test_the_width_of_the_window_is_not_sent(self):
-        """A window lower than 16:9 widens the field by itself; the link has the preset's field."""
+        """A window lower than 16:9 widens the field by itself. The link has the preset's field."""
         page = self.open("lang=en&preset=edge-on&pause=1", viewport={"width": 1400, "height": 500})
         code = self.share(page).rsplit("/", 1)[1]
         self.assertLess(len(code), 40, "the name of the preset and no more")
@@ -96,7 +96,7 @@ class Share(Browser):
         self.assertEqual(download.value.suggested_filename, "kerrd-smooth-3840x2160.png")
         data = download.value.path().read_bytes()
         self.assertTrue(b"tEXtkerrd:scene" in data, "it holds its scene")
-        # A line of light letters near the lower edge, and nothing like it near the upper one.
+        # There is a line of light letters near the lower edge, and nothing like it near the upper one.
         light = page.evaluate(
             """async data => {
             const image = await createImageBitmap(new Blob([Uint8Array.from(atob(data), c => c.charCodeAt(0))]));
@@ -112,7 +112,7 @@ class Share(Browser):
         self.assertGreater(light[2], 2000)
 
     def test_a_film_begins(self):
-        """Of a scene that looks the same from all sides and in which nothing moves it is one of another spin."""
+        """If the scene looks the same from all sides and nothing moves in it, the film changes the spin."""
         page = self.open("lang=en&preset=smooth&pause=1")
         asked = []
         page.on("request", lambda request: request.url.endswith("/v1/jobs") and asked.append(request.post_data_json))

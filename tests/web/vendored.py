@@ -1,4 +1,4 @@
-"""Tests that files of clients/web by others are what vendored.json says they are: vendored.py FOLDER"""
+"""Tests that third-party files of clients/web match vendored.json: vendored.py FOLDER"""
 
 import hashlib
 import json

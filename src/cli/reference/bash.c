@@ -26,7 +26,8 @@ static void write_options(struct kd_writer *w, const struct kd_context *context)
     kd_write(w, "' ;;\n");
 }
 
-/* Writes the kinds of arguments. "optional" before the kind marks an option whose argument can only follow "=". */
+/* Writes the kinds of arguments. "optional" before a kind marks an option whose argument can only be given after
+ * "=". */
 static void write_arguments(struct kd_writer *w, const struct kd_context *context)
 {
     const enum kd_argument positional = kd_argument_positional(context->argp->args_doc);

@@ -1,4 +1,4 @@
-# COMP_WORDS as they were typed: bash has split them at = and :.
+# Set `words` to the words of the command line as they were typed. In COMP_WORDS bash has split them at = and :.
 _kerrd_glue() {
     local i token gap before= rest=${COMP_LINE:0:${COMP_POINT:-0}}
     words=()
@@ -18,7 +18,7 @@ _kerrd_glue() {
     done
 }
 
-# Propose files, or folders alone by -d, behind the prefix $2.
+# Propose files that begin with $3, or folders if $1 is -d. Each proposal has the prefix $2.
 _kerrd_files() {
     local name
     compopt -o filenames 2> /dev/null
@@ -27,7 +27,7 @@ _kerrd_files() {
     done < <(compgen "$1" -- "$3")
 }
 
-# Propose words of $1, behind the prefix $2, that begin with $3.
+# Propose the words of $1 that begin with $3. Each proposal has the prefix $2.
 _kerrd_words() {
     local word
     for word in $1; do
@@ -35,7 +35,9 @@ _kerrd_words() {
     done
 }
 
-# Propose NAME= or, where a name stands already, the words that may follow it: of the table after the first two arguments. An index of a list is any number.
+# Complete $2 to a name, as NAME=. If it has a name already, propose the words that may follow the name. $1 is the
+# prefix of each proposal; the other arguments are the table of names and words. The index of a list element may be any
+# number.
 _kerrd_named() {
     local prefix=$1 value=$2 row name words index=
     shift 2
@@ -58,7 +60,7 @@ _kerrd_named() {
     [[ $value == *=* ]] || compopt -o nospace 2> /dev/null
 }
 
-# Propose what $1 says, a kind and perhaps words, behind the prefix $2, that begins with $3.
+# Propose values that begin with $3. $1 is their kind, perhaps followed by words. Each proposal has the prefix $2.
 _kerrd_values() {
     case $1 in
         file) _kerrd_files -f "$2" "$3" ;;
@@ -89,7 +91,8 @@ _kerrd_values() {
     esac
 }
 
-# Read the words before the one under the cursor: `command`, whether options have ended, and which option waits for its argument.
+# Read the words before the one under the cursor. Set `command`; `ended` if no more options may follow; and `waiting`
+# to the option that still needs its argument.
 _kerrd_read() {
     local i word
     command= waiting= ended=
@@ -130,7 +133,7 @@ _kerrd() {
         _kerrd_takes "$command" ''
         _kerrd_values "$takes" '' "$current"
     fi
-    # What bash has split off before the cursor is not put in again.
+    # Bash replaces only what follows the last = or :, so the proposals must not repeat what precedes it.
     prefix=
     if [[ $current == *[=:]* ]]; then
         prefix=${current%"${current##*[=:]}"}

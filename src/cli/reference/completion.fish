@@ -1,4 +1,4 @@
-# Whether what has been typed so far is for this command: none at all, a command, or "physics" and a quantity.
+# Whether the command typed so far is $argv: nothing, a command, or "physics" and a quantity.
 function __kerrd_is
     set -l typed
     for word in (commandline -opc)[2..]
@@ -16,7 +16,8 @@ function __kerrd_devices
     command kerrd doctor --devices 2>/dev/null
 end
 
-# NAME=, of the rows that are given, or the words that may follow it. An index of a list is any number.
+# Complete a name, as NAME=, or the words that may follow the name. $argv is the table of both. The index of a list
+# element may be any number.
 function __kerrd_named
     set -l token (string replace -r -- '^--[a-z-]+=' '' (commandline -ct))
     set -l index (string match -r '^[a-z_]+\.([0-9]+)\.' -- $token)[2]

@@ -12,7 +12,8 @@ _kerrd_named_file() {
     fi
 }
 
-# NAME=, of the table whose name is $1, or the words that may follow it. With $2, a comma, several of them. An index of a list is any number.
+# Complete a name, as NAME=, or the words that may follow the name. $1 is the name of the table of both. If $2 is set, a
+# comma, several words may follow. The index of a list element may be any number.
 _kerrd_named() {
     local -a rows words match mbegin mend
     local name
@@ -59,7 +60,7 @@ _kerrd() {
     esac
 }
 
-# When the file is read as a function it is that function: it must also do its work the first time.
+# If zsh loads this file as the function _kerrd, it runs the file instead of the function the first time.
 if [[ $funcstack[1] == _kerrd ]]; then
     _kerrd "$@"
 else

@@ -1,4 +1,4 @@
-/* Writes completions for fish: a line for each option, and tables for the functions of completion.fish. */
+/* Writes completions for fish: one line for each option, and tables for the functions of completion.fish. */
 #include "cli/commands.h"
 #include "cli/reference/completions.h"
 #include "cli/reference/options.h"

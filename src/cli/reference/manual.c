@@ -11,7 +11,7 @@
 #include <string.h>
 #include <time.h>
 
-/* Writes text as roff: escapes special characters and sets backquoted text in bold. */
+/* Writes text as roff: escapes special characters, and sets text between backquotes in bold. */
 static void write_escaped(struct kd_writer *w, const char *text, size_t length)
 {
     bool bold = false;
@@ -64,7 +64,7 @@ static void write_name(struct kd_writer *w, const char *prefix, const char *name
     write_text(w, name);
 }
 
-/* Writes .TP and "-o, --output=FILE" in the usual fonts. */
+/* Writes .TP and the option, "-o, --output=FILE", in the usual fonts. */
 static void write_option(struct kd_writer *w, const struct kd_option *o)
 {
     const char *gap = "";
@@ -116,7 +116,8 @@ static bool has_word(const char *words, const char *word)
     return false;
 }
 
-/* Writes the variables of the options in one entry; each option's text explains them. */
+/* Writes the environment variables that belong to options in one entry, because the text of each option explains its
+ * variable. */
 static void write_settings(struct kd_writer *w)
 {
     const char *gap = "";
@@ -159,7 +160,7 @@ static void write_examples(struct kd_writer *w, const char *command)
         if (command && strcmp(kd_examples[i].command, command))
             continue;
         if (!command && i && !strcmp(kd_examples[i].command, kd_examples[i - 1].command))
-            continue; /* only the first example of each command */
+            continue; /* only the first example of a command has the heading */
         kd_write(w, any ? ".PP\n" : ".SH EXAMPLES\n");
         write_text(w, kd_examples[i].says);
         kd_write(w, "\n.PP\n.RS 4\n.EX\n");
@@ -195,7 +196,7 @@ static bool names(const struct kd_context *context, const char *name)
     return false;
 }
 
-/* Writes SEE ALSO: on the program's page all commands, on a command's page those that it mentions. */
+/* Writes SEE ALSO. The program's page names all commands, a command's page the commands that it mentions. */
 static void write_see_also(struct kd_writer *w, const struct kd_context *context)
 {
     const char *gap = context ? ",\n" : "";
@@ -220,7 +221,7 @@ static bool has(const struct kd_options *options, const struct kd_option *option
     return false;
 }
 
-/* Writes all options that are not in `told`. */
+/* Writes all options except those in `told`. */
 static void write_options(struct kd_writer *w, const struct kd_options *options, const struct kd_options *told)
 {
     for (size_t i = 0; i < options->n; i++)

@@ -6,14 +6,14 @@
 
 #include <stdbool.h>
 
-/* Writes the page of a subcommand, or of kerrd if command is NULL. Its date is SOURCE_DATE_EPOCH, else today. Returns
- * false if there is no such command. */
+/* Writes the page of a subcommand; command NULL: that of kerrd itself. The date on it is SOURCE_DATE_EPOCH, or else
+ * today. Returns false if there is no such command. */
 bool kd_manual_page(struct kd_writer *w, const char *command);
 
-/* Contents of pages besides the option tables: examples and environment variables. tests/cli/manual.py runs the
- * examples in this order, in an empty folder. */
+/* What pages contain besides the option tables: examples and environment variables. tests/cli/manual.py runs the
+ * examples in this order, in a folder that is empty at first. */
 struct kd_example {
-    const char *command; /* command on whose page it appears */
+    const char *command; /* command whose page has the example */
     const char *line;    /* command line; the test skips lines that begin with # */
     const char *says;
 };
@@ -22,7 +22,8 @@ extern const size_t kd_n_examples;
 
 struct kd_variable {
     const char *name;
-    const char *commands; /* commands that read it, "sweep serve"; NULL: all with --device */
+    /* commands that read the variable, such as "sweep serve"; NULL: all commands that have --device */
+    const char *commands;
     const char *says;
 };
 extern const struct kd_variable kd_variables[];

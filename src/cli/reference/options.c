@@ -19,7 +19,7 @@ static const struct argp_option built_in[] = {
 static bool is_end(const struct argp_option *o) { return !o->name && !o->key && !o->doc && !o->group; }
 static char letter_of(const struct argp_option *o) { return o->key > ' ' && o->key <= '~' ? (char)o->key : 0; }
 
-/* A letter used twice belongs to the first option, the parent's, which argp also finds first. */
+/* If two options have the same letter, it belongs to the first one, the parent's, which argp also finds first. */
 static char free_letter(const struct kd_options *out, const struct argp_option *o)
 {
     for (size_t i = 0; i < out->n; i++)
@@ -40,8 +40,8 @@ static bool add_alias(struct kd_options *out, const struct argp_option *o)
     return true;
 }
 
-/* Appends an option and updates *group as argp does: group 0 continues the group before, a heading begins the next
- * one. */
+/* Appends an option and updates *group by argp's rule: group 0 means the group of the option before, and a heading
+ * begins the next group. */
 static bool add(struct kd_options *out, const struct argp_option *o, int *group)
 {
     const bool heading = !o->name && !letter_of(o);
@@ -87,7 +87,7 @@ static bool add_all(const struct argp *argp, struct kd_options *out)
     return true;
 }
 
-/* argp's order of groups: 0, 1, 2, ..., then the negative ones, -1 last. */
+/* Rank of a group in argp's order: 0, 1, 2, ..., then the negative ones, of which -1 is last. */
 static long rank(int group) { return group < 0 ? 2L * INT_MAX + 2 + group : group; }
 
 static void sort(struct kd_options *options)

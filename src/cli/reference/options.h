@@ -12,40 +12,40 @@
 
 enum { KD_OPTIONS_MOST = 100, KD_OPTION_NAMES = 4 };
 
-/* One option, or a heading, which has neither letter nor name. Texts belong to the tables. */
+/* One option, or a heading, which has neither letter nor name. The option tables own the texts. */
 struct kd_option {
     char letter;                        /* 0: none */
     const char *names[KD_OPTION_NAMES]; /* including aliases */
     size_t n_names;
     const char *argument; /* NULL: none */
     bool optional;        /* its argument is optional */
-    bool again;           /* may be repeated */
+    bool again;           /* the option may be repeated */
     enum kd_argument takes;
-    const char *doc; /* "": none */
-    int group;       /* argp's group, the order of --help */
+    const char *doc; /* the option's help; "": none */
+    int group;       /* argp's group; it determines the order of --help */
 };
 struct kd_options {
     struct kd_option list[KD_OPTIONS_MOST];
     size_t n;
 };
 
-/* Reads all visible options, by group, within a group in the order of the tables, parents before children, argp's own
- * last. Returns false if there are more than KD_OPTIONS_MOST. */
+/* Reads all visible options in the order of --help: by group; within a group the parent's before the children's, each
+ * in the order of its table; argp's own options last. Returns false if there are more than KD_OPTIONS_MOST. */
 bool kd_options_read(const struct argp *argp, struct kd_options *out);
 
-/* Entry i of the words that may follow "kerrd": each subcommand, then "physics NAME" for each quantity. Returns false
- * beyond the end. A result for a quantity is valid until the next call. */
+/* Entry i of the list of what may follow "kerrd": each subcommand, then "physics NAME" for each quantity. Returns false
+ * beyond the end. The result for a quantity is valid until the next call. */
 struct kd_context {
     char name[64];
     const char *help; /* one line */
     const struct argp *argp;
     struct kd_options options;
-    bool complete; /* `options` has all of its options */
+    bool complete; /* `options` has all options; there were not too many */
 };
 bool kd_context_at(size_t i, struct kd_context *out);
 
-/* Calls `one` for the texts of --help before the options, or `after` them: the parts of argp.doc before or after \v, of
- * the argp and its children. */
+/* Calls `one` for the texts of --help. In argp.doc these are the parts before and after \v; `after` selects the parts
+ * that follow the options. It includes the texts of the argp's children. */
 void kd_options_texts(const struct argp *argp, bool after,
                       void (*one)(struct kd_writer *w, const char *text, size_t length), struct kd_writer *w);
 

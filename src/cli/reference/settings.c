@@ -4,14 +4,14 @@
 
 #include <string.h>
 
-/* Writes text for a table cell, with the bar and bracket escaped. */
+/* Writes text into a cell of a table, and escapes the bar and the bracket. */
 static void write_cell(struct kd_writer *w, const char *text)
 {
     for (; *text; text++)
         kd_write(w, *text == '|' || *text == '<' ? "\\%c" : "%c", *text);
 }
 
-/* Writes the possible values of a member of the file. */
+/* Writes the values that a member of the file may have. */
 static void write_values(struct kd_writer *w, const struct kd_cli_setting *setting)
 {
     switch (setting->kind) {

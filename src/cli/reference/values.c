@@ -15,7 +15,7 @@ const char *const kd_argument_names[KD_ARGUMENT_KINDS] = {
     "device",  "preset",   "field", "axis",   "playground", "setting", "quantity",
 };
 
-/* Complete arguments with a kind of their own. */
+/* Names of arguments that have a kind of their own. */
 static const struct {
     const char *argument;
     enum kd_argument takes;
@@ -43,8 +43,7 @@ static bool is_placeholder(const char *text, size_t length)
     return capital;
 }
 
-/* Whether the text is like FILE, FILE.csv or SCENE.json: capitals and optionally an extension; without one only
- * FILE. */
+/* Whether the text is like FILE, FILE.csv or SCENE.json: capitals and an extension, which only FILE may lack. */
 static bool is_file(const char *text, size_t length)
 {
     const char *dot = memchr(text, '.', length);
@@ -108,7 +107,8 @@ void kd_argument_words(enum kd_argument takes, const char *argument, struct kd_w
     }
 }
 
-/* Writes the words of a field as "a|b|c". A word with a number, such as name_N, is written without the number. */
+/* Writes the words of a field as "a|b|c". If a word stands for words with a number, such as name_N, it is written
+ * without the number. */
 static void words_of(const struct kd_field *field, char *out, size_t size)
 {
     *out = 0;

@@ -1,4 +1,4 @@
-/* Writes completions for zsh: the arguments of _arguments for each command, and tables for the functions of
+/* Writes completions for zsh: the arguments that _arguments takes for each command, and tables for the functions of
  * completion.zsh. */
 #include "cli/commands.h"
 #include "cli/reference/completions.h"
@@ -6,15 +6,15 @@
 
 #include <string.h>
 
-/* Writes text for single quotes, with a backslash before each of the `special` characters. */
+/* Writes text that will be in single quotes, with a backslash before each of the `special` characters. */
 static void write_text(struct kd_writer *w, const char *text, const char *special)
 {
     for (; *text; text++)
         kd_write(w, *text == '\'' ? "'\\''" : strchr(special, *text) ? "\\%c" : "%c", *text);
 }
 
-/* Writes ":ARGUMENT:ACTION" of _arguments. An action with a leading space is called unchanged, without options of
- * compadd. */
+/* Writes ":ARGUMENT:ACTION" for _arguments. If an action begins with a space, zsh calls it unchanged, without options
+ * of compadd. */
 static void write_action(struct kd_writer *w, enum kd_argument takes, const char *argument, const char *colons)
 {
     static const char *const actions[KD_ARGUMENT_KINDS] = {

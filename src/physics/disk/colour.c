@@ -15,7 +15,7 @@ static double planck(double wavelength, double temperature)
 struct kd_colour_xyz kd_colour_blackbody(double temperature)
 {
     struct kd_colour_xyz sum = { 0, 0, 0 };
-    /* the functions vanish at both ends, so that the sum is the trapezoidal rule */
+    /* the colour-matching functions vanish at both ends, so that the sum is the trapezoidal rule */
     for (int i = 0; i < KD_CIE1931_COUNT; i++) {
         double b =
             planck((KD_CIE1931_FIRST_NM + i * KD_CIE1931_STEP_NM) * 1e-9, temperature) * KD_CIE1931_STEP_NM * 1e-9;
@@ -47,11 +47,11 @@ struct kd_colour_rgb kd_colour_blackbody_unit(double temperature)
         return (struct kd_colour_rgb) { 1 / 0.2126, 0, 0 };
     struct kd_colour_rgb c = kd_colour_xyz_to_srgb((struct kd_colour_xyz) { xyz.x / xyz.y, 1, xyz.z / xyz.y });
     double low = fmin(c.r, fmin(c.g, c.b));
-    /* mix with the grey (1, 1, 1) of luminance 1: c + s (1 - c), with the least s that raises `low` to 0 */
+    /* mix with the grey (1, 1, 1), whose luminance is 1: c + s (1 - c), with the least s that raises `low` to 0 */
     if (low < 0) {
         double s = low / (low - 1);
         c = (struct kd_colour_rgb) { c.r + s * (1 - c.r), c.g + s * (1 - c.g), c.b + s * (1 - c.b) };
-        /* rounding may leave it slightly below 0 */
+        /* rounding may leave a component slightly below 0 */
         c = (struct kd_colour_rgb) { fmax(c.r, 0), fmax(c.g, 0), fmax(c.b, 0) };
     }
     return c;

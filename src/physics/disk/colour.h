@@ -1,5 +1,5 @@
-/* Colour of a black body: Planck's law through the CIE 1931 observer to linear sRGB. No palette. Double precision,
- * pure, any thread. */
+/* Colour of a black body: Planck's law through the CIE 1931 observer to linear sRGB. It is computed, not read from a
+ * palette. Double precision, pure, any thread. */
 #ifndef KD_PHYSICS_DISK_COLOUR_H
 #define KD_PHYSICS_DISK_COLOUR_H
 
@@ -15,10 +15,10 @@ struct kd_colour_rgb { double r, g, b; };
  * lm/W). T in K, > 0. */
 struct kd_colour_xyz kd_colour_blackbody(double temperature);
 
-/* Linear sRGB, not clipped: components can be negative. The matrix is that of IEC 61966-2-1:1999 with the digits of
- * its amendment 1 of 2003, the inverse of its four-digit matrix from RGB to XYZ, whose second row gives the
- * luminance: 0.2126, 0.7152, 0.0722. (Computed from the chromaticities of primaries and white, the numbers differ
- * from the fourth digit on: 3.2409699, or with another D65 3.2404542.) */
+/* Converts to linear sRGB. Components are not clipped and can be negative. The matrix is that of IEC 61966-2-1:1999
+ * with the digits of its amendment 1 of 2003. It is the inverse of the standard's four-digit matrix from RGB to XYZ,
+ * whose second row gives the luminance: 0.2126, 0.7152, 0.0722. (A matrix computed from the chromaticities of primaries
+ * and white differs from the fourth digit on: 3.2409699, or with another D65 3.2404542.) */
 struct kd_colour_rgb kd_colour_xyz_to_srgb(struct kd_colour_xyz xyz);
 
 /* The encoding of a component of linear sRGB in [0, 1] (IEC 61966-2-1). */

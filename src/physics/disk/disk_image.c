@@ -9,19 +9,19 @@
 #include <math.h>
 #include <string.h>
 
-enum { POINTS = 6 }; /* nodes of an interpolation */
+enum { POINTS = 6 }; /* number of nodes that an interpolation uses */
 #define NEAREST \
     0.1 /* M, minimum distance of the origin of u from the ISCO; otherwise, above a = 0.9995, all nodes would lie at \
            the horizon, where the image no longer changes */
 #define NODES 1e-7  /* error of ln r at the nodes */
 #define PLACE 1e-12 /* error of ln r at a single requested place */
-#define BENDS 10.   /* maximum relative change of a slope for a change of ln r */
+#define BENDS 10.   /* maximum relative change of a slope per unit of ln r */
 #define DRIFTS \
     0.2 /* error of a slope: this much, if only that of flat space is known, else this fraction of the error of the \
            extrapolation from the rings before */
-#define FLATTEST 0.1  /* the slopes that occur lie between this and its inverse */
-#define MOVED 0.3     /* maximum correction of a guess, in R, from the angles before */
-enum { HISTORY = 5 }; /* rings of nodes before the last that a slope is computed from */
+#define FLATTEST 0.1  /* all slopes that occur lie between this and its inverse */
+#define MOVED 0.3     /* maximum correction of a guess of R by what the preceding angles missed */
+enum { HISTORY = 5 }; /* a slope at a ring of nodes is computed from this many rings before it */
 
 struct ellipse { double x0, y0, a, b; };
 
@@ -31,8 +31,8 @@ struct ellipse { double x0, y0, a, b; };
  * rings three times above 86.5 degrees. */
 #define LIFTED 0.1
 
-/* Approximate ellipse of the ring's image: the near side as in flat space, the far side as a thin lens lifts it, b
- * (b - r cos i) = 4 r, with a factor sin(i)^4 so that nothing is lifted face-on. */
+/* Approximate ellipse of the ring's image. The near side is as in flat space. The far side is lifted as by a thin lens,
+ * b (b - r cos i) = 4 r; a factor sin(i)^4 makes this vanish face-on. */
 static struct ellipse around(const struct kd_disk_image *image, double r)
 {
     double flat = r * image->cos_i, s2 = image->sin_i * image->sin_i;
@@ -55,7 +55,7 @@ double kd_disk_image_radius(const struct kd_disk_image *image, double alpha, dou
 {
     struct kd_null_motion m = kd_null_motion_of(kd_hole(image->spin), image->cos_i, image->sin_i, alpha, beta);
     if (!(m.eta > 0))
-        return m.k > 27 ? INFINITY : 0; /* vortical: it never meets the plane */
+        return m.k > 27 ? INFINITY : 0; /* vortical: the ray never meets the plane */
     struct kd_null_roots roots = kd_null_roots_of(&m);
     return kd_null_radius_after(&m, &roots, kd_null_polar_first(&m));
 }
@@ -70,9 +70,9 @@ static double mismatch(const struct kd_disk_image *image, const struct ellipse *
 /* d ln r/d ln R at the starting point, and its relative error: `drift`, plus `bend` times the error of ln r there. */
 struct slope { double value, drift, bend; };
 
-/* Solves ln(r_0/r) = 0 in ln R from a guess, by the secant method within a bracket; the first slope is given. The
- * last step is not verified if the remaining error, estimated from the change of the slope, is below `exact`.
- * `slope`: 1 in flat space; on return its value is the last secant's slope. */
+/* Solves ln(r_0/r) = 0 for ln R from a guess, by the secant method within a bracket. slope: on entry the first slope, 1
+ * in flat space; on return its value is the last secant's slope. The last step is not verified if the remaining error,
+ * estimated from the change of the slope, is below `exact`. */
 static bool find(const struct kd_disk_image *image, const struct ellipse *e, const double direction[2], double r,
                  double exact, double *log_stretch, struct slope *slope)
 {
@@ -108,7 +108,7 @@ static bool find(const struct kd_disk_image *image, const struct ellipse *e, con
     return fabs(f_before) < 1e-6;
 }
 
-/* Extrapolates from up to five rings before at this angle, by the polynomial through them. */
+/* Extrapolates from at most five preceding rings to the next one, at the same angle, by the polynomial through them. */
 static double guess(const struct kd_disk_image *image, int k, int j)
 {
     double a = image->stretch[k - 1][j];
@@ -152,8 +152,8 @@ struct making {
     double guessed[KD_DISK_IMAGE_ANGLES];
 };
 
-/* Slopes at the last of several nodes by backward differences, the last node first: sums of nabla^m/m, m = 1 ...
- * order. */
+/* Weights for the slope at the last of several nodes, by backward differences; the last node comes first. The slope is
+ * the sum of nabla^m/m, m = 1 ... order. */
 static const double backward[HISTORY][HISTORY + 1] = {
     { 1, -1 },
     { 1.5, -2, 0.5 },
@@ -177,7 +177,7 @@ static struct slope slope_of(const struct kd_disk_image *image, const struct mak
                    backward[1][0] * off->next + backward[1][1] * off->last[0] + backward[1][2] * off->last[1];
     double value =
         slope_at(&m->e, &m->growth, direction, stretch, swells * m->rate / stretch, turns * per_radian / stretch);
-    if (!(value > FLATTEST && value < 1 / FLATTEST)) /* too inaccurate to be useful */
+    if (!(value > FLATTEST && value < 1 / FLATTEST)) /* the slope is too inaccurate to be useful */
         return (struct slope) { 1, INFINITY, 0 };
     double drift = fabs(m->rate * off->next) + per_radian * fabs(off->next - 2 * off->last[0] + off->last[1]);
     return (struct slope) { value, DRIFTS * drift, BENDS + weight[0] * fabs(m->rate) };

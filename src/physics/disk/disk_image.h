@@ -1,15 +1,16 @@
-/* Direct image of the equatorial plane outside the ISCO for an observer at infinity: a table, made once for a spin
- * and an inclination, of where each ring appears on the image plane. The light of a thin disk (line_profile.h,
- * transfer_function.h, disk_spectrum.h) is an integral over it. Double precision; pure except for the table, any
- * thread. G = c = M = 1.
+/* Direct image of the equatorial plane outside the ISCO for an observer at infinity. A table, made once for a spin and
+ * an inclination, gives the place of each ring on the image plane. The light of a thin disk (line_profile.h,
+ * transfer_function.h, disk_spectrum.h) is an integral over this image. Double precision; pure except for making the
+ * table, any thread. G = c = M = 1.
  *
  * The image of a ring of radius r is given by its distance from a centre, in units of an ellipse of about its size:
  *
  *   (alpha, beta) = (x0, y0(r)) + R(r, chi) (A(r) cos chi, B(r) sin chi)
  *
  * R is smooth and near 1. It is found at nodes in chi and in u = ((r_isco - r')/(r - r'))^(1/4), where r' is the
- * horizon except next to extremal holes. Each node takes a root in r of the ray in closed form (null_radial.h,
- * docs/decisions/0001); between nodes R is interpolated. The disk is opaque and infinitely thin: only image order 0. */
+ * horizon except next to extremal holes. Each node is the R for which the ray in closed form (null_radial.h,
+ * docs/decisions/0001) meets the plane at r. Between nodes R is interpolated. The disk is opaque and infinitely thin,
+ * so that only image order 0 is visible. */
 #ifndef KD_PHYSICS_DISK_DISK_IMAGE_H
 #define KD_PHYSICS_DISK_DISK_IMAGE_H
 
@@ -26,31 +27,33 @@ enum {
     3 /* degrees from edge-on within which there is no table, because the image of the far side is not resolved */
 
 struct kd_disk_image {
-    double spin, cos_i, sin_i; /* cos_i > 0: from below the disk looks as from above */
+    double spin, cos_i, sin_i; /* cos_i > 0, because the disk looks the same from below as from above */
     double isco, horizon, origin;
     int angles;                                                      /* 64 to 512: more towards edge-on */
     double cosine[KD_DISK_IMAGE_ANGLES], sine[KD_DISK_IMAGE_ANGLES]; /* of directions */
     double stretch[KD_DISK_IMAGE_RINGS + 1][KD_DISK_IMAGE_ANGLES];   /* R; row 0: infinity; the last row: the ISCO */
 };
 
-/* inclination in radians, 0 to pi. False next to edge-on, or if a ring is not found, which has not been observed.
- * Takes 1 600 to 19 000 rays: most nodes take one, since rings and angles before predict their places and slopes. */
+/* inclination in radians, 0 to pi. Returns false next to edge-on. It would also return false if a ring were not found,
+ * which has not been observed. Takes 1 600 to 19 000 rays: most nodes take one, since preceding rings and angles
+ * predict their places and slopes. */
 bool kd_disk_image_init(struct kd_disk_image *image, const struct kd_hole *hole, double inclination);
 
-/* A ring's image in `n` directions, evenly spaced in chi; n is a power of 2, from 32 to KD_DISK_IMAGE_ANGLES. `skip`
- * 1 uses every node of the table, 2 every second one: the difference estimates the error of the table. r >= ISCO. */
+/* A ring's image in `n` directions, evenly spaced in chi; n is a power of 2, from 32 to KD_DISK_IMAGE_ANGLES. With
+ * `skip` 1 every node of the table is used, with 2 every second one: the difference of the two estimates the error of
+ * the table. r >= ISCO. */
 void kd_disk_image_ring(const struct kd_disk_image *image, double r, int skip, int n, double *alpha, double *beta);
 
 /* A step in ln r for finite differences at a ring: `share` of the distance to the horizon, so that a step inwards
  * from the ISCO stays outside it at any spin. */
 double kd_disk_image_step(const struct kd_disk_image *image, double r, double share);
 
-/* The image of a ring at one angle, from a ray that meets the ring to 1e-12 of r instead of interpolation; also a
- * little inside the ISCO. False if it is not found. */
+/* The image of a ring at one angle. It is not interpolated, but found by a ray that meets the ring to 1e-12 of r; r may
+ * be a little inside the ISCO. Returns false if it is not found. */
 bool kd_disk_image_place(const struct kd_disk_image *image, double r, double chi, double *alpha, double *beta);
 
-/* The radius at which the ray seen at (alpha, beta) meets the plane first; 0: it is captured before; INFINITY: it
- * leaves. Closed form, a microsecond. */
+/* The radius at which the ray seen at (alpha, beta) first meets the plane. 0: it is captured before; INFINITY: it
+ * escapes. Computed in closed form in a microsecond. */
 double kd_disk_image_radius(const struct kd_disk_image *image, double alpha, double beta);
 
 /* Redshift factor g of light from a ring on circular orbits, seen at alpha; and the cosine mu of its angle of

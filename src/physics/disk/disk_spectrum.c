@@ -15,9 +15,10 @@ enum { PANELS = 32, GAUSS = 3 };
 /* cos i below which the error of sums does not yet fall as the square of the cells. There, random sums had errors of
  * up to 2.1 times the estimate (tests/unit/told_spectra.c), so that four times the estimate is reported. */
 #define EDGE_ON 0.1
-#define APART 1e-3 /* of the distance to the horizon, for slopes of the image */
+#define APART 1e-3 /* step for slopes of the image, as a fraction of the distance to the horizon */
 
-/* A ring of the integral, and its neighbours for J = |d(alpha, beta)/d(ln r, chi)| at each angle. */
+/* A ring of the integral, and the neighbouring rings from which J = |d(alpha, beta)/d(ln r, chi)| is computed at each
+ * angle. */
 struct ring {
     double alpha[KD_DISK_IMAGE_ANGLES], beta[KD_DISK_IMAGE_ANGLES], below[2][KD_DISK_IMAGE_ANGLES],
         above[2][KD_DISK_IMAGE_ANGLES];
@@ -37,7 +38,7 @@ static double stretch_of(const struct ring *ring, double apart, int j, int n)
     return fabs(a_r * along(ring->beta, j, n) - b_r * along(ring->alpha, j, n));
 }
 
-/* Normalises Int limb mu dmu to 1/2, its value for limb = 1. For ln(1 + 1/mu) it is 1/2 already. */
+/* Factor that makes Int limb mu dmu equal to 1/2, its value for limb = 1. For ln(1 + 1/mu) it is 1/2 already. */
 static double limb_scale(enum kd_line_limb limb) { return limb == KD_LIMB_LAOR ? 0.5 / (0.5 + 2.06 / 3) : 1; }
 
 /* Adds a ring's light; weight: its width in ln r. */
@@ -59,7 +60,8 @@ static void add_ring(const struct kd_disk_image *image, const struct kd_disk_spe
         double part = weight * stretch_of(ring, apart, j, n) * (2 * M_PI / n) * kd_line_limb(p->limb, light.mu) *
                       limb_scale(p->limb);
         double x = KD_H_J_S / (KD_K_J_K * t * light.g);
-        /* g^3 B_nu(nu/g) is B_nu(nu) at the temperature g T: Planck's law without the factor 2 h nu^3/c^2 */
+        /* g^3 B_nu(nu/g) equals B_nu(nu) at the temperature g T. Planck's law here is without the factor 2 h
+         * nu^3/c^2 */
         for (int i = 0; i < n_f; i++)
             sum[i] += part / expm1(x * frequencies[i]);
     }

@@ -28,7 +28,8 @@ static double mismatch(const struct kd_hole *hole, double h, double delta, doubl
     return found > 0 ? log(found / r) : -INFINITY;
 }
 
-/* Solves for the delta of the light that meets the ring, from a guess, by the secant method within a bracket. */
+/* Finds the angle delta at which the light that meets the ring starts, from a guess, by the secant method within a
+ * bracket. */
 static bool find(const struct kd_hole *hole, double h, double r, double slope, double *delta)
 {
     double low = 0, high = M_PI, x = *delta, before = NAN, f_before = NAN;

@@ -26,8 +26,8 @@ struct kd_lamppost {
     double log_epsilon[KD_LAMPPOST_RINGS];
 };
 
-/* height > horizon; the table covers inner, the ISCO or beyond, to outer. False if light does not reach a ring,
- * which has not been observed. */
+/* height: beyond the horizon. The table covers the radii from inner, which is the ISCO or larger, to outer. Returns
+ * false if light does not reach a ring, which has not been observed. */
 bool kd_lamppost_init(struct kd_lamppost *lamp, const struct kd_hole *hole, double height, double photon_index,
                       double inner, double outer);
 

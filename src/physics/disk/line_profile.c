@@ -10,13 +10,14 @@
 
 #define STEP 0.03   /* mean spacing of rings in ln r */
 #define EDGE_ON 0.1 /* cos i below which the error of coarse sums does not yet fall as the square of their cells */
-#define BRIGHT 0.5  /* spacing of rings at the brighter edge over the mean; at the other edge 2 minus this */
+/* spacing of rings at the brighter edge, relative to the mean spacing; at the other edge it is 2 minus this */
+#define BRIGHT 0.5
 enum {
     FEWEST = 64,
     MOST = 512,
     COARSEST = 16,
-    /* FEWEST, MOST: rings. COARSEST: factor by which the coarsest sum has fewer rings and angles. LOOKED: parts of a
-     * line at which sums are compared. */
+    /* FEWEST, MOST: numbers of rings. COARSEST: factor by which the coarsest sum has fewer rings and angles. LOOKED:
+     * number of parts of a line at whose edges sums are compared. */
     LOOKED = 128
 };
 
@@ -41,14 +42,14 @@ static double emissivity(const struct kd_line_params *p, const struct kd_lamppos
     return kd_lamppost_at(lamp, r);
 }
 
-/* A ring's image: places, energies and brightness; the first direction is repeated at the end. */
+/* A ring's image: places, energies and brightness in each direction; the first direction is repeated at the end. */
 struct ring {
     double alpha[KD_DISK_IMAGE_ANGLES + 1], beta[KD_DISK_IMAGE_ANGLES + 1], g[KD_DISK_IMAGE_ANGLES + 1],
         light[KD_DISK_IMAGE_ANGLES + 1];
 };
 
-/* The cells between two rings: the light of each, and its distribution of energies, which is that of a parallelogram
- * with linear g: corners at centre -+ (narrow +- wide)/2. */
+/* The cells between two rings: the light of each, and its distribution of energies. This is the distribution of a
+ * linear g over a parallelogram, with the corners at centre -+ (narrow +- wide)/2. */
 struct strip {
     double light[KD_DISK_IMAGE_ANGLES], centre[KD_DISK_IMAGE_ANGLES], narrow[KD_DISK_IMAGE_ANGLES],
         wide[KD_DISK_IMAGE_ANGLES];
@@ -56,7 +57,7 @@ struct strip {
 
 struct sum {
     const double *edges;
-    int bins, last; /* last bin that received light: neighbouring cells fall nearby */
+    int bins, last; /* last: the bin that last received light, because neighbouring cells fall nearby */
     double *in;     /* light in each bin */
     double total;
 };
@@ -107,10 +108,10 @@ static void add_cell(struct sum *s, double light, double centre, double narrow, 
     }
 }
 
-/* A chord between nodes h apart deviates from the curve by -h^2 f''/12 on average. Shifting nodes by a twelfth of
- * their second difference leaves an error of order h^4. At the horns of a profile, where g is stationary along a
- * ring, that is worth twice as many directions. Where f must stay positive, a node changes by no more than half of
- * itself. */
+/* A chord between nodes h apart deviates from the curve by -h^2 f''/12 on average. Shifting nodes by a twelfth of their
+ * second difference leaves an error of order h^4. At the horns of a profile, where g is stationary along a ring, the
+ * shift gains as much as twice as many directions. Where f must stay positive, a node changes by no more than half of
+ * its value. */
 static void straighten(double *f, int n, bool positive)
 {
     double before = f[n - 1], first = f[0];
@@ -140,10 +141,10 @@ static void fill_ring(const struct kd_disk_image *image, const struct kd_line_pa
     straighten(ring->light, n, true);
 }
 
-/* Fills the cells between ring x and ring y, `apart` in ln r. Across a cell light is a power of r, and the area
- * grows with its edges and its width, which is about proportional to r. Their product is integrated by Simpson's
- * rule, with the geometric mean of light in the middle. The light-weighted mean of g differs from its middle value
- * by a twelfth of the products of its steps and those of light. */
+/* Fills the cells between ring x and ring y, `apart` in ln r. Across a cell the light is a power of r. The area grows
+ * with the length of its edges and with its width, which is about proportional to r. The product of light and area is
+ * integrated by Simpson's rule, with the geometric mean of the light in the middle. The light-weighted mean of g
+ * differs from its middle value by a twelfth of the products of the steps of g and of the light. */
 static void fill_strip(const struct ring *x, const struct ring *y, double apart, int n, struct strip *strip)
 {
     for (int j = 0; j < n; j++) {
@@ -183,7 +184,7 @@ struct work {
 /* Resolution of an integral: `coarse` times fewer rings and angles, and every `skip`th node of the table. */
 struct looks { int coarse, skip; };
 
-/* Adds the rings from p->inner to p->outer; the emissivity has no break in between. */
+/* Adds the rings from p->inner to p->outer, between which the emissivity must have no break. */
 static void add_rings(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
                       struct looks looks, struct work *work, struct sum *s)
 {
@@ -206,7 +207,8 @@ static void add_rings(const struct kd_disk_image *image, const struct kd_line_pa
     }
 }
 
-/* Puts a ring at the break of an emissivity; otherwise the error would depend on the break's position within a cell. */
+/* Integrates with a ring at the break of the emissivity; otherwise the error would depend on the position of the break
+ * within a cell. */
 static void integrate(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
                       struct looks looks, struct work *work, struct sum *s)
 {
@@ -220,8 +222,8 @@ static void integrate(const struct kd_disk_image *image, const struct kd_line_pa
     add_rings(image, &outside, lamp, looks, work, s);
 }
 
-/* Edges of the sums: the requested ones, and as many more between and beyond them as the error estimate needs. Two
- * sums compared at a few edges only may agree there by chance. */
+/* Edges of the bins of the sums: the requested ones, and as many more between and beyond them as the error estimate
+ * needs. If two sums are compared at a few edges only, they may agree there by chance. */
 struct edges {
     double *at;
     int n, bins;       /* number of requested edges; bins of the sums */
@@ -249,7 +251,7 @@ static struct range energies(const struct kd_disk_image *image, const struct kd_
     return range;
 }
 
-/* Adds edges from `from` to before `to`: the first one, and within the line one at every LOOKED-th part of it. */
+/* Adds edges from `from` on and below `to`: the first one, and within the line one at each LOOKED-th part of it. */
 static int divide(double from, double to, const struct range *line, double *at)
 {
     double low = fmax(from, line->low), high = fmin(to, line->high);
@@ -276,7 +278,7 @@ static struct edges edges_of(const struct range *line, const double *own, int bi
     return e;
 }
 
-/* Largest difference of two sums' cumulative shares, counted from the first requested edge. */
+/* Largest difference of the cumulative shares of two sums, counted from the first requested edge. */
 static double apart(const struct edges *edges, const struct sum *x, const struct sum *y)
 {
     double off = 0, most = 0, first = 0;

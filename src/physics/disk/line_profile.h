@@ -30,12 +30,14 @@ struct kd_line_params {
     double height, photon_index; /* LAMPPOST: epsilon is proportional to the received light */
     enum kd_line_limb limb;
     bool energy; /* count energies instead of photons */
-    /* Of the cumulative share. The sum is refined until its estimated error is below this; 0: as fine as possible. */
+    /* Largest allowed error of the cumulative share: the sum is refined until its estimated error is below this. 0: as
+     * fine as possible. */
     double tolerance;
 };
 
 struct kd_line_profile {
-    /* Over all energies, in units of epsilon M^2: extrapolated from the last two sums, the second twice as fine. */
+    /* The sum over all energies, in units of epsilon M^2, extrapolated from the last two sums, the second of which is
+     * twice as fine. */
     double total;
     /* Estimated maximum error of the cumulative share at any edge: from the change with half as many rings, angles
      * and nodes of the table. */

@@ -46,8 +46,8 @@ static double h_at(const struct rule *rule, const double *h, double scale, doubl
     return 1 / sum;
 }
 
-/* With conservative scattering, 2 psi0 = 1, plain iteration oscillates about the solution; the mean of two rounds
- * does not. */
+/* With conservative scattering, 2 psi0 = 1, plain iteration oscillates about the solution. The mean of two successive
+ * rounds does not. */
 static void solve(const struct rule *rule, double scale, double root, double h[NODES])
 {
     for (int i = 0; i < NODES; i++)

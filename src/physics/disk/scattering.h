@@ -6,8 +6,8 @@
 
 #include <stddef.h>
 
-/* Emergent intensity at the cosine mu to the normal, polarised across and along the plane of normal and light, over
- * the mean flux: (I_r, I_l)/F. */
+/* Emergent intensity at the cosine mu to the normal, over the mean flux: (I_r, I_l)/F. across, along: polarised across
+ * and along the plane of normal and light. */
 struct kd_scattered { double across, along; };
 
 /* Fills `out` for n cosines from 0 to 1. Takes some milliseconds, plus microseconds for each. */

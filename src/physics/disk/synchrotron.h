@@ -3,8 +3,8 @@
 #ifndef KD_PHYSICS_DISK_SYNCHROTRON_H
 #define KD_PHYSICS_DISK_SYNCHROTRON_H
 
-/* The kernels' units. Emissivity: e^2/c cm^-3 GHz (e in Gaussian units), in W m^-3 Hz^-1 sr^-1. Absorptivity: that
- * over 2h GHz^3/c^2, in 1/m. */
+/* Units of the kernels. This is the unit of emissivity: e^2/c cm^-3 GHz (e in Gaussian units), in W m^-3 Hz^-1 sr^-1.
+ * The unit of absorptivity is the same divided by 2h GHz^3/c^2, in 1/m. */
 double kd_synchrotron_light_unit(void);
 double kd_synchrotron_depth_unit(void);
 
@@ -25,10 +25,16 @@ struct kd_synchrotron_power kd_synchrotron_power(double p, double gamma_min, dou
 struct kd_synchrotron_kappa { double light_low, light_high, light_sharp, depth_low, depth_high, depth_sharp; };
 struct kd_synchrotron_kappa kd_synchrotron_kappa(double kappa);
 
-/* Q and V of the same (equations 35 to 44), relative to I's low-frequency or high-frequency law; log2 except for s.
- * Q has 1/2 of j's for low ones and 25/48 of alpha's; V has over w those numbers times (sin^-n - 1)^m, n and m being
- * 12/5 and 12/25, 5/2 and 11/25 for j and 57/25 and 223/500, 41/20 and 1/2 for alpha, times X^(-7/20) for low and
- * X^(-1/2) for high frequencies; alpha's for high ones is over w^(116/125). V of j is joined as I is. */
+/* Q and V of the same electrons (equations 35 to 44). The constants multiply the low-frequency or the high-frequency
+ * law of I; all are log2 except the exponents s. j is the emissivity, alpha the absorptivity.
+ *
+ *   Q, low:  the law of I times 1/2 for j and 25/48 for alpha.
+ *   V, low:  the law of I times light_v_low or depth_v_low, times (sin^-n - 1)^m X^(-7/20)/w;
+ *            n, m = 12/5, 12/25 for j and 57/25, 223/500 for alpha.
+ *   V, high: the law of I times light_v_high or depth_v_high, times (sin^-n - 1)^m X^(-1/2)/w (alpha: w^(116/125));
+ *            n, m = 5/2, 11/25 for j and 41/20, 1/2 for alpha.
+ *
+ * The two laws of V of j are joined with the exponent s of I. */
 struct kd_synchrotron_kappa_polarised {
     double light_q_high, light_q_sharp, light_v_low, light_v_high, depth_q_high, depth_q_sharp, depth_v_low,
         depth_v_high, depth_v_sharp;

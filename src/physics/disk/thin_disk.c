@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-/* One of the logarithms in Page & Thorne's eq. 15n; by log1p, because the bracket cancels to second order at the
- * ISCO. */
+/* One of the logarithms in Page & Thorne's eq. 15n. It is computed by log1p, because the bracket cancels to second
+ * order at the ISCO. */
 static double log_term(double a, double x, double x0, double root, double other1, double other2)
 {
     if (root == 0) /* a = 0: (root - a)^2 / root -> 0 */
@@ -45,7 +45,8 @@ double kd_disk_flux_shakura_sunyaev(const struct kd_hole *hole, double r)
  * (eq. 15n is the integral of this from x0.) Near the ISCO, where the logarithms of 15n cancel, the integral itself
  * keeps all digits. The numerator is y^3 (y + 4) - 2d (1 + 4y) - 3d^2, which has the factor y - y0. */
 struct rise {
-    double a, y0, gap; /* distance of x0 from the nearest root of x^3 - 3x + 2a, that of the photon orbit */
+    double a, y0, gap; /* gap: distance of x0 from the nearest root of x^3 - 3x + 2a, which is that of the photon
+                        * orbit */
     double turns;      /* ln(1 + (x - x0)/gap), in which B' is smooth even for a nearly extremal hole */
 };
 
@@ -65,7 +66,7 @@ static double share(double along, double left, const void *context)
     return r->turns * (beyond + r->gap) * slope_of_bracket(r->a, r->y0, beyond);
 }
 
-/* Positive where the flux grows with r, at x0 + span. */
+/* A function that is positive where the flux grows with r; the place is x0 + span. */
 static double growth(const void *user, double span)
 {
     struct rise r = *(const struct rise *)user;

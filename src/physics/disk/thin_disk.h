@@ -18,8 +18,8 @@ double kd_disk_flux_shakura_sunyaev(const struct kd_hole *hole, double r);
 
 typedef double (*kd_disk_flux_fn)(const struct kd_hole *hole, double r);
 
-/* Radius of the largest flux. Page & Thorne: the root of the derivative, to 1e-15 up to |a| = 0.9999, and to 1e-12
- * beyond. Shakura & Sunyaev: in closed form. */
+/* Radius of the largest flux. For Page & Thorne's flux it is the root of the derivative, to 1e-15 up to |a| = 0.9999,
+ * and to 1e-12 beyond. For Shakura & Sunyaev's it is a closed form. */
 double kd_disk_peak_page_thorne(const struct kd_hole *hole);
 double kd_disk_peak_shakura_sunyaev(const struct kd_hole *hole);
 
@@ -32,9 +32,9 @@ double kd_disk_redshift(const struct kd_hole *hole, double r, double lambda);
  * has not yet passed its turning point. eta = Q/E^2; E > 0. Zero at the horizon for photons emitted outwards. */
 double kd_disk_redshift_plunging(const struct kd_hole *hole, double r, double lambda, double eta, bool outwards);
 
-/* In SI units, for a mass in solar masses and an accretion rate in units of L_Edd / (efficiency(a) c^2), with L_Edd
- * = 4 pi G M m_p c / sigma_T: the rate in kg/s; a flux F/Mdot (as above) in W/m^2; and its effective temperature in
- * K, sigma T^4 = F. Constants: physics/math/constants.h. */
+/* These are in SI units, for a mass in solar masses and an accretion rate in units of L_Edd / (efficiency(a) c^2), with
+ * L_Edd = 4 pi G M m_p c / sigma_T: the rate in kg/s; a flux F/Mdot (as above) in W/m^2; and its effective temperature
+ * in K, sigma T^4 = F. Constants: physics/math/constants.h. */
 double kd_disk_rate(const struct kd_hole *hole, double mass_msun, double mdot_edd);
 double kd_disk_flux_si(double flux, const struct kd_hole *hole, double mass_msun, double mdot_edd);
 double kd_disk_temperature(double flux, const struct kd_hole *hole, double mass_msun, double mdot_edd);

@@ -28,7 +28,7 @@ static double orbit(double a, double r)
     return (r * x + a) * (r * r - 2 * a * x + a * a) / (r * x * (r * x - 3 * x + 2 * a));
 }
 
-/* Radius where ln h vanishes, between one inside the torus and one outside, by bisection. */
+/* Radius where ln h vanishes, by bisection between a radius inside the torus and one outside. */
 static double outer_of(const struct kd_torus *torus, const struct kd_hole *hole, double within, double beyond)
 {
     for (int i = 0; i < 60; i++) {

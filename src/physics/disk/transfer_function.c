@@ -11,15 +11,17 @@
 
 #define SHORTER 0.61803398874989485 /* ratio of the golden section: (sqrt(5) - 1)/2 */
 #define LEAST_WIDTH 1e-8 /* relative width of the bracket of the minimum, whose error is the square of that */
-#define APART 1e-4       /* of the distance of both places, for central differences, which err with its square */
+/* step of central differences, as a fraction of the distance of the two places; their error is proportional to its
+ * square */
+#define APART 1e-4
 
 struct line {
     const struct kd_disk_image *image;
     double r, alpha;
-    int side; /* of the ends; 1: alpha > 0, red */
+    int side; /* side of the ring's two ends; 1: alpha > 0, the red end */
 };
 
-/* Visible radius at beta less that of the ring; light from infinity counts as far out. */
+/* Visible radius at beta, less the ring's radius. Light from infinity counts as light from far out. */
 static double off(const void *user, double beta)
 {
     const struct line *s = user;
@@ -27,7 +29,7 @@ static double off(const void *user, double beta)
     return (isfinite(r) ? r : 1e300) - s->r;
 }
 
-/* End of the line upwards and downwards: there r exceeds the ring's. */
+/* The line is searched up to this distance upwards and downwards, where the visible radius exceeds the ring's. */
 static double reach(const struct line *s) { return 2 * s->r + 20; }
 
 /* The beta of the minimum radius; if below_is_enough, any beta whose radius is below the ring's. */

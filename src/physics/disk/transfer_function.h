@@ -23,8 +23,8 @@ struct kd_transfer_ring {
 bool kd_transfer_ring_of(const struct kd_disk_image *image, double r, struct kd_transfer_ring *ring);
 
 struct kd_transfer { double f, mu, alpha, beta; };
-/* Results for the near side and the far side; 0 < g_star < 1; f is accurate to some 1e-6. False if such a place is
- * not found, which has not been observed. */
+/* Returns one result for the near side and one for the far side; 0 < g_star < 1; f is accurate to some 1e-6. Returns
+ * false if one of the two places is not found, which has not been observed. */
 bool kd_transfer_at(const struct kd_disk_image *image, const struct kd_transfer_ring *ring, double g_star,
                     struct kd_transfer out[2]);
 

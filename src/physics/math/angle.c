@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* Quarter turns are removed in degrees, where this is exact. `first`: 1 for cosines, which lead sines by a quarter
- * turn. 0 + avoids a negative zero. */
+/* Quarter turns are removed in degrees, where this is exact. `first`: 1 for cosines, which are a quarter turn ahead of
+ * sines. Adding 0 avoids a negative zero. */
 static double turned(double degrees, int first)
 {
     int quarter;

@@ -5,9 +5,9 @@
  *   E(phi|m)    = Int_0^phi sqrt(1 - m sin^2 x) dx
  *   Pi(n;phi|m) = Int_0^phi dx / ((1 - n sin^2 x) sqrt(1 - m sin^2 x))
  *
- * Domain: any m, also negative, with m sin^2 < 1 on the path; any real phi, by quasi-periodicity, if m < 1. Outside:
- * NaN. Pi past a pole (n sin^2 > 1, |phi| <= pi/2) is Cauchy's principal value. Relative error a few 1e-16 times the
- * conditioning.
+ * Domain: any m, also negative, with m sin^2 < 1 on the path; if m < 1 any real phi, by quasi-periodicity. Outside the
+ * domain the result is NaN. If n sin^2 > 1 and |phi| <= pi/2, Pi is Cauchy's principal value past the pole. The
+ * relative error is a few 1e-16 times the conditioning.
  *
  * Sources: DLMF 19.25(i) (in terms of Carlson's integrals), 22.20(ii) and 22.7(i) (Jacobi's functions by the
  * arithmetic-geometric mean and descending Landen transformations). */

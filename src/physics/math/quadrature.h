@@ -1,9 +1,9 @@
 /* Integration over (0, 1) by the double exponential rule (H. Takahasi & M. Mori 1974, Publ. RIMS 9, 721). Double
  * precision, pure, any thread.
  *
- * The integrand gets x and y = 1 - x, each with full relative precision near its end, where it may have any
- * integrable singularity; inside it must be smooth. The step is halved until the sum converges: relative error a few
- * 1e-15 if nothing cancels. NaN if it does not converge within 2000 points. */
+ * The integrand gets x and y = 1 - x. Each has full relative precision near its own end, where the integrand may have
+ * any integrable singularity; in the interior it must be smooth. The step is halved until the sum converges. The
+ * relative error is a few 1e-15 if nothing cancels. NaN if the sum does not converge within 2000 points. */
 #ifndef KD_PHYSICS_MATH_QUADRATURE_H
 #define KD_PHYSICS_MATH_QUADRATURE_H
 

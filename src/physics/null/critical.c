@@ -7,7 +7,7 @@
 
 enum { POINTS_MIN = 32, POINTS_MAX = 8192 };
 
-/* A point of the upper half, x to the right of the centre. */
+/* A point of the upper half of the critical curve. x is measured to the right of the curve's centre. */
 struct place {
     struct kd_shell_orbit orbit;
     double alpha, beta2;
@@ -15,7 +15,8 @@ struct place {
     double x, y2;                       /* relative to the centre; at a finite radius components of the direction */
 };
 
-/* Labels of the orbit at the place `at` * sin i. At a small inclination only orbits near the polar one are visible. */
+/* The point of the critical curve that the orbit at the place `at` * sin i makes. Places are divided by sin i because
+ * at a small inclination only orbits near the polar one are visible. */
 static struct place label(const struct kd_critical *c, double at)
 {
     const struct kd_shell *s = &c->shell;
@@ -29,8 +30,8 @@ static struct place label(const struct kd_critical *c, double at)
     return p;
 }
 
-/* Direction in which the photon arrives, with R(r_o) of a double root. Its p_theta, which may be the root of a
- * negative number here, is left out: in a level frame it affects `up` only. */
+/* Direction in which the photon arrives, by R(r_o) of a double root. Its p_theta may be the root of a negative number
+ * here and is left out: in a level frame it affects only `up`. */
 static void look(const struct kd_critical *c, struct place *p)
 {
     const struct kd_shell_orbit *o = &p->orbit;
@@ -63,9 +64,9 @@ static struct place see(const struct kd_critical *c, double at)
 
 static double beta2_at(const void *curve, double at) { return label(curve, at).beta2; }
 
-/* An observer in the equatorial plane sees the equatorial orbit itself at an end of the curve. Others see the orbit
- * whose turning point is at the observer's latitude; near the axis that is far from the equatorial one, in units of
- * sin i. */
+/* The place of an end of the curve. An observer in the equatorial plane sees the equatorial orbit itself there. Others
+ * see the orbit whose turning point is at the observer's latitude. Near the axis its place is far from that of the
+ * equatorial orbit, in units of sin i. */
 static double end(const struct kd_critical *c, double equatorial)
 {
     double limit = copysign(1, equatorial);
@@ -118,14 +119,14 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
         c.low = c.high, c.high = swap;
     }
     c.left = along(&c, c.low), c.right = along(&c, c.high);
-    if (c.right < c.left) /* the curve passes the direction of +e_r */
+    if (c.right < c.left) /* the curve contains the direction of +e_r */
         c.right += 2 * M_PI;
     c.centre = 0.5 * (c.left + c.right);
     return c;
 }
 
-/* Zero at the requested angle, rising with x. Near the sides beta is the root of a difference, so its square is
- * used. */
+/* Parameters of `miss`, a function of the place whose root is the point at the requested angle; it rises with x. Near
+ * the sides beta is the root of a difference, so that its square is used. */
 struct aim {
     const struct kd_critical *curve;
     double cosine, sine;
@@ -164,7 +165,7 @@ struct kd_critical_point kd_critical_at(const struct kd_critical *c, double angl
 {
     double turned = remainder(angle, 2 * M_PI), upper = fabs(turned), s = sin(upper), k = cos(upper);
     struct place p = aim_at(c, upper);
-    /* Takes the better-known coordinate, and the other from the angle. */
+    /* Uses the coordinate that is known better, and computes the other from the angle. */
     bool side = fabs(k) >= s;
     double y = side ? p.x * s / k : sqrt(fmax(p.y2, 0)), x = side ? p.x : y * k / s, rho = hypot(x, y);
     struct kd_critical_point q = { .orbit = p.orbit, .alpha = p.alpha, .angle = angle, .rho = rho, .inwards = 1 };
@@ -203,7 +204,8 @@ struct kd_critical_point kd_critical_upper(const struct kd_critical *c, double a
     return upper(c, c->low + (c->high - c->low) * half * half);
 }
 
-/* (ln y - ln y_P)/(a sin i) of a place, which is w/(y_P sin i) where that is small; and its inverse. */
+/* The coordinate (ln y - ln y_P)/(a sin i) of a place, and its inverse (below). Where it is small it is w/(y_P sin
+ * i). */
 static double evenly(const struct kd_critical *c, double at)
 {
     const struct kd_shell *s = &c->shell;
@@ -240,7 +242,7 @@ static void add(const struct kd_critical *c, double angle, double weight, struct
     s->area += weight * (isinf(c->observer.radius) ? 0.5 * rho * rho : 2 * half * half);
 }
 
-/* The largest height is where d(rho sin(angle)) = 0: golden section between the neighbours of the highest sample. */
+/* Largest height, which is where d(rho sin(angle)) = 0: golden section between the neighbours of the highest sample. */
 static double height(const struct kd_critical *c, double step)
 {
     const double golden = 0.5 * (sqrt(5) - 1);

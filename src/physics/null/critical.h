@@ -67,9 +67,9 @@ struct kd_critical {
     double centre;
 };
 
-/* For an observer that moves along theta the lower half is not the mirror image of the upper one. `along`, angle,
- * rho, centre, left and right then refer to an observer of zero angular momentum at the same place; only right, up
- * and inwards of a point are as seen. Measures are NaN.
+/* For an observer that moves along theta the lower half of the curve is not the mirror image of the upper one. Then
+ * `along`, angle, rho, centre, left and right refer to an observer of zero angular momentum at the same place. Only
+ * right, up and inwards of a point are those that this observer sees. Measures are NaN.
  *
  * Check `status`: all other functions require a curve with KD_CRITICAL_OK. */
 struct kd_critical kd_critical_of(const struct kd_critical_observer *observer);
@@ -81,7 +81,7 @@ struct kd_critical_point {
     double right, up, inwards; /* direction, at a finite radius; at infinity 0, 0, 1 */
 };
 
-/* The point seen at `angle`, any real. Some two microseconds. */
+/* The point of the curve at `angle`, which may be any real number. Takes some two microseconds. */
 struct kd_critical_point kd_critical_at(const struct kd_critical *curve, double angle);
 
 /* A point of the upper half. The other half is its mirror image; both are as seen only after kd_critical_see.
@@ -89,8 +89,8 @@ struct kd_critical_point kd_critical_at(const struct kd_critical *curve, double 
  * finding: ten times as fast, for drawing the curve. At the ends `up` is accurate to some 1e-8 M. */
 struct kd_critical_point kd_critical_upper(const struct kd_critical *curve, double along);
 
-/* The same with a smooth function of `along`: the orbits' radii are smooth by ln(r - 1), in which kd_critical_upper
- * has a kink. */
+/* The same, but a smooth function of `along`. kd_critical_upper has a kink in `along`; here the orbits' radii are
+ * smooth, because they are spaced by ln(r - 1). */
 struct kd_critical_point kd_critical_round(const struct kd_critical *curve, double along);
 
 /* Converts right, up and inwards of a point of kd_critical_upper, or of its mirror image, to those of an observer

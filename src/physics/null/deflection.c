@@ -34,7 +34,7 @@ static double far_bending(double x, double y, const void *context)
     return M_PI * (a * a + mass + chi * (2 * b + chi)) / (root * (root + b + chi));
 }
 
-/* Solves w'^2 = 0 by Newton's method from 1/b, which is below the root; the cubic is convex enough here that it
+/* Solves w'^2 = 0 by Newton's method from 1/b, which is below the root. The cubic is convex enough here that the method
  * hardly overshoots. */
 static double nearest_w(double a, double b)
 {

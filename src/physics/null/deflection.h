@@ -22,12 +22,12 @@ double kd_deflection(const struct kd_hole *hole, double b);
 /* The closest approach of that ray, in Boyer-Lindquist's r. */
 double kd_deflection_closest(const struct kd_hole *hole, double b);
 
-/* Largest radius that light of the same b reaches if emitted inside the photon orbit, before it falls back: the
- * other turning point. NaN also for b > 2 r+/a, a > 0: at the horizon all light has E >= L a/(2 r+), and so none has
+/* Largest radius that light of the same b reaches before it falls back, if it is emitted inside the photon orbit: the
+ * other turning point. NaN also for b > 2 r+/a, a > 0: at the horizon all light has E >= L a/(2 r+), so that none has
  * such a b. */
 double kd_deflection_farthest(const struct kd_hole *hole, double b);
 
-/* 4/b, and with the next order 4/b + (15 pi/4 - 4a)/b^2. */
+/* Weak-field deflection: 4/b, and with the next order 4/b + (15 pi/4 - 4a)/b^2. */
 double kd_deflection_weak(double b);
 double kd_deflection_weak_second(const struct kd_hole *hole, double b);
 

@@ -7,16 +7,16 @@
 
 #include <math.h>
 
-/* Closer than this a ray's roots are computed from its displacement; farther out, from its constants, whose `pair`
- * is then accurate to some 1e-14. */
+/* Where |d| is below this, a ray's roots are computed from its displacement from the curve. Farther out they are
+ * computed from its constants of motion, whose `pair` is then accurate to some 1e-14. */
 #define NEAR 0.03
 
-/* At this distance a ray is indistinguishable from the critical one: its crossing differs from that on the curve by
- * less than rounding. */
+/* At this distance a ray cannot be distinguished from the critical one: the two crossings differ by less than
+ * rounding. */
 #define ON_CURVE 1e-40
 
-/* The largest d inwards, at the centre. Exactly there beta = 0, and a start in the plane could count as the first
- * crossing. */
+/* The largest |d| inside the curve, almost at its centre. Exactly at the centre beta = 0, and a start in the plane
+ * could count as the first crossing. */
 #define CENTRE (1 - 1e-6)
 
 /* One ray's motion up to the crossing. */
@@ -71,8 +71,8 @@ static struct ray ray_of(const struct search *q, double s)
     return ray_at(q->curve, q->point, q->n, q->side * exp(s));
 }
 
-/* How much later the crossing is than the arrival at the source's radius; on the way in to a turning point, how much
- * earlier. Rises from negative values at the curve to positive ones. */
+/* Mino time of the crossing less that of the arrival at the source's radius; the negative of this on the way in to a
+ * turning point. Rises from negative values at the curve to positive ones. */
 static double late(const void *user, double s)
 {
     const struct search *q = user;
@@ -83,7 +83,7 @@ static double late(const void *user, double s)
     return ray.crossing - (q->out ? 2 * ray.radial.turn.tau - there : there);
 }
 
-/* Zero where the ray turns at the source's radius: the turning point moves outwards as d grows. */
+/* A function that is zero where the ray turns at the source's radius. The turning point moves outwards as d grows. */
 static double beyond(const void *user, double s)
 {
     const struct search *q = user;
@@ -91,8 +91,8 @@ static double beyond(const void *user, double s)
     return (ray.radial.turns ? ray.radial.roots.r4 : 0) - q->source;
 }
 
-/* Steps in the exponent from the expected position of an edge of this order to a sign change of f, at most up to
- * `end`. */
+/* Finds a root of f: steps in the exponent, from the expected position of an edge of this order to a sign change of f,
+ * at most up to `end`. */
 static double solve(kd_root_fn f, const struct search *q, double expected, double end)
 {
     double low = fmin(expected, end) - 1, high = fmin(low + 2, end);
@@ -118,8 +118,8 @@ double kd_lensing_edge(const struct kd_critical *c, const struct kd_critical_poi
     if (inside)
         return -exp(solve(late, &q, expected, log(CENTRE)));
     if (isfinite(source)) {
-        /* Up to this distance a ray meets the source twice: on its way in, which is the earlier the farther out the
-         * ray is, and on its way out. */
+        /* Up to this distance a ray meets the source twice: on its way in, which is the earlier the farther out the ray
+         * is, and on its way out. */
         far = solve(beyond, &q, 0, far);
         struct ray turn = ray_of(&q, far);
         q.out = !(turn.crossing < turn.radial.turn.tau);

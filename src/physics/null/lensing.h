@@ -21,12 +21,13 @@
 
 #include "physics/null/critical.h"
 
-/* d of the n-th image of the circle `source`, n >= 1, r+ <= source <= INFINITY; `point` is the curve's at that
- * angle, for an observer at infinity. NaN if there is none: the image lies beyond the centre (n = 1 seen almost
- * edge-on), or rays lie in the equatorial plane. Some ten microseconds. */
+/* d of the n-th image of the circle of radius `source`, n >= 1, r+ <= source <= INFINITY. `point` is the point of the
+ * curve at that angle, for an observer at infinity. NaN if there is no such image: it lies beyond the centre (n = 1
+ * seen almost edge-on), or the rays lie in the equatorial plane. Takes some ten microseconds. */
 double kd_lensing_edge(const struct kd_critical *curve, const struct kd_critical_point *point, int n, double source);
 
-/* Radius seen at distance d in order n >= 1: INFINITY if the ray leaves, 0 if it falls in, before its n-th crossing. */
+/* Radius seen at distance d in order n >= 1. INFINITY: the ray escapes before its n-th crossing; 0: it falls in
+ * before. */
 double kd_lensing_source(const struct kd_critical *curve, const struct kd_critical_point *point, int n, double d);
 
 #endif

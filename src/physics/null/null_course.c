@@ -22,7 +22,7 @@ struct course {
     double last_x, last_y; /* n in the plane at the last update */
     double way;            /* 1: time by the formula for the way in, -1: for the way out */
     double ingoing;        /* sign of the energy in ingoing coordinates; 0: Boyer-Lindquist coordinates */
-    double edge;           /* part taken out of the time, at the start */
+    double edge;           /* the part of the time that is not integrated, at the start */
     double first;          /* 1/r from which places are recorded */
     struct state now;
     double mino;
@@ -82,7 +82,7 @@ static struct state step(const struct course *c, const struct state *s, double h
     return o;
 }
 
-/* The part that is taken out of the time; 0 at infinity, where r_o + 2 ln r_o is not counted. */
+/* The part of the time that is not integrated. It is 0 at infinity, where r_o + 2 ln r_o is not counted. */
 static double edge(const struct course *c, const struct state *s)
 {
     const double w = s->y[W], dw = s->y[DW];
@@ -124,7 +124,7 @@ static void turn(struct course *c, const struct state *s)
     c->last_y = y;
 }
 
-/* Past a turning point the time uses the other formula. */
+/* After a turning point the time is computed by the formula for the other direction. */
 static void take_way(struct course *c, struct state *s)
 {
     const double way = s->y[DW] < 0 ? -1 : 1, before = edge(c, s);
@@ -206,7 +206,8 @@ static double length_of(const struct course *c)
     return fmin(ANGLE / turning, SLOPE) / SUBSTEPS;
 }
 
-/* True if a ray in ingoing coordinates comes from no outside: traced back, it reaches the past horizon from within. */
+/* True if a ray in ingoing coordinates does not come from outside the hole: traced back, it reaches the past horizon
+ * from within. */
 static bool is_dark(const struct course *c)
 {
     return c->ingoing * (1 + c->m.a * (c->m.a - c->m.lambda) * c->horizon * c->horizon) <= 0;

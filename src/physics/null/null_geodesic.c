@@ -36,7 +36,8 @@ static struct kd_null_radial_sum add(struct kd_null_radial_sum x, struct kd_null
     return (struct kd_null_radial_sum) { x.tau + y.tau, x.phi + y.phi, x.t + y.t };
 }
 
-/* The radial integrals from the observer to Mino time `tau`; `from`: those from that place to the reference. */
+/* The radial integrals from the observer to Mino time `tau`. from: the integrals from the place at `tau` to the
+ * reference. */
 static struct kd_null_radial_sum travelled(const struct motion *m, struct kd_null_radial_sum from, double tau)
 {
     double at = m->begin + m->forward * tau;
@@ -70,7 +71,7 @@ static void set_out(struct motion *m, const struct kd_null_ray *ray)
     }
 }
 
-/* Adds errors from rounding of Mino time and of its parts. */
+/* Adds the errors that follow from rounding of Mino time and of its parts. */
 static void disturb(const struct motion *m, double tau, struct kd_null_crossing *x)
 {
     struct kd_null_radial_sum rate = kd_null_radial_rates(&m->radial.motion, x->r);
@@ -200,8 +201,8 @@ struct kd_null_path kd_null_trace_fast(const struct kd_null_ray *ray)
 
 struct slope { double r, phi, delay; };
 
-/* Changes of the results when alpha and beta change by the fractions `step` and `other`, in units of `step`;
- * INFINITY for a crossing that disappears. */
+/* Computes the changes of the results when alpha and beta change by the fractions `step` and `other`, in units of
+ * `step`; INFINITY for a crossing that disappears. */
 static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path, double step, double other,
                        struct slope *slopes, double *sky)
 {
@@ -222,9 +223,10 @@ static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path,
         *sky += lost ? INFINITY : (fabs(there.sky_u - path->sky_u) + fabs(there.sky_phi - path->sky_phi)) / step;
 }
 
-/* Roundings per chain of operations, calibrated with some 1e5 rays repeated with 64-bit significands: the worst
- * error was 2.5 times its estimate, and one in ten thousand exceeded it. Near maximal spin three roots crowd at the
- * horizon, and disturbances that slopes in alpha and beta do not show have the weight 1/(r+ - r-). */
+/* Rounding errors of a chain of operations, in units of the machine epsilon. They were calibrated with some 1e5 rays
+ * that were repeated with 64-bit significands: the worst error was 2.5 times its estimate, and one in ten thousand
+ * exceeded it. Near maximal spin three roots crowd at the horizon, and disturbances that slopes in alpha and beta do
+ * not show have the weight 1/(r+ - r-). */
 static double weight_of(const struct kd_null_ray *ray)
 {
     return 8 + 2 / (kd_hole(ray->spin)->outer - kd_hole(ray->spin)->inner);

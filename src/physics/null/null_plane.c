@@ -13,7 +13,7 @@ struct series { double w[ORDER + 1], u[ORDER + 1]; };
 struct ray {
     double a2, k3, c2, e2; /* A, 3K, 2C, 2 a^2 E^2 */
     double horizon;        /* 1/r+ */
-    bool ours;             /* it does not leave the horizon into another exterior region */
+    bool ours;             /* the ray does not leave the horizon into another exterior region */
     double w, dw, u, du;
 };
 
@@ -60,7 +60,7 @@ static struct series series_of(const struct ray *o)
     return s;
 }
 
-/* Step within which a series is accurate to a rounding of `size`. */
+/* The step within which a series is accurate to a rounding error of `size`. */
 static double reach(const double *c, double size)
 {
     const double last = pow(size / fabs(c[ORDER]), 1.0 / ORDER),
@@ -84,7 +84,7 @@ static double slope(const double *c, double h)
     return sum;
 }
 
-/* Root of u in (0, h], at whose ends its signs differ: Newton's method within the bracket. */
+/* The root of u in (0, h], an interval at whose ends u has different signs: Newton's method within the bracket. */
 static double crossing(const double *c, double h)
 {
     double low = 0, high = h, at = h * c[0] / (c[0] - value(c, h));

@@ -16,10 +16,10 @@
 
 #include "physics/spacetime/tetrad.h"
 
-/* photon: as it arrives. Crossing n = 0, 1, ... counts back from the observer, also within the horizon; a start in
- * the plane does not count. -INFINITY: the ray traced back reaches the past horizon first. INFINITY: it escapes
- * first, or has no end; also for light from another exterior region. Some 10 us. Relative error 1e-13, times the
- * amplification of a rounding of its start by the ray's bending. */
+/* photon: the photon as it arrives. Crossing n = 0, 1, ... counts back from the observer, also within the horizon; a
+ * start in the plane does not count. Returns -INFINITY if the ray traced back reaches the past horizon first. Returns
+ * INFINITY if it escapes first or has no end; also for light from another exterior region. Takes some 10 us. The
+ * relative error is 1e-13, times the factor by which the ray's bending amplifies a rounding of its start. */
 double kd_null_plane_radius(const struct kd_vantage *at, const struct kd_covector *photon, int n);
 
 #endif

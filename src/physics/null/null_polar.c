@@ -8,7 +8,7 @@
 /* A point of the motion: sin^2 x, cos^2 x and 1 - kappa sin^2 x, each without cancellation. */
 struct phase { double s2, c2, d2; };
 
-/* Integrals from the turning point at z to `at`; phi only its regular part. */
+/* Integrals from the turning point at z to `at`. Of phi only the regular part is included. */
 static struct kd_null_polar_sum from_turn(const struct kd_null_polar *p, struct phase at)
 {
     struct kd_null_polar_sum sum = { 0 };
@@ -32,7 +32,7 @@ static double from_plane(const struct kd_null_polar *p, double eta, double gap, 
     return p->u * kd_carlson_rf(p->z * weight, p->n * gap, eta);
 }
 
-/* gap and weight: their product is (s beta)^2, and their difference is known. */
+/* Computes gap and weight from their product, which is (s beta)^2, and their difference, which is known. */
 void kd_null_polar_gap(const struct kd_null_motion *m, double *disc, double *gap, double *weight)
 {
     double a2 = m->a * m->a, s2 = m->s * m->s;

@@ -45,7 +45,7 @@ struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m);
 /* z - u^2 and N + a^2 u^2 at the observer, and s = N + a^2 z, each without cancellation. */
 void kd_null_polar_gap(const struct kd_null_motion *m, double *s, double *gap, double *weight);
 
-/* Mino time alone, from the observer to the first crossing; INFINITY where there is none. */
+/* Only the Mino time from the observer to the first crossing; INFINITY if there is no crossing. */
 double kd_null_polar_first(const struct kd_null_motion *m);
 
 /* From the observer to crossing n = 0, 1, ...; only where `crosses`. */

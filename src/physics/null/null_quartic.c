@@ -24,9 +24,9 @@ double kd_null_radial_potential(const struct kd_null_motion *m, double r)
     return r * (r * (r * r + m->quadratic) + 2 * m->k) + m->constant;
 }
 
-/* Newton's method for x^3 + b x^2 + c x + d or, with a leading 1, the quartic with b = 0: from `x`, until it stops
- * moving. From a suitable start it is monotone in exact arithmetic, so a reversal means that it is within rounding
- * of the root. */
+/* Newton's method for x^3 + b x^2 + c x + d or, with a leading 1, for the quartic with b = 0. It starts from `x` and
+ * stops when x no longer moves. From a suitable start it is monotone in exact arithmetic, so that a reversal means that
+ * x is within rounding of the root. */
 static double newton(const double *k, int degree, double x)
 {
     double direction = 0;
@@ -60,7 +60,7 @@ static double least_root(const double *k)
 
 static void finish(struct kd_null_roots *r, double product)
 {
-    if (r->pair == 0) /* a ray that winds for ever; replaced by one that does so for some 25 radians */
+    if (r->pair == 0) /* such a ray winds for ever; it is replaced by one that does so for some 25 radians */
         r->pair = -1e-22 * r->mean * r->mean;
     r->kind = r->pair >= 0 ? KD_NULL_FOUR_REAL : KD_NULL_TWO_REAL;
     if (r->pair >= 0) { /* mean >= 0 since K >= 0: r4 has no cancellation, and r3 follows from the product */
@@ -73,7 +73,7 @@ static void finish(struct kd_null_roots *r, double product)
     r->margin = r->mean > 0 ? fabs(r->pair) / (r->mean * r->mean) : 1;
 }
 
-/* With r1 and r2 known: the other two from the sum of all roots, 0, and division. */
+/* Computes the other two roots from r1 and r2: by the sum of all roots, which is 0, and by division. */
 static void divide(struct kd_null_roots *r, double k)
 {
     double sum = r->r1 + r->r2, product = r->r1 * r->r2 - 2 * k / sum;

@@ -59,10 +59,10 @@ struct kd_null_displacement {
 struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion *critical, double r, double bend,
                                                     double dalpha, double dbeta);
 
-/* The same roots for a ray beside the critical curve, where the rounded coefficients no longer determine `pair`: it
- * is found from the displacement, with a relative error of a few 1e-16 however small that is. m: the displaced ray's
- * motion. For displacements of some percent at most. Where the iteration does not converge (near a = 1, where bend
- * is small), the answer is that of kd_null_roots_of. */
+/* The same roots for a ray beside the critical curve, where the rounded coefficients no longer determine `pair`. It is
+ * found from the displacement, with a relative error of a few 1e-16 however small the displacement is. m: the motion of
+ * the displaced ray. The displacement must be some percent at most. Where the iteration does not converge (near a = 1,
+ * where bend is small), the result is that of kd_null_roots_of. */
 struct kd_null_roots kd_null_roots_beside(const struct kd_null_motion *m, const struct kd_null_displacement *d);
 
 #endif

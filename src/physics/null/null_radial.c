@@ -26,7 +26,7 @@ enum kd_null_region kd_null_region_of(const struct kd_null_roots *roots, double 
         return KD_NULL_OUTER;
     if (radius <= roots->r3)
         return KD_NULL_INNER;
-    /* A start at a turning point may miss it by rounding. */
+    /* A start at a turning point may be off it by rounding. */
     if (radius >= roots->r4 * (1 - 1e-15))
         return KD_NULL_OUTER;
     return radius <= roots->r3 * (1 + 1e-15) ? KD_NULL_INNER : KD_NULL_FORBIDDEN;
@@ -214,9 +214,9 @@ struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const st
     return q;
 }
 
-/* Compares the time from infinity, by U12, U13 + U14 and U13 U14 of span_outer alone, with `tau`. Where a bound
- * shows that it exceeds `tau`, which most often needs no integral, returns a value between the two. R_F is never
- * less than with three equal arguments of the same mean, because it is convex and symmetric in all of them together
+/* Compares the time from infinity with `tau`, by U12, U13 + U14 and U13 U14 of span_outer alone. If a bound shows that
+ * the time exceeds `tau`, which most often needs no integral, returns a value between the two. The bound: R_F is never
+ * less than with three equal arguments of the same mean, because it is convex, and symmetric in all of its arguments
  * (DLMF 19.16.1). */
 static double time_from_infinity(const struct kd_null_radius *at, double tau)
 {

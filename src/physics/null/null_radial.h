@@ -44,13 +44,13 @@ enum kd_null_region { KD_NULL_OUTER, KD_NULL_INNER, KD_NULL_FORBIDDEN };
 /* The region of a radius > r+, which may be INFINITY. */
 enum kd_null_region kd_null_region_of(const struct kd_null_roots *roots, double radius);
 
-/* Not for roots of kind KD_NULL_NO_REAL. */
+/* The roots must not be of kind KD_NULL_NO_REAL. */
 struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const struct kd_null_roots *roots, bool inner);
 
 struct kd_null_radius kd_null_radius_of(const struct kd_null_radial *q, double r);
 
-/* The radius at Mino time tau from the reference. OUTER: tau >= 0, up to the turning point (its mirror image beyond)
- * or the horizon; INNER: any sign, up to the horizon. */
+/* The radius at Mino time tau from the reference. OUTER: tau >= 0, up to the horizon or the turning point, beyond which
+ * it is the mirror image. INNER: tau of any sign, up to the horizon. */
 struct kd_null_radius kd_null_radius_at(const struct kd_null_radial *q, double tau);
 
 /* Only the radius, at Mino time tau from infinity: 0 if the ray reaches the horizon before, INFINITY if it has
@@ -61,7 +61,7 @@ double kd_null_radius_after(const struct kd_null_motion *m, const struct kd_null
 /* Rates of the integrals in Mino time at r: tau has 1, phi' and t' as above. */
 struct kd_null_radial_sum kd_null_radial_rates(const struct kd_null_motion *m, double r);
 
-/* Integrals from `at` to the reference; t is 0 unless `time`. */
+/* Integrals from `at` to the reference. t is computed only if `time`, and is 0 otherwise. */
 struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *q, const struct kd_null_radius *at,
                                                    bool time);
 

@@ -31,11 +31,12 @@ struct kd_shell_orbit { double a, r, y, w, lambda, eta; };
 
 struct kd_shell kd_shell_of(const struct kd_hole *hole);
 
-/* The orbits of one hole in order, from prograde to retrograde. `place` is w where y >= y_P/2, and continues below
- * with the logarithm of y, so that orbits at r = 1 are distinguished. Beyond the ends eta < 0: no orbit. */
+/* The orbits of one hole, in order from prograde to retrograde. `place` is w where y >= y_P/2. Below that it continues
+ * with the logarithm of y, so that orbits at r = 1 are distinguished. Beyond the two equatorial orbits eta < 0, and
+ * there is no orbit. */
 struct kd_shell_orbit kd_shell_orbit_at(const struct kd_shell *shell, double place);
 
-/* a != 0. A radius between those of the equatorial orbits; NaN outside. */
+/* The orbit of radius r, for a != 0. Returns NaN unless r is between the radii of the equatorial orbits. */
 struct kd_shell_orbit kd_shell_orbit_of_radius(const struct kd_hole *hole, double r);
 
 /* (1/2) d^2R/dr^2 at the orbit, 4 r (y^3 + N)/y^2: nearby rays depart as exp(tau sqrt(bend)) in Mino time tau. */

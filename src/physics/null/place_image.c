@@ -9,13 +9,15 @@
 enum { PLACES = 1500, GUESSES = 96, TRIES = 5, ITERATIONS = 14 };
 #define FOUND 1e-9 /* of the radius: the search stops */
 #define WRONG 1e-5
-/* Distances on the sky that are tried, M, and those near the critical curve. */
+/* Distances from the hole on the sky at which the search starts, in M: from LEAST on in all, and NEAR to FAR close to
+ * the critical curve. */
 #define LEAST 0.01
 #define NEAR 1.5
 #define FAR 9
 #define MOST (1.4 * M_PI) /* maximum turn of the direct image's ray about the hole; half a turn, were there no spin */
 
-/* A vector in (r, theta, phi) taken as flat spherical coordinates, which is good enough to compare distances. */
+/* A vector in (r, theta, phi), which are treated as flat spherical coordinates; this is good enough to compare
+ * distances. */
 struct vector { double x[3]; };
 
 static struct vector less(const struct vector *a, const struct vector *b)
@@ -45,8 +47,8 @@ struct search {
     struct kd_null_place *places; /* room for PLACES */
 };
 
-/* The ray at a point of the chart: alpha and beta at infinity, otherwise the direction by its stereographic
- * projection about -r. */
+/* The ray at a point of the chart. At infinity the chart's coordinates are alpha and beta; otherwise they are those of
+ * the direction, by stereographic projection about -r. */
 static bool ray_of(const struct kd_place_view *view, const double at[2], struct kd_null_ray *ray, struct kd_look *look)
 {
     const struct kd_vantage *v = &view->frame.at;
@@ -135,7 +137,7 @@ static struct miss nearest(const struct search *s, const struct kd_null_place *f
                         here = between(four, middle, &best.delay);
     best.off = less(&here, &s->place);
     best.way = less(&to, &from);
-    /* At the closest point the offset along the ray vanishes, except at its ends. */
+    /* At the closest point the offset along the ray vanishes, except at the ray's ends. */
     const double along = dot(&best.off, &best.way) / dot(&best.way, &best.way);
     for (int k = 0; k < 3 && fabs(along) < 10; k++)
         best.off.x[k] -= along * best.way.x[k];

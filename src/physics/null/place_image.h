@@ -25,10 +25,10 @@ struct kd_place_image {
     double delay, off, chart[2];
 };
 
-/* The place: radius, cos(theta), azimuth less the observer's. near: the image of a neighbouring place, or NULL.
- * searches: whether to search anew if that fails. False, with everything NAN, if the image is not found to 1e-5 of
- * the radius, and within KD_PLACE_LEAST horizons, where rays linger and no search is made. Some 20 ms, 2 ms from a
- * neighbour, up to 0.3 s if nothing is found. */
+/* Arguments: radius and cos(theta) of the place, its azimuth less the observer's; near: the image of a neighbouring
+ * place, or NULL; searches: whether to search anew if the continuation from `near` fails. Returns false, with all
+ * members NAN, if the image is not found to 1e-5 of the radius. Within KD_PLACE_LEAST times the horizon's radius, where
+ * rays linger, no search is made. Some 20 ms, 2 ms from a neighbour, up to 0.3 s if nothing is found. */
 #define KD_PLACE_LEAST 1.2
 bool kd_place_image_seen(const struct kd_place_view *view, double r, double u, double phi,
                          const struct kd_place_image *near, bool searches, struct kd_place_image *out);

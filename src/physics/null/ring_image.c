@@ -7,11 +7,12 @@
 
 #define STEP (2 * M_PI / 64) /* step of chi between nodes */
 #define LEAST_STEP 1e-5
-#define TABLE 1e-7  /* error of ln r: sufficient for a table */
+#define TABLE 1e-7  /* allowed error of ln r, which is sufficient for a table */
 #define TURN 1.0    /* maximum change of phi between nodes: near pi its direction would be ambiguous */
 #define STRETCH 0.2 /* maximum change of ln rho: at a corner of the image phi can make a whole turn */
 
-/* Directions: chi advances evenly as on the ring seen unlensed from afar, (cos chi, cos i sin chi). */
+/* alpha and beta of the point at the distance e^log_rho in the direction chi. chi advances evenly round a ring that is
+ * seen unlensed from afar, (cos chi, cos i sin chi). */
 static void place(const struct kd_ring_image *ring, double chi, double log_rho, double *alpha, double *beta)
 {
     double x = cos(chi), y = ring->flatten * sin(chi), rho = exp(log_rho) / hypot(x, y);
@@ -66,7 +67,7 @@ static bool approach(const struct kd_ring_image *ring, double chi, double bound,
     return fabs(h) < TABLE; /* the rest is rounding */
 }
 
-/* x reduced to the whole turn nearest to 0. */
+/* x minus whole turns, between -pi and pi. */
 static double turn(double x) { return remainder(x, 2 * M_PI); }
 
 /* Adds one node, at most `step` further; false if no node is left or the image is not found. */
@@ -125,7 +126,7 @@ bool kd_ring_image_init(struct kd_ring_image *ring, const struct kd_hole *hole, 
     return fabs(ring->phi[ring->nodes - 1] - ring->phi[0] - 2 * M_PI) < 1e-3;
 }
 
-/* phi of the image in the direction chi less the wanted one; *log_rho is a guess on entry. */
+/* The azimuth at which the image in the direction chi is, less the wanted one; *log_rho is a guess on entry. */
 static bool azimuth(const struct kd_ring_image *ring, double phi, double chi, double *log_rho, double *miss)
 {
     struct kd_null_crossing crossing;

@@ -31,15 +31,15 @@ struct kd_ring_image kd_ring_image_plain(const struct kd_hole *hole, double incl
 /* phi, sense: as in struct kd_null_crossing. residual: the last step of Newton's method before it was taken; the
  * error is some 1e-6 of it, plus rounding. */
 struct kd_ring_image_point {
-    /* Number of images of this order: 1, but 3 or more beyond a caustic (high inclination, a != 0; order 0 next to
-     * edge-on). */
+    /* Number of images of this order. It is 1, but 3 or more beyond a caustic (high inclination, a != 0; order 0 next
+     * to edge-on). */
     int images;
     double alpha, beta, phi, delay, residual;
     int sense;
 };
 
-/* phi: source minus observer. Of several images it gives the first from +alpha towards +beta. False if none is
- * found; some 30 rays. */
+/* Finds the image at the azimuth phi, source minus observer. Of several images it gives the first from +alpha towards
+ * +beta. Returns false if none is found. Takes some 30 rays. */
 bool kd_ring_image_find(const struct kd_ring_image *ring, double phi, struct kd_ring_image_point *point);
 
 /* Finds the image in the direction (cos(chi), cos(i) sin(chi)) of the image plane from alpha = beta = 0; each

@@ -35,9 +35,9 @@ static double polygon(const double c[3], double points[EDGE_POINTS][3], int stri
     return sum;
 }
 
-/* Solid angle enclosed by the edge: three polygons, whose errors are powers of the squared step, extrapolated
- * (Romberg). Triangles meet in a direction inside, or in the opposite one if most of the edge is closer to that: the
- * sum then differs by 4 pi only. */
+/* Solid angle enclosed by the edge. It is the area of three polygons, whose errors are powers of the squared step,
+ * extrapolated (Romberg). The triangles of a polygon meet in a direction inside. If most of the edge is closer to the
+ * opposite direction, they meet there, and the sum differs only by 4 pi. */
 static double enclosed(const struct kd_critical *edge, double points[EDGE_POINTS][3])
 {
     struct kd_critical_point middle = { .right = sin(edge->centre), .inwards = cos(edge->centre) };
@@ -76,7 +76,8 @@ static double extreme(const struct kd_sky_view *v, double points[EDGE_POINTS][3]
     return sign * fmax(there, sample);
 }
 
-/* Polar coordinates about the middle of the dark disk, in the frame of the edge: every angle meets the edge once. */
+/* True if the direction is in the dark disk. It is compared with the edge in polar coordinates about the middle of the
+ * dark disk, in the frame of the edge: every angle meets the edge once. */
 static bool is_dark(const struct kd_sky_view *v, const double k[3])
 {
     double right = k[0], up = k[1], inwards = k[2];

@@ -21,8 +21,8 @@ struct kd_sky_view {
     double least, greatest; /* g over the visible sky */
 };
 
-/* The radius must be finite (KD_CRITICAL_BAD_INPUT). Some 1.5 ms. Relative errors: of `dark` 1e-9 for spins up to
- * 0.99, of `least` and `greatest` 1e-12 where they lie on the edge, from its rounding. */
+/* The radius must be finite (otherwise KD_CRITICAL_BAD_INPUT). Takes some 1.5 ms. Relative errors: 1e-9 of `dark`, for
+ * spins up to 0.99; 1e-12 of `least` and `greatest` where they lie on the edge, from its rounding. */
 struct kd_sky_view kd_sky_view_of(const struct kd_critical_observer *observer);
 
 /* g of the sky in a direction, a unit vector; NaN in the dark disk. Some 2 microseconds. */

@@ -56,8 +56,8 @@ static struct kd_orbit_sums radial_sums(const struct kd_orbit_bound *b, double u
     };
 }
 
-/* True if L = 0 and the motion reaches the axis: it passes at each turning point, where L/sin^2 theta is a step of
- * pi. */
+/* True if L = 0 and the motion reaches the axis. It then passes the axis at each turning point, where L/sin^2 theta is
+ * a step of pi. */
 static bool through_axis(const struct kd_orbit *o) { return o->momentum == 0 && o->axis_gap == 0; }
 
 /* Polar part of the integrals from the equator to the phase u, whose functions are `at`. */

@@ -16,7 +16,8 @@ struct kd_orbit_bound {
     struct kd_orbit orbit;
     double r[4]; /* roots of R, r[0] >= r[1] > r[2] >= r[3]; r[0] and r[1] are the turning points */
     double pace_r, k_r, k1_r, quarter_r; /* r is a function of sn^2(pace lambda | k), quarter = K(k); k1 = 1 - k */
-    double unit_r;                       /* the pace; 1 for a circle, where quarter_r is 1 and half_r holds the rates */
+    double unit_r;                       /* equal to the pace; 1 for a circle, where quarter_r is 1 and half_r holds
+                                          * the rates */
     double h, h_plus, h_minus;
     double pace_z, k_z, k1_z, quarter_z; /* u = sqrt(z) sn(pace lambda | k) */
     struct kd_orbit_sums half_r, half_z; /* from periastron to apastron; from the equator to a turning point of theta */
@@ -34,8 +35,8 @@ struct kd_orbit_frequencies {
 };
 struct kd_orbit_frequencies kd_orbit_frequencies_of(const struct kd_orbit_bound *bound);
 
-/* Azimuth gained between periastra beyond a full turn, 2 pi (|Upsilon_phi| / Upsilon_r - 1), and between ascending
- * nodes. For a = 0 the former has no cancellation however wide the orbit. */
+/* Azimuth gained from one periastron to the next beyond a full turn, 2 pi (|Upsilon_phi| / Upsilon_r - 1), and from one
+ * ascending node to the next. For a = 0 the former is computed without cancellation, however wide the orbit. */
 double kd_orbit_periastron_advance(const struct kd_orbit_bound *bound);
 double kd_orbit_nodal_advance(const struct kd_orbit_bound *bound);
 

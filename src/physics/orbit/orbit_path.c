@@ -13,8 +13,8 @@ static inline void add(struct kd_exact *to, double x)
     to->value = sum;
 }
 
-/* Half of W'. If both ends are known it is computed from the distances to them, so that an orbit whose ends coincide
- * stays there for ever. */
+/* Half of W'. If both ends of the range of w are known, it is computed from the distances to them, so that a circular
+ * orbit, whose ends coincide, stays circular for ever. */
 static double radial_force(const struct kd_orbit_path *p, double w, double rest)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -111,7 +111,8 @@ static void yoshida(struct kd_orbit_path *p, double h)
     drift(p, 7);
 }
 
-/* The total force after the time `at` h; places are also displaced by h^2 sum. */
+/* The total force after a time of `at` * h. The place is where the present rates lead in this time, displaced further
+ * by h^2 `sum`. */
 static void stage_of(const struct kd_orbit_path *p, double at, double h, const double *sum, double *f)
 {
     double q[KD_PATH_PLACES], rest = 0;
@@ -158,7 +159,7 @@ static void ahead(const struct kd_orbit *o, double w, double *t, double *phi)
     *phi = o->a * (near - inner) / gap;
 }
 
-/* Switches to ingoing coordinates when the fall is final: there is no turning point inwards, and W is no longer
+/* Switches to ingoing coordinates when the fall is final: there is no turning point further in, and W is no longer
  * small, so that its root is smooth. */
 static void enter(struct kd_orbit_path *p)
 {
@@ -335,7 +336,7 @@ struct kd_orbit_path kd_orbit_path_to_radius(const struct kd_orbit_path *path, d
     struct kd_orbit_path end = moved(path, h);
     bool beyond = (height(path, RADIUS, w) < 0) != (height(&end, RADIUS, w) < 0);
     if (!beyond && (path->rate[KD_PATH_W].value < 0) != (end.rate[KD_PATH_W].value < 0))
-        /* With E = 1 infinity is a turning point like others. */
+        /* if E = 1, infinity is a turning point like others */
         h = kd_orbit_path_to_apsis(path, h).mino.value - path->mino.value;
     return to_event(path, h, RADIUS, w);
 }

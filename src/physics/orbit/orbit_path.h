@@ -77,8 +77,8 @@ struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *path);
 
 /* Moves `path` to where its radial velocity vanishes; this must happen within a step of h. */
 struct kd_orbit_path kd_orbit_path_to_apsis(const struct kd_orbit_path *path, double h);
-/* Moves it to the radius 1/w, at the first passage and then, after a turning point, at the second; or to the time t.
- * Both must be within the step. */
+/* Moves `path` to the radius 1/w: at the first passage or, after a turning point, at the second. The other function
+ * moves it to the time t. The radius or time must be reached within the step. */
 struct kd_orbit_path kd_orbit_path_to_radius(const struct kd_orbit_path *path, double h, double w);
 struct kd_orbit_path kd_orbit_path_to_time(const struct kd_orbit_path *path, double h, double t);
 

@@ -30,7 +30,7 @@ static struct column differences(double a2, double z, double r1, double r2)
                              three - 2 * two + a2 * one + a2 * z * (one - 2) };
 }
 
-/* The positive root of the quadratic at r, with E and b = 1 - E^2 given: q = f - d = 2r (r^2 + a^2) and b replace d
+/* The positive root l of the quadratic at r, for given E and b = 1 - E^2. q = f - d = 2r (r^2 + a^2) and b replace d
  * and E^2. */
 static double root_at(const struct column *v, double ax, double r, double a2, double energy, double binding)
 {

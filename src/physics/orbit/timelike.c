@@ -90,8 +90,8 @@ static void set_fate(struct kd_orbit *o)
     if (o->circular) { /* unstable where W has a minimum */
         double w = o->w_low, bend = o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]);
         double size = fabs(o->w[2]) + w * (3 * fabs(o->w[3]) + w * 6 * fabs(o->w[4]));
-        o->fate =
-            bend > 1e-7 * size ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND; /* at a triple root it vanishes within rounding */
+        o->fate = bend > 1e-7 * size ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND; /* at a triple root `bend` vanishes within
+                                                                          * rounding */
         return;
     }
     o->fate = !o->turns_in ? KD_ORBIT_PLUNGE : o->turns_out ? KD_ORBIT_BOUND : KD_ORBIT_ESCAPE;
@@ -164,7 +164,7 @@ struct kd_orbit_state kd_orbit_start(const struct kd_orbit *o, double r, bool ou
 
 double kd_orbit_whirl(const struct kd_orbit *o, const struct kd_orbit_state *s, double *r)
 {
-    /* W falls for large w, or is a rising cubic: there is at most one minimum. */
+    /* W falls for large w, or is a rising cubic, so that there is at most one minimum. */
     double slope[4] = { o->w[1], 2 * o->w[2], 3 * o->w[3], 4 * o->w[4] }, turns[KD_POLYNOMIAL_DEGREE + 2];
     int n = kd_polynomial_roots(slope, 3, 0, 1 / kd_hole(o->a)->outer, turns);
     for (int i = 0; i < n && !o->circular; i++) {
@@ -228,9 +228,9 @@ static bool find_range_of_circle(struct kd_orbit *o, const struct kd_orbit_state
     return true;
 }
 
-/* The range of motion for a start at a turning point within rounding, possibly beyond it. W is known there to
- * `unknown`, 64 roundings of its largest terms, so the range is searched for where W exceeds that. If it does not
- * before its next extremum, both ends coincide: a circle. */
+/* The range of motion for a start at a turning point within rounding, possibly beyond it. There W is known only to
+ * `unknown`, 64 roundings of its largest terms, so the range is searched for where W exceeds this. If W does not exceed
+ * it before its next extremum, both ends of the range coincide: a circle. */
 static bool find_range_at_turn(struct kd_orbit *o, const struct kd_orbit_state *start)
 {
     const double w = start->w, slope = kd_orbit_radial_slope(o, w),

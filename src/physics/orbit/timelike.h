@@ -64,15 +64,16 @@ enum kd_status kd_orbit_from_state(const struct kd_hole *hole, double r, double 
                                    const double v[3], struct kd_orbit *orbit, struct kd_orbit_state *start,
                                    struct kd_error *error);
 
-/* Starts at the ascending node, at r (NAN: periastron if there is one, else the outer end), outwards or inwards. r
- * within 1e-14 of a turning point starts at rest there. For an orbit from infinity r must be given. An unstable
- * circle is left inwards, starting one ulp of 1/r inside. */
+/* The start of the motion, at the ascending node, outwards or inwards. r: radius of the start; NAN: periastron if there
+ * is one, and otherwise the outer end. If r is within 1e-14 of a turning point, the body starts at rest there. For an
+ * orbit from infinity r must be given. An unstable circle is left inwards: the start is one ulp of 1/r inside it. */
 struct kd_orbit_state kd_orbit_start(const struct kd_orbit *orbit, double r, bool outward);
 
-/* Amplification of relative errors of the constants in the length of the whirl ahead, along an unstable circle that
- * the constants nearly describe. It is the terms of W over W itself at its minimum; the motion passes there, or
- * turns, after a time that grows as the logarithm of that value. 0 if no such minimum lies ahead, and for a circle
- * itself. *r (may be NULL): radius of the whirl. */
+/* A whirl is a long stay near an unstable circular orbit that the constants nearly describe. This is the factor by
+ * which relative errors of the constants are amplified in the length of the whirl ahead: the size of the terms of W
+ * over W itself at its minimum. The motion passes the minimum, or turns there, after a time that grows as the logarithm
+ * of this factor. 0 if no such minimum lies ahead, and for an unstable circular orbit itself. *r (may be NULL): radius
+ * of the whirl. */
 double kd_orbit_whirl(const struct kd_orbit *orbit, const struct kd_orbit_state *start, double *r);
 
 /* W, its derivative, and the derivative of W by E at fixed L and Q, which converts a residual of W to one of E. */

@@ -1,13 +1,13 @@
 /* Epicyclic frequencies: angular frequencies, in coordinate time, of small oscillations about a circular equatorial
- * orbit of Kerr. Double precision, pure, any thread. G = c = M = 1; spin signed as in physics/spacetime/kerr.h.
- * Domain: r outside the photon orbit.
+ * orbit of Kerr. Double precision, pure, any thread. G = c = M = 1; spin signed as in physics/spacetime/kerr.h. Domain:
+ * r outside the photon orbit.
  *
  *     kappa^2     = Omega^2 (1 - 6/r + 8a r^(-3/2) - 3a^2/r^2)       radial
  *     Omega_th^2  = Omega^2 (1 - 4a r^(-3/2) + 3a^2/r^2)             vertical
  *
- * J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972; A. T. Okazaki, S. Kato & J. Fukue 1987, PASJ 39, 457; S. Kato
- * 1990, PASJ 42, 99. Relative error below 1e-14; of kappa, which has a zero at the ISCO, below 1e-15 r_isco/|r -
- * r_isco| times that for a = 0. */
+ * Sources: J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972; A. T. Okazaki, S. Kato & J. Fukue 1987, PASJ 39, 457; S.
+ * Kato 1990, PASJ 42, 99. The relative error is below 1e-14. For kappa, which has a zero at the ISCO, it is below 1e-15
+ * r_isco/|r - r_isco| times the error for a = 0. */
 #ifndef KD_PHYSICS_SPACETIME_EPICYCLIC_H
 #define KD_PHYSICS_SPACETIME_EPICYCLIC_H
 

@@ -25,7 +25,8 @@ static inline struct kd_hole kd_hole_of(double a)
     return (struct kd_hole) { a, 0, root, outer, a * a / outer };
 }
 
-/* The same as an argument, from a number: kd_kerr_isco(kd_hole(0.9)). Lives until the end of the enclosing block. */
+/* A hole from its spin, to be used as an argument: kd_kerr_isco(kd_hole(0.9)). It lives until the end of the enclosing
+ * block. */
 #define kd_hole(a) ((const struct kd_hole[]) { kd_hole_of(a) })
 
 /* The hole in coordinates in which motion towards +phi (sense 1), or towards -phi (sense -1), is towards +phi. */

@@ -11,8 +11,8 @@ bool kd_infall_is_level(const struct kd_observer_motion *m, const struct kd_vant
     return at->spin == 0 || at->u == 0 || at->s == 0 || (m->fall_momentum == 0 && kd_observer_energy(m, at) == 1);
 }
 
-/* (Sigma r')^2 = c[4] r^4 + ... + c[0]; if fall_from is finite, divided by fall_from - r, a factor that vanishes
- * there. */
+/* (Sigma r')^2 = c[4] r^4 + ... + c[0]. If fall_from is finite, this polynomial has been divided by fall_from - r, a
+ * factor that vanishes at fall_from. */
 struct fall {
     double c[5], spin, u, low, span, above; /* above: from the upper end to fall_from */
     double energy, momentum, swing, carter; /* E; L; L/sin^2; K = Q + (L - a E)^2 */

@@ -10,17 +10,17 @@
  * the equatorial plane, and on the axis. */
 bool kd_infall_is_level(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 
-/* Proper time from `at` down to the radius r, for an infall that exists there and is level. The smallest r is the
- * inner horizon, or 0 without spin. Relative error some 1e-14, next to fall_from 1e-12. For rain in Schwarzschild it
- * is (2 at^3/2 - 2 r^3/2)/(3 sqrt 2). */
+/* Proper time from `at` down to the radius r, for an infall that exists there and is level. The smallest allowed r is
+ * the inner horizon, or 0 without spin. The relative error is some 1e-14, and 1e-12 next to fall_from. For rain in
+ * Schwarzschild the time is (2 at^3/2 - 2 r^3/2)/(3 sqrt 2). */
 double kd_infall_proper_time(const struct kd_observer_motion *motion, const struct kd_vantage *at, double r);
 
-/* The path to that radius: increases of azimuth (radians) and coordinate time in ingoing Kerr-Schild coordinates,
- * which are regular at the outer horizon: phi + integral of a/Delta dr, t + integral of 2r/Delta dr. far_time: in
+/* A fall down to the radius r. azimuth (radians) and time are increases in ingoing Kerr-Schild coordinates, which are
+ * regular at the outer horizon: phi + integral of a/Delta dr, t + integral of 2r/Delta dr. far_time: increase in
  * Boyer-Lindquist coordinates; INFINITY from the horizon on. */
 struct kd_infall_way {
     double r, azimuth, time, far_time;
-    bool ended; /* it has reached kd_infall_last, or was beyond it */
+    bool ended; /* the body has reached kd_infall_last, or was beyond it */
 };
 struct kd_infall_way kd_infall_way(const struct kd_observer_motion *motion, const struct kd_vantage *at, double r);
 

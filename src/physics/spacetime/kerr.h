@@ -34,9 +34,9 @@ double kd_kerr_twist(const struct kd_hole *hole, double r);
 /* Angular velocity of frame dragging, -g_tphi/g_phiphi. */
 double kd_kerr_dragging(const struct kd_hole *hole, double r, double cos_theta);
 
-/* Range of d(phi)/dt about the frame dragging: every motion at r lies within +- this of it, and light reaches it.
- * sqrt(Delta) Sigma/(B sin(theta)), B = (r^2 + a^2)^2 - a^2 Delta sin^2(theta) [BPT eqs 2.3, 2.5]. Infinite on the
- * axis. */
+/* Half the range of d(phi)/dt about the angular velocity of frame dragging: every motion at r is within +- this of it,
+ * and light reaches both limits. sqrt(Delta) Sigma/(B sin(theta)), B = (r^2 + a^2)^2 - a^2 Delta sin^2(theta) [BPT eqs
+ * 2.3, 2.5]. Infinite on the axis. */
 double kd_kerr_rotation_reach(const struct kd_hole *hole, double r, double cos_theta, double sin_theta);
 
 #endif

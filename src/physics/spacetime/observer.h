@@ -12,9 +12,9 @@
 
 #include <stdbool.h>
 
-/* X(NAME, word, description, where it exists, edge(a, cos(theta)), name of the edge, what holds inside): the
- * observer exists at radii larger than its edge. The last one has a velocity of its own choice, and so cannot serve
- * as a frame for measuring other velocities. */
+/* X(NAME, word, description, where it exists, edge(a, cos(theta)), name of the edge, what holds inside): the observer
+ * exists at radii larger than its edge. The velocity of the last one is a parameter, so that it cannot serve as a frame
+ * in which other velocities are measured. */
 #define KD_OBSERVERS_OF_NO_NUMBERS(X) \
     X(STATIC, static, "at rest with respect to infinity", "outside the ergosphere, r > 1 + sqrt(1 - a^2 cos^2 i)", \
       kd_kerr_ergosphere(hole, u), "the ergosphere", "nothing is at rest") \
@@ -87,7 +87,8 @@ enum kd_observer_fault {
     KD_OBSERVER_SOUND,
     KD_OBSERVER_TOO_FAST,    /* |velocity| >= 1: `bound` is 1 */
     KD_OBSERVER_FROM_INSIDE, /* fall_from is inside the place: it must be at least `bound`, the place itself */
-    /* Its energy is too low to be here, or it turns on its way from fall_from; it must exceed `bound`. */
+    /* The body's energy is too low for this place, or the body turns back on its way from fall_from. Its energy must
+     * exceed `bound`. */
     KD_OBSERVER_TURNS,
     KD_OBSERVER_TWO_ENERGIES, /* both fall_energy and fall_from are given */
 };

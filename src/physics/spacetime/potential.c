@@ -28,8 +28,8 @@ struct kd_potential_extrema kd_potential_of_light(const struct kd_hole *hole, do
     return e;
 }
 
-/* L of circular orbits falls from infinity at the photon orbit to the ISCO, and rises beyond. Bisects, to the last
- * bit, between a radius where it exceeds l and one where it does not. */
+/* From the photon orbit to the ISCO, L of circular orbits falls from infinity, and it rises beyond. The function
+ * bisects, to the last bit, between a radius where L exceeds l and one where it does not. */
 static double circle_of_momentum(const struct kd_hole *hole, double l, double above, double below)
 {
     for (;;) {

@@ -47,7 +47,7 @@ static double size(const double row[5])
     return fmax(fmax(fabs(row[0]), fabs(row[1])), fmax(fabs(row[2]), fabs(row[3])));
 }
 
-/* Gaussian elimination with scaled partial pivoting. Components that the frame does not mix stay exact. */
+/* Gaussian elimination with scaled partial pivoting. Components that the frame does not mix are exact. */
 void kd_tetrad_components(const struct kd_tetrad *frame, const struct kd_covector *p, double x[4])
 {
     const struct kd_covector *t = &frame->t, *r = &frame->r, *h = &frame->theta, *f = &frame->phi;

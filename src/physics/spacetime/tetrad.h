@@ -19,8 +19,8 @@ struct kd_covector { double energy, momentum, polar, radial; /* E, L/sin(theta),
 /* Position of a frame: spin, |spin| < 1; radius; cosine and sine of the polar angle, one of which may be 0. */
 struct kd_vantage { double spin, r, u, s; };
 
-/* falls: the frame is regular at a horizon. past_rain: gamma, and gamma v along e_r, e_theta, e_phi, of its velocity
- * relative to rain (observer.c). */
+/* falls: the frame is regular at a horizon. past_rain: velocity of the frame relative to rain (observer.c): gamma, and
+ * gamma v along e_r, e_theta, e_phi. */
 struct kd_tetrad {
     struct kd_vantage at;
     struct kd_covector t, r, theta, phi;
@@ -37,7 +37,8 @@ void kd_tetrad_components(const struct kd_tetrad *frame, const struct kd_covecto
  * of this frame, boosted without rotation: e'_t = x, e'_i = e_i + x_i e_t + x_i x_j e_j/(1 + gamma). */
 struct kd_tetrad kd_tetrad_boosted(const struct kd_tetrad *frame, const double x[4]);
 
-/* True if the frame is symmetric about the equatorial reflection: only e_theta has a p_theta, and nothing else. */
+/* True if the frame is symmetric under reflection at the equatorial plane: e_theta has only a p_theta, and no other leg
+ * has one. */
 int kd_tetrad_is_level(const struct kd_tetrad *frame);
 
 /* Direction in which an arriving photon is seen: a unit vector, right along +phi, up along -theta, inwards along -r;

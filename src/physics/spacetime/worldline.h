@@ -5,15 +5,16 @@
 
 #include "physics/spacetime/observer.h"
 
-/* True if the path is implemented: at a finite radius, at constant latitude; not for a velocity of its own choice. */
+/* True if the observer's path is implemented: at a finite radius and at constant latitude, except for observers with a
+ * chosen velocity. */
 bool kd_worldline_is_known(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 
-/* The result of `proper_time`, 0 or more. azimuth (radians) and time are increases: for free fall in ingoing
- * Kerr-Schild coordinates, for others in Boyer-Lindquist coordinates; at constant radius both give the same.
- * far_time: in Boyer-Lindquist coordinates for all; INFINITY for free fall from the horizon on. */
+/* The observer's place after `proper_time`, 0 or more. azimuth (radians) and time are increases: for free fall in
+ * ingoing Kerr-Schild coordinates, for others in Boyer-Lindquist coordinates; at constant radius both give the same.
+ * far_time: in Boyer-Lindquist coordinates for all observers; INFINITY for free fall from the horizon on. */
 struct kd_worldline_place {
     double r, azimuth, time, far_time;
-    bool ended; /* it has reached the end of its fall */
+    bool ended; /* the observer has reached the end of its fall */
 };
 struct kd_worldline_place kd_worldline_after(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                                              double proper_time);

@@ -52,7 +52,7 @@ double kd_inspiral_axis(double a0, double e0, double e)
     return a0 * pow(e / e0, 12.0 / 19) * one_minus_e2(e0) / one_minus_e2(e) * pow(sum, 870.0 / 2299);
 }
 
-/* Integrand of P 5.14 with e = e0 x, so that the power of e0 cancels that of c0. */
+/* Integrand of P 5.14 with e = e0 x, in which the power of e0 cancels that of c0. */
 static double slowing(double x, double y, const void *context)
 {
     double e0 = *(const double *)context, ex = e0 * x;

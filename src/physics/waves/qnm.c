@@ -12,9 +12,9 @@ struct recurrence { double complex alpha[3], beta[3], gamma[3]; };
 
 static double complex quadratic(const double complex c[3], double k) { return c[0] + k * (c[1] + k * c[2]); }
 
-/* Its continued fraction, inverted at `row`: zero if a minimal solution a_k exists. `terms` of the infinite part are
- * kept, starting with `rest` for -a_{K+1}/a_K. In exact arithmetic any row gives the same roots; numerically the
- * root is best resolved from the row with its own index (Leaver 1985, after eq. 14). */
+/* The recurrence's continued fraction, inverted at `row`; it is zero if a minimal solution a_k exists. `terms` terms of
+ * the infinite part are kept, starting with `rest` for -a_{K+1}/a_K. In exact arithmetic every row gives the same
+ * roots; numerically a root is best resolved from the row with its own index (Leaver 1985, after eq. 14). */
 static double complex fraction(const struct recurrence *r, int row, int terms, double complex rest)
 {
     double complex below = rest;

@@ -51,7 +51,7 @@ bool kd_qnm_start(struct kd_qnm_branch *branch, int l, int m, int n);
  * the iteration fails. */
 bool kd_qnm_move(struct kd_qnm_branch *branch, const struct kd_hole *hole);
 
-/* Both, from a = 0, for a of either sign. On failure returns false, and *mode is NAN. */
+/* kd_qnm_start and kd_qnm_move in one call, for a of either sign. On failure returns false, and *mode is NAN. */
 bool kd_qnm_find(int l, int m, int n, const struct kd_hole *hole, struct kd_qnm *mode);
 
 #endif

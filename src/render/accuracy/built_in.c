@@ -4,7 +4,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-/* bench/results, embedded by embed.py. */
+/* A file of bench/results, embedded by embed.py. */
 extern const unsigned char kd_accuracy_json[];
 extern const size_t kd_accuracy_json_size;
 

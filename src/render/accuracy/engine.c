@@ -4,11 +4,11 @@
 
 enum { PROFILES = KD_PROFILE_REFERENCE + 1 };
 
-/* Default steps of each engine; docs/accuracy.md has their errors. */
+/* Default number of steps of each engine; docs/accuracy.md has the engines' errors. */
 static const struct {
     const char *name;
-    uint32_t steps[2];             /* by precision: used where neither steps nor a profile are named */
-    uint32_t profile[2][PROFILES]; /* draft, interactive, balanced, high, reference */
+    uint32_t steps[2];             /* by precision, for requests that name neither steps nor a profile */
+    uint32_t profile[2][PROFILES]; /* by precision, for the profiles draft, interactive, balanced, high, reference */
 } engines[KD_ENGINE_COUNT] = {
     [KD_ENGINE_CLOSED] = { .name = "closed" },
     [KD_ENGINE_MINO_RKN4] = { "mino-rkn4", { 32, 256 }, { { 8, 8, 16, 32, 32 }, { 8, 16, 64, 128, 512 } } },
@@ -30,9 +30,9 @@ uint32_t kd_engine_steps(enum kd_engine engine, enum kd_precision precision)
     return engines[engine].steps[precision];
 }
 
-/* llvmpipe leaves a kernel's loops silently after 65535 rounds, counted over all loops together. In Mino time a ray
- * takes at most 12 + KD_RAYS_MAX_ORDERS half periods. rays_kerr_schild.comp gives the counts of the others, of which
- * Tao's has an inner loop. */
+/* The most steps for which a ray is completed: llvmpipe leaves a kernel's loops silently after 65535 rounds, counted
+ * over all loops together. In Mino time a ray takes at most 12 + KD_RAYS_MAX_ORDERS half periods. rays_kerr_schild.comp
+ * gives the counts of the Kerr-Schild engines; Tao's has an inner loop. */
 uint32_t kd_engine_most_steps(enum kd_engine engine)
 {
     return engine == KD_ENGINE_KS_TAO6 ? 512 : engine >= KD_ENGINE_KS_EULER ? 1024 : KD_STEPS_MAX;
@@ -45,7 +45,8 @@ enum kd_status kd_engine_steps_error(enum kd_engine engine, uint32_t steps, stru
                           steps, kd_engine_name(engine), kd_engine_most_steps(engine));
 }
 
-/* The words of a scene's enumerations are "auto", then the names in the order of our enums (tests/unit/engine.c). */
+/* The words of a scene's enumerations are "auto", then the names of the values in the order of our enums
+ * (tests/unit/engine.c). */
 struct kd_accuracy_request kd_accuracy_request_of(const struct kd_scene *scene)
 {
     const struct kd_accuracy *a = &scene->accuracy;

@@ -11,13 +11,15 @@
 #include <stdint.h>
 
 enum kd_engine {
-    /* elliptic functions: in double on the CPU, the reference; in single on the device, outside the photon orbits */
+    /* elliptic functions: in double precision on the CPU (the reference), or in single precision on the device for rays
+     * outside the photon orbits */
     KD_ENGINE_CLOSED,
     KD_ENGINE_MINO_RKN4, /* Mino time on the device: Nystroem's method of order 4 */
-    KD_ENGINE_MINO_RKN6, /* the same with Albrecht's method of order 6 */
+    KD_ENGINE_MINO_RKN6, /* Mino time on the device: Albrecht's Nystroem method of order 6 */
     KD_ENGINE_KS_EULER,  /* the Kerr-Schild Hamiltonian on the device: symplectic Euler */
-    KD_ENGINE_KS_RK4,    /* the same with classical Runge-Kutta */
-    KD_ENGINE_KS_TAO6,   /* the same with Tao's extended phase space and Yoshida's order 6; these three give no delay */
+    KD_ENGINE_KS_RK4,    /* the Kerr-Schild Hamiltonian on the device: classical Runge-Kutta */
+    KD_ENGINE_KS_TAO6,   /* the same Hamiltonian in Tao's extended phase space: Yoshida's order 6. No KS engine gives a
+                          * delay */
     KD_ENGINE_COUNT
 };
 enum kd_precision { KD_PRECISION_F32, KD_PRECISION_F64 };
@@ -41,8 +43,9 @@ struct kd_accuracy_request {
     int profile;    /* enum kd_profile; -1: none was named */
     int engine;     /* enum kd_engine; -1: any */
     int precision;  /* enum kd_precision; -1: any */
-    uint32_t steps; /* per half period, a multiple of 4; 0: those of the profile or of the engine */
-    /* largest relative error of the crossing radii, by the table; INFINITY: none was asked for, the profile decides */
+    uint32_t steps; /* per half period, a multiple of 4; 0: as many as the profile or the engine has */
+    /* largest relative error of the crossing radii, by the table; INFINITY: no tolerance was asked for, and the profile
+     * decides */
     double tolerance;
 };
 
@@ -50,11 +53,11 @@ struct kd_setting {
     enum kd_engine engine;
     enum kd_precision precision;
     uint32_t steps; /* 0 for the closed form */
-    /* relative error of the crossing radii that the table gives for it; NaN: no tolerance was asked for */
+    /* relative error of the crossing radii that the table gives for this setting; NaN: no tolerance was asked for */
     double holds;
 };
 
-/* 99 of 100 rays by the closed form are within this tolerance by their own error (docs/accuracy.md). The closed form
+/* The closed form's own error estimate is within this tolerance for 99 of 100 rays (docs/accuracy.md). The closed form
  * is used where no row of the table meets a tolerance. */
 #define KD_CLOSED_HOLDS 1e-12
 
@@ -62,15 +65,16 @@ struct kd_setting {
 
 struct kd_accuracy_request kd_accuracy_request_of(const struct kd_scene *scene);
 
-/* Whether the result depends on the device; false: the closed form fulfils it on any device. */
+/* Whether the result depends on the device. False: the closed form can serve the request on any device. */
 bool kd_accuracy_request_needs_device(const struct kd_accuracy_request *asked_accuracy);
 
-/* With a tolerance: picks the fastest row of the table that meets it, among the permitted engines and precisions;
- * steps must not be named. Without: each of engine, precision and steps that is not named comes from the profile;
- * without a profile it is the closed form in double precision. float64: whether the device has double precision. A
- * profile that needs it falls back to the closed form if it has not; so does a tolerance that no row meets.
- * KD_EINVAL at /accuracy/... for a contradiction, a tolerance that cannot be met, or what this device cannot do.
- * table may be NULL if no tolerance is asked for. */
+/* Without a tolerance, each of engine, precision and steps that is not named comes from the profile; without a profile
+ * it is the closed form in double precision. With a tolerance, picks the fastest row of the table that meets it, among
+ * the permitted engines and precisions; steps must not be named.
+ * float64: whether the device has double precision. If it has not, a profile that needs double precision falls back to
+ * the closed form. A tolerance that no row meets also falls back to it.
+ * KD_EINVAL at /accuracy/... for a contradiction, a tolerance that cannot be met, or what this device cannot do. table
+ * may be NULL if no tolerance is asked for. */
 enum kd_status kd_setting_of(const struct kd_accuracy_request *asked_accuracy, const struct kd_accuracy_table *table,
                              bool float64, struct kd_setting *out, struct kd_error *error);
 

@@ -11,7 +11,7 @@
 
 #define FORMAT 1 /* version of the document; a table of another version is measured again */
 
-/* Four digits: further ones vary from run to run. */
+/* Writes four digits: further digits vary from run to run. */
 static void add_figure(struct kd_json *json, const char *name, double value)
 {
     char text[32];
@@ -49,7 +49,7 @@ static void add_row(struct kd_json *json, const struct kd_accuracy_table *table,
     kd_json_string(json, "engine", kd_engine_name(row->engine));
     kd_json_string(json, "precision", kd_precision_name(row->precision));
     kd_json_number(json, "steps", row->steps);
-    add_figure(json, "holds", kd_accuracy_holds(row)); /* for readers; derived from the rest */
+    add_figure(json, "holds", kd_accuracy_holds(row)); /* for readers; derived from the row's other numbers */
     kd_json_object(json, "sets");
     for (int k = 0; k < KD_ACCURACY_SETS; k++)
         if (row->sets[k].rays)
@@ -75,7 +75,7 @@ enum kd_status kd_accuracy_to_json(const struct kd_accuracy_table *table, struct
     kd_json_string(json, "skipped", table->skipped);
     kd_json_string(json, "reference", kd_engine_name(KD_ENGINE_CLOSED));
     kd_json_number(json, "orders", KD_ACCURACY_ORDERS);
-    kd_json_number(json, "quantile", 0.99); /* of the bulk set, for "holds" */
+    kd_json_number(json, "quantile", 0.99); /* quantile of the bulk set's errors, for "holds" */
     kd_json_object(json, "sets");
     for (int k = 0; k < KD_ACCURACY_SETS; k++)
         kd_json_string(json, kd_accuracy_set_names[k], kd_accuracy_set_rays[k]);
@@ -94,7 +94,7 @@ static double figure(const cJSON *object, const char *name)
     return cJSON_IsNumber(item) ? item->valuedouble : NAN;
 }
 
-/* A whole number of the document. Anything else, or a number that is too large, gives UINT32_MAX, which no reader
+/* Reads a whole number of the document. Anything else, or a number that is too large, gives UINT32_MAX, which no reader
  * accepts. */
 static uint32_t whole(const cJSON *object, const char *name)
 {

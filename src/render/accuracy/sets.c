@@ -41,7 +41,7 @@ uint32_t kd_accuracy_views(enum kd_accuracy_set set, struct kd_accuracy_view out
     }
 }
 
-/* Point k of the sequence in the unit square. */
+/* Coordinate of point k of the sequence in the unit square, from the sequence's step along that axis. */
 static double fraction(size_t k, double step)
 {
     double x = 0.5 + step * (double)(k + 1);

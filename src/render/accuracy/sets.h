@@ -2,10 +2,12 @@
  *
  * A set has one or more views; a view is one hole seen by one observer at infinity. Positions come from a
  * low-discrepancy sequence (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences": multiples of
- * 1/g and 1/g^2 modulo 1, g the plastic number), so that none lies on an axis of symmetry. They are not rounded: the
- * rounding by single precision counts as its error. Rays within 5 % of the critical curve belong to the
- * near-critical set alone, with all their crossings of order 2: there any method has the arithmetic's error times a
- * condition number of hundreds. rho is measured from the centre of physics/null/critical.h. Pure; any thread. */
+ * 1/g and 1/g^2 modulo 1, g the plastic number), so that none lies on an axis of symmetry. Positions are not rounded:
+ * if an engine rounds them to single precision, that counts as the engine's error.
+ *
+ * Rays within 5 % of the critical curve belong to the near-critical set only, with all their crossings of order 2:
+ * there the error of any method is that of the arithmetic times a condition number of hundreds. rho is measured from
+ * the centre of physics/null/critical.h. Pure; any thread. */
 #ifndef KD_RENDER_ACCURACY_SETS_H
 #define KD_RENDER_ACCURACY_SETS_H
 
@@ -29,7 +31,7 @@ struct kd_accuracy_view { double spin, inclination_deg; };
 
 uint32_t kd_accuracy_views(enum kd_accuracy_set set, struct kd_accuracy_view out[KD_ACCURACY_VIEWS]);
 
-/* The n rays of one of its views: 2 n numbers. */
+/* Writes the n rays of one view of the set: 2 n numbers. */
 void kd_accuracy_rays(enum kd_accuracy_set set, uint32_t view, size_t n, double *alpha_beta);
 
 #endif

@@ -31,7 +31,7 @@ static enum kd_status refuse(const struct kd_accuracy_table *table, const struct
         return kd_error_field(error, "/accuracy/tolerance",
                               "the accuracy table of this device has no row that can be relied on "
                               "for what was asked; `kerrd bench accuracy` makes a new one");
-    /* Rounded up, so that a request for the printed number succeeds. */
+    /* The number is rounded up, so that a request for the printed number succeeds. */
     return kd_error_field(error, "/accuracy/tolerance",
                           "tolerance is %.3g, %s was measured to hold %.3g and above (%s %s with %u steps); the engine "
                           "\"closed\" is what it was measured against",

@@ -2,10 +2,10 @@
  * accuracy` measures it, GET /v1/accuracy serves it, and accuracy.tolerance is looked up in it. Plain values; any
  * thread.
  *
- * Errors are those of render/rays/rays.h against KD_ENGINE_CLOSED on named sets of rays (render/accuracy/sets.h).
- * They cover all orders together, over the crossings that both methods have from the ISCO to KD_ACCURACY_FAR:
- * relative for r and g, absolute for phi (radians) and delay (M). A ray with another fate or another number of
- * crossings is counted in `differ`. */
+ * Errors are those of render/rays/rays.h against KD_ENGINE_CLOSED on named sets of rays (render/accuracy/sets.h). An
+ * error covers all orders together, over the crossings that both methods have from the ISCO to KD_ACCURACY_FAR. It is
+ * relative for r and g, absolute for phi (radians) and delay (M). A ray whose fate or number of crossings differs from
+ * the closed form's is counted in `differ`. */
 #ifndef KD_RENDER_ACCURACY_TABLE_H
 #define KD_RENDER_ACCURACY_TABLE_H
 
@@ -35,20 +35,20 @@ struct kd_accuracy_entry {
 };
 
 struct kd_accuracy_row {
-    enum kd_engine engine; /* KD_ENGINE_CLOSED: only its speed, on one core of the host */
+    enum kd_engine engine; /* for KD_ENGINE_CLOSED the row has only a speed, on one core of the host */
     enum kd_precision precision;
     uint32_t steps;
     struct kd_accuracy_entry sets[KD_ACCURACY_SETS];
 };
 
 struct kd_accuracy_table {
-    char version[32], date[32]; /* of kerrd; UTC, ISO 8601 */
+    char version[32], date[32]; /* version of kerrd; date in UTC, ISO 8601 */
     char command[256];
     char machine[256], device[800]; /* the processor and system; the Vulkan device with its driver */
     char skipped[400];              /* what this device cannot do; "" if nothing */
     uint32_t cores;                 /* cores that the device computes on; 0 if it is not a CPU */
     bool device_clock, quick;
-    double seconds; /* device time of one speed measurement; less where a million rays take less */
+    double seconds; /* device time of one speed measurement; less where a million rays need less */
     uint32_t n;
     struct kd_accuracy_row rows[KD_ACCURACY_ROWS];
 };
@@ -57,7 +57,7 @@ struct kd_accuracy_choice {
     enum kd_engine engine;
     enum kd_precision precision;
     uint32_t steps;
-    double error, rays_per_s; /* the tolerance that it meets; its speed on the bulk set */
+    double error, rays_per_s; /* the tolerance that the row meets; its speed on the bulk set */
 };
 
 /* The tolerance that a row meets; INFINITY if none. */
@@ -70,11 +70,11 @@ enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double 
                                   const struct kd_accuracy_limits *limits, struct kd_accuracy_choice *out,
                                   struct kd_error *error);
 
-/* The table used for tolerances until this device has its own: of llvmpipe, from bench/results. Errors hardly depend
- * on the device, speeds do. Any thread; never freed; NULL if out of memory. */
+/* The table used for tolerances until this device has a table of its own. It is that of llvmpipe, from bench/results:
+ * errors hardly depend on the device, speeds do. Any thread; never freed; NULL if out of memory. */
 const struct kd_accuracy_table *kd_accuracy_built_in(void);
 
-/* Appends the document of GET /v1/accuracy; reads it back, with KD_EINVAL for any other text. */
+/* The first appends the document of GET /v1/accuracy. The second reads it back, with KD_EINVAL for any other text. */
 enum kd_status kd_accuracy_to_json(const struct kd_accuracy_table *table, struct kd_buffer *out);
 enum kd_status kd_accuracy_from_json(const char *text, size_t length, struct kd_accuracy_table *out,
                                      struct kd_error *error);

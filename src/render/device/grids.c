@@ -11,8 +11,8 @@
 
 struct own {
     struct kd_vk_buffer *nodes;
-    char of[KD_ASSET_NAME]; /* the asset's hash of the uploaded grid */
-    bool there;             /* whether there is one */
+    char of[KD_ASSET_NAME]; /* hash of the asset whose grid is uploaded */
+    bool there;             /* whether a grid is uploaded */
 };
 
 static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }
@@ -76,7 +76,7 @@ static enum kd_status prepare(const struct kd_emitter_buffers_work *work, const 
         return KD_OK;
     if (own->there && !strcmp(own->of, scene->volume.grid)) {
         struct kd_cached_documents_grid *at = kept_of(&work->renderer->grids, hash_of(scene));
-        if (at) /* `tell` has read it already */
+        if (at) /* `tell` has read the grid already */
             kd_matter_grid_finish(&at->grid);
         return KD_OK;
     }
@@ -96,7 +96,7 @@ done:
     return status;
 }
 
-/* Location of the grid's nodes, and the range of radii common to scene and grid. */
+/* Sets the location of the grid's nodes, and the range of radii common to scene and grid. */
 static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit,
                            size_t size, struct kd_error *error)
 {
@@ -122,7 +122,7 @@ static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, 
     to->grid_field = (float)log2(g->field);
     to->inner = (float)fmin(inner, outer);
     to->outer = (float)outer;
-    if (kd_scene_is_radio_alone(scene)) { /* if it is the only volume, the march finds its edges */
+    if (kd_scene_is_radio_alone(scene)) { /* if the grid is the only volume, the march finds its edges */
         out->frame.along_least = (float)(1 / outer);
         out->frame.along_most = (float)fmin(1 / fmin(inner, outer), 1e30);
     }

@@ -24,7 +24,7 @@ struct kd_background_render {
     struct kd_store store;
     struct kd_prepared prepared;
     bool busy;
-    uint64_t used; /* time of the last use, counted */
+    uint64_t used; /* the value of a counter at the last use, to find the least recently used */
 };
 
 struct kd_renderer {
@@ -33,7 +33,7 @@ struct kd_renderer {
         char *device, *cache_dir;
         bool validate, compiles_only;
         uint32_t deadline_ms;
-    } opening;                /* how it was opened */
+    } opening;                /* how the device was opened */
     struct kd_vk_info opened; /* description of the opened device */
     char *files;              /* kd_vk_cache_file without a suffix; NULL: there is no folder */
     struct kd_kernels kernels;
@@ -56,17 +56,19 @@ struct kd_renderer {
     struct kd_grids grids;
     struct kd_normalised normalised;
     pthread_mutex_t lock;        /* guards capacity and memory */
-    struct kd_capacity capacity; /* without the host's limit, which kd_renderer_capacity applies */
+    struct kd_capacity capacity; /* not reduced to the host's limit, which kd_renderer_capacity applies */
     struct kd_memory_watch memory;
     _Atomic uint64_t held; /* bytes of device buffers, as of the last frame */
     _Atomic uint64_t kept_bytes[KD_N_KEPT_KINDS];
-    _Atomic uint64_t opened_bytes;                /* resident after the device was last opened */
-    _Atomic uint64_t started_bytes, started_heap; /* resident, and in use of the heap, after it was first opened */
-    struct kd_accuracy_table *accuracy; /* of this device, as on disk when the renderer was created; NULL: none */
+    _Atomic uint64_t opened_bytes;                /* bytes that were resident after the device was last opened */
+    _Atomic uint64_t started_bytes, started_heap; /* after the device was first opened: bytes resident; bytes of the
+                                                   * heap in use */
+    struct kd_accuracy_table *accuracy; /* accuracy table of this device, as on disk when the renderer was created;
+                                         * NULL: none */
     struct kd_verdict verdict;
     struct kd_capacity kept; /* as stored in the file */
-    uint32_t frames;         /* frames so far, as learn.c counts them */
-    bool probing;            /* the least of the frames' costs counts, instead of a mean */
+    uint32_t frames;         /* number of frames so far, as learn.c counts them */
+    bool probing;            /* a pass costs the smallest of the measured costs instead of their mean */
     char name[800];          /* the next two, joined */
     char device[256], driver[520];
 };

@@ -378,7 +378,7 @@ static void asked_accuracy(struct kd_kernels *kernels, const struct kd_vk_pipeli
             return;
     struct kd_kernel_entry *known = find(kernels, source, key);
     if (known)
-        known->used = ++kernels->clock; /* otherwise it might be evicted, and be made again for each frame */
+        known->used = ++kernels->clock; /* otherwise the kernel might be evicted, and be made again for each frame */
     if (known || all->n == KD_KERNEL_WISHES || all->n == room_of(kernels))
         return;
     struct kd_kernel_request *w = &all->at[all->n++];
@@ -438,7 +438,8 @@ static void *make_wishes(void *user)
     return NULL;
 }
 
-/* Longest SPIR-V first, as it takes longest: started last, it would keep one thread busy while the others are idle. */
+/* Sorts by SPIR-V length, longest first. The longest takes longest: started last, it would keep one thread busy while
+ * the others are idle. */
 static int longer_first(const void *a, const void *b)
 {
     const size_t x = ((const struct kd_kernel_request *)a)->source->spirv_bytes,
@@ -472,7 +473,7 @@ void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct 
 {
     for (const struct kd_kernel_request *w = made->at; w < made->at + made->n; w++)
         if (w->made && find(kernels, w->source, w->constants))
-            kd_vk_pipeline_destroy(vk, w->made); /* another thread has made it meanwhile */
+            kd_vk_pipeline_destroy(vk, w->made); /* another thread has made this kernel meanwhile */
         else if (w->made)
             keep(kernels, vk, w->source, w->constants, w->n, w->made);
     kernels->noted = kernels->clock;

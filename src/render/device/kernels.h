@@ -9,17 +9,17 @@ enum kd_kernel {
     KD_KERNEL_LENS_CLOSED,
     KD_KERNEL_LENS_MAP,
     KD_KERNEL_FOOTPRINT,
-    KD_KERNEL_FOOTPRINT_TEXELS, /* the same, reading the lens map as texels */
+    KD_KERNEL_FOOTPRINT_TEXELS, /* the footprint kernel, reading the lens map as texels */
     KD_KERNEL_LENS_CELLS,
     KD_KERNEL_LENS_FILL,
-    KD_KERNEL_LENS_FILL_TEXELS, /* the same, reading nodes as texels */
+    KD_KERNEL_LENS_FILL_TEXELS, /* the fill kernel, reading nodes as texels */
     KD_KERNEL_BETWEEN,
     KD_KERNEL_SETTLE,
     KD_KERNEL_RAYS_F32,
     KD_KERNEL_RAYS_F64,
     KD_KERNEL_RAYS_KS_F32,
     KD_KERNEL_RAYS_KS_F64,
-    KD_KERNEL_RAYS_TRACE_F32, /* the same four, which also record each step */
+    KD_KERNEL_RAYS_TRACE_F32, /* the four kernels of rays above, which also record each step */
     KD_KERNEL_RAYS_TRACE_F64,
     KD_KERNEL_RAYS_KS_TRACE_F32,
     KD_KERNEL_RAYS_KS_TRACE_F64,
@@ -30,16 +30,16 @@ enum kd_kernel {
     KD_KERNEL_STAR_IMAGES,
     KD_KERNEL_STAR_IMAGES_TEXELS,
     KD_KERNEL_TRANSFER,
-    KD_KERNEL_TRANSFER_TEXELS, /* likewise */
-    KD_KERNEL_TRANSFER_PROBE,  /* one ray, reported emitter by emitter; and in volumes */
+    KD_KERNEL_TRANSFER_TEXELS, /* the transfer kernel, reading texels */
+    KD_KERNEL_TRANSFER_PROBE,  /* for a single ray, of which each emitter is reported; the next one: through volumes */
     KD_KERNEL_MARCH_PROBE,
     KD_KERNEL_LAYERS,
-    KD_KERNEL_MARCH,        /* the same two for scenes with volumes */
-    KD_KERNEL_MARCH_PIECES, /* the first, for rays that continue from a stored state */
+    KD_KERNEL_MARCH,        /* the transfer and layers kernels for scenes with volumes */
+    KD_KERNEL_MARCH_PIECES, /* the transfer kernel for rays that continue from a stored state */
     KD_KERNEL_LAYERS_MARCH,
     KD_KERNEL_PHOTOMETRY,
     KD_KERNEL_EXPOSE,
-    KD_KERNEL_BLOOM_BRIGHT, /* each followed by its variant that reads texels */
+    KD_KERNEL_BLOOM_BRIGHT, /* each bloom and beam kernel is followed by its variant that reads texels */
     KD_KERNEL_BLOOM_BRIGHT_TEXELS,
     KD_KERNEL_BLOOM_GATHER,
     KD_KERNEL_BLOOM_GATHER_TEXELS,
@@ -56,7 +56,7 @@ enum kd_kernel {
     KD_KERNEL_BEAM_SPREAD,
     KD_KERNEL_BEAM_SPREAD_TEXELS,
     KD_KERNEL_POST,
-    KD_KERNEL_POST_TEXELS, /* the same, reading texels; kd_kernel_post chooses */
+    KD_KERNEL_POST_TEXELS, /* the kernel before, reading texels; kd_kernel_post chooses */
     KD_KERNEL_POST_BLOOM,
     KD_KERNEL_POST_BLOOM_TEXELS,
     KD_KERNEL_POST_HEAT,
@@ -93,7 +93,7 @@ struct kd_kernels {
     uint64_t clock;
     bool noting;
     struct kd_kernel_requests wishes;
-    uint64_t noted; /* the clock when the last of them were made */
+    uint64_t noted; /* value of the clock when the latest noted kernels were made */
 };
 
 /* The pipeline of a kernel with specialisation constants 0..n-1; if the cache is full, the least recently used one
@@ -101,7 +101,7 @@ struct kd_kernels {
 enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum kd_kernel kernel,
                               const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out,
                               struct kd_error *error);
-/* The same for a kernel that is not in the list, such as an emitter's (render/emit/own.h). */
+/* As kd_kernels_get, for a kernel that is not in the list, such as an emitter's (render/emit/own.h). */
 enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
                                  const struct kd_vk_pipeline_params *source, const uint32_t *constants, size_t n,
                                  const struct kd_vk_pipeline **out, struct kd_error *error);
@@ -116,11 +116,11 @@ void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk);
 void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_requests *out);
 void kd_kernel_requests_make(struct kd_kernel_requests *wishes, struct kd_vk *vk);
 void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_requests *made);
-/* Whether a device reads the radiance of this many pixels as texels of four floats: software devices take a third of
- * the time for them, but differ in how many they bind. */
+/* Whether a device reads the radiance of this many pixels as texels of four floats. Software devices take a third of
+ * the time for texels, but differ in how many they bind. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
-bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes); /* the same for bytes of anything */
-/* the same for any lens map, one number a texel: software devices take less than half the time */
+bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes); /* as above, for this many bytes of anything */
+/* as above, for any lens map, with one number a texel: software devices take less than half the time */
 bool kd_kernels_map_as_texels(const struct kd_vk *vk);
 bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom);
 static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom, bool heat)
@@ -130,9 +130,9 @@ static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom, bool heat)
                     : KD_KERNEL_POST) +
            (texels ? 1 : 0);
 }
-/* Keeps the n most recently used ones. */
+/* Keeps the n most recently used kernels. */
 void kd_kernels_rest(struct kd_kernels *kernels, struct kd_vk *vk, size_t n);
-uint64_t kd_kernels_spirv_bytes(const struct kd_kernels *kernels); /* of the cached kernels */
+uint64_t kd_kernels_spirv_bytes(const struct kd_kernels *kernels); /* size of the cached kernels' SPIR-V */
 void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk);
 
 #endif

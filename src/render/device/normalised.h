@@ -7,15 +7,15 @@
 
 enum { KD_NORMALISED = 16 };
 
-/* hash: of everything in the scene that the flux depends on, and of the flux. matter: the same without the camera
- * and the picture's shape. */
+/* hash: hash of everything in the scene that the flux depends on, and of the flux. matter: the same hash without the
+ * camera and the picture's shape. */
 struct kd_normal {
     char hash[65], matter[65];
     double scale;
 };
 struct kd_normalised {
     struct kd_normal kept[KD_NORMALISED];
-    uint32_t n; /* entries so far */
+    uint32_t n; /* number of densities stored so far */
 };
 
 #endif

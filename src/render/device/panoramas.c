@@ -110,7 +110,7 @@ static const struct kd_panorama *make_first(struct kd_panoramas *all)
                             : all->blank ? make_blank(&made, &why)
                                          : make(all->assets, &key, &made, &why);
     pthread_mutex_lock(&all->lock);
-    const bool ahead = all->asked[0].ahead; /* it may have changed meanwhile */
+    const bool ahead = all->asked[0].ahead; /* the flag may have changed meanwhile */
     if (status && !ahead) {
         memcpy(all->broken, key.of, sizeof all->broken);
         all->why = why;
@@ -124,7 +124,7 @@ static const struct kd_panorama *make_first(struct kd_panoramas *all)
     return status || recalled || *key.sky.image ? NULL : place;
 }
 
-/* Writes the file without the lock, on the thread, which alone evicts slots: so the words stay valid. */
+/* Writes the file without the lock. Only this thread evicts slots, so the words stay valid meanwhile. */
 static void keep(struct kd_panoramas *all, int32_t seed, const struct kd_panorama *fresh)
 {
     if (!all->file || !fresh)
@@ -184,7 +184,7 @@ static struct kd_panorama_key *asked(struct kd_panoramas *all, const char *of)
     return NULL;
 }
 
-/* The bytes of a hash never change, so an invalid picture stays invalid. */
+/* Whether a panorama failed because its picture is invalid. The bytes of a hash never change, so it stays invalid. */
 static bool is_broken(const struct kd_panoramas *all, const char *of)
 {
     return all->why.status == KD_EINVAL && !strcmp(all->broken, of);
@@ -233,7 +233,7 @@ void kd_panorama_ahead(struct kd_panoramas *all, const char *hash)
     pthread_mutex_unlock(&all->lock);
 }
 
-/* With the lock: waits for a panorama, or makes it here if there is no thread. NULL: it has failed. */
+/* With the lock: waits for a panorama, or makes it here if there is no thread. NULL: the panorama has failed. */
 static struct kd_panorama *wait_for(struct kd_panoramas *all, const struct kd_panorama_key *key)
 {
     if (!is_broken(all, key->of) && !strcmp(all->broken, key->of)) /* a failure for lack of memory is tried again */

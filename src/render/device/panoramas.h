@@ -14,10 +14,10 @@
 struct kd_panorama {
     char of[KD_ASSET_NAME];     /* the asset's hash, or "seed N"; "": the slot is free */
     uint32_t *words;            /* all levels: render/sky/panorama.h */
-    uint32_t columns, rows;     /* of the finest level */
+    uint32_t columns, rows;     /* size of the finest level */
     char credit[KD_SKY_CREDIT]; /* author of the picture; "": unknown */
     uint64_t used;              /* time of the last use, counted */
-    bool shown;                 /* it was delivered to a request */
+    bool shown;                 /* the panorama was delivered to a request */
 };
 enum { KD_PANORAMAS = 3, KD_PANORAMAS_ASKED = 16 };
 
@@ -28,14 +28,15 @@ struct kd_panorama_key {
     bool ahead; /* preloaded: nobody waits for it */
 };
 struct kd_panoramas {
-    pthread_mutex_t lock; /* guards all of it */
+    pthread_mutex_t lock; /* guards everything below */
     pthread_cond_t changed;
     struct kd_panorama at[KD_PANORAMAS], *given; /* given: the last result of kd_panorama_of, which is not evicted */
     uint64_t used;
     struct kd_panorama_key asked[KD_PANORAMAS_ASKED]; /* the first one is in progress */
     unsigned n_asked;
     bool runs;                  /* the thread is running */
-    char broken[KD_ASSET_NAME]; /* the last one that failed; an invalid picture is not read again. "": none failed */
+    char broken[KD_ASSET_NAME]; /* the last panorama that failed; an invalid picture is not read again. "": none failed
+                                 */
     struct kd_error why;
     const struct kd_assets *assets; /* NULL: there are none */
     char *file; /* file for the first Milky Way, for later processes; NULL: none, or already written */
@@ -50,23 +51,23 @@ void kd_panoramas_init(struct kd_panoramas *panoramas, const struct kd_assets *a
  * before the first request. */
 void kd_panoramas_keep_at(struct kd_panoramas *panoramas, char *path);
 
-/* Starts making the panorama of a scene if it has one that is not cached. Returns whether it is in progress.
- * Panoramas that were not delivered yet are evicted last. A waiting client calls again, so that an evicted one is
- * made once more. */
+/* Starts making the panorama of a scene, if the scene has one and it is not cached. Returns whether the panorama is in
+ * progress. Panoramas that were not delivered yet are evicted last. A waiting client calls again, so that a panorama
+ * that was evicted meanwhile is made once more. */
 bool kd_panorama_begin(struct kd_panoramas *panoramas, const struct kd_scene *scene);
 /* Starts reading an asset that may become a sky, if a slot is free and nothing else is in progress, so that later
- * requests wait less. It is evicted first, and errors are reported to whoever requests it. */
+ * requests wait less. Such a panorama is evicted first, and errors are reported to whoever requests it. */
 void kd_panorama_ahead(struct kd_panoramas *panoramas, const char *hash);
-/* The panorama of a scene that has one; waits for it if necessary: some tenths of a second for a Milky Way, a second
- * for a large picture. Valid until the next call. Render thread only. KD_EINVAL at /sky/image: the asset is gone or
- * is not a valid picture; KD_ENOMEM. */
+/* The panorama of a scene that has one. Waits for it if necessary: some tenths of a second for a Milky Way, a second
+ * for a large picture. Valid until the next call. Render thread only. KD_EINVAL at /sky/image: the asset is gone or is
+ * not a valid picture; KD_ENOMEM. */
 enum kd_status kd_panorama_of(struct kd_panoramas *panoramas, const struct kd_scene *scene,
                               const struct kd_panorama **out, struct kd_error *error);
 /* Waits for the panorama in progress and drops other requests: `made` is not called any more until a new request. */
 void kd_panoramas_stop(struct kd_panoramas *panoramas);
 /* Evicts all but the n most recent ones, unless one is in progress. Render thread only, while no panorama is in use. */
 void kd_panoramas_rest(struct kd_panoramas *panoramas, unsigned n);
-uint64_t kd_panoramas_bytes(struct kd_panoramas *panoramas); /* bytes of their pixels; any thread */
+uint64_t kd_panoramas_bytes(struct kd_panoramas *panoramas); /* bytes of the cached panoramas' pixels; any thread */
 void kd_panoramas_finish(struct kd_panoramas *panoramas);
 
 #endif

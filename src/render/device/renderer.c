@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Three quarters of the heap, but not what other processes use. */
+/* Device memory for pictures: three quarters of the heap, but no memory that other processes use. */
 static uint64_t free_bytes(const struct kd_vk_info *info)
 {
     uint64_t share = info->heap_bytes / 4 * 3;
@@ -54,7 +54,7 @@ static void load_accuracy(struct kd_renderer *r)
     r->capacity.accuracy_measured = r->accuracy;
 }
 
-/* In the folder of the driver's cache, shared by all devices. */
+/* Path of the file in the folder of the driver's cache, which all devices share. */
 static char *milky_way_file(const struct kd_vk *vk)
 {
     char *own = kd_vk_cache_file(vk, ""), *slash = own ? strrchr(own, '/') : NULL, *out = NULL;
@@ -80,7 +80,7 @@ static enum kd_status open_device(struct kd_renderer *r, struct kd_error *error)
     return KD_OK;
 }
 
-/* Everything on the device is lost with it. */
+/* Closes the device. Everything on the device is lost with it. */
 static void close_device(struct kd_renderer *r)
 {
     if (!r->vk)
@@ -174,7 +174,8 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
     free(renderer);
 }
 
-/* A new driver version counts as another device: pictures and measured values may differ. */
+/* Whether two descriptions are of the same device. A new driver version counts as another device: pictures and measured
+ * values may differ. */
 static bool is_same(const struct kd_vk_info *a, const struct kd_vk_info *b)
 {
     return !memcmp(a->uuid, b->uuid, sizeof a->uuid) && a->driver_version == b->driver_version &&
@@ -185,7 +186,7 @@ bool kd_renderer_hangs(const struct kd_renderer *renderer) { return renderer->vk
 
 enum kd_status kd_renderer_reopen(struct kd_renderer *r, struct kd_error *error)
 {
-    /* submitted work may hang only now; the device then cannot be closed, and a second one is never opened */
+    /* Submitted work may hang only now. The device then cannot be closed, and a second device is never opened. */
     if (r->vk)
         kd_vk_wait(r->vk, 0, NULL);
     if (kd_renderer_hangs(r))

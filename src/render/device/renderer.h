@@ -51,56 +51,57 @@ bool kd_renderer_hangs(const struct kd_renderer *renderer);
 
 /* A copy of the present capacity, for kd_plan_make. Its accuracy table stays the renderer's. Any thread. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out);
-/* Starts reading the picture of a scene's sky if it has one that is not cached: up to a second. Returns whether that
- * is in progress. A render waits for it with the device held; a client that polls until it is done and then renders
- * leaves the device to others meanwhile. Any thread. */
+/* Starts reading the picture of a scene's sky, if the scene has one that is not cached; this takes up to a second.
+ * Returns whether the reading is in progress. A render would wait for it while it holds the device. A client that polls
+ * until the reading is done, and renders then, leaves the device to others meanwhile. Any thread. */
 bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *scene);
 /* Starts reading an asset that may become a sky (panoramas.h). Any thread. */
 void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash);
 void kd_renderer_sky_stop(
-    struct kd_renderer *renderer); /* afterwards none is in progress, and sky_made is not called until the next begin */
+    struct kd_renderer *renderer); /* afterwards no sky is in progress; sky_made is not called until the next begin */
 /* Device, driver, precision, memory, limits, versions: the JSON of GET /v1/device. */
 enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_buffer *out);
 /* One line: "llvmpipe (LLVM 15.0.6, 256 bits), llvmpipe Mesa 22.3.6". Any thread. */
 const char *kd_renderer_device_name(const struct kd_renderer *renderer);
-/* Its parts: device and driver. Any thread. */
+/* Parts of that line: device and driver. Any thread. */
 const char *kd_renderer_type_name(size_t i); /* name of the i-th type of devices; NULL after the last */
 const char *kd_renderer_device(const struct kd_renderer *renderer);
 const char *kd_renderer_driver(const struct kd_renderer *renderer);
-/* Device memory of its buffers as of the last frame, bytes. Any thread. */
+/* Bytes of device memory in the renderer's buffers as of the last frame. Any thread. */
 uint64_t kd_renderer_held(const struct kd_renderer *renderer);
 /* Path of a file that belongs to this device and driver version (vk/vk.h): malloc'd, NULL if there is no folder. Any
  * thread. */
 char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix);
 uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer);
 
-/* Measured accuracy of a picture: errors of crossing radii on a sample of its rays against the closed form in
- * double. sampled is 0 if that is impossible: a picture too large to keep its lens map, or one without crossings. */
+/* Measured accuracy of a picture: errors of crossing radii on a sample of its rays against the closed form in double.
+ * sampled is 0 if no error can be measured: the picture is too large to keep its lens map, or has no crossings. */
 struct kd_accuracy_report {
     uint64_t undecided; /* rays of the whole picture that were given up; shown in magenta */
-    /* for an interpolated lens map: rays that were traced for it (nodes shared by slices count twice); pixels' rays
-     * in smooth cells. 0: not interpolated */
+    /* for an interpolated lens map: number of rays that were traced for it (nodes shared by slices count twice); number
+     * of the pixels' rays in smooth cells. 0: not interpolated */
     uint64_t traced, interpolated;
-    uint32_t sampled, crossings; /* rays traced again; crossings compared */
-    uint32_t differ;             /* crossings that only one of the two has; rays with different fates */
+    uint32_t sampled, crossings; /* rays that were traced again; crossings that were compared */
+    uint32_t differ;             /* number of crossings that only one of the two has, plus rays with different fates */
     double median, worst;        /* relative error of the radius */
     uint64_t followed;           /* rays traced beyond the plan's, by refinement, on */
     /* pixels with more rays, traced or interpolated; only with image.samples "auto", as the next three */
     uint64_t refined, between;
     uint32_t pixel_sampled; /* pixels compared with 64 rays each */
-    /* difference of displayed values there, as a fraction of white: root mean square for the picture; worst of the
-     * sample */
+    /* difference of displayed values at these pixels, as a fraction of white: root mean square for the picture; worst
+     * of the sample */
     double pixel_error, pixel_error_worst;
     /* for scenes with volumes: number of rays that were followed again KD_MARCH_FINER times as finely */
     uint32_t volume_sampled;
-    /* change of their light, relative to it or to KD_MARCH_DARK of the brightest: 90th percentile; worst; 1 if light
-     * is not finite or a ray has no end */
+    /* change of the light of these rays, relative to that light or to KD_MARCH_DARK of the brightest: 90th percentile;
+     * worst. 1 if light is not finite or a ray has no end */
     double volume_error, volume_error_worst;
-    /* of the displayed picture: rays given up in volumes, also magenta, and pixels whose light is not finite */
+    /* for the displayed picture: number of rays given up in volumes, also magenta, plus pixels whose light is not
+     * finite */
     uint64_t lost;
 };
 
-/* Pictures that may be rendered aside concurrently (render/frame/frame.h). */
+/* The most pictures that may be rendered in the background concurrently (render/frame/frame.h). */
 #define KD_BACKGROUND_RENDERS 8
 
 /* Called between slices of long work, with the completed fraction; return false to stop: KD_ECANCELLED. */

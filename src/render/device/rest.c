@@ -41,7 +41,7 @@ uint64_t kd_renderer_kept_sum(const struct kd_renderer *r)
     return named + more_than(resident_bytes(), r->opened_bytes + named);
 }
 
-/* Resident memory that no kind accounts for is either in the heap or `other`. Device memory is counted in full
+/* Resident memory that belongs to no other kind is either in the heap or `other`. Device memory is counted in full
  * although some pages may never have been touched; the heap is therefore limited to what is left. */
 void kd_renderer_kept(const struct kd_renderer *r, uint64_t out[KD_N_KEPT_KINDS])
 {
@@ -89,8 +89,8 @@ static void give_back(struct kd_renderer *r)
     kd_panoramas_rest(&r->panoramas, KD_REST_PANORAMAS);
 }
 
-/* Closes the device and reopens it. Any remaining growth of the process is reported, but not attributed to the
- * device, and is no reason to reopen it again. */
+/* Closes the device and reopens it. If the process has grown even so, the growth is reported, but not attributed to the
+ * device, and is no reason to reopen the device again. */
 static enum kd_status open_again(struct kd_renderer *r, struct kd_error *error)
 {
     enum kd_status status = kd_renderer_reopen(r, error);
@@ -111,7 +111,7 @@ enum kd_status kd_renderer_rest(struct kd_renderer *r, struct kd_error *error)
         return KD_OK;
     KD_TRY(kd_vk_wait(r->vk, 0, error));
     give_back(r);
-    KD_TRY(kd_vk_wait(r->vk, 0, error)); /* destroyed buffers are freed only now */
+    KD_TRY(kd_vk_wait(r->vk, 0, error)); /* buffers that were destroyed before are freed only now */
     kd_allocator_trim();
     kd_renderer_count(r);
     const uint64_t sum = kd_renderer_kept_sum(r);

@@ -40,20 +40,20 @@ static inline const char *kd_cached_documents_word(size_t kind)
 #undef KD_KEPT_WORD
     return kind < KD_N_KEPT_KINDS ? words[kind] : NULL;
 }
-/* Bytes of each kind. The device's kinds are as of the latest frame or rest; kernels are counted by their SPIR-V.
- * The last two divide what is resident beyond these and beyond the process when the device was first opened. heap:
- * in use there, mostly what lavapipe has compiled. other: code, stacks, freed memory not yet returned, and blocks of
- * a MiB and more in use for rendering, encoding or sending. Reads a file in /proc and inspects the heap, about a
- * millisecond. Any thread. */
+/* Bytes of each kind. The device's kinds are as of the latest frame or rest; kernels are counted by their SPIR-V. The
+ * last two kinds, `heap` and `other`, divide what is resident beyond the kinds above and beyond the size of the process
+ * when it first opened the device. heap: memory in use on the heap, mostly what lavapipe has compiled. other: code,
+ * stacks, freed memory that was not yet returned, and blocks of a MiB and more in use for rendering, encoding or
+ * sending. Reads a file in /proc and inspects the heap, about a millisecond. Any thread. */
 void kd_renderer_kept(const struct kd_renderer *renderer, uint64_t out[KD_N_KEPT_KINDS]);
 /* The sum of all kinds, without inspecting the heap, and without what remained after the device was reopened. Any
  * thread. */
 uint64_t kd_renderer_kept_sum(const struct kd_renderer *renderer);
 /* Updates the counts after each frame, without system calls. Render thread only. */
 void kd_renderer_count(struct kd_renderer *renderer);
-/* Frees everything except what the bounds above name, and returns the host's free memory to the kernel. Pictures
- * come out the same afterwards; those of the latest view as fast, unless the device had to be reopened
- * (KD_REST_BYTES). Errors as kd_renderer_reopen. Render thread only, while nothing is being rendered, here or aside. */
+/* Frees everything except what the bounds above name, and returns the host's free memory to the kernel. Later pictures
+ * are the same. Those of the latest view take no longer, unless the device had to be reopened (KD_REST_BYTES). Errors
+ * as kd_renderer_reopen. Render thread only, while nothing is being rendered, here or aside. */
 enum kd_status kd_renderer_rest(struct kd_renderer *renderer, struct kd_error *error);
 /* Call after the process has opened the device for the first time: what is resident now is not counted as kept. */
 void kd_renderer_begin_count(struct kd_renderer *renderer);

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Replaces a buffer by one with these bytes. */
+/* Replaces a buffer by a new one with the given bytes. */
 static enum kd_status upload(struct kd_renderer *r, struct kd_vk_buffer **to, const void *data, size_t bytes,
                              const char *name, struct kd_error *error)
 {
@@ -39,8 +39,8 @@ static int64_t cell_on(const struct kd_star *s, int face, int side)
     return ((int64_t)face * side + y) * side + x;
 }
 
-/* Start of each cell, shifted by one entry as `sort` needs it; places count from `from`. The last number is their
- * end. */
+/* Computes the start of each cell, shifted by one entry as `sort` needs it; places count from `from`. The last number
+ * is the end of the last cell. */
 static void count(const struct kd_stars *stars, int side, uint32_t from, uint32_t *cells)
 {
     const size_t n = (size_t)KD_FACE_TABLE(side) - 2;
@@ -56,9 +56,9 @@ static void count(const struct kd_stars *stars, int side, uint32_t from, uint32_
         cells[i] += cells[i - 1];
 }
 
-/* Sorts stars into cells, keeping their order, so that each cell has its brightest first. Meanwhile cells[c + 1]
- * advances from the start of cell c to its end, which is the start of the next. all: number of places, after which
- * the temperatures follow. */
+/* Sorts stars into cells, keeping their order, so that each cell has its brightest star first. Meanwhile cells[c + 1]
+ * advances from the start of cell c to its end, which is the start of the next. all: number of places, after which the
+ * temperatures follow. */
 static void sort(const struct kd_stars *stars, int side, uint32_t *cells, size_t all, float *rows)
 {
     for (size_t i = 0; i < stars->n; i++)
@@ -74,7 +74,8 @@ static void sort(const struct kd_stars *stars, int side, uint32_t *cells, size_t
         }
 }
 
-/* The table of coarse cells follows that of fine ones; so do their places. */
+/* Uploads the stars. The table of coarse cells follows that of fine ones; likewise the places of stars in coarse cells
+ * follow those in fine ones. */
 static enum kd_status send_stars(struct kd_renderer *r, struct kd_sky_buffers *b, const struct kd_scene *scene,
                                  struct kd_error *error)
 {
@@ -141,7 +142,7 @@ done:
 
 static void begin(struct kd_renderer *r, const struct kd_scene *scene) { kd_panorama_begin(&r->panoramas, scene); }
 
-/* The panorama's size and author. */
+/* Sets the panorama's size, and credits its author. */
 static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit,
                            size_t size, struct kd_error *error)
 {

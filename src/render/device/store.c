@@ -66,7 +66,7 @@ static void map_finish(struct kd_lens_map *map, struct kd_vk *vk)
     map->used = 0;
 }
 
-/* Evicts cached maps, oldest first, until the plan fits beside the others and these are within their limit. */
+/* Evicts cached maps, oldest first, until the plan fits beside the others and the others are within their limit. */
 static void make_room(struct kd_store *store, const struct kd_plan *plan, const struct kd_lens_map *spare)
 {
     for (;;) {
@@ -123,7 +123,7 @@ static enum kd_status once(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint6
     return *buffer ? KD_OK : kd_vk_buffer_create(vk, size, memory, name, buffer, error);
 }
 
-/* kd_store_lens_map without the buffers that rays need besides their map. */
+/* kd_store_lens_map without the buffers that rays need besides their lens map. */
 static enum kd_status find_or_make(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
                                    bool *reused, struct kd_error *error)
 {
@@ -162,8 +162,8 @@ done:
 enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
                                  bool *reused, struct kd_error *error)
 {
-    /* A map that was found may come from another store, and refine.c traces rays beside it: the list of open rays is
-     * needed in any case. */
+    /* The list of open rays is needed in any case: a map that was found may come from another store, and refine.c
+     * traces rays beside it. */
     const uint64_t bytes = 4 * (1 + kd_plan_open_most(plan));
     enum kd_status status =
         kd_store_at_least(store->vk, &store->undecided, bytes, KD_VK_DEVICE, "undecided rays", error);
@@ -218,7 +218,7 @@ done:
     return status;
 }
 
-/* A beam's buffers are freed when no longer needed: they are as large as the picture. */
+/* Makes a beam's buffers. They are freed when no longer needed, because they are as large as the picture. */
 static enum kd_status make_beam(struct kd_store *store, const struct kd_plan *plan, struct kd_error *error)
 {
     const struct kd_beam_grid *beam = &plan->beam;

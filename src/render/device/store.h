@@ -20,7 +20,8 @@ struct kd_bands {
     uint64_t band_bytes;
 };
 
-/* What the light of points depends on besides the lens map; it stays valid while only time advances. */
+/* Everything besides the lens map that the light of points depends on. The light stays valid while only time
+ * advances. */
 struct kd_star_key {
     char lens[65];
     bool visible; /* brightness weighted as by the eye */
@@ -33,17 +34,17 @@ struct kd_lens_map {
     char key[65]; /* "" while empty or incomplete */
     struct kd_bands bands;
     struct kd_bands
-        critical; /* the same for the pixels at the critical curve, part by part, each followed by its list */
+        critical; /* the lens maps of the pixels at the critical curve, part by part, each followed by its list */
     struct kd_critical_pixels pixels;
-    /* for the pixels of a band, KD_STAR_LIGHT words each: the points of light seen through this map; none: no frame
-     * had any */
+    /* for each pixel of a band KD_STAR_LIGHT words: the points of light seen through this map; none: no frame had
+     * any */
     struct kd_bands star_light;
-    struct kd_rim
-        rim; /* for images of stars of high orders, for the map's camera, if it has a rim and it was requested */
+    struct kd_rim rim; /* the rim of the map's camera, for images of stars of high orders, if there is a rim and it was
+                          requested */
     struct kd_rim_grids rim_grids;
     bool rim_known; /* whether rim and rim_grids are set */
     bool rim_traced;
-    struct kd_vk_buffer *rim_lens; /* directions of its rays, and its tables (frame/rim.c); NULL: never made */
+    struct kd_vk_buffer *rim_lens; /* directions and tables of the rim (frame/rim.c); NULL: never made */
     struct kd_star_key star_key;   /* key of the star light; lens "": it is missing or incomplete */
     struct kd_accuracy_report accuracy;
     uint64_t used;
@@ -56,13 +57,14 @@ struct kd_store {
     struct kd_lens_map maps[KD_LENS_MAPS_KEPT];
     uint64_t clock;
     struct kd_bands radiance;
-    struct kd_bands layers; /* layers of numbers, kd_plan_layer_bytes each, in sequence; none: no frame had any */
+    struct kd_bands layers; /* the layers of numbers in sequence, kd_plan_layer_bytes each; none: no frame had any */
     struct kd_vk_buffer *words, *readback; /* packed pixels of one band, on the device and on the host */
     /* parameters and tables, read at each crossing: in device memory, uploaded through `staging` */
     struct kd_vk_buffer *transfer, *staging;
     struct kd_emit_data *sent;                   /* the uploaded contents; NULL: nothing yet */
     bool sent_whole;                             /* false: the contents are unknown, since a frame was given up */
-    struct kd_vk_buffer *cameras, *cameras_host; /* KD_CAMERA_BYTES each, and their staging buffer; NULL: none yet */
+    struct kd_vk_buffer *cameras, *cameras_host; /* KD_CAMERA_BYTES for each camera, and the staging buffer; NULL: none
+                                                  * yet */
     struct kd_camera_block sent_cameras[KD_CAMERAS];
     bool cameras_sent; /* whether sent_cameras is what the buffer holds */
     struct kd_vk_buffer *histogram, *counts;
@@ -76,11 +78,11 @@ struct kd_store {
     struct kd_vk_buffer *listed;     /* lens map of listed pixels, overwritten part by part */
     /* for a sampled map (frame/sample.c): its lists, index and nodes; NULL: no frame had any */
     struct kd_vk_buffer *sample, *sample_index, *nodes;
-    uint32_t alone;                   /* offset in the lists of the rays that are traced singly, */
-    int32_t alone_x, alone_y;         /* and the ray from which their places count */
+    uint32_t alone;                   /* offset in the lists of the rays that are traced singly */
+    int32_t alone_x, alone_y;         /* the ray from which the places of those rays count */
     struct kd_vk_buffer *sample_head; /* head of the lists, on the host */
     struct kd_vk_buffer
-        *undecided; /* rays that the kernels leave open: a counter, then the places of kd_plan_open_most */
+        *undecided; /* rays that the kernels leave open: a counter, then the places of at most kd_plan_open_most rays */
     struct kd_vk_buffer *undecided_host; /* the same on the host */
 };
 
@@ -98,14 +100,14 @@ enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer,
                                  enum kd_vk_memory memory, const char *name, struct kd_error *error);
 /* Records copies that update the transfer buffer: parameters and tables, each if it has changed. */
 enum kd_status kd_store_send(struct kd_store *store, const struct kd_emit_data *tables, struct kd_error *error);
-/* The same for the cameras, in a buffer that is made when first needed. */
+/* Records copies that update the cameras, in a buffer that is made when first needed. */
 enum kd_status kd_store_send_cameras(struct kd_store *store, const struct kd_camera_block cameras[KD_CAMERAS],
                                      struct kd_error *error);
 /* Call when a frame is given up: its uploads may not have happened. */
 void kd_store_give_up(struct kd_store *store);
 /* Approximate device memory of the store, bytes. */
 uint64_t kd_store_bytes(const struct kd_store *store);
-/* Of that, the bytes of its lens maps. */
+/* Bytes of the store's lens maps. */
 uint64_t kd_store_map_bytes(const struct kd_store *store);
 /* Keeps only the latest lens maps, up to `bytes`. */
 void kd_store_rest(struct kd_store *store, uint64_t bytes);

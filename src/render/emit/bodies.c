@@ -109,7 +109,7 @@ static uint64_t device_bytes(const struct kd_scene *scene)
     return sizeof(float) * kd_bodies_words(kd_bodies_count(scene));
 }
 
-/* All n bodies, to be freed by the caller. NULL: out of memory. */
+/* Lists all n bodies; the caller frees the list. NULL: out of memory. */
 static struct kd_seen_body *listed(const struct kd_scene *scene, size_t *n)
 {
     struct kd_seen_body *bodies = malloc((kd_bodies_count(scene) + 1) * sizeof *bodies);
@@ -117,7 +117,7 @@ static struct kd_seen_body *listed(const struct kd_scene *scene, size_t *n)
     return bodies;
 }
 
-/* Whether some bodies reflect light of the disk, and the scene has one. */
+/* Whether some bodies reflect light of the disk, and the scene has a disk. */
 static bool is_lit(const struct kd_scene *scene)
 {
     struct kd_illumination lit;
@@ -153,7 +153,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
 
 struct own {
     struct kd_vk_buffer *device, *staging;
-    float *there; /* what was sent last; NULL: nothing */
+    float *there; /* the numbers that were sent last; NULL: none */
     size_t words;
 };
 
@@ -164,7 +164,7 @@ static void forget(void *own)
     o->there = NULL;
 }
 
-/* Uploads *words unless they are there already, and keeps them. */
+/* Uploads *words unless the device has them already, and keeps them. */
 static enum kd_status send(const struct kd_emitter_buffers_work *work, float **words, size_t n, struct kd_error *error)
 {
     struct own *o = work->own;

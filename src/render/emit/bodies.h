@@ -13,15 +13,16 @@
 
 #define KD_SEEN_BODIES (KD_CROWD_BODIES + KD_SCENE_BODIES) /* at most */
 
-/* How the bodies are viewed: the hole's spin, the observer's azimuth, and the temperature that corresponds to
- * brightness 1 of the disk. */
+/* How bodies are viewed: the hole's spin, the observer's azimuth, and the temperature that corresponds to the disk's
+ * brightness 1. */
 struct kd_illumination;
 struct kd_bodies_view {
     double spin, azimuth, peak_k;
     const struct kd_illumination *lit;
 }; /* lit: NULL if the disk does not illuminate them */
 
-/* The disk as a light source for bodies (bodies_lit.c). False if the scene has no thin disk. */
+/* kd_illumination_of: prepares the disk as a light source for bodies (bodies_illumination.c). False if the scene has no
+ * thin disk. */
 enum { KD_LIT_RINGS = 16, KD_LIT_PLACES = 24 };
 struct kd_illumination {
     struct kd_illumination_ring { double r, t, light, lapse, velocity; } rings[KD_LIT_RINGS];
@@ -37,14 +38,14 @@ size_t kd_bodies_words(size_t n);
  * impossible places or within KD_BODIES_CLEAR of the horizon's radius are left out. */
 enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                               float *words, struct kd_error *error);
-/* Whether a body is packed. One of temperature 0 is: it is dark and hides what is behind it. */
+/* Whether a body is packed. A body of temperature 0 is packed: it is dark and hides what is behind it. */
 bool kd_bodies_seen(const struct kd_seen_body *body, const struct kd_hole *hole);
 /* Computes the block of numbers that goes with the packed bodies. */
 void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                      struct kd_bodies_block *out);
 #define KD_BODIES_CLEAR 1.02
 
-/* Count and list the bodies of a valid scene: its own at the scene's time, then those of its playground. */
+/* Count and list the bodies of a valid scene: the scene's own at its time, then those of its playground. */
 size_t kd_bodies_count(const struct kd_scene *scene);
 size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body *out);
 

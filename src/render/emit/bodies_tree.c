@@ -26,8 +26,8 @@ static uint32_t leaves_of(size_t n)
 
 size_t kd_bodies_words(size_t n) { return (8 + KD_BODY_WORDS) * (size_t)leaves_of(n); }
 
-/* The metric at its centre (Bardeen, Press & Teukolsky 1972): lapse, sqrt of g_rr, g_thetatheta and g_phiphi/sin^2,
- * and frame dragging. */
+/* The metric at a body's centre (Bardeen, Press & Teukolsky 1972): lapse, sqrt of g_rr, g_thetatheta and
+ * g_phiphi/sin^2, and frame dragging. */
 struct metric { double lapse, r, theta, phi, omega; };
 
 static struct metric metric_at(double a, const struct kd_seen_body *b)
@@ -55,8 +55,8 @@ static double turn_of(const struct metric *g, const struct kd_seen_body *b)
     return g->phi * b->s * g->omega / g->lapse;
 }
 
-/* Bounding ball. Azimuths are mirrored, as in the traced path. At one time of the observer's a moving body appears
- * longer than it is wide. */
+/* Bounding ball of a body. Azimuths are mirrored, as in the traced path. At one time of the observer a moving body
+ * appears longer than it is wide. */
 static struct ball ball_of(const struct kd_seen_body *b, size_t body, const struct kd_bodies_view *view)
 {
     const struct metric g = metric_at(view->spin, b);
@@ -126,7 +126,7 @@ static void part(struct ball *balls, size_t n, size_t k, int axis)
                 break;
             swap(&balls[i++], &balls[j--]);
         }
-        /* Up to j no ball is beyond `middle`; after j none is before it. */
+        /* Balls up to j are not beyond `middle`; balls after j are not before it. */
         if (k <= j)
             high = j;
         else
@@ -165,8 +165,8 @@ struct tree {
     uint32_t leaves;
 };
 
-/* Distributes balls to the leaves below a node, half to either side. A leaf without a body has size 0 at the hole,
- * where no ray is near. */
+/* Distributes balls to the leaves below a node, half to either side. A leaf without a body is a ball of size 0 at the
+ * hole, where no ray is near. */
 static void grow(const struct tree *t, uint32_t node, struct ball *balls, size_t n)
 {
     int axis = 0;
@@ -186,7 +186,7 @@ static void grow(const struct tree *t, uint32_t node, struct ball *balls, size_t
     grow(t, 2 * node + 1, balls + (n + 1) / 2, n / 2);
 }
 
-/* Balls of the visible bodies; returns their number. */
+/* Makes the balls of the visible bodies; returns their number. */
 static size_t seen_of(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                       struct ball *balls)
 {

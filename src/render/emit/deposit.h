@@ -15,7 +15,7 @@ extern const struct kd_emitter_buffers kd_emitter_buffers_particles;
 enum kd_status kd_particles_places(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene,
                                    uint32_t first, uint32_t stride, size_t n, struct kd_particle_place *out,
                                    struct kd_error *error);
-/* Requests the kernel that it uses, for kd_kernels_note. */
+/* Requests the kernel that kd_particles_places uses, for kd_kernels_note. */
 enum kd_status kd_particles_ask(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene);
 
 #endif

@@ -89,8 +89,8 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     };
 }
 
-/* T r^(3/4) is smooth and bounded in y = sqrt(1 - r_isco/r): linear at the ISCO, where the flux has a double zero,
- * and finite at infinity, where T falls as r^(-3/4). */
+/* Tables over y = sqrt(1 - r_isco/r), in which T r^(3/4) is smooth and bounded: linear at the ISCO, where the flux has
+ * a double zero, and finite at infinity, where T falls as r^(-3/4). */
 static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     kd_disk_flux_fn flux = flux_of(scene);

@@ -57,7 +57,7 @@ _Static_assert(KD_LIGHT_BINDING == KD_OWN_BINDING + KD_OWN_point_light, "as shad
 _Static_assert((0 KD_EMIT_BUFFERS) == (1 << KD_OWN_COUNT) - 1, "each has a number of its own, from 0 on");
 #undef KD_B
 
-/* Both are in one buffer, numbers first, then tables. */
+/* Numbers and tables are in one buffer, numbers first. */
 struct kd_emit_data {
     struct kd_emission emission;
     char gap[256 - sizeof(struct kd_emission) % 256];

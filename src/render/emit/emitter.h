@@ -35,26 +35,27 @@ struct kd_scene_part { size_t at, size; };
 struct kd_emitter {
     const char *name;
     const char *title; /* its common name without an article: "spots" */
-    /* Writes one sentence, without quotation marks, about how it appears; NULL: there is nothing to say. */
+    /* Writes one sentence, without quotation marks, about how the emitter appears; NULL: there is nothing to say. */
     void (*tell)(const struct kd_scene *scene, char out[KD_EMIT_TOLD]);
     bool (*present)(const struct kd_scene *scene);
     uint32_t (*traits)(const struct kd_scene *scene); /* KD_TRAIT_... of its GLSL file; NULL: none */
     uint32_t (*needs)(
-        const struct kd_scene *scene); /* KD_LENS_... quantities of the lens map that it reads; NULL: none */
-    unsigned (*varies)(const struct kd_scene *scene); /* enum kd_varies: what changes it; NULL: nothing */
-    /* Its own device buffers, their bytes, and the invocations of the pass that fills them before light
-     * (KD_PASS_name of its GLSL file). NULL: none; if only `invocations` is NULL, the host fills the buffers. */
+        const struct kd_scene *scene); /* KD_LENS_... quantities of the lens map that the emitter reads; NULL: none */
+    unsigned (*varies)(const struct kd_scene *scene); /* enum kd_varies: what changes its light; NULL: nothing */
+    /* The emitter's own device buffers, their bytes, and the invocations of the pass that fills them before light is
+     * computed (KD_PASS_name of its GLSL file). NULL: none; if only `invocations` is NULL, the host fills the
+     * buffers. */
     const struct kd_emitter_buffers *own;
     uint64_t (*device_bytes)(const struct kd_scene *scene);
     uint64_t (*making_bytes)(
-        const struct kd_scene *scene); /* host memory needed at most while they are made; NULL: little */
+        const struct kd_scene *scene); /* the most host memory needed while the buffers are made; NULL: little */
     uint64_t (*invocations)(const struct kd_scene *scene);
-    /* Least and largest r at which it emits or absorbs, M; NULL: anywhere. Crossings outside the range of all
+    /* Least and largest r at which the emitter emits or absorbs, M; NULL: anywhere. Crossings outside the range of all
      * emitters are skipped. */
     void (*reach)(const struct kd_scene *scene, double radii[2]);
-    /* For ALONG emitters: least and largest |cos(theta)| at which they are; NULL: 0 and 1. The march finds these
-     * edges and those of `reach` to a float's accuracy, for all volumes of a scene together. An edge inside these
-     * bounds is resolved only as far as the emitter's grain requires. */
+    /* For ALONG emitters: the least and the largest |cos(theta)| at which they emit or absorb; NULL: 0 and 1. The march
+     * resolves the edges given by `reach`, `hollow` and `height` to a float's accuracy, for all volumes of a scene
+     * together. An edge inside these bounds is resolved only as far as the emitter's grain requires. */
     double (*hollow)(const struct kd_scene *scene), (*height)(const struct kd_scene *scene);
     /* Radius in M of a sphere within `reach` at which light or optical depth has an edge; the march finds it as
      * well. 0 or NULL: none. */
@@ -66,8 +67,9 @@ struct kd_emitter {
     struct kd_scene_part depends[KD_EMITTER_PARTS]; /* ends at the first part of size 0 */
     const struct kd_sentence *sentences;
     size_t n_sentences;
-    const struct kd_emitter *kind; /* an emitter whose sentences apply to it as well; NULL: none */
-    /* an emitter whose numbers and tables it reads besides its own, including what that one reads; NULL: none */
+    const struct kd_emitter *kind; /* an emitter whose sentences apply to this one as well; NULL: none */
+    /* an emitter whose numbers and tables this one reads besides its own, including those which that one reads; NULL:
+     * none */
     const struct kd_emitter *reads;
     const struct kd_emitter *replaces; /* an emitter that is left out where this one is present; NULL: none */
 };
@@ -86,8 +88,8 @@ extern const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT];
 bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter);
 /* Computes the words of the specialisation constants; 0 for emitters that the scene does not have. */
 void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]);
-/* What the scene's emitters need: quantities of the lens map; whether there is light at crossings of the plane, at
- * the ends of rays, with separate luminance, or from points. */
+/* What the scene's emitters need: quantities of the lens map; whether there is light at crossings of the plane, at the
+ * ends of rays, light with separate luminance, or light from points. */
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
 bool kd_emit_along(const struct kd_scene *scene);      /* whether there are volumes */
@@ -98,40 +100,43 @@ bool kd_emit_separate_photometry(const struct kd_scene *scene);
 bool kd_emit_points(const struct kd_scene *scene);
 /* Bytes of all device buffers of the scene's emitters. */
 uint64_t kd_emit_device_bytes(const struct kd_scene *scene);
-/* Host memory needed at most to make their contents. */
+/* The most host memory needed to make the contents of these buffers. */
 uint64_t kd_emit_making_bytes(const struct kd_scene *scene);
 /* Invocations of an emitter's own pass; 0 if it has none or the scene does not have the emitter. */
 uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_number number);
-/* Calls take(user, approximation) for each that is in force. */
+/* Calls take(user, approximation) for each approximation that is in force. */
 void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays,
                        void (*take)(void *user, struct kd_approximation approximation), void *user);
 size_t kd_emit_sentence_count(void); /* number of all approximations, in force or not */
 
-/* Numbers and tables, and the scenes that they were computed for; {0} before the first use. Not shared between
- * threads. */
+/* Numbers and tables of all emitters, and the scenes for which they were computed; {0} before the first use. Not shared
+ * between threads. */
 struct kd_emit_state {
     struct kd_emit_data data;
     struct kd_scene of[KD_EMITTER_COUNT]; /* scene from which each emitter was last filled */
-    bool filled[KD_EMITTER_COUNT];        /* whether it was filled */
+    bool filled[KD_EMITTER_COUNT];        /* whether each emitter was filled */
     bool colours, luminous;               /* whether the tables that depend on no scene are filled */
 };
-/* Brings the data up to date. band_pixels: pixels of the picture's bands (emit/frame.glsl). 15 ms the first time,
- * and 15 ms more for the first scene of a visible band; afterwards only what has changed. */
+/* Brings the data up to date. band_pixels: pixels of the picture's bands (emit/frame.glsl). 15 ms the first time, and
+ * 15 ms more for the first scene of a visible band; afterwards only data whose scene has changed is computed. */
 void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, uint32_t band_pixels);
 
 extern const struct kd_emitter kd_emit_disk;
 /* Traits of the smooth disk, shared by emitters that use its numbers and tables. */
 uint32_t kd_disk_traits(const struct kd_scene *scene);
-/* Radii of its edges; and a sentence such as "A thin disk from the ISCO to 22 M." for the noun "thin disk". */
+/* Radii of the smooth disk's edges. kd_disk_sentence: a sentence such as "A thin disk from the ISCO to 22 M." for the
+ * noun "thin disk". */
 void kd_disk_reach(const struct kd_scene *scene, double radii[2]);
 void kd_disk_tell(const struct kd_scene *scene, const char *noun, char out[KD_EMIT_TOLD]);
-/* Common to emitters on orbits: Doppler shift and redshift as KD_TRAIT_..., needs, and how they vary. */
+/* Common to emitters on orbits: KD_TRAIT_... for Doppler shift and redshift; what they need of the lens map; what
+ * changes them. */
 uint32_t kd_orbit_traits(const struct kd_scene *scene);
 uint32_t kd_orbit_needs(const struct kd_scene *scene);
 unsigned kd_orbit_varies(const struct kd_scene *scene);
 /* The largest effective temperature of the disk, in K in the gas's own frame. */
 double kd_disk_peak_temperature(const struct kd_scene *scene);
-/* The temperature, relative to that, of a black body as bright as the smooth disk at r, including fade and opacity. */
+/* The temperature of a black body as bright as the smooth disk at r, including fade and opacity, relative to
+ * kd_disk_peak_temperature. */
 double kd_disk_heat(const struct kd_scene *scene, double r);
 /* The inner edge of the disk, M. */
 double kd_disk_inner(const struct kd_scene *scene);

@@ -7,13 +7,13 @@
 
 #include <math.h>
 
-/* Displacement of an octave at one standard deviation of the one before, in widths of its cells: streaks bend but do
- * not tear. */
+/* Displacement of an octave where the octave before is one standard deviation from its mean, in widths of the octave's
+ * cells: streaks bend but do not tear. */
 #define WARP 0.2
-/* Mean square slope of both noises along an axis, per cell: displacement increases slopes by this much. */
+/* Mean square slope of both noises along an axis, per cell. Displacement increases slopes in proportion to this. */
 #define STEEPNESS 16.6
-/* Amplitude ratio of successive octaves of the logarithm: cells are KD_GAS_FINER times as many, and Kolmogorov's
- * amplitudes fall as the cube root of that. */
+/* Amplitude ratio of successive octaves of the logarithm. Each octave has KD_GAS_FINER times as many cells, and
+ * Kolmogorov's amplitudes fall as the cube root of that. */
 #define PERSISTENCE 0.72
 
 static bool present(const struct kd_scene *scene)
@@ -32,7 +32,7 @@ static uint32_t traits(const struct kd_scene *scene)
            (stirs(scene) ? (uint32_t)scene->gas.octaves << KD_TRAIT_GAS_SHIFT : 0);
 }
 
-/* Rays that are not on a grid get Q from their slope. */
+/* For rays that are not on a grid, Q is computed from their slope. */
 static uint32_t needs(const struct kd_scene *scene)
 {
     return KD_LENS_W | (stirs(scene) ? kd_orbit_needs(scene) | KD_LENS_SHAPE : 0) |
@@ -46,7 +46,8 @@ static double inner_radius(const struct kd_scene *scene)
     return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
-/* Scaled so that the logarithm has the standard deviation `amplitude` over all octaves together. */
+/* Amplitude of the first octave, such that the logarithm has the standard deviation `amplitude` over all octaves
+ * together. */
 static double loudness(const struct kd_scene *scene)
 {
     double sum = 0;
@@ -74,7 +75,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     };
 }
 
-/* Uniform in [0, 1): splitmix64 (Steele, Lea & Flood 2014) of a counter. */
+/* A random number, uniform in [0, 1): splitmix64 (Steele, Lea & Flood 2014) of a counter. */
 static double random_of(uint64_t seed, uint64_t n)
 {
     uint64_t x = (seed << 32) + n * 0x9e3779b97f4a7c15u;
@@ -91,7 +92,8 @@ static void place(double at, float *part, float *whole)
     *part = (float)(at - floor(at));
 }
 
-/* From each ring's plane to the next one's, the same place is rotated and shrunk: multiplied by this complex factor. */
+/* Factors from each ring's plane to the next ring's. In the next plane the same place is rotated and shrunk, that is,
+ * multiplied by this complex factor. */
 static void next_rings(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     for (int j = 0; j + 1 < KD_GAS_RINGS; j++) {

@@ -11,13 +11,13 @@
 /* All zero: no array. */
 struct kd_matter_array {
     struct kd_buffer file;
-    const uint8_t *numbers; /* within the file, not aligned */
+    const uint8_t *numbers; /* points into the file, not aligned */
     bool single;            /* <f4 instead of <f8 */
     size_t n, dimensions;
     uint64_t shape[4];
 };
 
-/* Return KD_EINVAL with a sentence that names the array; KD_ENOMEM. */
+/* kd_matter_refuse returns KD_EINVAL with a sentence that names the array, kd_matter_no_memory KD_ENOMEM. */
 enum kd_status kd_matter_refuse(const char *name, const char *what, struct kd_error *error);
 enum kd_status kd_matter_no_memory(struct kd_error *error);
 bool kd_matter_has(const struct kd_unzip *zip, const char *name);

@@ -18,7 +18,7 @@
 #define EMPTY \
     40.0 /* An empty node is set this many octaves below the densest one, so that the light falls to nothing within a \
             cell. */
-#define EVEN 1e-3   /* of a step: tolerance for the even spacing of rows */
+#define EVEN 1e-3   /* fraction of a step: tolerance for the even spacing of rows */
 #define AXIS 1e-9   /* sin^2(theta) below which azimuth is undefined */
 #define UNIT 1e-2   /* tolerance of |u.u + 1| */
 #define FINEST 1024 /* rows per factor of e in r: a stretch of the march is two cells */
@@ -45,7 +45,7 @@ struct kd_matter_reader {
     double *r, *theta;
     bool look;                    /* numbers are only checked, and not prepared for a renderer */
     struct kd_matter_array array; /* the current array */
-    size_t kind, done;            /* its index, and how many of its numbers are done */
+    size_t kind, done;            /* index of this array, and the number of its elements that are done */
 };
 
 bool kd_matter_grid_is(const void *data, size_t size) { return size > 4 && !memcmp(data, "PK\3\4", 4); }
@@ -109,7 +109,7 @@ static enum kd_status take_header(struct kd_matter_reader *r, struct kd_error *e
     return status;
 }
 
-/* Checks that coordinates grow in even steps, or that their logarithms do. */
+/* Checks that coordinates, or their logarithms if `logarithmic`, grow in even steps. */
 static enum kd_status check_even(const char *name, const struct kd_matter_array *a, bool logarithmic, double least,
                                  double most, struct kd_error *error)
 {
@@ -296,11 +296,12 @@ static float filled(const struct kd_matter_grid *g, const float *nodes, size_t i
     return n ? (float)exp2(sum / n) : nodes[KD_MATTER_FLOATS * i + TEMPERATURE];
 }
 
-/* Azimuthal components go as sin^2 theta near the axis. Divided by that, the value on the axis is the neighbour's. */
+/* Divides azimuthal components by sin^2 theta, with which they fall near the axis. On the axis the result is the
+ * neighbour's. */
 static void over_sine(struct kd_matter_grid *g, const double *theta)
 {
     static const int kind[] = { VELOCITY + 2, FIELD + 2 };
-    for (int pass = 0; pass < 2; pass++) /* the neighbours first, then the axis */
+    for (int pass = 0; pass < 2; pass++) /* first the nodes off the axis, then those on it */
         for (size_t i = 0; i < nodes_of(g); i++) {
             const size_t column = i / g->layers % g->columns, beside = column ? i - g->layers : i + g->layers;
             const double s2 = sin(theta[column]) * sin(theta[column]);
@@ -367,7 +368,7 @@ size_t kd_matter_reader_bytes(const struct kd_matter_reader *r)
 
 const struct kd_matter_grid *kd_matter_reader_grid(const struct kd_matter_reader *r) { return &r->grid; }
 
-/* Unpacks the next array; false: u_con_t, the last, is missing. */
+/* Unpacks the next array. False: the array is u_con_t, the last one, and is missing. */
 static bool begin_array(struct kd_matter_reader *r, enum kd_status *status, struct kd_error *error)
 {
     const char *name = r->kind < KD_MATTER_FLOATS ? kinds[r->kind].name : "u_con_t";

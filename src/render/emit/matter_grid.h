@@ -5,12 +5,12 @@
  *                 "kerr-schild", "units": {array: unit}}
  *   r theta phi   coordinates of rows, columns and layers, evenly spaced in log r, theta and phi. phi covers one turn
  *                 or a whole fraction of it, and may be missing
- *   density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi   (rows, columns) or (rows,
- *     columns, layers)
+ *   density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi
+ *                 arrays of the shape (rows, columns) or (rows, columns, layers)
  *   u_con_t       optional; if present, the velocity must be a unit vector
  *
- * Components are in Boyer-Lindquist coordinates (con: contravariant, cov: covariant), namely those that are finite
- * at the horizon. u^t follows from the norm. b is the field in the frame of the matter, so b^t follows from b.u = 0. */
+ * Components are in Boyer-Lindquist coordinates (con: contravariant, cov: covariant), namely those that are finite at
+ * the horizon. u^t follows from the norm. b is the field in the frame of the matter, so b^t follows from b.u = 0. */
 #ifndef KD_RENDER_EMIT_MATTER_GRID_H
 #define KD_RENDER_EMIT_MATTER_GRID_H
 
@@ -31,7 +31,7 @@ enum {
 struct kd_matter_grid {
     uint32_t rows, columns, layers; /* layers 1: axisymmetric */
     double spin;
-    double r[2], theta[2]; /* of the first and the last row and column; r in M */
+    double r[2], theta[2]; /* r of the first and the last row, in M; theta of the first and the last column */
     /* phi of the first layer; angle covered by all layers, radians: a turn or a whole fraction of it */
     double phi, turn;
     bool ingoing; /* phi is the ingoing Kerr-Schild azimuth; otherwise the Boyer-Lindquist one */
@@ -46,20 +46,20 @@ struct kd_matter_grid {
 bool kd_matter_grid_is(const void *data, size_t size);
 /* Reads and checks a whole file. KD_EINVAL with what is wrong and what is valid; KD_ENOMEM. */
 enum kd_status kd_matter_grid_read(const void *data, size_t size, struct kd_matter_grid *out, struct kd_error *error);
-/* The same, but returns only the numbers of nodes in r, theta and phi, and the spin. */
+/* As kd_matter_grid_read, but returns only the numbers of nodes in r, theta and phi, and the spin. */
 enum kd_status kd_matter_grid_look(const void *data, size_t size, uint32_t nodes[3], double *spin,
                                    struct kd_error *error);
 void kd_matter_grid_told(const struct kd_matter_grid *grid, uint32_t nodes[3], double *spin);
 void kd_matter_grid_finish(struct kd_matter_grid *grid);
 
-/* The same in pieces of some milliseconds, none of which unpacks more than one array. The file's bytes must remain
+/* Reads a file in pieces of some milliseconds, none of which unpacks more than one array. The file's bytes must remain
  * valid until the reader is closed. One thread at a time. */
 struct kd_matter_reader;
 /* Reads the header and the coordinates of the nodes. look: the numbers are only checked; the grid cannot be
  * rendered. */
 enum kd_status kd_matter_reader_open(const void *data, size_t size, bool look, struct kd_matter_reader **out,
                                      struct kd_error *error);
-/* Memory that the rest needs until the reader is closed: nodes, and the longest unpacked array. */
+/* Memory that the reader needs until it is closed: nodes, and the longest unpacked array. */
 size_t kd_matter_reader_bytes(const struct kd_matter_reader *reader);
 const struct kd_matter_grid *kd_matter_reader_grid(const struct kd_matter_reader *reader);
 /* Continues until until_ms of kd_clock_ms, but begins at least one array. *over: whether the file is done. */

@@ -13,8 +13,7 @@ enum kd_varies {
     KD_MOVES_BY_FALL = 8, /* the camera's radius changes, whatever is in view */
 };
 
-/* What would change in the picture at another time or azimuth, whether the scene's rates are 0 or not: enum
- * kd_varies. */
+/* enum kd_varies: what would change in the picture at another time or azimuth, even if the scene's rates are 0. */
 unsigned kd_emit_varies(const struct kd_scene *scene);
 /* Whether anything visible changes, by the scene's rates. */
 bool kd_emit_moves(const struct kd_scene *scene);

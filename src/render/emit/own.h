@@ -14,24 +14,26 @@
 struct kd_renderer;
 struct kd_scene;
 
-/* What an emitter works with. A long picture that lends the device has its own copy of `own` (kd_render_in_background).
- */
+/* What an emitter works with. A long picture that lends the device has a copy of `own` for itself
+ * (kd_render_in_background). */
 struct kd_emitter_buffers_work {
     struct kd_renderer *renderer;
     struct kd_vk *vk;
     void *own; /* kd_emitter_buffers.bytes bytes, zero at first */
-    double ns; /* estimated cost of an invocation of its pass; 0: it has none */
+    double ns; /* estimated cost of an invocation of the emitter's pass; 0: it has no pass */
 };
 
 struct kd_emitter_buffers {
-    size_t bytes; /* size of its state: the buffers, and a record of their contents */
-    /* Records and submits the commands that bring the buffers up to date with the scene. They are timed under the
-     * emitter's name. */
+    size_t bytes; /* size of the emitter's state: its buffers, and a record of their contents */
+    /* Records and submits the commands that bring the buffers up to date with the scene. The commands are timed under
+     * the emitter's name. */
     enum kd_status (*prepare)(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene,
                               struct kd_error *error);
     void (*buffers)(const void *own,
-                    struct kd_vk_buffer *out[KD_OWN_COUNT]); /* sets its own entries, by KD_OWN_... (emission.h) */
-    void (*forget)(void *own); /* recorded commands may not have run, because work was given up: contents are unknown */
+                    /* sets the emitter's own entries, by KD_OWN_... (emission.h) */
+                    struct kd_vk_buffer *out[KD_OWN_COUNT]);
+    void (*forget)(void *own); /* called if recorded commands may not have run, because work was given up: the contents
+                                * are then unknown */
     void (*finish)(void *own, struct kd_vk *vk);
     /* Starts slow work of the host on a thread; `tell` and `prepare` wait for it. NULL: there is none. */
     void (*begin)(struct kd_renderer *renderer, const struct kd_scene *scene);
@@ -51,8 +53,8 @@ enum kd_status kd_emitter_buffers_kernel(const struct kd_emitter_buffers_work *w
                                          const struct kd_vk_pipeline_params *kernel, const uint32_t *constants,
                                          size_t n, const struct kd_vk_pipeline **out, struct kd_error *error);
 
-/* The sky's is in device/skies.c, which keeps panoramas for all pictures of a renderer. That of matter at a radio
- * frequency is in device/grids.c, which reads volume.grid. */
+/* The buffers of the sky are in device/skies.c, which keeps panoramas for all pictures of a renderer. Those of matter
+ * at a radio frequency are in device/grids.c, which reads volume.grid. */
 extern const struct kd_emitter_buffers kd_emitter_buffers_sky, kd_emitter_buffers_plasma;
 
 #endif

@@ -1,23 +1,22 @@
-/* The disk as particles. Each particle has a guiding orbit, one of `radii` circular ones with equal numbers of
- * particles, an azimuth, and small epicycles in r and theta. All follow from a hash of its number and the seed; nothing
- * is stored. Those with the lowest numbers fall from the ISCO instead (render/emit/plunging.h), and then start again at
- * another azimuth, a hash of the particle's number and the count of its falls. The position at any time t is a closed
- * form. Angular frequencies are in double. Their phases at t reach the device as 32-bit fractions of a turn, whose sums
- * wrap exactly, so that t may be arbitrarily large.
+/* The disk as particles. Each particle has a guiding orbit, an azimuth, and small epicycles in r and theta. The guiding
+ * orbits are `radii` circular ones with equal numbers of particles. All of this follows from a hash of the particle's
+ * number and the seed; nothing is stored. The particles with the lowest numbers fall from the ISCO instead
+ * (render/emit/plunging.h). Each then starts again at another azimuth, a hash of its number and the count of its falls.
+ * The position at any time t is a closed form. Angular frequencies are in double. Their phases at t reach the device as
+ * 32-bit fractions of a turn, whose sums wrap exactly, so that t may be arbitrarily large.
  *
- * The grid's rows are steps of log r from edge to edge, its columns steps of azimuth. The number counted at a node over
- * the number expected there multiplies the light of the smooth disk. Falling particles have a grid of their own, over
- * phase and azimuth at the ISCO.
+ * The rows of the grid are steps of log r from edge to edge, its columns steps of azimuth. The light of the smooth disk
+ * is multiplied by the ratio of the number counted at a node to the number expected there. Falling particles have a
+ * grid of their own, over phase and azimuth at the ISCO.
  *
  * To first order in the amplitude (J. Binney & S. Tremaine, Galactic Dynamics, section 3.2.3, with the frequencies of
  * Kerr),
  *
  *   ln r = ln r0 + (A/r0) cos(kappa t + psi),  phi = phi0 + Omega t + (dOmega/dr) (A/kappa) sin(kappa t + psi)
- *   latitude = I cos(Omega_theta t + psi'),    A = disk.epicycles u r0 (kappa/Omega)^2,  I = disk.epicycles u',  u,
- *                                              u' in [0, 1]
+ *   latitude = I cos(Omega_theta t + psi'),    A = disk.epicycles u r0 (kappa/Omega)^2,  I = disk.epicycles u'
  *
- * with dOmega/dr at constant E and L, so that nothing diverges at the ISCO, where kappa -> 0, and r - r_isco never
- * changes sign. Pure; the device's part is render/emit/deposit.h. */
+ * with u and u' in [0, 1], and dOmega/dr at constant E and L, so that nothing diverges at the ISCO, where kappa -> 0,
+ * and r - r_isco never changes sign. Pure; the device's part is render/emit/deposit.h. */
 #ifndef KD_RENDER_EMIT_PARTICLES_H
 #define KD_RENDER_EMIT_PARTICLES_H
 
@@ -27,9 +26,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-struct kd_particles_push; /* of particles.comp: render/view/layout.h */
+struct kd_particles_push; /* push constants of particles.comp: render/view/layout.h */
 
-/* guiding orbits, if there are as many particles; 35 to a row of the default grid */
+/* number of guiding orbits, if there are as many particles; 35 orbits to a row of the default grid */
 #define KD_PARTICLE_RADII 4096u
 #define KD_PARTICLE_RADII_MAX 65536u /* where there are many rows, or some are nearly empty */
 #define KD_PARTICLE_ROWS 4096u
@@ -37,13 +36,13 @@ struct kd_particles_push; /* of particles.comp: render/view/layout.h */
 struct kd_particle_grid {
     uint32_t count; /* particles; 0: the disk is smooth */
     uint32_t radii;
-    uint32_t rows, columns;               /* intervals; columns a power of 2 */
+    uint32_t rows, columns;               /* number of intervals; columns is a power of 2 */
     uint32_t plunging;                    /* number of falling particles; 0: they have no grid */
     uint32_t plunge_rows, plunge_columns; /* size of their grid */
     /* rows from the start of the plunge to its end; rows before the start, for slow light */
     uint32_t lap_rows, lead_rows;
     uint32_t unit;  /* weight of one particle: a node holds 16 bits */
-    uint64_t bytes; /* on the device */
+    uint64_t bytes; /* size of the grids on the device */
 };
 /* The grid of a valid scene; its cells are about square, with a handful of particles in each. */
 struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene);
@@ -62,9 +61,9 @@ struct kd_particle_orbit kd_particle_orbit(const struct kd_scene *scene, uint32_
 struct kd_particle_swing { double radial, radial_phase, vertical, vertical_phase; };
 struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_t particle);
 
-/* Mean optical depth of the plunging gas where r |u^r| is 1, in a scene that has any: the optical depth of its
- * surface density in its own frame, over that of the disk just outside the ISCO. A particle counts the same inside
- * and outside. */
+/* Mean optical depth of the plunging gas where r |u^r| is 1, in a scene that has such gas. It is the optical depth of
+ * the gas's surface density in its own frame, divided by that of the disk just outside the ISCO. A particle counts the
+ * same inside and outside. */
 double kd_particle_plunge_depth(const struct kd_scene *scene);
 
 /* How long before scene->top.time the grid is computed: about the light delay of a near camera, so that the
@@ -79,8 +78,8 @@ struct kd_particle_place {
     bool plunging; /* falls, with the ISCO's energy and angular momentum; otherwise on a guiding orbit */
 };
 
-/* Buffers of the kernel: the guiding orbits, followed by the expected numbers for the rows of both grids; and the
- * grids in 32-bit words. */
+/* Sizes of the kernel's buffers. One has the guiding orbits, followed by the expected numbers for the rows of both
+ * grids; the other has the grids in 32-bit words. */
 #define KD_PARTICLE_EXPECTED_BYTES (4 * (KD_PARTICLE_ROWS + 64))
 uint64_t kd_particle_guides_bytes(const struct kd_particle_grid *grid);
 uint64_t kd_particle_tables_bytes(const struct kd_particle_grid *grid);
@@ -101,7 +100,7 @@ struct kd_particle_listed {
     float latitude;
 };
 
-/* Converts these to positions of n particles: first, first + stride, ... */
+/* Converts the listed particles to positions of n particles: first, first + stride, ... */
 void kd_particle_places_of(const struct kd_scene *scene, const struct kd_particle_grid *grid,
                            const struct kd_particle_listed *got, uint32_t first, uint32_t stride, size_t n,
                            struct kd_particle_place *out);

@@ -72,8 +72,8 @@ static double knot(const struct kd_scene *scene)
 static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }
 static bool has_no_grid(const struct kd_scene *scene) { return is_grid(scene) && !*scene->volume.grid; }
 
-/* The scene does not contain the grid's size, so the largest one is assumed. The host also holds its file and its
- * arrays. */
+/* The scene does not contain the grid's size, so the size of the largest possible grid is assumed. The host also holds
+ * the grid's file and its arrays. */
 static uint64_t device_bytes(const struct kd_scene *scene)
 {
     return has_no_grid(scene) ? 4 * KD_MATTER_FLOATS * sizeof(float)
@@ -85,9 +85,9 @@ static uint64_t making_bytes(const struct kd_scene *scene)
     return is_grid(scene) && *scene->volume.grid
                ? (uint64_t)KD_MATTER_NODES * (2 * KD_MATTER_FLOATS * sizeof(float) + 3 * sizeof(double))
                : 0;
-} /* its numbers as read, and as uploaded */
+} /* the grid's numbers as read, and as uploaded */
 
-/* The picture depends on the azimuth unless the grid is axisymmetric, which the scene does not tell. */
+/* The picture depends on the azimuth unless the grid is axisymmetric, which cannot be seen from the scene. */
 static unsigned varies(const struct kd_scene *scene)
 {
     return is_grid(scene) && *scene->volume.grid ? KD_MOVES_WITH_AZIMUTH : 0;

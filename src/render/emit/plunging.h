@@ -1,15 +1,15 @@
-/* The particles that fall from the ISCO. All follow one curve (physics/orbit/plunge.h), again and again, from 1/32 of
- * the way between ISCO and horizon to 1/64 before its end; at its very ends the curve takes for ever. At the start here
- * gas falls at 1e-3 without spin and at 7e-4 for a = 0.9. That is about the drift of a disk of alpha = 0.1 and h/r =
- * 0.1, alpha (h/r)^2 v_phi (Shakura & Sunyaev 1973). It goes round 3 times (a = 0), 7 (0.9) or 38 (0.998) before it is
- * gone; W. J. Potter 2021, arXiv:2104.09951, finds 4 to 17 for turbulent gas. At the end light that escapes has g <
- * 0.02 and less than 1e-6 of its brightness.
+/* The particles that fall from the ISCO. All follow one curve (physics/orbit/plunge.h), again and again. Their part of
+ * it begins at 1/32 of the way between ISCO and horizon and stops 1/64 before the horizon: at its very ends the curve
+ * takes for ever. At the start gas falls at 1e-3 without spin and at 7e-4 for a = 0.9. That is about the drift of a
+ * disk of alpha = 0.1 and h/r = 0.1, alpha (h/r)^2 v_phi (Shakura & Sunyaev 1973). A particle orbits the hole 3 times
+ * (a = 0), 7 times (0.9) or 38 times (0.998) before its end; W. J. Potter 2021, arXiv:2104.09951, finds 4 to 17 for
+ * turbulent gas. At the end light that escapes has g < 0.02 and less than 1e-6 of its brightness.
  *
- * A steady stream is uniform in time, so a particle's first coordinate is its phase, the fraction of the curve's
- * time that has passed. The second is its azimuth at the ISCO, in the frame that rotates with that orbit. A parcel
- * of gas is at rest in both. On such a grid each cell is a parcel that is stretched as it falls, and its surface
- * density is 1/(r |u^r|) times what is conserved (mass: I. D. Novikov & K. S. Thorne 1973). Double precision, pure,
- * any thread. */
+ * A steady stream is uniform in time, so a particle's first coordinate is its phase, the fraction of the curve's time
+ * that has passed. The second is its azimuth at the ISCO, in the frame that rotates with that orbit. A parcel of gas is
+ * at rest in both coordinates. On such a grid each cell is a parcel that is stretched as it falls. Its surface density
+ * is 1/(r |u^r|) times a conserved quantity (mass: I. D. Novikov & K. S. Thorne 1973). Double precision, pure, any
+ * thread. */
 #ifndef KD_RENDER_EMIT_PLUNGING_H
 #define KD_RENDER_EMIT_PLUNGING_H
 
@@ -18,14 +18,14 @@
 
 #include <stdbool.h>
 
-/* Whether the scene has any: a disk of particles that reaches the ISCO, with a fraction of them falling. */
+/* Whether some particles fall: the disk is made of particles, reaches the ISCO, and has a fraction of them falling. */
 bool kd_plunging_is_on(const struct kd_scene *scene);
 
 struct kd_plunging {
     struct kd_plunge curve;
-    double start, end;            /* radii */
-    double time, omega;           /* from start to end; angular velocity at the ISCO */
-    struct kd_plunge_event first; /* the curve's event at its start */
+    double start, end;            /* radii of the curve's start and end */
+    double time, omega;           /* time from start to end; angular velocity at the ISCO */
+    struct kd_plunge_event first; /* the event at which the curve starts */
 };
 struct kd_plunging kd_plunging_of(const struct kd_scene *scene);
 
@@ -34,7 +34,8 @@ struct kd_plunging kd_plunging_of(const struct kd_scene *scene);
 struct kd_plunging_place { double phase, turns; };
 struct kd_plunging_place kd_plunging_at(const struct kd_plunging *plunging, double r);
 
-/* The inverse, for many phases: cubics between points with known slopes; r within 1e-9. */
+/* Converts phases to places, the inverse, for many phases at once: cubics between points with known slopes; r within
+ * 1e-9. */
 #define KD_PLUNGING_POINTS 1025
 struct kd_plunging_path {
     struct { double r, turns, r_slope, turns_slope; } at[KD_PLUNGING_POINTS];

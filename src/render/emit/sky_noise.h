@@ -1,5 +1,5 @@
-/* Detects cameras for which the sky is noise. From close to the horizon of a fast hole the whole sky appears many
- * times over in a narrow cone: one pixel's step, or the rounding of a ray's labels, leads to an unrelated place on
+/* Detects cameras from which the sky looks like noise. From close to the horizon of a fast hole the whole sky appears
+ * many times over in a narrow cone: one pixel's step, or the rounding of a ray's labels, leads to an unrelated place on
  * the sky. Pure; any thread. */
 #ifndef KD_RENDER_EMIT_SKY_NOISE_H
 #define KD_RENDER_EMIT_SKY_NOISE_H

@@ -16,7 +16,7 @@ static uint32_t traits(const struct kd_scene *scene)
            (has_dexters(scene) ? KD_TRAIT_STOKES_DEXTER : 0);
 }
 
-#define KAPPA_FIRST 3.5 /* of Marszewski et al. 2021, who give fits in steps of one half up to 5 */
+#define KAPPA_FIRST 3.5 /* the least kappa of Marszewski et al. 2021, who give fits in steps of one half up to 5 */
 #define KAPPA_INTERVALS 3
 
 static void fill_kappa(struct kd_stokes_block *out, double kappa)
@@ -39,8 +39,8 @@ static void fill_kappa(struct kd_stokes_block *out, double kappa)
 
 static void reach(const struct kd_scene *scene, double radii[2]) { (void)scene, radii[0] = INFINITY, radii[1] = 0; }
 
-/* Jones & O'Dell 1977, for electrons of gamma^-p, where (p - 1)/(gamma_min^(1 - p) - gamma_max^(1 - p)) is their
- * fraction at gamma = 1. */
+/* Jones & O'Dell 1977, for electrons of gamma^-p; (p - 1)/(gamma_min^(1 - p) - gamma_max^(1 - p)) is the fraction of
+ * them at gamma = 1. */
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
     const struct kd_volume *v = &scene->volume;

@@ -21,7 +21,8 @@ static uint32_t traits(const struct kd_scene *scene)
                          : 0);
 }
 
-/* Crossings are searched even for smooth gas: where they are thin, at the critical curve, so is its light. */
+/* Crossings are searched even for smooth gas. At the critical curve images are thin, and so is their
+ * light. */
 static uint32_t needs(const struct kd_scene *scene)
 {
     return KD_LENS_W | (stirs(scene) ? KD_LENS_PHI | KD_LENS_SHAPE : 0);
@@ -39,8 +40,8 @@ static double height(const struct kd_scene *scene)
     return most / sqrt(1 + most * most);
 }
 
-/* Where the outer fade begins. An opaque disk transmits e^-depth before it, and at once behind it the faded
- * fraction: its optical depth there varies as a logarithm. */
+/* The radius at which the outer fade begins. An opaque disk transmits e^-depth up to it, and from there on the faded
+ * fraction: its optical depth varies there as a logarithm. */
 static double knot(const struct kd_scene *scene)
 {
     const double r = scene->disk.outer * (1 - scene->disk.taper);

@@ -20,7 +20,7 @@ static void put_rgb(struct kd_json *json, const char *name, const float light[3]
     kd_json_end(json);
 }
 
-/* Infinite becomes null: nothing is transmitted. */
+/* Writes an optical depth. Infinity, where nothing is transmitted, becomes null. */
 static void put_depth(struct kd_json *json, double through)
 {
     kd_json_number(json, "optical_depth", through > 0 ? 0 - log(through) : INFINITY);
@@ -68,7 +68,7 @@ static void put_colour(struct kd_json *json, const struct kd_picture *picture, c
     kd_json_end(json);
 }
 
-/* In units of the energy that the observer measures. */
+/* Writes the constants of motion, in units of the energy that the observer measures. */
 static void put_constants(struct kd_json *json, const struct kd_explained *x)
 {
     const double e = x->label.energy;
@@ -99,7 +99,7 @@ static void put_glow(struct kd_json *json, const struct kd_probed_glow *g, bool 
     kd_json_end(json);
 }
 
-/* What emits or absorbs light at a place, as in the picture. */
+/* Writes the emitters and absorbers at a place, as in the picture. */
 static void put_place(struct kd_json *json, const struct kd_explained *x, const struct kd_probed_place *p)
 {
     double left = 1;
@@ -145,7 +145,7 @@ static void put_polarized_ray(struct kd_json *json, const struct kd_probed_ray *
         put_polarization(json, "polarization", stokes, n);
 }
 
-/* The mean over the pixel's rays. */
+/* Writes the polarisation of the mean over the pixel's rays. */
 static void put_polarized_pixel(struct kd_json *json, const struct kd_probed_pixel *pixel)
 {
     double stokes[KD_EXPLAINED_STOKES], sum[KD_EXPLAINED_STOKES] = { 0 };
@@ -220,7 +220,7 @@ static void put_stretch(struct kd_json *json, const struct kd_explained *x, cons
     kd_json_end(json);
 }
 
-/* Volumes along the ray, if the scene has any. */
+/* Writes the volumes along the ray, if the scene has any. */
 static void put_along(struct kd_json *json, const struct kd_explained *x, bool stretches)
 {
     const struct kd_probed_ray *t = x->told;
@@ -257,7 +257,7 @@ static void put_along(struct kd_json *json, const struct kd_explained *x, bool s
     kd_json_end(json);
 }
 
-/* The opaque surface at which the visible part of the ray ends, if there is one. */
+/* Writes the opaque surface at which the visible part of the ray ends, if there is one. */
 static void put_met(struct kd_json *json, const struct kd_explained *x)
 {
     const struct kd_probed_met *m = &x->told->met;
@@ -316,7 +316,7 @@ static void put_accuracy(struct kd_json *json, const struct kd_picture *picture,
     kd_json_end(json);
 }
 
-/* One of the rays whose mean is the pixel's light: the same members without those for drawing. */
+/* Writes one of the rays whose mean is the pixel's light: the members of the middle ray without those for drawing. */
 static void put_ray(struct kd_json *json, const struct kd_picture *picture, const struct kd_explained *x)
 {
     kd_json_object(json, NULL);
@@ -352,7 +352,7 @@ static enum kd_status put_each(struct kd_json *json, const struct kd_picture *pi
     return status;
 }
 
-/* The engine's steps, or why there are none; nothing unless they were requested. */
+/* Writes the engine's steps, or why there are none; writes nothing unless steps were requested. */
 static void put_trace(struct kd_json *json, const struct kd_picture *picture, const struct kd_probed_pixel *told)
 {
     if (!picture->plan->told.steps)
@@ -408,7 +408,7 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
     return status;
 }
 
-/* Reduces the scene to the whole picture: places refer to it. */
+/* Extends the scene's tile to the whole picture, to which the places refer. */
 static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
 {
     (void)error;

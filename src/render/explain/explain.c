@@ -28,8 +28,8 @@ static struct kd_null_ray null_ray(const struct kd_explained *x)
     };
 }
 
-/* Computes crossings and end, with azimuths and frequencies of the scene. A ray of negative energy rotates the other
- * way (view/camera.h). */
+/* Computes crossings and end of the ray, with azimuths and frequencies of the scene. A ray of negative energy rotates
+ * the other way (view/camera.h). */
 static enum kd_status find_crossings(struct kd_explained *x, struct kd_error *error)
 {
     const struct kd_rays_params params = {
@@ -49,13 +49,13 @@ static enum kd_status find_crossings(struct kd_explained *x, struct kd_error *er
         struct kd_ray_crossing *c = &x->crossings[n];
         c->phi = kd_ray_path_phi(&x->frame, c->phi);
         c->delay = kd_ray_path_delay(&x->frame, c->delay);
-        c->g /= x->label.energy; /* for light of negative energy at infinity both are negative */
+        c->g /= x->label.energy; /* for light whose energy at infinity is negative, both numbers are negative */
     }
     x->end.phi = kd_ray_path_phi(&x->frame, x->end.phi);
     return status;
 }
 
-/* Compares with the picture's crossings, which end where nothing behind is visible. */
+/* Compares the crossings with the picture's, which end where nothing behind is visible. */
 static void compare(struct kd_explained *x)
 {
     x->picture_error = x->told->n_places ? 0 : NAN;
@@ -66,7 +66,7 @@ static void compare(struct kd_explained *x)
     }
 }
 
-/* The opaque place of the ray; NULL if there is none or if a volume was opaque before. */
+/* The opaque place of the ray; NULL if the ray has none, or if a volume before it was opaque. */
 static const struct kd_probed_place *hiding(const struct kd_probed_ray *told)
 {
     for (size_t i = 0; i < told->n_places; i++) {
@@ -273,7 +273,7 @@ enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_s
 {
     const struct kd_scene tile = kd_scene_tile(scene, (struct kd_window) { plan->told.x, plan->told.y, 1, 1 });
     struct kd_needs needs = kd_needs_of(scene);
-    struct kd_error why = { 0 }; /* needing the whole picture is not an error */
+    struct kd_error why = { 0 }; /* it is not an error if the pixel needs the whole picture */
     struct kd_window cut;
     struct kd_plan narrow;
     if (kd_tile_check(&tile, &needs, &why))
@@ -283,8 +283,9 @@ enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_s
     if (status)
         return status;
     *scene = kd_tile_with_margin(&tile, &cut);
-    narrow.cut = (struct kd_window) { 0 }; /* with its margin it is rendered as a picture of its own */
-    memcpy(narrow.approximations, plan->approximations, sizeof narrow.approximations); /* those of the picture */
+    narrow.cut = (struct kd_window) { 0 }; /* the tile with its margin is rendered as a picture of its own */
+    /* the approximations of the picture, not those of the tile */
+    memcpy(narrow.approximations, plan->approximations, sizeof narrow.approximations);
     narrow.n_approximations = plan->n_approximations;
     narrow.told = plan->told;
     narrow.told.x = cut.left;

@@ -1,9 +1,9 @@
 /* Explains the light of one pixel. Each of its rays is traced in closed form, and the picture's own kernel reports what
- * each emitter added to that ray (frame/tell.h). The document has both, their difference, and the path of the middle
- * ray for drawing. The plan of the picture names the pixel (kd_plan.told). Any thread.
+ * each emitter added to that ray (frame/probe.h). The document has both results, the difference between them, and the
+ * path of the middle ray for drawing. The plan of the picture names the pixel (kd_plan.told). Any thread.
  *
- * Lengths and times are in M, angles in radians, frequencies as measured by the observer. docs/pixel.md describes
- * the document. */
+ * Lengths and times are in M, angles in radians, frequencies as measured by the observer. docs/pixel.md describes the
+ * document. */
 #ifndef KD_RENDER_EXPLAIN_EXPLAIN_H
 #define KD_RENDER_EXPLAIN_EXPLAIN_H
 
@@ -16,7 +16,7 @@
 struct kd_explained {
     const struct kd_probed_pixel *pixel;
     const struct kd_probed_ray *told; /* the ray that this is about */
-    double weight;                    /* weight of its light in the pixel's: 0, or 1 over the number of rays */
+    double weight;                    /* factor of its light in the pixel's light: 0, or 1 over the number of rays */
     const char *eye;                  /* "left" or "right"; NULL: not a pair */
     struct kd_scene scene;            /* scene of this eye */
     struct kd_camera_label label;     /* energy: E at infinity, in units of the energy that the observer measures */
@@ -25,14 +25,15 @@ struct kd_explained {
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
     struct kd_ray_end end;
     struct kd_ray_path_frame frame;
-    struct kd_ray_path path; /* of the middle ray; for other rays it has no places */
-    double picture_error;    /* error of the picture's crossings, likewise; 1: it has another number of them */
+    struct kd_ray_path path; /* path of the middle ray; for other rays it has no places */
+    double picture_error;    /* largest relative error in 1/r of the picture's crossings; 1: the picture has another
+                              * number of them */
     double shown[3];         /* displayed value of the pixel, 0 to 1 */
     char why[240];           /* where the ray ends and why, one sentence */
 };
 
-/* Explain the middle ray; or one of the rays whose mean is the pixel's light, without its path. KD_EINVAL for a ray
- * that has no closed form. Call kd_explained_finish in any case. */
+/* Explain the middle ray, or one of the rays whose mean is the pixel's light; the latter without its path. KD_EINVAL
+ * for a ray that has no closed form. Call kd_explained_finish in any case. */
 enum kd_status kd_explain(const struct kd_picture *picture, struct kd_explained *out, struct kd_error *error);
 enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number, struct kd_explained *out,
                                struct kd_error *error);
@@ -40,11 +41,11 @@ enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number
 void kd_explained_ray_at(const struct kd_picture *picture, const struct kd_explained *explained, double out[2]);
 /* Relative difference between the mean of the rays' light and the pixel's light. */
 double kd_explained_sum_error(const struct kd_probed_pixel *pixel);
-/* Stokes I, Q, U and V of a ray as it arrives, where I is the luminance of all its light. Returns how many are
- * known: without V if only light of the plane is polarised; 0 if the scene is not polarised. */
+/* Stokes I, Q, U and V of a ray as it arrives, where I is the luminance of all its light. Returns how many of these are
+ * known: 3, without V, if only light of the plane is polarised; 0 if the scene is not polarised. */
 enum { KD_EXPLAINED_STOKES = 4 };
 int kd_explained_stokes(const struct kd_probed_ray *ray, double out[KD_EXPLAINED_STOKES]);
-/* Angle of the electric field, and degree of polarisation; NAN if undefined. */
+/* kd_explained_evpa: angle of the electric field. kd_explained_polarized: degree of polarisation. NAN if undefined. */
 double kd_explained_evpa(const double stokes[3]);
 double kd_explained_polarized(const double stokes[3]);
 /* Mean delay of the light from volumes, weighted by what arrives; NAN if there is none, or if the observer is inside
@@ -59,7 +60,7 @@ bool kd_explained_has_gas(const struct kd_probed_place *place);
 /* Boyer-Lindquist azimuth in the hole's own frame, in (-pi, pi]. */
 double kd_explained_azimuth(const struct kd_explained *explained, double phi);
 
-/* A table as plain text. KD_EINVAL as kd_explain. */
+/* Writes the explanation as a table in plain text. KD_EINVAL as kd_explain. */
 enum kd_status kd_explain_text(const struct kd_picture *picture, struct kd_buffer *out, struct kd_error *error);
 
 /* The document of POST /v1/pixel; not among kd_formats, because it is about one pixel. */
@@ -67,8 +68,8 @@ extern const struct kd_format kd_format_pixel;
 /* Sets the pixel of a plan from "X,Y", in pixels from the picture's upper left corner. KD_EINVAL if it is not a
  * place in the picture. */
 enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_error *error);
-/* Reduces the scene and its plan to that pixel with a margin, if nothing of the pixel depends on the rest of the
- * picture (render/plan/tile.h): a numeric exposure, no bloom, no beam. Otherwise leaves them unchanged. */
+/* Reduces the scene and its plan to the plan's pixel with a margin, if nothing of the pixel depends on the rest of the
+ * picture (render/plan/tile.h): a numeric exposure, no bloom, no beam. Otherwise leaves both unchanged. */
 enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan,
                                  struct kd_error *error);
 /* Requests additional output by a word: "steps" are the engine's steps along the middle ray. KD_EINVAL for any other

@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define FAR 50.0     /* M: the path normally extends to this radius, */
-#define FARTHEST 1e3 /* or up to this for a crossing further out */
-#define NEAR 0.01    /* of the horizon's radius: how near the path comes to it */
+#define FAR 50.0     /* M: the path normally extends to this radius */
+#define FARTHEST 1e3 /* M: the path extends at most to this radius, for a crossing further out than FAR */
+#define NEAR 0.01    /* fraction of the horizon's radius: how near the path comes to the horizon */
 #define DEGREES (180 / M_PI)
 
 static const char *const radial_cases[] = { "I", "II", "III", "IV" }, *const polar_cases[] = { "ordinary", "vortical",
@@ -22,7 +22,7 @@ const char *kd_ray_radial_case(size_t i)
 }
 const char *kd_ray_polar_case(size_t i) { return i < sizeof polar_cases / sizeof *polar_cases ? polar_cases[i] : NULL; }
 
-/* Roots and case number as in Gralla & Lupsasca 2020, arXiv:1910.12881, section IV. */
+/* Names roots and case number as in Gralla & Lupsasca 2020, arXiv:1910.12881, section IV. */
 static void name_roots(struct kd_ray_motion *m)
 {
     static const int cases[] = { [KD_NULL_FOUR_REAL] = 1, [KD_NULL_TWO_REAL] = 2, [KD_NULL_NO_REAL] = 3 };
@@ -39,7 +39,7 @@ static void name_roots(struct kd_ray_motion *m)
     }
 }
 
-/* (z - v)(N + a^2 v) in v = cos^2(theta), section III there. */
+/* Roots of (z - v)(N + a^2 v) in v = cos^2(theta), section III of the same paper. */
 static void name_polar(struct kd_ray_motion *m, const struct kd_null_motion *constants)
 {
     const struct kd_null_polar p = kd_null_polar_of(constants);
@@ -63,7 +63,7 @@ struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray)
     m.roots = kd_null_roots_of(&constants);
     name_roots(&m);
     name_polar(&m, &constants);
-    if (m.within) { /* a ray from next to the horizon can turn only at r3, if that is outside */
+    if (m.within) { /* a ray from next to the horizon can turn only at r3, if r3 is outside */
         m.turning_r = m.roots.kind == KD_NULL_FOUR_REAL && m.roots.r3 > m.horizon ? m.roots.r3 : NAN;
         return m;
     }

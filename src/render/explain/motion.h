@@ -22,7 +22,7 @@ struct kd_ray_motion {
     double horizon, turning_r; /* turning_r: turning point of this ray outside the horizon, NAN if it has none */
     /* "ordinary": oscillates across the plane; "vortical": stays on one side of it; "fixed": theta is constant */
     const char *polar_case;
-    double polar_root[2]; /* of the polar potential, as cos^2(theta); the second is NAN without spin */
+    double polar_root[2]; /* roots of the polar potential, as cos^2(theta); the second is NAN without spin */
     double theta[2];      /* range of theta */
 };
 
@@ -34,14 +34,14 @@ struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray);
 /* Writes one sentence on why a ray of that fate ends as it does. Returns its length. */
 int kd_ray_motion_why(const struct kd_ray_motion *motion, enum kd_ray_fate fate, char *out, size_t size);
 
-/* Crossings, as many as the ray asks for, and the end of a ray that starts inside the horizon, as kd_rays_closed
- * computes them outside. phi is Boyer-Lindquist for places outside the horizon, minus the observer's ingoing
+/* Computes crossings inside the horizon, as many as the ray asks for, and the end of a ray that starts there;
+ * kd_rays_closed does so outside. phi is Boyer-Lindquist for places outside the horizon, minus the observer's ingoing
  * azimuth; delay is in ingoing time; there is no error estimate. KD_ENOMEM. */
 enum kd_status kd_ray_within(const struct kd_ray_motion *motion, bool reversed, struct kd_ray_crossing *crossings,
                              struct kd_ray_end *end, struct kd_error *error);
 
-/* Reference of a ray's azimuths and times: the observer's, and whether its energy at infinity is negative, so that
- * it rotates the other way (view/camera.h). */
+/* The frame in which a ray's azimuths and times are given: the observer's azimuth and time. If the ray's energy at
+ * infinity is negative, it rotates the other way (view/camera.h). */
 struct kd_ray_path_frame {
     double azimuth, twist;
     bool reversed;
@@ -53,18 +53,18 @@ struct kd_ray_path {
     struct kd_ray_path_frame frame;
     double spin;
     bool ingoing; /* azimuth and delay are ingoing */
-    /* largest relative error in r of its crossings; NAN: it has none, or there is nothing to compare with */
+    /* largest relative error in r of the path's crossings; NAN: there are none, or nothing to compare with */
     double error;
 };
 
-/* Computes the path as far as it is worth drawing, and compares its crossings with the n given ones. KD_ENOMEM. Call
- * kd_ray_path_finish in any case. */
+/* Computes the path as far as it is worth drawing, and compares its crossings with the n given crossings. KD_ENOMEM.
+ * Call kd_ray_path_finish in any case. */
 enum kd_status kd_ray_path_draw(const struct kd_ray_motion *motion, const struct kd_ray_path_frame *frame,
                                 const struct kd_ray_crossing *crossings, size_t n, struct kd_ray_path *out,
                                 struct kd_error *error);
 void kd_ray_path_finish(struct kd_ray_path *path);
-/* Azimuth and delay in the frame; and a place: x, y = sqrt(r^2 + a^2) sin(theta) (cos, sin)(azimuth), z = r
- * cos(theta). */
+/* Azimuth and delay of a place in the frame; and its coordinates: x, y = sqrt(r^2 + a^2) sin(theta) (cos,
+ * sin)(azimuth), z = r cos(theta). */
 double kd_ray_path_phi(const struct kd_ray_path_frame *frame, double phi);
 double kd_ray_path_delay(const struct kd_ray_path_frame *frame, double delay);
 void kd_ray_path_at(const struct kd_ray_path *path, const struct kd_null_place *place, double out[3]);
@@ -73,7 +73,8 @@ void kd_ray_path_at(const struct kd_ray_path *path, const struct kd_null_place *
 extern const char *const kd_ray_path_columns[KD_PATH_COLUMNS];
 void kd_ray_path_row(const struct kd_ray_path *path, size_t i, double out[KD_PATH_COLUMNS]);
 
-/* Write the members `radial` and `polar`, and `path`, of the current object; and two lines of plain text. */
+/* kd_ray_motion_json writes the members `radial` and `polar` of the current object, kd_ray_path_json the member `path`.
+ * kd_ray_motion_text appends two lines of plain text. */
 void kd_ray_motion_json(struct kd_json *json, const struct kd_ray_motion *motion);
 void kd_ray_path_json(struct kd_json *json, const struct kd_ray_path *path);
 enum kd_status kd_ray_motion_text(const struct kd_ray_motion *motion, struct kd_buffer *out);

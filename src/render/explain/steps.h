@@ -11,7 +11,7 @@ struct kd_steps_column {
     const char *name;
     size_t at;
 };
-/* Columns of its engine, ending with one without a name. */
+/* The columns for these steps' engine; the last one has no name and ends the list. */
 const struct kd_steps_column *kd_steps_columns(const struct kd_rays_steps *steps);
 double kd_steps_value(const struct kd_rays_step *step, const struct kd_steps_column *column);
 const char *kd_steps_stage(const struct kd_rays_step *step); /* "start", "step", "crossing", "end" */

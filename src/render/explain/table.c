@@ -140,7 +140,7 @@ done:
     return status;
 }
 
-/* The rays whose mean is the pixel's light, if there are several. */
+/* Writes the rays whose mean is the pixel's light, if there are several. */
 static enum kd_status put_each(const struct kd_picture *picture, const struct kd_probed_pixel *pixel,
                                struct kd_buffer *out, struct kd_error *error)
 {

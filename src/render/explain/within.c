@@ -8,9 +8,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define NEAR 1e-4 /* of the horizon's radius: crossings nearer to it from outside count as on it */
+/* fraction of the horizon's radius: crossings from outside that are nearer to the horizon count as on it */
+#define NEAR 1e-4
 
-/* outwards: the photon leaves the gas with p^r > 0; the ray traced back moves inwards there. */
+/* Redshift factor at a crossing. outwards: the photon leaves the gas with p^r > 0; the ray traced back moves inwards
+ * there. */
 static double redshift(const struct kd_ray_motion *m, double r, bool outwards)
 {
     const double a = m->ray.spin;

@@ -1,10 +1,10 @@
-/* Chooses the buffers in which a frame is rendered: the renderer's own, or those of an aside, which are shared with
- * no other frame. */
+/* Chooses the buffers in which a frame is rendered: the renderer's own, or those of a background render, which no other
+ * frame uses meanwhile. */
 #include "render/frame/job.h"
 #include "render/frame/normalise.h"
 #include "render/frame/parts.h"
 
-/* An idle aside that has the plan's lens map; NULL if there is none. */
+/* An idle background render whose store has the plan's lens map; NULL if there is none. */
 static struct kd_background_render *background_render_with(struct kd_renderer *r, const struct kd_plan *plan)
 {
     for (size_t i = 0; i < KD_BACKGROUND_RENDERS; i++)
@@ -43,7 +43,7 @@ static enum kd_status render_here(struct kd_renderer *renderer, const struct kd_
     return status;
 }
 
-/* Empties idle background_renders, the oldest first, until `bytes` fit beside those in use. */
+/* Empties the stores of idle background renders, the oldest first, until `bytes` fit beside the stores in use. */
 static void make_room_in_background(struct kd_renderer *r, uint64_t bytes)
 {
     struct kd_capacity c;
@@ -64,8 +64,8 @@ static void make_room_in_background(struct kd_renderer *r, uint64_t bytes)
     }
 }
 
-/* Limits the memory of idle background_renders other than the last one, even if there is room: the oldest are emptied.
- */
+/* Limits the memory of idle background renders other than the last one, even if there is room: the oldest are
+ * emptied. */
 static void bound_idle_asides(struct kd_renderer *r)
 {
     for (;;) {

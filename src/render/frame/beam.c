@@ -66,7 +66,7 @@ done:
     return status;
 }
 
-/* Interpolates back from cells, as separate light. */
+/* Interpolates back from cells, into buffers of their own, separate from the light before the beam. */
 static enum kd_status spread(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
@@ -137,7 +137,7 @@ done:
     return status;
 }
 
-/* push: complete except for columns and slice. rows: of the result. */
+/* push: complete except for columns and slice. rows: rows of the result. */
 static enum kd_status spline(struct kd_frame_job *j, struct kd_beam_spline_push push, uint32_t rows,
                              struct kd_vk_binding from, struct kd_vk_binding to)
 {
@@ -159,8 +159,8 @@ done:
     return status;
 }
 
-/* Sums rows of cells (one a row of pixels) to the grid: its cell i begins (i - 1) cells below the upper edge of the
- * picture. */
+/* Sums rows of cells (one row for each row of pixels) to the grid. The grid's cell i begins (i - 1) cells below the
+ * upper edge of the picture. */
 static enum kd_status down(struct kd_frame_job *j, struct kd_vk_binding from, struct kd_vk_binding to)
 {
     const struct kd_beam_grid *b = &j->plan->beam;

@@ -58,7 +58,7 @@ done:
     return status;
 }
 
-/* Marks as many pixels as fit one buffer with their result words, which are copied to the host. */
+/* Marks as many pixels as fit one buffer together with their result words, which are copied to the host. */
 static enum kd_status mark_part(struct kd_frame_job *j, const struct kd_frame_part *part, struct kd_vk_buffer *host,
                                 uint8_t *marks)
 {
@@ -84,7 +84,7 @@ done:
     return status;
 }
 
-#define MARKED_AT_ONCE (1u << 18) /* pixels: some milliseconds */
+#define MARKED_AT_ONCE (1u << 18) /* pixels, which take some milliseconds */
 
 enum kd_status kd_frame_mark_between(struct kd_frame_job *j, const struct kd_critical_pixels *pixels, uint8_t *marks)
 {

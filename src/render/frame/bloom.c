@@ -45,7 +45,7 @@ static enum kd_status brighten_band(struct kd_frame_job *j, uint32_t band)
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
 }
 
-/* The same for all completed light, band by band. */
+/* Sums the bright light of all completed rows, band by band. */
 static enum kd_status brighten(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
@@ -64,7 +64,7 @@ done:
     return status;
 }
 
-/* Blocks along an axis that two cells may read: those of four cells, and more where the last block is narrow and
+/* Blocks along an axis that two cells may read: the blocks of four cells, and more where the last block is narrow and
  * blocks are therefore closer. */
 static uint32_t taps(uint32_t pixels, uint32_t cells, uint32_t block, bool around)
 {
@@ -139,7 +139,8 @@ static enum kd_status down(struct kd_frame_job *j, uint32_t level)
     return make(j, KD_KERNEL_BLOOM_DOWN, level, 0, 0, bindings);
 }
 
-/* Sum of a grid and all coarser ones. The coarsest has none beyond it: its own light is bound there, with weight 0. */
+/* Sums a grid and all coarser ones. The coarsest grid has none beyond it: its own light is bound in place of a coarser
+ * sum, with weight 0. */
 static enum kd_status up(struct kd_frame_job *j, uint32_t level)
 {
     const struct kd_bloom *b = &j->plan->bloom;

@@ -1,6 +1,6 @@
-/* Motion blur: averages the light of several pictures, at times while a shutter is open, before exposure, bloom and
- * tone curve. The average is of linear light, for each pixel, on the host, in double precision. Only the thread that
- * has the renderer. */
+/* Motion blur: averages the light of several pictures, at times while a shutter is open. This comes before exposure,
+ * bloom and tone curve. The average is of linear light, for each pixel, on the host, in double precision. Only the
+ * thread that has the renderer. */
 #ifndef KD_RENDER_FRAME_BLUR_H
 #define KD_RENDER_FRAME_BLUR_H
 
@@ -22,12 +22,12 @@ struct kd_blur {
 enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_capacity *capacity, struct kd_plan *plan,
                             struct kd_error *error);
 
-/* Parameters for kd_render or, if `aside`, kd_render_in_background. preview: previews sample 0, which is rendered last,
- * without the others. */
+/* Parameters for kd_render or, if `aside`, kd_render_in_background. preview: shows sample 0, which is rendered last,
+ * without the other samples. */
 struct kd_blurred {
     struct kd_renderer *renderer;
     const struct kd_blur *blur;
-    const struct kd_scene *scene; /* of sample 0, with its plan from kd_blur_plan */
+    const struct kd_scene *scene; /* the scene of sample 0; its plan is from kd_blur_plan */
     const struct kd_plan *plan;
     bool aside;
     kd_progress_fn progress;

@@ -30,7 +30,7 @@ enum kd_status kd_choice_add(struct kd_choice *c, struct kd_pixel pixel, uint32_
     return KD_OK;
 }
 
-/* The largest second difference through a pixel. above, below: the adjacent rows, dark beyond the edge. */
+/* The largest second difference through a pixel. above, below: the adjacent rows; pixels beyond the edge are dark. */
 static int bend(const uint16_t *above, const uint16_t *row, const uint16_t *below, uint32_t x, uint32_t width)
 {
     const int left = x > 0 ? -CHANNELS : 0, right = x + 1 < width ? CHANNELS : 0;
@@ -46,7 +46,7 @@ static int bend(const uint16_t *above, const uint16_t *row, const uint16_t *belo
     return most;
 }
 
-/* Collects pixels with a second difference of at least `floor`; *sum: of the squares over all pixels. */
+/* Collects pixels with a second difference of at least `floor`; *sum: sum of the squares over all pixels. */
 static enum kd_status bends(const struct kd_shown *now, int floor, struct kd_choice *out, double *sum,
                             struct kd_error *error)
 {
@@ -117,7 +117,7 @@ static uint32_t changed(const uint16_t *a, const uint16_t *b, size_t pixel)
     return (uint32_t)most;
 }
 
-/* Raises the marks of a pixel's neighbours to the amount by which it changed. */
+/* Raises the marks of a pixel's neighbours to the amount by which the pixel has changed. */
 static void mark_round(const struct kd_shown *now, struct kd_pixel p, uint32_t score, uint16_t *marks)
 {
     for (uint32_t y = p.y ? p.y - 1 : 0; y <= p.y + 1 && y < now->height; y++)
@@ -166,7 +166,8 @@ void kd_choose_largest(struct kd_choice *choice, uint64_t most)
     uint32_t bin = BINS;
     while (bin > 0 && sum + counts[bin - 1] <= most)
         sum += counts[--bin];
-    uint64_t of_next = most - sum; /* from the next lower bin, starting at the top of the picture */
+    uint64_t of_next = most - sum; /* number of pixels to take from the next lower bin, starting at the top of the
+                                    * picture */
     size_t n = 0;
     for (size_t i = 0; i < choice->list.n; i++) {
         const uint32_t b = bin_of(choice->scores[i]);

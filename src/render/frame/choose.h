@@ -1,4 +1,4 @@
-/* Chooses the pixels that need more rays, by how they are displayed. Pure; any thread. */
+/* Chooses the pixels that need more rays, from the displayed values. Pure; any thread. */
 #ifndef KD_RENDER_FRAME_CHOOSE_H
 #define KD_RENDER_FRAME_CHOOSE_H
 
@@ -25,24 +25,24 @@ enum kd_status kd_choice_add(struct kd_choice *choice, struct kd_pixel pixel, ui
 void kd_choice_finish(struct kd_choice *choice);
 
 /* Chooses pixels whose second difference reaches twice pixel_error of white in any channel, across, down or diagonally.
- * Where the picture is linear from pixel to pixel, a ray in the middle of each is exact whatever the slope. Outside the
- * picture is taken as dark, because light may end at the edge.
+ * The second difference decides because on a linear gradient one ray at the pixel's centre is already exact, whatever
+ * the slope. Outside the picture is taken as dark, because light may end at the edge.
  *
  * In a smooth picture the remaining pixels may hold more than KD_CHOOSE_LEFT of the sum of squares of all second
- * differences, which is proportional to the sum of squares of errors. Then the next largest are chosen as well,
- * until only that much remains, down to KD_CHOOSE_FLOOR of the bound. KD_ENOMEM. */
+ * differences, which is proportional to the sum of squares of errors. Then the pixels with the next largest differences
+ * are chosen as well, until only that much remains, down to KD_CHOOSE_FLOOR of the bound. KD_ENOMEM. */
 #define KD_CHOOSE_LEFT 2e-4
 #define KD_CHOOSE_FLOOR 0.1
 enum kd_status kd_choose_bent(const struct kd_shown *now, double pixel_error, struct kd_choice *out,
                               struct kd_error *error);
 
-/* Chooses the neighbours of those pixels of n lists that changed by pixel_error or more: a feature missed by one ray
- * a pixel may continue there. before: the earlier picture, as now->pixels. KD_ENOMEM. */
+/* Chooses the neighbours of pixels in n lists, namely of those that changed by pixel_error or more: a feature missed by
+ * one ray a pixel may continue there. before: the earlier picture, as now->pixels. KD_ENOMEM. */
 enum kd_status kd_choose_beside(const struct kd_shown *now, const uint16_t *before,
                                 const struct kd_critical_pixels *lists, size_t n, double pixel_error,
                                 struct kd_choice *out, struct kd_error *error);
 
-/* Keeps the `most` pixels with the largest scores, the first ones on ties. */
+/* Keeps the `most` pixels with the largest scores; of equal scores, the first. */
 void kd_choose_largest(struct kd_choice *choice, uint64_t most);
 
 #endif

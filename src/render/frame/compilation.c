@@ -10,9 +10,10 @@
 
 struct kd_compilation {
     struct kd_renderer *renderer;
-    bool picture; /* a scene by a plan, which is rendered as a whole */
+    bool picture; /* the kernels of a whole picture, which is rendered: the scene by its plan */
     struct kd_scene scene;
-    struct kd_dynamic_bodies *crowd; /* playground of the scene, referenced: the requester may be gone by then */
+    struct kd_dynamic_bodies *crowd; /* the scene's bodies of a playground, by a reference of our own: the requester may
+                                      * be gone by then */
     struct kd_plan plan;
     struct kd_kernel_requests wishes;
     kd_progress_fn progress;
@@ -64,11 +65,11 @@ struct kd_compilation *kd_compilation_begin(struct kd_renderer *r, const struct 
     c->crowd = (struct kd_dynamic_bodies *)scene->crowd.at;
     kd_dynamic_bodies_keep(c->crowd);
     c->plan = *plan;
-    c->plan.audit = 0; /* there is nothing to audit */
+    c->plan.audit = 0; /* a device that computes nothing has nothing to audit */
     return c;
 }
 
-/* Dispatches each kernel once, without workgroups. Bound buffers have no contents but the right kinds. */
+/* Dispatches each kernel once, without workgroups. Bound buffers are of the right kinds but have no contents. */
 static enum kd_status dispatch_each(struct kd_compilation *c, struct kd_renderer *own, struct kd_error *error)
 {
     static const uint32_t push[128 / 4]; /* the size of push constants that Vulkan guarantees */
@@ -92,8 +93,8 @@ done:
     return status;
 }
 
-/* Renders the picture, or dispatches its kernels, on a device that computes nothing. The device is closed
- * afterwards: the driver writes its files on a thread of its own, which ends with it. */
+/* Renders the picture, or dispatches its kernels, on a device that computes nothing. Then closes the device: the driver
+ * writes its files on a thread of its own, which ends with the device. */
 static void *rehearse(void *user)
 {
     struct kd_compilation *c = user;
@@ -112,9 +113,9 @@ static void *rehearse(void *user)
                                : dispatch_each(c, own, &c->error);
     kd_frame_finish(&frame);
     if (own && kd_renderer_hangs(own))
-        return NULL; /* it can never be closed */
+        return NULL; /* a hanging device can never be closed */
     if (c->status == KD_EDEVICE)
-        c->status = KD_EIO; /* the picture's own device may be in order */
+        c->status = KD_EIO; /* this is not KD_EDEVICE, because the picture's own device may be in order */
     if (own)
         kd_renderer_sky_stop(own);
     kd_renderer_destroy(own);

@@ -15,10 +15,10 @@ struct kd_compilation;
 /* Requests kernels exactly as the work that needs them will (kd_kernels_note). */
 typedef enum kd_status (*kd_kernels_ask_fn)(struct kd_renderer *renderer, const void *user);
 
-/* A compilation of those requested kernels that the device lacks; NULL if it has all. Only the thread that has the
- * device. */
+/* A compilation of those requested kernels that the device lacks; NULL if it has all of them. Only the thread that has
+ * the device. */
 struct kd_compilation *kd_compilation_of(struct kd_renderer *renderer, kd_kernels_ask_fn ask, const void *user);
-/* The same for the kernels of a picture that take long to compile. */
+/* As kd_compilation_of, for the kernels of a picture that take long to compile. */
 struct kd_compilation *kd_compilation_begin(struct kd_renderer *renderer, const struct kd_scene *scene,
                                             const struct kd_plan *plan);
 /* Any thread; the renderer must not be closed or reopened meanwhile. Errors of kernels are left to the render that
@@ -33,9 +33,9 @@ void kd_compilation_end(struct kd_compilation *compilation);
 struct kd_frame_job;
 enum kd_status kd_frame_await_kernels(struct kd_frame_job *job, kd_kernels_ask_fn ask, const void *user);
 
-void kd_compilation_drop(struct kd_compilation *compilation); /* frees one that was not run; any thread */
+void kd_compilation_drop(struct kd_compilation *compilation); /* frees a compilation that was not run; any thread */
 
-/* Whether compiling ahead is of use with this device; if not and that can be changed, the log says why. */
+/* Whether compiling ahead is of use with this device. If it is not, and that can be changed, the log says why. */
 bool kd_compilation_helps(const struct kd_renderer *renderer);
 
 #endif

@@ -16,7 +16,8 @@ static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacit
 {
     struct kd_renderer *r = j->r;
     enum kd_status status;
-    /* Beside pictures rendered aside, a quarter of the memory is for cached maps; each aside keeps its own lens map. */
+    /* A quarter of the memory is for the renderer's cached maps, so that background renders fit beside these. A
+     * background render keeps its own lens map only. */
     j->store->memory_bytes = j->aside ? j->plan->device_bytes : c->memory_bytes / 4;
     KD_TRY(kd_store_lens_map(j->store, j->plan, &j->lens, reused, j->error));
     KD_TRY(kd_store_frame(j->store, j->plan, j->plan->adaptive ? 16 : kd_frame_bit_depth(j->frame), j->error));
@@ -45,7 +46,7 @@ done:
     return status;
 }
 
-/* The lattices of rays of a picture: on the grid, at the critical curve, and those of refinement. */
+/* The lattices of rays that a picture uses: on the grid, at the critical curve, and those of refinement. */
 static size_t lattices_of(const struct kd_plan *p, struct kd_critical_lattice out[5])
 {
     size_t n = 0;
@@ -120,7 +121,7 @@ done:
     return status;
 }
 
-/* Copies the accuracy of the lens map into the frame's; that of pixels and volumes is already there. */
+/* Copies the accuracy of the lens map into the frame's accuracy, which has that of pixels and volumes already. */
 static void report_accuracy(struct kd_frame_job *j)
 {
     const struct kd_accuracy_report own = j->frame->accuracy;
@@ -151,7 +152,7 @@ static double rows_of_refining(const struct kd_frame_job *j, double rows)
     return refine && ms > 0 ? rows * refine->estimate_ms / ms : 0;
 }
 
-/* Pixels are chosen at the exposure that the picture would have now. */
+/* Refines the picture. Pixels are chosen at the exposure that the picture would have now. */
 static enum kd_status refine(struct kd_frame_job *j)
 {
     const struct kd_plan_pass *pass = pass_of(j->plan, KD_PASS_REFINE);

@@ -19,15 +19,15 @@ struct kd_frame {
     uint32_t width, height;
     struct kd_layer layers[KD_FRAME_MAX_LAYERS];
     size_t n_layers;
-    char credit[KD_CREDIT]; /* credits of its sources, as their authors ask to be named; "": none */
+    char credit[KD_CREDIT]; /* credits of the picture's sources, as their authors ask to be named; "": none */
     double exposure;        /* exposure applied, in stops */
     bool lens_reused;       /* the trace pass was skipped because the lens map was cached */
     uint32_t others_traced; /* lens maps traced for the other pictures of a mean (frame/blur.h) */
     struct kd_accuracy_report accuracy;
     struct kd_light_report light;
     double density_scale;         /* factor applied to the density (volume.normalise_to_jy); 1: none */
-    struct kd_probed_pixel *told; /* light of the pixel that the plan names (frame/tell.h); NULL: none */
-    /* passes that ran, by the names of plan/pass.h, "upload" and "fill"; "kernels" if some had to be made; "total" */
+    struct kd_probed_pixel *told; /* light of the pixel that the plan names (frame/probe.h); NULL: none */
+    /* passes that ran, by the names of plan/pass.h; "upload" and "fill"; "kernels" if some had to be made; "total" */
     struct kd_timing timings[KD_FRAME_MAX_TIMINGS];
     size_t n_timings;
 };
@@ -44,7 +44,8 @@ static inline int kd_frame_bit_depth(const struct kd_frame *frame)
 enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                          kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error);
 
-/* Preview of a long picture, which is drawn from the top some rows at a time. Called between these. */
+/* Preview of a long picture, which is drawn from the top some rows at a time. Its functions are called between these
+ * rows. */
 struct kd_preview_hook {
     bool (*wanted)(void *user);
     /* frame: of full size, black from row `rows` on, with an exposure of its own if that is "auto", without timings
@@ -52,11 +53,11 @@ struct kd_preview_hook {
     void (*seen)(void *user, const struct kd_frame *frame, uint32_t rows);
 };
 
-/* The same with separate buffers. progress, called about every 100 ms, may let other threads use the renderer for
- * anything in this header before it returns; the picture's bytes do not depend on that. At most KD_BACKGROUND_RENDERS
- * may run concurrently, and the callers must limit their total memory, the plans' device_bytes; cached lens maps of
- * finished ones are evicted to make room. Timings exclude the time spent in progress. preview: NULL, or both functions,
- * called with `user`. */
+/* Renders as kd_render, with separate buffers. progress, called about every 100 ms, may let other threads use the
+ * renderer for anything in this header before it returns; the picture's bytes do not depend on that. At most
+ * KD_BACKGROUND_RENDERS may run concurrently, and the callers must limit their total memory, the plans' device_bytes.
+ * Cached lens maps of finished ones are evicted to make room. Timings exclude the time spent in progress. preview:
+ * NULL, or both functions, called with `user`. */
 enum kd_status kd_render_in_background(struct kd_renderer *renderer, const struct kd_scene *scene,
                                        const struct kd_plan *plan, kd_progress_fn progress,
                                        const struct kd_preview_hook *preview, void *user, struct kd_frame *out,
@@ -66,7 +67,7 @@ enum kd_status kd_render_in_background(struct kd_renderer *renderer, const struc
  * top. */
 struct kd_light_sum {
     double *sum;
-    unsigned n, traced; /* traced: lens maps that were traced for them */
+    unsigned n, traced; /* traced: lens maps that were traced for these pictures */
 };
 /* As kd_render (or kd_render_in_background if `aside`), for a picture whose light is averaged with that of others;
  * called by frame/blur.h. plan->radiance must be true, and plan->eyes 1. The error of refined pixels is not measured.

@@ -26,19 +26,20 @@ struct kd_frame_job {
     bool stars_kept;               /* whether that light is cached */
     uint64_t undecided;            /* rays of the lens map that were given up */
     uint64_t traced, interpolated; /* as in kd_accuracy_report */
-    double listed_ms, audit_ms;    /* the host's time for these rays; for the audit */
+    double listed_ms, audit_ms;    /* the host's time for tracing listed rays; for the audit */
     double kernels_ms;             /* the host's time for making missing kernels before they first run */
     kd_progress_fn progress;
     const struct kd_preview_hook *preview;
     void *user;
     double done, weight; /* rows done so far, over all passes; rows in total */
-    /* the rows that refinement counts for and that are not yet reported; rays that it is expected to trace */
+    /* the rows that refinement counts for and that are not yet reported; the rays that refinement is expected to
+     * trace */
     double refine_rows, refine_rays;
     uint32_t lit;                   /* rows of pixels from the top whose light is complete */
     bool looking;                   /* a preview is being made */
     uint8_t *kinds;                 /* KD_REFINED_... of each pixel; NULL unless image.samples is "auto" */
-    bool teaches;                   /* whether its times are measurements of the passes' costs */
-    struct kd_cpu_pressure waiting; /* time that its threads waited for a core, which is subtracted */
+    bool teaches;                   /* whether the job's times are measurements of the passes' costs */
+    struct kd_cpu_pressure waiting; /* time that the job's threads waited for a core, which is subtracted */
     struct kd_frame *frame;
     struct kd_error *error;
 };
@@ -65,7 +66,7 @@ static inline uint32_t kd_frame_band_lit(const struct kd_frame_job *j, uint32_t 
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
     return j->lit < first ? 0 : j->lit - first < rows ? j->lit - first : rows;
 }
-/* The displayed light of a band: its radiance, or that after the beam. */
+/* The displayed light of a band: its radiance, or the radiance after the beam. */
 static inline struct kd_vk_buffer *kd_frame_band_light(const struct kd_frame_job *j, uint32_t band)
 {
     return j->plan->beam.cell ? j->store->beamed.buffers[band] : j->store->radiance.buffers[band];
@@ -84,7 +85,7 @@ static inline uint32_t kd_frame_groups(uint64_t items)
 enum kd_status kd_frame_ask_kernels(struct kd_frame_job *job);
 /* Renders the job's scene by its plan into *out. */
 enum kd_status kd_frame_run(struct kd_frame_job *job, struct kd_frame *out);
-/* Collects the times of all passes that ran, in their order. */
+/* Collects the times of all passes that ran, in the order of the list of passes. */
 void kd_frame_collect_timings(struct kd_frame_job *job, struct kd_frame *frame, double total_ms);
 
 /* The passes, one file each. */
@@ -100,11 +101,12 @@ struct kd_frame_list {
     struct kd_critical_lattice lattice;  /* the rays in each pixel */
     int camera;                          /* the camera that counts in steps of the lattice (view/layout.h) */
     uint64_t most;                       /* pixels whose lens map fits one buffer */
-    struct kd_vk_buffer *const *buffers; /* one for the first `most` of them, one for the next, ... */
-    bool again;                          /* one buffer is reused for all: no map is kept */
+    struct kd_vk_buffer *const *buffers; /* the first buffer is for the first `most` pixels, the next for the next ones,
+                                          * ... */
+    bool again;                          /* one buffer is reused for all pixels: no map is kept */
     bool between;     /* rays are interpolated instead of traced, on pixels where that is accurate (frame/lens.h) */
     bool layers;      /* layers of light are computed as well, not only the picture */
-    const char *pass; /* pass to which their time counts; NULL: the usual passes */
+    const char *pass; /* pass to which the time of these pixels counts; NULL: the usual passes */
 };
 /* needed: the lens map must be made first. */
 enum kd_status kd_frame_light_list(struct kd_frame_job *job, const struct kd_frame_list *list, bool needed);
@@ -116,33 +118,34 @@ struct kd_footprint_area {
     struct kd_footprint_push push;
 };
 enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_footprint_area *area);
-/* The same for a sampled map whose rows from `traced` on have just been sampled; row0: the picture's row of rays at
- * the buffer's first row. Covers rays that were traced singly, and earlier ones marked as incomplete. */
+/* As above, for a sampled map whose rows from `traced` on have just been sampled; row0: the picture's row of rays at
+ * the buffer's first row. Covers rays that were traced singly, and earlier rays marked as incomplete. */
 enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *job, const struct kd_footprint_area *area, uint32_t row0,
                                           uint32_t traced);
-/* The kernel of footprints; lattice: of listed pixels, NULL: of the grid. *out is NULL if no light needs footprints. */
+/* The kernel of footprints. lattice: of listed pixels; NULL: the grid. *out is NULL if no light needs footprints. */
 enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice,
                                          const struct kd_vk_pipeline **out);
 /* Spreads points of light over the pixels of a band: those seen by its rays and, if the whole map is cached, by rays
  * of adjacent rows. Does nothing if that light is cached. The band's map must be complete. Call for the bands of a
  * frame from first to last. */
 enum kd_status kd_frame_stars(struct kd_frame_job *job, uint32_t band);
-/* Gets all of its kernels. */
+/* Gets all kernels of kd_frame_stars. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *job);
-/* Determines whether that light is cached; call as soon as the emitters' numbers are set. */
+/* Determines whether the light of stars is cached; call as soon as the emitters' numbers are set. */
 void kd_frame_begin_stars(struct kd_frame_job *job);
-/* Finds the rim of the job's lens map, if it has one (view/rim.h); traces its rays, unless that was done before. */
+/* kd_frame_find_rim finds the rim of the job's lens map, if there is one (view/rim.h). kd_frame_trace_rim traces the
+ * rim's rays, unless that was done before. */
 void kd_frame_find_rim(struct kd_frame_job *job);
 enum kd_status kd_frame_trace_rim(struct kd_frame_job *job);
-/* Layers of light that the march stored with the radiance (kd_plan_gathers), for rows whose light is complete.
- * Recorded, not submitted. */
+/* Computes the layers of light that the march stored with the radiance (kd_plan_gathers), for rows whose light is
+ * complete. Recorded, not submitted. */
 enum kd_status kd_frame_gather(struct kd_frame_job *job);
 
-/* Describes the light of the plan's pixel if it is in this band, whose lens map must exist; then, when all light is
- * complete, the pixel's result. */
+/* kd_frame_probe describes the light of the plan's pixel if the pixel is in this band, whose lens map must exist.
+ * kd_frame_probe_pixel describes the pixel's result; call it when all light is complete. */
 enum kd_status kd_frame_probe(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_probe_pixel(struct kd_frame_job *job);
-/* Requests the kernels for its steps, if these are recorded. */
+/* Requests the kernels that record the pixel's steps, if the plan asks for steps. */
 enum kd_status kd_frame_probe_ask(struct kd_frame_job *job);
 
 /* Follows rays through volumes again on a sample of this band's pixels, as in the picture and more finely. After all
@@ -150,8 +153,8 @@ enum kd_status kd_frame_probe_ask(struct kd_frame_job *job);
 enum kd_status kd_frame_sample_march(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_march_error(struct kd_frame_job *job);
 
-/* Sum the light of all bands and copy the sums to the host; wait for these, and compute the frame's flux and
- * centroid. */
+/* The first sums the light of all bands and copies the sums to the host. The second waits for the sums and computes the
+ * frame's flux and centroid. */
 enum kd_status kd_frame_add_light(struct kd_frame_job *job);
 enum kd_status kd_frame_read_light(struct kd_frame_job *job);
 /* Replaces the light of all bands by the mean with j->others; waits for the device. */
@@ -161,9 +164,9 @@ enum kd_status kd_frame_mean(struct kd_frame_job *job);
 enum kd_status kd_frame_beam(struct kd_frame_job *job);
 /* Sets the exposure from the completed light; waits for the device if it is "auto". */
 enum kd_status kd_frame_expose(struct kd_frame_job *job);
-/* Refine: trace more rays for the pixels that need them, at the frame's exposure; j->kinds records which. Residual:
- * measure the remaining error of the picture into the frame's accuracy; the light of the sampled pixels is
- * overwritten. */
+/* kd_frame_refine traces more rays for the pixels that need them, at the frame's exposure; j->kinds records which.
+ * kd_frame_residual measures the remaining error of the picture into the frame's accuracy; it overwrites the light of
+ * the sampled pixels. */
 enum {
     KD_REFINED_NOT,
     KD_REFINED_NOT_AT_CURVE,
@@ -180,13 +183,13 @@ enum kd_status kd_frame_bare(struct kd_frame_job *job, uint16_t *to);
 /* Computes the bloom of the completed light in j->store->bloom, at the frame's exposure; does nothing if the plan
  * has no bloom. */
 enum kd_status kd_frame_bloom(struct kd_frame_job *job);
-/* Makes pixels of the completed light, on the host. */
+/* Makes pixels of the completed light and copies them to the host. */
 enum kd_status kd_frame_post(struct kd_frame_job *job);
 enum kd_status kd_frame_post_kernel(struct kd_frame_job *job, const struct kd_vk_pipeline **out); /* the kernel */
-/* Runs all of these in order: from light to pixels. */
+/* Runs the passes from light to pixels, in order. */
 enum kd_status kd_frame_show(struct kd_frame_job *job);
-/* Allocates the layers of a plan after the picture; copies them to the host as far as light is complete. A single
- * requested layer replaces the picture, in false colour. */
+/* kd_frame_add_layers allocates the layers of a plan after the picture; the other copies them to the host as far as
+ * light is complete. A single requested layer replaces the picture, in false colour. */
 enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan *plan, struct kd_error *error);
 enum kd_status kd_frame_layers(struct kd_frame_job *job);
 

@@ -1,6 +1,6 @@
 /* Layers of a frame, each with one value or a few for every pixel. The first is "rgb", the displayed picture; if a
- * single map is requested, it shows that in false colour. Further ones may be "radiance", linear sRGB in units of
- * the disk's largest surface brightness at g = 1, and maps by their names (plan/layer_kinds.h), where NaN means no
+ * single map is requested, "rgb" shows that map in false colour. Further ones may be "radiance", linear sRGB in units
+ * of the disk's largest surface brightness at g = 1, and maps by their names (plan/layer_kinds.h), where NaN means no
  * value. */
 #ifndef KD_RENDER_FRAME_LAYER_H
 #define KD_RENDER_FRAME_LAYER_H

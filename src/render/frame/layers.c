@@ -52,14 +52,15 @@ static enum kd_status read_all(struct kd_frame_job *j)
     return status;
 }
 
-/* Least and largest value; on a logarithmic scale of those above 0. If there are none, 0 and 1, or 1 and 10. */
+/* The least and the largest value; on a logarithmic scale only values above 0 count. If there are none, 0 and 1, or 1
+ * and 10. */
 static struct kd_map_scale extent_of(const float *values, size_t n, bool logarithmic)
 {
     struct kd_map_scale extent = { INFINITY, -INFINITY, false };
     for (size_t i = 0; i < n; i++) {
         if (isinf(values[i]) || (logarithmic && values[i] <= 0))
             continue;
-        extent.low = values[i] < extent.low ? values[i] : extent.low; /* false for NaN */
+        extent.low = values[i] < extent.low ? values[i] : extent.low; /* the comparison is false for NaN */
         extent.high = values[i] > extent.high ? values[i] : extent.high;
     }
     return extent.low <= extent.high ? extent : (struct kd_map_scale) { logarithmic, logarithmic ? 10 : 1, false };
@@ -80,7 +81,7 @@ static struct kd_map_scale scale_of(const struct kd_scene *scene, const struct k
     scale.high = !isnan(scale.high) ? scale.high : about_one ? fmax(most, 1.01) : about_zero ? far : extent.high;
     scale.low = isfinite(scene->image.layer_min) ? scene->image.layer_min : scale.low;
     scale.high = isfinite(scene->image.layer_max) ? scene->image.layer_max : scale.high;
-    /* An end set by the scene may be beyond all values: then all have the colour of that end; the scale is not
+    /* An end set by the scene may be beyond all values. Then all values have the colour of that end; the scale is not
      * reversed. */
     if (scale.low > scale.high && isfinite(scene->image.layer_min))
         scale.high = scale.low + fabs(scale.low) + 1;
@@ -131,8 +132,8 @@ static enum kd_status show(struct kd_frame_job *j)
     return KD_OK;
 }
 
-/* Light is finite: an infinite value of a layer has overflowed. The layer is refused, because no 32-bit number would
- * be right. */
+/* Checks that a layer's values are finite, as light is: an infinite value has overflowed. The layer is then refused,
+ * because no 32-bit number would be right. */
 static enum kd_status check_light(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;

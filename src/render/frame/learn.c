@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Learns the cost of an item of a pass, for the pass's figure and for the picture's class. */
+/* Updates the cost of an item of a pass, both the pass's figure and the cost of the picture's class. */
 static void learn(struct kd_capacity *c, const struct kd_frame_job *job, const struct kd_plan_pass *pass, double ms)
 {
     const double ns = ms * 1e6 / (double)pass->invocations;
@@ -16,7 +16,7 @@ static void learn(struct kd_capacity *c, const struct kd_frame_job *job, const s
     if (pass->figure == KD_NS_NONE)
         return;
     if (pass->figure == KD_NS_RAY_MARCH && job->scene->volume.model == KD_VOLUME_GRID)
-        return; /* depends on the cells */
+        return; /* depends on the grid's cells */
     double *figure = &c->ns[pass->figure];
     *figure = job->r->probing ? fmin(*figure, ns) : kd_cost_mean(*figure, ns);
 }
@@ -29,9 +29,10 @@ static double timing(const struct kd_frame *frame, const char *pass)
     return 0;
 }
 
-/* A device that is the host's processor is slowed down by other programs. Costs are cached between starts and used
- * for planning: an hour of load must not make pictures look too expensive on an idle machine. Examining every thread
- * takes 0.1 to 0.3 ms, so only one short frame in eight is measured. */
+/* Whether the device is the host's processor, which other programs slow down. Costs are cached between starts and used
+ * for planning: an hour of load must not make pictures look too expensive on an idle machine. So the time that threads
+ * waited for a core is subtracted. Examining every thread takes 0.1 to 0.3 ms; therefore only one short frame in eight
+ * is measured. */
 static bool on_the_host(const struct kd_renderer *r) { return kd_vk_info(r->vk)->type == KD_VK_CPU; }
 
 void kd_frame_learn_begin(struct kd_frame_job *job)

@@ -17,8 +17,8 @@
 
 static const struct kd_critical_lattice on_grid; /* all 0: the grid */
 
-/* Rows of pixels of a band, from `row` on, in one submission. Slices of a sampled map end at its blocks if they
- * reach one, so that no block is traced twice. */
+/* Rows of pixels of a band, from `row` on, that one submission processes. Slices of a sampled map end at its blocks if
+ * they reach a block's end, so that no block is traced twice. */
 static uint32_t rows_of_slice(const struct kd_frame_job *j, uint32_t band, uint32_t row, double ns_per_row, bool maps)
 {
     const struct kd_plan *p = j->plan;
@@ -32,7 +32,7 @@ static uint32_t rows_of_slice(const struct kd_frame_job *j, uint32_t band, uint3
     return held < left ? held : left;
 }
 
-/* Kernels are looked up for each slice, because other work may have evicted them meanwhile. */
+/* Kernels are looked up for each slice, because other work may have evicted a kernel meanwhile. */
 
 /* Rows of pixels in one submission, given nanoseconds a row. */
 uint32_t kd_frame_slice(double ns_per_row, uint32_t rows)
@@ -82,7 +82,8 @@ static bool is_layer_of(const struct kd_plan *p, int makes, enum kd_layer_of of)
     return makes >= 0 && kd_layer_kinds[p->layers[makes].kind].of == of;
 }
 
-/* Whether the march makes it; layers of a crossing need it because a body may hide the crossing. */
+/* Whether the march makes this light or layer. Layers of a crossing need the march because a body may hide the
+ * crossing. */
 static bool marches(const struct kd_plan *p, int makes)
 {
     return p->march.steps && makes != KD_MAKES_RAYS &&
@@ -91,7 +92,7 @@ static bool marches(const struct kd_plan *p, int makes)
 
 uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes)
 {
-    return makes < 0 && marches(plan, makes) ? rays : 1; /* layers follow at most one ray */
+    return makes < 0 && marches(plan, makes) ? rays : 1; /* a layer follows at most one ray */
 }
 
 enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, int makes,
@@ -171,7 +172,7 @@ static struct kd_slice slice_of(const struct kd_frame_job *j, uint32_t band)
     };
 }
 
-/* Records a kernel over a slice: for rays the grid is that of rays, otherwise that of pixels. */
+/* Records a kernel over a slice. Invocations are rays if it makes rays, otherwise pixels. */
 static enum kd_status record(struct kd_frame_job *j, const struct slice *s, struct kd_vk_dispatch *d, int makes)
 {
     const bool rays = makes == KD_MAKES_RAYS, columns = makes == KD_MAKES_PICTURE && in_columns(j->plan);
@@ -190,7 +191,7 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
 
 enum kd_status kd_frame_list_rays(struct kd_frame_job *j, const struct kd_lens_rows *rows)
 {
-    /* a march is slow, and its time is not a measurement for these rays */
+    /* the march before is slow, and waiting for it must not count as time for these rays */
     enum kd_status status = j->plan->march.steps ? kd_vk_wait(j->r->vk, 0, j->error) : KD_OK;
     double start = kd_clock_ms();
     if (!status)
@@ -222,7 +223,7 @@ struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *j, const struct 
         { { lens, 0, 0, true },
           { j->store->undecided, 0, 0, true },
           camera_binding(j, camera),
-          [KD_PLACES_BINDING] = camera_binding(j, camera) }, /* replaced for rays by place */
+          [KD_PLACES_BINDING] = camera_binding(j, camera) }, /* replaced if rays are given by place */
     };
 }
 
@@ -267,8 +268,8 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
     return d;
 }
 
-/* The rows that can be completed after a slice was traced. Footprints need the row of rays below as well, and at the
- * upper edge two: such rows are held back until more are traced or the band ends. */
+/* The rows that can be completed after a slice was traced. Footprints need the row of rays below as well, or two rows
+ * at the upper edge: rows without them are held back until more are traced or the band ends. */
 static struct slice complete(const struct kd_frame_job *j, const struct slice *s)
 {
     if (!kd_plan_has_footprints(j->plan))
@@ -278,8 +279,8 @@ static struct slice complete(const struct kd_frame_job *j, const struct slice *s
     return (struct slice) { s->band, from, (end == first + kd_frame_band_rows(j, s->band) ? end : to) - from };
 }
 
-/* s: rows that can be completed; traced: those of them that are new. In a sampled map these are the rays traced
- * singly, and in rows that were held back the marked ones. */
+/* s: rows that can be completed; traced: those of them that were traced just now. In a sampled map the footprints are
+ * those of rays traced singly and, in rows that were held back, of marked rays. */
 static enum kd_status footprint_slice(struct kd_frame_job *j, const struct slice *s, const struct slice *traced)
 {
     const struct kd_plan *p = j->plan;
@@ -313,7 +314,7 @@ done:
     return status;
 }
 
-/* Makes these pixels black. */
+/* Makes the slice's pixels black. */
 static enum kd_status darken(struct kd_frame_job *j, const struct slice *s)
 {
     const struct kd_plan *p = j->plan;
@@ -334,7 +335,7 @@ done:
     return status;
 }
 
-/* Records and submits the light of rows s. */
+/* Records and submits the light of the slice's rows. */
 static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s)
 {
     const struct kd_vk_pipeline *transfer;
@@ -404,7 +405,7 @@ done:
     return status;
 }
 
-/* Lights the pixels at the critical curve, with their additional rays. */
+/* Lights the pixels at the critical curve, each with its additional rays. */
 static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed)
 {
     enum kd_status status = KD_OK;
@@ -441,7 +442,8 @@ done:
     return status;
 }
 
-/* Points of light need the complete map of a band before its light, and of the adjacent bands if all are cached. */
+/* Lights all bands. Points of light need the complete map of a band before its light is made, and of the adjacent bands
+ * if all are cached. */
 static enum kd_status light_bands(struct kd_frame_job *j, bool needed, double transfer_ns)
 {
     const struct kd_plan *p = j->plan;

@@ -12,24 +12,25 @@ enum { KD_MAKES_PIECES = -4, KD_MAKES_TOLD = -3, KD_MAKES_RAYS = -2, KD_MAKES_PI
 /* Rows of pixels in one submission, given nanoseconds a row. */
 uint32_t kd_frame_slice(double ns_per_row, uint32_t rows);
 
-/* Kernels for listed pixels by their lattice, for the grid by a lattice that is all 0. *out is NULL if no kernel
- * traces. */
+/* The kernels that trace and that light rays: on listed pixels by their lattice, on the grid if the lattice is all 0.
+ * *out is NULL if no kernel traces. */
 enum kd_status kd_frame_trace_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice,
                                      const struct kd_vk_pipeline **out);
 enum kd_status kd_frame_light_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice, int makes,
                                      const struct kd_vk_pipeline **out);
-/* Number of dispatches for the light of a pixel with `rays` rays, one for each kd_slice.ray: the march follows one
- * ray at a time. */
+/* Number of dispatches for the light of a pixel with `rays` rays. The march follows one ray at a time, and needs a
+ * dispatch for each kd_slice.ray. */
 uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes);
-/* Dispatches of both kernels without their size: from rays of a camera (view/layout.h) to a lens map, and from there
- * to the radiance of a band. */
+/* The dispatches of both kernels, without their size: from rays of a camera (view/layout.h) to a lens map, and from
+ * there to the radiance of a band. */
 struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *job, const struct kd_vk_pipeline *pipeline,
                                      struct kd_vk_buffer *lens, int camera);
 struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *job, const struct kd_vk_pipeline *pipeline,
                                         struct kd_vk_buffer *lens, uint32_t band, int camera, int makes);
-/* Rays through volumes that a driver stopped early. kd_frame_forget_lost empties the list after a band's light, or a
- * sample's, before any of it is computed. kd_frame_follow_lost continues the rays listed since, for pixels lit by
- * `base`, with `march` and `turns` dispatches for each; it submits what is recorded and waits. */
+/* Rays through volumes that a driver stopped early are listed. kd_frame_forget_lost empties the list that follows a
+ * band's light, or a sample's; call it before any of that light is computed. kd_frame_follow_lost continues the rays
+ * listed since, for pixels lit by `base`, with `march` and `turns` dispatches for each; it submits what is recorded and
+ * waits. */
 enum kd_status kd_frame_forget_lost(struct kd_frame_job *job, struct kd_vk_buffer *light, const char *pass);
 enum kd_status kd_frame_follow_lost(struct kd_frame_job *job, const struct kd_vk_dispatch *base,
                                     const struct kd_slice *march, const struct kd_critical_lattice *lattice,
@@ -47,25 +48,26 @@ struct kd_frame_part {
 };
 struct kd_frame_part kd_frame_part_of(const struct kd_frame_job *job, const struct kd_frame_list *list,
                                       uint64_t number);
-/* Range of its pixels, counted from its first, that lies in a band: from *from up to but not including *to. */
+/* The range of the part's pixels, counted from its first, that lies in a band: from *from up to but not including
+ * *to. */
 void kd_frame_part_in_band(const struct kd_frame_job *job, const struct kd_frame_part *part, uint32_t band,
                            uint64_t *from, uint64_t *to);
-/* Uploads their places, which follow the planes. */
+/* Uploads the places of the part's pixels, which follow the planes. */
 enum kd_status kd_frame_upload_pixels(struct kd_frame_job *job, const struct kd_frame_part *part);
 
 /* Describes the light of the plan's pixel again, if it is in a part that has just been lit. */
 enum kd_status kd_frame_probe_listed(struct kd_frame_job *job, const struct kd_frame_part *part);
 
-/* Rays that the kernels leave open, in a band of the grid or a part of a list (part: NULL for the band). The list of
- * open rays is emptied before rays are traced. Afterwards those on the list are traced again (settle.c):
- * kd_frame_settle submits what is recorded, waits, and records the writes to the map. Rays that stay open are
- * counted in job->undecided. */
+/* Rays that the kernels leave open, in a band of the grid or a part of a list (part: NULL for the band).
+ * kd_frame_forget_open empties the list of open rays; call it before rays are traced. kd_frame_settle then traces the
+ * rays on the list again (settle.c): it submits what is recorded, waits, and records the writes to the map. Rays that
+ * stay open are counted in job->undecided. */
 enum kd_status kd_frame_forget_open(struct kd_frame_job *job, const struct kd_frame_part *part);
 enum kd_status kd_frame_settle(struct kd_frame_job *job, const struct kd_frame_part *part, uint32_t band);
 
 /* Rays of pixels on a square grid, interpolated in the lens map of the picture's grid (comp/between.comp).
- * kd_frame_has_between: whether that map has one ray a pixel and is complete. kd_frame_mark_between: for which
- * pixels that is accurate; a byte each, 1 or 0; waits for the device. */
+ * kd_frame_has_between: whether that map has one ray a pixel and is complete. kd_frame_mark_between: writes for each
+ * pixel whether interpolation is accurate, a byte of 1 or 0; waits for the device. */
 bool kd_frame_has_between(const struct kd_frame_job *job);
 enum kd_status kd_frame_mark_between(struct kd_frame_job *job, const struct kd_critical_pixels *pixels, uint8_t *marks);
 enum kd_status kd_frame_between(struct kd_frame_job *job, const struct kd_frame_part *part);

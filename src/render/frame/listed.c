@@ -41,7 +41,7 @@ void kd_frame_part_in_band(const struct kd_frame_job *j, const struct kd_frame_p
     *to = b < first ? 0 : b - first < part->n ? b - first : part->n;
 }
 
-/* Progress of refinement in rows; rays at the critical curve before it count for none. */
+/* Progress of refinement in rows. Rays at the critical curve before refinement do not count. */
 static double refined_rows(struct kd_frame_job *j, uint64_t rays)
 {
     const double rows = j->refine_rays > 0 ? fmin(j->refine_rows, j->refine_rows * (double)rays / j->refine_rays) : 0;
@@ -50,8 +50,8 @@ static double refined_rows(struct kd_frame_job *j, uint64_t rays)
     return rows;
 }
 
-/* Runs a kernel over pixels `from` to `to` of a part in slices, with one invocation a ray if it makes rays,
- * otherwise one a pixel. base: the dispatch without its pipeline and size. */
+/* Runs a kernel over pixels `from` to `to` of a part in slices: one invocation a ray if it makes rays, otherwise one a
+ * pixel. base: the dispatch without its pipeline and size. */
 static enum kd_status run_part(struct kd_frame_job *j, const struct kd_frame_part *part, uint64_t from, uint64_t to,
                                const struct kd_vk_dispatch *base, int makes, double ns_per_ray)
 {
@@ -117,7 +117,7 @@ done:
     return status;
 }
 
-/* Traces a part by the kernel, and settles the rays left open. */
+/* Traces a part by the kernel, and settles the rays that the kernel leaves open. */
 static enum kd_status trace_and_settle(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
     struct kd_vk_dispatch d = kd_frame_trace(j, NULL, part->lens, part->list->camera);
@@ -130,7 +130,7 @@ done:
     return status;
 }
 
-/* Footprints of a traced part, in slices. */
+/* Makes the footprints of a traced part, in slices. */
 static enum kd_status footprint_part(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
     struct kd_footprint_area area = {

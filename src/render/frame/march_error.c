@@ -7,7 +7,7 @@
 
 static uint32_t pixels_of(const struct kd_march_sample *s) { return s->columns * s->rows; }
 
-/* Rows of the lattice above a row of the picture. */
+/* Number of the lattice's rows above a row of the picture. */
 static uint32_t above(const struct kd_march_sample *s, uint32_t row)
 {
     const uint32_t n = row > s->first[1] ? (row - s->first[1] + s->every[1] - 1) / s->every[1] : 0;
@@ -80,11 +80,11 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Whether light is finite and the ray was not given up, which is marked by -1. */
+/* Whether light is finite and the ray was not given up; a ray that was given up is marked by -1. */
 static bool right(const float c[3]) { return isfinite(c[0] + c[1] + c[2]) && c[0] >= 0 && c[1] >= 0 && c[2] >= 0; }
 
-/* Relative differences of the light of n rays, sorted; returns their number: rays that meet no volume have none. A
- * ray without valid light counts as 1. */
+/* Relative differences of the light of n rays, sorted. Returns their number: rays that meet no volume have no
+ * difference. A ray without valid light counts as 1. */
 static uint32_t compare(const float *light, const float *finer, uint32_t n, double off[KD_MARCH_SAMPLED])
 {
     double most = 0;

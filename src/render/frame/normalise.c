@@ -7,18 +7,19 @@
 #include <math.h>
 #include <string.h>
 
-enum { FIRST = 48, CLOSE = 128, MOST = 60 }; /* pixels of a side; largest number of pictures */
-#define NEAR 1e-3 /* relative to the flux: pictures of 48 pixels agree with those of 128 better than this */
-#define HELD 5e-5 /* remaining error; a flux is a sum of floats, accurate to 1e-6 */
-/* initial slope: light is proportional to density times field, and the field to at least the density's square root */
+enum { FIRST = 48, CLOSE = 128, MOST = 60 }; /* pixels along a side, at first and later; largest number of pictures */
+#define NEAR 1e-3 /* relative to the flux: the fluxes of pictures of 48 and of 128 pixels differ by less than this */
+#define HELD 5e-5 /* remaining relative error; a flux is a sum of floats, accurate to 1e-6 */
+/* First guess of d ln(flux)/d ln(scale). Light is proportional to density times field, and the field grows at least as
+ * the square root of the density, so that the slope is at least 1.5. */
 #define THIN 2.0
 #define LONGEST 6.9  /* largest step of ln scale: a factor of a thousand */
-#define MARGIN 0.05  /* fraction of a bracket: estimates nearer to its ends are replaced */
+#define MARGIN 0.05  /* fraction of a bracket: estimates that are nearer to its ends than this are replaced */
 #define DENSEST 1e30 /* the range of the fields */
 
 struct search {
     struct kd_renderer *r;
-    struct kd_scene scene; /* the rendered scene, without density and size */
+    struct kd_scene scene; /* the scene to be rendered; each picture sets its density and size */
     double target, most;   /* Jy; ln of the largest scale */
     double slope;          /* d ln flux / d ln scale, from the last pictures */
     kd_progress_fn progress;
@@ -34,7 +35,7 @@ static double *density_of(struct kd_scene *scene)
                                         : &v->density_cm3;
 }
 
-/* The picture that measures the flux. */
+/* Plans the picture that measures the flux. */
 static enum kd_status plan_of(const struct search *s, int side, double log_scale, struct kd_scene *scene,
                               struct kd_plan *plan)
 {
@@ -72,8 +73,8 @@ static enum kd_status refuse(const struct search *s, const char *why, double jy)
                           s->target, why, jy);
 }
 
-/* The next estimate: by the secant through the ends of a bracket, or by the slope; the middle if that is too near to
- * an end. */
+/* The next estimate of ln scale: by the secant through the ends of a bracket, or by the slope. If it is too near to an
+ * end of the bracket, the bracket's middle instead. */
 static double guess(const struct search *s, double x, double y, const double at[2], const double off[2])
 {
     if (!isfinite(at[0]) || !isfinite(at[1]))
@@ -82,7 +83,7 @@ static double guess(const struct search *s, double x, double y, const double at[
     return at[0] + (part > MARGIN && part < 1 - MARGIN ? part : 0.5) * (at[1] - at[0]);
 }
 
-/* Finds *x, ln of the scale, starting from its value. Regula falsi in ln flux over ln scale; the value at a retained
+/* Finds *x, ln of the scale, starting from its value, by regula falsi in ln flux over ln scale; the value at a retained
  * end is halved each time (Dowell & Jarratt 1971, BIT 11, 168). */
 static enum kd_status find(struct search *s, int side, double within, double *x)
 {
@@ -138,7 +139,7 @@ done:
     return status;
 }
 
-/* Only what the flux depends on. */
+/* The scene reduced to what the flux depends on. */
 static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan *plan)
 {
     struct kd_scene bare = kd_scene_whole(scene), plain;
@@ -159,7 +160,8 @@ static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan *
     return bare;
 }
 
-/* Hash keys of it, of the picture's shape and of the flux. */
+/* Computes both keys: hashes of the reduced scene with the picture's shape and the flux, and without camera and
+ * shape. */
 static enum kd_status keys_of(const struct search *s, struct kd_normal *out)
 {
     struct kd_scene key = s->scene, plain;

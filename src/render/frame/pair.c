@@ -59,7 +59,7 @@ static enum kd_status join(const struct kd_frame eyes[2], struct kd_frame *out, 
     frame.width = 2 * eyes[0].width;
     frame.n_layers = 0;
     memset(frame.layers, 0, sizeof frame.layers);
-    frame.light = (struct kd_light_report) { 0 }; /* it would be of neither picture */
+    frame.light = (struct kd_light_report) { 0 }; /* flux and centroid would belong to neither picture */
     frame.told = NULL;
     kd_frame_probe_both(&frame, &eyes[1]);
     for (size_t i = 0; i < eyes[0].n_layers; i++) {
@@ -76,7 +76,7 @@ done:
     return status;
 }
 
-/* The described pixel is in one eye's picture only. */
+/* Hands over the description of the plan's pixel, which is in one eye's picture only. */
 static void hand_over_told(struct kd_frame eyes[2], struct kd_frame *to)
 {
     for (int i = 0; i < 2; i++)

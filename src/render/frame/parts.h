@@ -1,5 +1,5 @@
-/* Pictures made of parts, one render after the other (render/plan/parts.c): a pair of eyes, a tile with its margin,
- * strips. Render thread only. */
+/* Pictures made of parts, which are rendered one after the other (render/plan/parts.c): a pair of eyes, a tile with its
+ * margin, strips. Render thread only. */
 #ifndef KD_RENDER_FRAME_PARTS_H
 #define KD_RENDER_FRAME_PARTS_H
 
@@ -15,8 +15,8 @@ struct kd_parted {
     void *user;
 };
 
-/* Whether a plan consists of parts; renders it into *out, the whole picture. In a pair the left eye's picture is on
- * the left, and both have its exposure. */
+/* Whether a plan consists of parts. kd_render_parts renders such a plan into *out, the whole picture. In a pair the
+ * left eye's picture is on the left, and both pictures have its exposure. */
 static inline bool kd_plan_is_parted(const struct kd_plan *plan)
 {
     return plan->eyes == 2 || plan->cut.width || plan->strips;

@@ -11,7 +11,8 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
     const struct kd_plan *p = j->plan;
     const struct kd_vk_pipeline *light;
     bool finite = !isinf(j->scene->camera.r);
-    const uint64_t sums = kd_light_bytes(p) / p->bands; /* bound band by band, because the whole may exceed a binding */
+    const uint64_t sums = kd_light_bytes(p) / p->bands; /* the sums are bound band by band, because all may exceed one
+                                                         * binding */
     const struct kd_spec_photometry spec = { .SEPARATE_PHOTOMETRY = p->apart,
                                              .FINITE = finite,
                                              .STOKES = p->stokes_words > 0,
@@ -37,7 +38,7 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
             light,
             { { j->store->radiance.buffers[band], 0, 0, false }, { j->store->light, band * sums, sums, true } },
             &push,
-            { per_band }, /* for the last, smaller band too: surplus groups write zeros */
+            { per_band }, /* the same number for the last band, which is smaller: surplus groups write zeros */
         };
         KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
     }

@@ -28,7 +28,7 @@ static enum kd_status forget(struct kd_frame_job *j, const struct kd_vk_dispatch
                       j->error);
 }
 
-/* Continues the ray number push->ray of each listed pixel, piece by piece, until none is left. */
+/* Continues the ray number push->ray of each listed pixel, piece by piece, until none of these rays is left. */
 static enum kd_status follow(struct kd_frame_job *j, struct kd_vk_dispatch *d, struct kd_slice *push,
                              const struct kd_critical_lattice *l)
 {

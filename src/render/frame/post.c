@@ -43,8 +43,8 @@ static void draw_scales(struct kd_frame_job *j)
         kd_sky_scale_draw(&canvas, &(struct kd_sky_scale) { width / frame->width, j->scene->style.beam_uas });
 }
 
-/* How light is converted: pixels of 8 or 16 bits, with or without dither and bloom. bare: the completed light
- * without beam and palette; otherwise as requested. */
+/* How light is converted: to pixels of 8 or 16 bits, with or without dither and bloom. bare: the completed light
+ * without beam and palette; otherwise the light as requested. */
 struct look {
     bool wide, dither, bare;
     const struct kd_bloom *bloom;
@@ -92,7 +92,7 @@ static uint64_t counted(const struct kd_store *s, uint64_t at)
     return (uint64_t)two[0] + two[1];
 }
 
-/* Posts and reads back completed light, one band at a time. */
+/* Runs the post pass on completed light and reads the pixels back, one band at a time. */
 static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
 {
     struct kd_frame *frame = j->frame;

@@ -12,7 +12,7 @@
 
 enum {
     RECORDS = 8192
-}; /* about 360 kB: a march makes two for each part of each step, at most 6144, and emitters add theirs */
+}; /* about 360 kB: a march makes two records for each part of each step, at most 6144, and emitters add their own */
 struct record { float of, a[4], b[4], c[2]; };
 #define SIZE (sizeof(float) + (KD_PROBE_SUMS + RECORDS) * sizeof(struct record))
 _Static_assert(sizeof(struct record) == KD_PROBE_RECORD * sizeof(float), "the record of interface.h");
@@ -147,13 +147,13 @@ static void take(struct kd_probed_ray *told, const struct record *r)
         memcpy(told->light, r->a, sizeof told->light);
 }
 
-/* Where the rays are, and what reads them. */
+/* The rays to be described, and the kernel that reads them. */
 struct source {
     const struct kd_critical_lattice *lattice; /* all 0: the grid */
     struct kd_vk_buffer *lens, *records;
     uint32_t band;
     int camera;
-    struct kd_slice push; /* without the ray's number */
+    struct kd_slice push; /* push constants without the ray's number */
 };
 
 static enum kd_status follow(struct kd_frame_job *j, const struct source *s, struct kd_probed_ray *out)
@@ -179,7 +179,7 @@ done:
     return status;
 }
 
-/* Allocates `rays` rays of the pixel, still empty. */
+/* Allocates `rays` empty rays of the pixel. */
 static enum kd_status make_room(struct kd_frame_job *j, uint32_t rays)
 {
     struct kd_probed_pixel *told = j->frame->told;
@@ -336,7 +336,7 @@ static enum kd_status tell_steps(struct kd_frame_job *j)
     kd_rays_steps_finish(told->steps);
     free(told->steps);
     told->steps = NULL;
-    if (status == KD_EINVAL) /* rounding moved the labels outside the range that light can have */
+    if (status == KD_EINVAL) /* rounding has moved the labels outside the range that light can have */
         return say_no_steps(told, error.message);
     if (j->error)
         *j->error = error;

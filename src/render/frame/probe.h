@@ -1,5 +1,5 @@
-/* Describes the light of the pixel that the plan names, ray by ray and emitter by emitter, as the picture's own
- * kernel sums it (light/tell.glsl). Radiance is linear sRGB, in units of the picture. */
+/* Describes the light of the pixel that the plan names, ray by ray and emitter by emitter, as the picture's own kernel
+ * sums it (light/probe.glsl). Radiance is linear sRGB, in the picture's unit. */
 #ifndef KD_RENDER_FRAME_PROBE_H
 #define KD_RENDER_FRAME_PROBE_H
 
@@ -10,46 +10,47 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_PROBED_PLACES 32 /* of a ray, at most */
+#define KD_PROBED_PLACES 32 /* places of a ray, at most */
 
 /* Light of one emitter at a place. */
 struct kd_probed_glow {
     uint32_t emitter; /* index in kd_emitters */
-    float light[3];   /* including its opacity, without absorption in front of it */
+    float light[3];   /* light including the emitter's opacity, without absorption in front of it */
     float opacity;
-    float through; /* fraction of it that reaches the observer, including factors on all light there */
+    float through; /* fraction of this light that reaches the observer, including factors on all light at the place */
     bool points;   /* this is the emitter's points of light, spread over the pixel */
 };
 
 /* A place where something may emit or absorb light. */
 struct kd_probed_place {
-    uint32_t order;                 /* of the crossing */
-    float w, phi, slope, footprint; /* from the lens map; 0 for what it does not hold */
-    /* g, temperature, angle: of gas at the place, whether there is any or not: redshift factor; K; angle between
-     * light and normal in the frame of the gas, radians */
+    uint32_t order;                 /* image order of the crossing */
+    float w, phi, slope, footprint; /* from the lens map; 0 if the map does not hold the quantity */
+    /* The next three are of gas at the place, whether there is any gas or not. g: redshift factor; temperature: K;
+     * angle: between light and normal in the frame of the gas, radians */
     float g, temperature, angle;
     float through;  /* transmission of everything in front */
-    bool polarized; /* whether its light is polarised: Stokes Q and U over I */
+    bool polarized; /* whether the light is polarised; then the next members are Stokes Q and U over I */
     float stokes[2];
     struct kd_probed_glow glows[KD_PLAN_EMITTERS];
     size_t n_glows;
 };
 
-/* A stretch of the ray through volumes, for all of them together: a part of a step of the march, or several adjacent
- * ones if there are many. */
+/* A stretch of the ray through volumes, for all volumes together: a part of a step of the march, or several adjacent
+ * parts if there are many. */
 struct kd_probed_stretch {
-    uint32_t order;   /* of the next crossing, if there is one */
-    float w[2], u[2]; /* 1/r and cos(theta) at its ends */
-    float delay[2];   /* of light from there, as for a crossing; meaningless for an observer inside the horizon */
-    float light[3];   /* its contribution to the arriving light */
+    uint32_t order;   /* order of the next crossing, if there is one */
+    float w[2], u[2]; /* 1/r and cos(theta) at both ends of the stretch */
+    float delay[2];   /* delays of the light from both ends, as for a crossing; meaningless for an observer inside the
+                       * horizon */
+    float light[3];   /* contribution of the stretch to the arriving light */
     float through[2]; /* transmission of everything in front, without and with this stretch */
 };
 #define KD_PROBED_STRETCHES 256
 
-/* Contribution of one volume along the whole ray, as far as that was followed. */
+/* Contribution of one volume along the whole ray, as far as the ray was followed. */
 struct kd_probed_volume {
     uint32_t emitter;
-    float light[3]; /* as it arrives */
+    float light[3]; /* the volume's light as it arrives */
     float depth;
 };
 
@@ -57,44 +58,44 @@ struct kd_probed_volume {
 struct kd_probed_met {
     bool met;
     uint32_t emitter, which; /* index in kd_emitters; index in the emitter's list */
-    uint32_t order;          /* crossings of the plane before it */
+    uint32_t order;          /* number of crossings of the plane before the surface */
     /* 1/r, cos(theta), azimuth (source minus observer), redshift factor, cosine of the emission angle */
     float w, u, phi, g, cosine;
-    float light[3], through; /* without absorption in front; transmission of everything in front */
+    float light[3], through; /* light: without absorption in front; through: transmission of everything in front */
 };
 
 struct kd_probed_ray {
-    uint32_t steps_a_pixel; /* the ray goes through the centre of a cell; a pixel has this many cells along a side, */
-    uint32_t x, y;          /* counted through the picture from its upper left corner */
+    uint32_t steps_a_pixel; /* number of cells along a side of a pixel; the ray goes through the centre of a cell */
+    uint32_t x, y;          /* index of that cell, counted through the picture from its upper left corner */
     struct kd_probed_place places[KD_PROBED_PLACES];
     struct kd_probed_stretch stretches[KD_PROBED_STRETCHES];
     struct kd_probed_volume volumes[KD_PLAN_EMITTERS];
-    uint32_t steps, samples; /* of the march: integration steps, and samples */
+    uint32_t steps, samples; /* number of integration steps of the march, and of its samples */
     struct kd_probed_met met;
     size_t n_places, n_stretches, n_volumes, lost; /* lost: records that did not fit */
-    bool transfers; /* volumes transfer polarised light: Stokes Q, U and V as they arrive */
+    bool transfers; /* volumes transfer polarised light; then `stokes` is Stokes Q, U and V as they arrive */
     float stokes[3];
     bool given_up; /* the engine gave the ray up, and the picture shows magenta */
-    bool ended;    /* something may shine at its end: */
+    bool ended;    /* something may shine at the ray's end, which the next three members describe */
     float end_u, end_phi, end_footprint;
     struct kd_probed_glow
         ends[2 * KD_PLAN_EMITTERS]; /* opacity 0; through: transmission of everything before the end */
     size_t n_ends;
-    float through;  /* transmission of all crossings and volumes */
-    float light[3]; /* total */
+    float through;  /* transmission of all crossings and volumes together */
+    float light[3]; /* light of the whole ray */
 };
 
 struct kd_probed_pixel {
     uint32_t x, y;
-    /* the middle ray of the square grid of image.samples (or the one before the middle), as in layers; not among
-     * `each` if the pixel has other rays */
+    /* the middle ray of the square grid of image.samples (or the one before the middle), for which layers are computed
+     * as well; not among `each` if the pixel has other rays */
     struct kd_probed_ray middle;
     struct kd_probed_ray *each; /* malloc'd: the rays whose mean is the pixel's light */
     uint32_t rays;
     struct kd_rays_steps *steps; /* malloc'd: engine steps of the middle ray; NULL: not requested, or not available */
-    char no_steps[200];          /* the reason, a sentence */
-    bool whole;                  /* complete: later renders of the job are not part of this picture */
-    float radiance[3];           /* of the pixel, before bloom, beam and tone curve */
+    char no_steps[200];          /* the reason why `steps` is NULL, a sentence */
+    bool whole;                  /* complete: renders of this job that follow are not part of this picture */
+    float radiance[3];           /* light of the pixel, before bloom, beam and tone curve */
 };
 void kd_probed_destroy(struct kd_probed_pixel *told);
 

@@ -1,12 +1,13 @@
 /* Refinement: traces more rays, in rounds, where one ray a pixel is not enough.
  *
- * One ray a pixel has an error of up to half of the change across it. Where the picture is linear from pixel to pixel,
- * a ray in the middle of each is exact whatever the slope, so the criterion is the second difference of displayed
- * values. Pixels where it is large are refined first; in later rounds the neighbours of pixels that changed, until
- * there are none. A line or a rim that one ray a pixel hit only here and there is thus followed to its end.
+ * One ray a pixel has an error of up to half of the change across the pixel. Where the picture is linear from pixel to
+ * pixel, a ray in the middle of each is exact whatever the slope, so the criterion is the second difference of
+ * displayed values. Pixels with a large second difference are refined first. In later rounds the neighbours of pixels
+ * that changed are refined, until no pixel changes. A line or a rim that one ray a pixel hit only here and there is
+ * thus followed to its end.
  *
- * A chosen pixel has a square grid of rays. Where the lens map is smooth around it, they are interpolated from
- * existing rays; at edges of orders and fates they are traced, in total at most a quarter of the rays that 16 in
+ * A chosen pixel has a square grid of rays. Where the lens map is smooth around the pixel, its rays are interpolated
+ * from existing rays; at edges of orders and fates they are traced, in total at most a quarter of the rays that 16 in
  * every pixel would need. Pixels at the critical curve have more rays already (view/critical_pixels.h). */
 #include "render/frame/choose.h"
 #include "render/frame/lens.h"
@@ -14,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The displayed picture now, and a round ago. */
+/* The displayed picture now, and one round before. */
 struct work { uint16_t *now, *before; };
 
 static void finish(struct work *w)
@@ -39,8 +40,8 @@ static void take(struct kd_frame_job *j, const struct kd_critical_pixels *list, 
         j->kinds[list->pixels[i].y * (size_t)j->plan->width + list->pixels[i].x] = kind;
 }
 
-/* The pixels of a round by the source of their rays, row by row: those at the critical curve, which have more rays
- * already; traced ones; interpolated ones. */
+/* The pixels of a round by the source of their rays, row by row: pixels at the critical curve, which have more rays
+ * already; pixels with traced rays; pixels with interpolated rays. */
 enum { AT_CURVE, FOLLOWED, BETWEEN, WAYS };
 static const uint8_t kind_of[WAYS] = { KD_REFINED_AT_CURVE, KD_REFINED_FOLLOWED, KD_REFINED_BETWEEN };
 struct ways { struct kd_choice of[WAYS]; };
@@ -72,7 +73,7 @@ static enum kd_status light(struct kd_frame_job *j, int way, const struct kd_cri
     return kd_frame_light_list(j, &list, true);
 }
 
-/* marks: for which chosen pixels interpolation is accurate. */
+/* Divides the chosen pixels by the source of their rays. marks: for which of them interpolation is accurate. */
 static enum kd_status part(struct kd_frame_job *j, const struct kd_choice *c, const uint8_t *marks, struct ways *to)
 {
     enum kd_status status = KD_OK;
@@ -84,8 +85,8 @@ static enum kd_status part(struct kd_frame_job *j, const struct kd_choice *c, co
     return status;
 }
 
-/* Gives the chosen pixels their rays. *left: rays that may still be traced; if they are not enough, half are for the
- * critical curve. */
+/* Gives the chosen pixels their rays. *left: number of rays that may still be traced. Pixels at the critical curve get
+ * at most half of them; if the rays do not suffice, the pixels with the largest scores get theirs. */
 static enum kd_status one_round(struct kd_frame_job *j, const struct kd_choice *c, struct ways *by, uint64_t *left)
 {
     uint8_t *marks = malloc(c->list.n);
@@ -141,7 +142,8 @@ done:
     return status;
 }
 
-/* A device that computes nothing would choose no pixel: one pixel is refined by each way, to compile their kernels. */
+/* A device that computes nothing would choose no pixel. So one pixel is refined by each of these ways, to compile their
+ * kernels. */
 static enum kd_status rehearse(struct kd_frame_job *j)
 {
     struct kd_pixel pixel = { 0, 0 };

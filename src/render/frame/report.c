@@ -39,11 +39,11 @@ static void keep_times(struct kd_frame_job *j)
     }
 }
 
-/* Calls back; if the picture is rendered aside, others may use the device meanwhile. */
+/* Calls `tell`; if the picture is rendered in the background, others may use the device meanwhile. */
 static enum kd_status away(struct kd_frame_job *j, bool (*tell)(struct kd_frame_job *job, void *what), void *what,
                            bool *go_on)
 {
-    if (j->aside) { /* others then need not wait for this picture's work, nor measure it */
+    if (j->aside) { /* others then need not wait for this picture's work, and do not measure it */
         enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
         if (status)
             return status;
@@ -62,7 +62,7 @@ static bool tell_lack(struct kd_frame_job *j, void *what) { return j->r->lacks(j
 
 enum kd_status kd_frame_await_kernels(struct kd_frame_job *j, kd_kernels_ask_fn ask, const void *user)
 {
-    enum { TRIES = 4 }; /* others' kernels may evict these meanwhile; after the last try they are made here */
+    enum { TRIES = 4 }; /* others' kernels may evict this picture's meanwhile; after the last try they are made here */
     struct kd_compilation *c;
     enum kd_status status;
     bool go_on = true;

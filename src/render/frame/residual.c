@@ -1,8 +1,8 @@
-/* Measures the remaining error of a picture's pixels, on a sample compared with 64 rays each. It is the last pass,
- * because it overwrites the light of the sample.
+/* Measures the remaining error of a picture's pixels, on a sample of pixels that are compared with 64 rays each. It is
+ * the last pass, because it overwrites the light of the sample.
  *
- * All kinds of pixels have the same sample size, however few they are, and are weighted by their number. At the
- * critical curve the reference may have more than 64 rays; pixels that have as many count as exact. */
+ * All kinds of pixels have the same sample size, even a kind with few pixels, and are weighted by their number. At the
+ * critical curve the reference may have more than 64 rays; pixels that have as many already count as exact. */
 #include "render/frame/residual.h"
 
 #include "render/frame/lens.h"
@@ -53,7 +53,7 @@ static void neutral(double c[3])
         c[i] = (1 - white) * c[i] * shown / peak + white * shown;
 }
 
-/* post.comp in double precision, which cites the sources. */
+/* The conversion of post.comp in double precision; post.comp cites the sources. */
 void kd_frame_shown(const float light[3], double gain, int32_t tone_map, double out[3])
 {
     double c[3] = { gain * light[0], gain * light[1], gain * light[2] };
@@ -73,7 +73,8 @@ static int by_size(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Chooses from n things, in order: places of a lattice with the golden ratio, which coincides with no regular grid. */
+/* Chooses from n things, in order: places of a lattice with the golden ratio as its step, which coincides with no
+ * regular grid. */
 static size_t chosen(uint64_t n, uint64_t at[OF_EACH])
 {
     const size_t k = n < OF_EACH ? (size_t)n : OF_EACH;

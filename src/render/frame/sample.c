@@ -37,10 +37,10 @@ enum kd_status kd_frame_sample_kernels(struct kd_frame_job *j)
     return status;
 }
 
-/* One pass over some rows. */
+/* One pass over some rows of a sampled map. */
 struct run {
     struct kd_frame_job *j;
-    struct kd_vk_buffer *lens; /* of the band */
+    struct kd_vk_buffer *lens; /* lens map of the band */
     struct kd_sample_grid grid;
     struct kd_sample_push push;
     struct kd_vk_binding camera;
@@ -137,11 +137,11 @@ static enum kd_status fill(struct run *run, bool of_sky)
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
 }
 
-/* Submits at once: a driver that compiles kernels at their first dispatch then has each submission's deadline for
- * one kernel. */
+/* Submits the recorded commands at once. A driver that compiles kernels at their first dispatch then has the whole
+ * deadline of a submission for one kernel. */
 static enum kd_status submit_new(struct kd_frame_job *j) { return kd_vk_submit(j->r->vk, NULL, j->error); }
 
-/* Fills in rays that cross nothing and are captured; kernels overwrite the others. */
+/* Initialises the map: all rays cross nothing and are captured. Kernels overwrite those for which that is not so. */
 static enum kd_status fill_nothing(struct run *run)
 {
     const struct kd_plan *p = run->j->plan;

@@ -47,7 +47,8 @@ done:
     return status;
 }
 
-/* Traces them, and uploads the results to their places. words: the indices, before the planes. */
+/* Traces the open rays, and uploads the results to their places. words: the buffer, which begins with the indices and
+ * continues with the planes. */
 static enum kd_status follow(struct kd_frame_job *j, const struct open_rays *open, const char *pass,
                              struct kd_vk_buffer *host, struct kd_vk_buffer *device)
 {
@@ -99,7 +100,7 @@ static void label(const struct kd_frame_job *j, struct open_rays *open, const st
     }
 }
 
-/* found: number of open rays; those beyond the list's capacity are not listed. */
+/* Settles the open rays. found: their number; rays beyond the list's capacity are not listed. */
 static enum kd_status settle(struct kd_frame_job *j, const struct kd_frame_part *part, uint32_t band, uint32_t found)
 {
     const struct kd_plan *p = j->plan;

@@ -10,24 +10,24 @@
 #include <string.h>
 
 #define LIST_GROUPS 128 /* workgroups of kernels whose invocations share a list; an H200 is no faster with 8192 */
-/* The same for each core if the device is a CPU: there a group costs 15 us even if the list is done, and a rim has
- * several grids. */
+/* The same number for each core, if the device is a CPU: there a group costs 15 us even if the list is done, and a rim
+ * has several grids. */
 #define LIST_GROUPS_CORE 4
-#define RIM_TILE 3 /* rays along a side of a small tile, and of tiles of the rim */
+#define RIM_TILE 3 /* rays along a side of a small tile, and of a tile of the rim */
 #define SPILL 2u   /* rows of pixels that an image may reach into the next band */
 
 /* Rays among which stars are searched: some rows of a lens map, or a grid of the rim. */
 struct part {
     struct kd_vk_buffer *lens;
-    const struct kd_rim_grid *rim; /* for a grid of the rim; NULL for rays of the picture */
+    const struct kd_rim_grid *rim; /* the grid of the rim; NULL for rays of the picture */
     struct kd_stars_push push;
     struct kd_vk_buffer *light;
 };
 
-/* What a kernel processes: rays of a picture without a rim, of one with a rim, or the rim. */
+/* What a kernel processes: rays of a picture without a rim, rays of a picture with a rim, or rays of the rim. */
 enum rays { NO_RIM, BESIDE_RIM, OF_RIM };
 
-/* A search for bright images only leaves the rim out. */
+/* Whether the rim is searched. A search for bright images only leaves it out. */
 static bool has_rim(const struct kd_frame_job *j) { return j->lens->rim.there && !j->plan->bright; }
 
 static enum rays rays_of(const struct kd_frame_job *j, const struct part *part)
@@ -58,7 +58,7 @@ static bool reads_texels(const struct kd_frame_job *j, uint64_t stars)
     return stars <= kd_vk_info(j->r->vk)->max_texels && kd_kernels_map_as_texels(j->r->vk);
 }
 
-/* The number of stars is not known yet; at most the catalogue's is assumed. */
+/* The number of stars is not known yet, so the catalogue's is assumed, the largest possible one. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *j)
 {
     const bool rim = kd_rim_may_be(j->scene) && !j->plan->bright, texels = reads_texels(j, 1u << 17);
@@ -92,7 +92,7 @@ static struct kd_vk_binding camera(const struct kd_frame_job *j)
                                     false };
 }
 
-/* The binding needs some buffer even if there is no rim. */
+/* The binding of the rim. It needs some buffer even if there is no rim. */
 static struct kd_vk_binding rim(const struct kd_frame_job *j)
 {
     return (struct kd_vk_binding) { has_rim(j) ? j->lens->rim_lens : j->store->transfer, 0, 0, false };
@@ -107,8 +107,8 @@ static struct kd_vk_binding lens_of(const struct part *part)
                                     part->rim ? 12ull * kd_rim_grid_rays(part->rim) : 0, false };
 }
 
-/* Makes pairs of rays and stars: for large tiles, then for small ones and listed rays; on the rim for small tiles
- * and rays. */
+/* Makes pairs of rays and stars. In a picture: for large tiles, then for small tiles and listed rays; on the rim: for
+ * small tiles and rays. */
 static enum kd_status search(struct kd_frame_job *j, const struct part *part)
 {
     struct kd_store *s = j->store;
@@ -152,7 +152,7 @@ done:
     return status;
 }
 
-/* Finds the stars that the rays of a part see. */
+/* Finds the images of stars that the rays of a part see. */
 static enum kd_status stars_of(struct kd_frame_job *j, const struct part *part)
 {
     struct kd_store *s = j->store;
@@ -189,7 +189,7 @@ done:
     return status;
 }
 
-/* Push constants for the rim; those for a part's rays are not set. */
+/* Push constants for the rim; those for a part's rays are not set yet. */
 static struct kd_stars_push push_of(const struct kd_frame_job *j)
 {
     const struct kd_rim *r = &j->lens->rim;
@@ -213,8 +213,8 @@ static struct kd_stars_push push_of(const struct kd_frame_job *j)
     };
 }
 
-/* Images have places in the whole picture, so that tiles are identical to it; this converts from there to the light
- * of a band. */
+/* Images have places in the whole picture, so that a tile is identical to that part of the picture. This function sets
+ * the conversion from such a place to a place in the light of a band. */
 static void set_light(struct kd_stars_push *push, const struct kd_frame_job *j, uint32_t band)
 {
     const struct kd_window window = kd_scene_window(j->scene);
@@ -223,7 +223,7 @@ static void set_light(struct kd_stars_push *push, const struct kd_frame_job *j, 
     push->aside = 0u - window.left;
 }
 
-/* Processes rows `first` to `end` of one band; their light goes to this or another band. */
+/* Processes rows `first` to `end` of the band `from`; their light goes to the band `to`. */
 static enum kd_status rows_of(struct kd_frame_job *j, uint32_t from, uint32_t first, uint32_t end, uint32_t to)
 {
     const struct kd_plan *p = j->plan;
@@ -306,7 +306,7 @@ done:
     return status;
 }
 
-/* Key of the present light of stars, made before others use the device and may change the renderer's sky. */
+/* Key of the present light of stars. It is made before others use the device and may change the renderer's sky. */
 static struct kd_star_key key_of(const struct kd_frame_job *j)
 {
     struct kd_star_key key;

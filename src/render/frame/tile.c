@@ -1,4 +1,4 @@
-/* Renders a tile of a picture with a margin that is cropped, or a picture that does not fit in strips of itself
+/* Renders a tile of a picture with a margin that is cropped; or, in strips, a picture that does not fit in one piece
  * (render/plan/tile.h). */
 #include "render/frame/parts.h"
 
@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* Moves the kept rows to the front, each before it is overwritten. */
+/* Moves the kept rows to the front, each before its source is overwritten. */
 static void cut_layer(const struct kd_layer *layer, uint32_t width, const struct kd_window *cut)
 {
     const size_t pixel = kd_layer_pixel_bytes(layer), row = cut->width * pixel;
@@ -34,7 +34,7 @@ enum kd_status kd_frame_tile(const struct kd_parted *p, struct kd_frame *out, st
 
 struct share {
     const struct kd_parted *of;
-    double done, part; /* as fractions of the whole */
+    double done, part; /* fractions of the whole picture */
 };
 
 static bool go_on(void *user, double fraction)
@@ -43,7 +43,7 @@ static bool go_on(void *user, double fraction)
     return !s->of->progress || s->of->progress(s->of->user, s->done + s->part * fraction);
 }
 
-/* first: its first row in the picture. */
+/* first: the strip's first row in the picture. */
 static enum kd_status render_strip(const struct kd_parted *p, const struct kd_scene *strip, uint32_t first,
                                    const struct share *share, struct kd_frame *out, struct kd_error *error)
 {
@@ -65,7 +65,7 @@ done:
     return status;
 }
 
-/* Starts the whole frame from the first strip's report, with room for all rows and none filled. */
+/* Starts the whole frame from the first strip's report. The frame has room for all rows, none of which is filled. */
 static enum kd_status begin(const struct kd_frame *strip, uint32_t height, struct kd_frame *out, struct kd_error *error)
 {
     struct kd_frame frame = *strip;
@@ -105,7 +105,7 @@ enum kd_status kd_frame_strips(const struct kd_parted *p, struct kd_frame *out, 
             KD_TRY(begin(&part, p->plan->height, &frame, error));
         put_rows(&part, rows, &frame);
         rows += part.height;
-        if (part.told) { /* only one strip has it */
+        if (part.told) { /* only one strip has the description of the plan's pixel */
             frame.told = part.told;
             part.told = NULL;
         }

@@ -13,9 +13,10 @@
 enum { ROWS = 16, COLUMNS = KD_AUDIT_RAYS / ROWS };
 
 struct sample {
-    uint32_t rows, columns, width, height; /* of the grid of rays */
+    uint32_t rows, columns, width, height; /* rows and columns of the sample; width and height of the grid of rays */
     uint32_t planes;                       /* planes of the map that are compared: radii, and the fate */
-    struct kd_vk_buffer *host;             /* the sampled rows, all planes of one row together */
+    struct kd_vk_buffer *host;             /* the sampled rows on the host: all planes of the first row, then of the
+                                            * next */
     double *rays;                          /* alpha, beta */
     bool outward[ROWS * COLUMNS];
     struct kd_ray_crossing *crossings;
@@ -57,7 +58,8 @@ static bool other_fate(float fate, const struct kd_ray_end *end)
            (fate == (float)KD_FATE_ESCAPED) != (end->fate == KD_RAY_ESCAPED);
 }
 
-/* Compares the map's radii (w of `orders` crossings at intervals of `width`) and fates with those of the list. */
+/* Compares the map's radii and fates with those of the list. The planes hold w of `orders` crossings at intervals of
+ * `width`. */
 static void compare(const struct kd_plan *plan, const struct sample *s, const uint32_t *place, uint32_t n, double inner,
                     struct kd_accuracy_report *out)
 {

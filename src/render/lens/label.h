@@ -6,9 +6,9 @@
 #include "render/plan/plan.h"
 #include "render/view/camera.h"
 
-/* Labels of the ray at (x, y), in rays from the upper left one, in double. The kernels compute them in single
- * precision, which moves a ray by about 1e-7 of the picture; at a turning point or next to the critical curve that
- * is a different ray. */
+/* Computes, in double precision, the labels of the ray at (x, y); x and y count rays from the upper left one. The
+ * kernels compute labels in single precision, which moves a ray by about 1e-7 of the picture. Near a turning point or
+ * the critical curve so small a shift changes the ray's end. */
 void kd_lens_label(const struct kd_scene *scene, const struct kd_plan *plan, uint32_t x, uint32_t y,
                    struct kd_camera_label *out);
 

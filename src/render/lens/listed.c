@@ -100,7 +100,7 @@ static void fill_delays(const struct work *w, uint32_t order, float *to)
         to[i] = order < w->ends[i].n_crossings ? (float)w->crossings[i * w->plan->orders + order].delay : 0;
 }
 
-/* Fills a plane with slopes, which falling gas and emission angles need. */
+/* Fills a plane with slopes, which the light of falling gas and emission angles depend on. */
 static void fill_slopes(const struct work *w, const struct kd_scene *scene, uint32_t order, float *to)
 {
     const struct kd_rays_params params = params_of(scene, w->plan, &w->plan->setting);
@@ -131,7 +131,7 @@ static void fill_sky(const struct work *w, float *u, float *phi, float *fate)
 static void fill(const struct work *w, const struct kd_scene *scene, float *planes)
 {
     const struct kd_plan *plan = w->plan;
-    float *of[32] = { 0 }; /* by the bit of a quantity; NULL: not in the map */
+    float *of[32] = { 0 }; /* planes by the bit of a quantity; NULL: the map does not have it */
     for (uint32_t bit = 0; bit < 32; bit++)
         if (plan->quantities >> bit & 1)
             of[bit] = planes + w->n * kd_lens_plane(plan->quantities, plan->orders, 1u << bit);
@@ -239,7 +239,8 @@ done:
     return status;
 }
 
-#define NEAR 1e-4 /* of the horizon's radius: crossings nearer to it from outside count as on it */
+/* fraction of the horizon's radius: crossings from outside that are nearer to the horizon count as on it */
+#define NEAR 1e-4
 enum { PLACES = 2048 };
 
 static void follow_within(struct work *w, const struct kd_scene *scene, size_t i, struct kd_null_place *places)
@@ -281,8 +282,8 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
     }
 }
 
-/* By the steps of physics/null/null_course.h in ingoing coordinates, for an observer inside the horizon, where
- * closed forms do not apply. */
+/* Traces rays by the steps of physics/null/null_course.h in ingoing coordinates, for an observer inside the horizon,
+ * where closed forms do not apply. */
 static enum kd_status trace_within(struct work *w, const struct kd_scene *scene, struct kd_error *error)
 {
     const size_t orders = w->plan->orders ? w->plan->orders : 1;

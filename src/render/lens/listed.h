@@ -8,16 +8,16 @@
 #include "render/rays/rays.h"
 
 struct kd_lens_rows {
-    uint32_t first, count; /* rows of rays of the picture; with `pixels`, a range of those pixels */
+    uint32_t first, count; /* rows of rays of the picture; if `pixels` is set, a range of those pixels */
     const struct kd_pixel *pixels;
     const struct kd_critical_lattice *lattice; /* lattice of the rays in each pixel */
     struct kd_vk_buffer *to;                   /* planes of the band */
     uint64_t offset, stride;                   /* index of the first ray in a plane; rays in a plane */
 };
 
-/* Writes plan->planes planes as lens_map.comp does, with three differences: -1 for a crossing that the engine did
- * not complete, delays before the slopes, and for a ring alpha before the sky. *undecided grows by the number of
- * rays given up. Submits the upload and waits for it. */
+/* Writes plan->planes planes as lens_map.comp does, with three differences: -1 stands for a crossing that the engine
+ * did not complete, delays come before the slopes, and for a ring alpha comes before the sky. *undecided grows by the
+ * number of rays given up. Submits the upload and waits for it. */
 enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               const struct kd_lens_rows *rows, uint64_t *undecided, struct kd_error *error);
 
@@ -29,7 +29,7 @@ enum kd_status kd_lens_again(const struct kd_scene *scene, const struct kd_plan 
                              const struct kd_camera_label *labels, size_t n, float *planes, uint64_t *undecided,
                              struct kd_error *error);
 
-/* Traces the rays of a plan by any engine, as kd_rays_device and kd_rays_closed; without g and errors. */
+/* Traces the rays of a plan by any engine, as kd_rays_device and kd_rays_closed do, but without g and errors. */
 enum kd_status kd_lens_trace(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                              const struct kd_setting *by, const struct kd_ray_labels *rays,
                              struct kd_ray_crossing *crossings, struct kd_ray_end *ends, struct kd_error *error);

@@ -10,20 +10,22 @@
  * cause a move down and up again. */
 static const double OVER = 1.1, FAR_OVER = 1.5, CLIMB_BELOW = 0.8;
 static const double MORE =
-    1.1; /* factor by which a target must change to count as another: shares of a device fluctuate a little */
-static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* least budget: of the target, of the fixed part */
+    1.1; /* factor by which a target must change to count as another target: shares of a device fluctuate a little */
+static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* least budget, as a fraction: of the target; of the fixed
+                                                           * part */
 static const double COOLDOWN_MS = 1000;                   /* least time on a rung before a climb */
 /* time before climbing again to a rung that was too slow; doubled at each failure */
 static const double RETRY_MS = 3000;
 static const double SETTLE_MS = 50;                    /* reaction time: from a frame to the user's next change */
-static const double HOLD_MS = 400, HOLD_MAX_MS = 2000; /* a pause within a drag; between two drags */
-static const double BLIND_MS = 2000;                   /* initial guess; doubled each time */
+static const double HOLD_MS = 400, HOLD_MAX_MS = 2000; /* longest pause within a drag; between drags */
+/* time for which no lens map counts as cached; doubled each time */
+static const double BLIND_MS = 2000;
 /* fraction of the requested width, whatever kd_governor_least says */
 static const double NARROWEST = 0.25;
 /* fraction of the patience below which frames of the requested width are tried again */
 static const double PATIENT_AGAIN = 0.6;
 enum {
-    MOVING_AUDIT = 4, /* for frames that will be refined */
+    MOVING_AUDIT = 4, /* frames that will be refined audit one of this many rays */
     /* image.critical_factor for a picture that is replaced before the eye can examine it: 4 rays instead of 16 */
     DRAGGED_CRITICAL = 2,
     FEW = 4,    /* this many slow frames in a row are load, not a spike */
@@ -65,7 +67,7 @@ static void add(struct kd_frame_cost *sum, const struct kd_frame_cost *cost, dou
     sum->total_ms += weight * cost->total_ms;
 }
 
-/* While there are few frames the cheapest is the best estimate: compiling a kernel and load only increase the cost. */
+/* Estimates the cost from the cheapest of a few frames: compiling a kernel and load only increase the cost. */
 static struct kd_frame_cost cheapest_of_latest(const struct kd_pace *pace, uint32_t n)
 {
     const struct kd_frame_cost *least = latest(pace, 0);
@@ -75,8 +77,8 @@ static struct kd_frame_cost cheapest_of_latest(const struct kd_pace *pace, uint3
     return *least;
 }
 
-/* Mean over the middle half of the window, sorted by total: neither a spike nor a frame that had nothing to do
- * affects it. If two kinds of frames alternate it lies between them; a median would be one or the other. */
+/* Mean over the middle half of the window, sorted by total: neither a spike nor a frame that had nothing to do affects
+ * it. If two kinds of frames alternate, the mean lies between them; a median would be one or the other. */
 static struct kd_frame_cost mean_of_middle(const struct kd_pace *pace)
 {
     const struct kd_frame_cost *sorted[KD_PACE_FRAMES];
@@ -93,7 +95,7 @@ static struct kd_frame_cost mean_of_middle(const struct kd_pace *pace)
     return mean;
 }
 
-/* The part of a frame's time that may change with its size. */
+/* The part of a frame's time that may change with the frame's size. */
 static double varying(const struct kd_frame_cost *cost) { return cost->total_ms - cost->fixed_ms; }
 
 /* Time for a frame: the session's share of the time between frames. */
@@ -108,8 +110,8 @@ static double room(const struct kd_governor *g, const struct kd_frame_cost *cost
     return fmax(all - cost->fixed_ms, fmax(LEAST_ROOM * all, LEAST_SHARE * cost->fixed_ms));
 }
 
-/* Predicts the varying time of a frame on another rung. The rest, which belongs neither to rays nor to pixels,
- * either stays or grows with the pixels. */
+/* Predicts the varying time of a frame on another rung. Time that belongs neither to rays nor to pixels either stays or
+ * grows with the pixels. */
 static double predict(const struct kd_frame_cost *cost, const struct kd_rung *from, const struct kd_rung *to,
                       bool rest_stays)
 {
@@ -138,18 +140,18 @@ static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_pac
 
 /* Moves up and down the ladder */
 
-/* Remembers the rung that a pace leaves, if it leaves it because other sessions began. */
+/* Called when a pace leaves its rung. If the rung is left because other sessions began, it is remembered. */
 static void hold(struct kd_pace *pace, bool narrower)
 {
     if (!narrower && pace->rung <= pace->held) {
-        pace->held_target = 0; /* it is no longer in time */
+        pace->held_target = 0; /* the rung is no longer in time */
     } else if (narrower && (pace->widest > pace->held_target || pace->rung < pace->held)) {
         pace->held = pace->rung;
         pace->held_target = pace->widest;
     }
 }
 
-/* cost: of frames on the rung that is left; NULL: unknown. */
+/* cost: cost of frames on the rung that is left; NULL: unknown. */
 static void move(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, uint32_t rung,
                  bool up, double now)
 {
@@ -182,7 +184,7 @@ static bool far_over(const struct kd_governor *g, const struct kd_pace *pace)
     return pace->count > 1;
 }
 
-/* Whether frames that reuse a lens map may take this rung: its map must first be traced within the limit. */
+/* Whether frames that reuse a lens map may take this rung: the rung's map must first be traced within the limit. */
 static bool traceable(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_rung *rung, double limit)
 {
     return pace != &g->paces[0] || g->traced_on.rays == 0 || predict(&g->traced, &g->traced_on, rung, true) <= limit;
@@ -196,7 +198,7 @@ static bool may_climb(const struct kd_governor *g, const struct kd_pace *pace, c
            traceable(g, pace, &rungs[to], CLIMB_BELOW * g->share * g->params.stall_ms);
 }
 
-/* A rung known to be in time with the present target; the present one if there is none. */
+/* A rung that is known to be in time with the present target; the present rung if there is none. */
 static uint32_t known_good(const struct kd_governor *g, const struct kd_pace *pace)
 {
     bool enough = pace->held_target > 0 && MORE * target(g) >= pace->held_target;
@@ -212,8 +214,9 @@ static uint32_t ceiling_of(const struct kd_governor *g, const struct kd_pace *pa
     return now - pace->failed_at < pace->retry_ms && target(g) <= MORE * pace->failed_target ? pace->ceiling : 0;
 }
 
-/* Estimates the fraction of the rays' time on this rung that does not depend on size, from the line through the time
- * at another size a moment ago and the time now. A falling line means only that the machine's load has changed. */
+/* Estimates the fraction of the rays' time on this rung that does not depend on size. The estimate is the line through
+ * the time at another size a moment ago and the time now. A falling line means only that the machine's load has
+ * changed. */
 static void learn(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost)
 {
     const struct kd_rung *here = &g->ladder.rungs[pace->rung], *other = &pace->other;
@@ -226,7 +229,7 @@ static void learn(const struct kd_governor *g, struct kd_pace *pace, const struc
     pace->other.rays = 0;
 }
 
-/* Whether one rung up is in time if that fraction of the rays' time is constant. */
+/* Whether one rung up is in time if a given fraction of the rays' time does not depend on size. */
 static bool may_climb_if(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost,
                          double part)
 {
@@ -239,8 +242,8 @@ static bool may_climb_if(const struct kd_governor *g, const struct kd_pace *pace
            traceable(g, pace, to, CLIMB_BELOW * g->share * g->params.stall_ms);
 }
 
-/* Climbs as far as is safe, or else one rung on a more favourable assumption: if that fails, the rung is left again
- * and not climbed to soon. */
+/* Climbs as far as is safe, or else one rung on a more favourable assumption. If that rung is too slow, it is left
+ * again and not climbed to soon. */
 static void climb(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, double now)
 {
     uint32_t ceiling = ceiling_of(g, pace, now), to = known_good(g, pace);
@@ -287,7 +290,7 @@ static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
     g->ladders++;
 }
 
-/* Whether frames of this pace may be narrower than the requested least width, because they were too slow. */
+/* Sets whether frames of this pace may be narrower than the requested least width because they were too slow. */
 static void give_way(struct kd_governor *g, const struct kd_pace *pace, bool whether)
 {
     g->gave_way = whether;
@@ -299,7 +302,7 @@ static void give_way(struct kd_governor *g, const struct kd_pace *pace, bool whe
 }
 
 /* Gives up the requested least width for this pace. The cost of its frames is kept, for comparison with the narrower
- * ones that follow. */
+ * frames that follow. */
 static void give_up_width(struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost)
 {
     const struct kd_rung wide = g->ladder.rungs[pace->rung];
@@ -308,14 +311,14 @@ static void give_up_width(struct kd_governor *g, const struct kd_pace *pace, con
     g->wide = wide;
 }
 
-/* Measures, once, the fraction of the time of narrow frames that does not depend on size, from the first of them,
- * while the machine's load is still the same. */
+/* Measures, once, the fraction of the time of narrow frames that does not depend on size. It uses the first narrow
+ * frames, while the machine's load is still the same. */
 static void compare_with_wide(struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *here)
 {
     if (!(g->wide_ms > 0) || !(varying(cost) > 0) || here->rays >= g->wide.rays)
         return;
     const double more = g->wide.rays / here->rays, dearer = g->wide_ms / varying(cost);
-    g->stays = fmin((more - dearer) / (more - 1), 1); /* negative if rays cost more than their rung assumes */
+    g->stays = fmin((more - dearer) / (more - 1), 1); /* negative if rays cost more than assumed for the rung */
     g->stays_of = here->rays;
     g->wide_ms = 0;
 }
@@ -329,7 +332,8 @@ static double predict_wide(const struct kd_governor *g, const struct kd_frame_co
                                       : predict(cost, here, wide, false);
 }
 
-/* Whether frames of the requested least width would now be well within the patience, estimated from a narrower one. */
+/* Whether frames of the requested least width would now take well less than the patience; estimated from a narrower
+ * frame. */
 static bool is_quick_as_asked(const struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *here)
 {
     struct kd_ladder_bounds bounds = g->params.bounds;
@@ -388,7 +392,7 @@ static bool same_ladder(const struct kd_scene *a, const struct kd_scene *b)
            p->steps == q->steps && p->orders == q->orders && kd_emit_along(a) == kd_emit_along(b);
 }
 
-/* Whether frames of both scenes cost about the same apart from their size. */
+/* Whether frames of both scenes cost about the same if they have the same size. */
 static bool same_work(const struct kd_scene *a, const struct kd_scene *b)
 {
     const struct kd_disk *d = &a->disk, *e = &b->disk;
@@ -417,7 +421,7 @@ static bool motion_alone(const struct kd_scene *a, const struct kd_scene *b)
 
 void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scene *asked, bool lens)
 {
-    /* If only the motion of a scene that does not move was changed, the picture shown is right already; it is
+    /* If only the motion of a scene that does not move was changed, the picture shown is right already; the scene is
      * rendered once more. */
     bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) &&
                       !kd_emit_moves(asked);
@@ -443,7 +447,7 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
     }
     if (!lens)
         return;
-    /* A lens change soon after the hold ended belongs to the same drag: the hold is lengthened. */
+    /* A lens change soon after the hold ended belongs to the same drag, so the hold is lengthened. */
     double gap = now - g->lens_at;
     g->hold_ms = gap >= HOLD_MAX_MS ? HOLD_MS : fmin(fmax(g->hold_ms, 2 * gap), HOLD_MAX_MS);
     g->lens_at = now;
@@ -495,7 +499,7 @@ struct kd_frame_decision kd_governor_decide(const struct kd_governor *g, double 
         return decision;
     double since = g->share < 1 ? fmax(g->changed_at, g->shown_at) : g->changed_at,
            left = fmax(g->params.rest_ms - (now - since), SETTLE_MS - (now - g->shown_at));
-    if (!g->shown.final && left < 1e-3) /* rounding of summed waits may end them slightly early */
+    if (!g->shown.final && left < 1e-3) /* rounding of summed waits may end a wait slightly early */
         return next_step(g, decision);
     decision.quality = g->shown;
     decision.wait_ms = g->shown.final ? INFINITY : left;
@@ -503,7 +507,7 @@ struct kd_frame_decision kd_governor_decide(const struct kd_governor *g, double 
 }
 
 /* Counts lens maps that should have been cached. One may be missing after a change of rung. If none are cached, for
- * example because they do not fit, frames in which only time advances have to trace. */
+ * example because they do not fit in memory, even frames in which only time advances have to trace. */
 static void miss(struct kd_governor *g, double now)
 {
     if (++g->missed < MISSES)

@@ -85,9 +85,9 @@ struct kd_governor_params {
     .target_ms = 33, .rest_ms = 150, .stall_ms = 500, .sparse_ms = 60, .bounds = KD_LADDER_BOUNDS_DEFAULT,
 #define kd_governor_params(...) (&(struct kd_governor_params) { KD_GOVERNOR_DEFAULTS __VA_ARGS__ })
 
-/* Where a frame's time went. total_ms is compared with the target: the longest stage if stages overlap, otherwise
- * their sum. The rest that is in none of the parts (waiting and submitting) may or may not shrink with the picture;
- * with all parts 0 this holds for the whole. */
+/* Where a frame's time went. total_ms is compared with the target: the longest stage if stages overlap, otherwise the
+ * sum of all stages. Time that is in none of the parts (waiting and submitting) may or may not shrink with the picture.
+ * With all parts 0 this holds for the whole time. */
 struct kd_frame_cost {
     double fixed_ms;  /* independent of the picture's size: particles, audit */
     double rays_ms;   /* passes over rays: trace, transfer */
@@ -103,7 +103,7 @@ struct kd_frame_decision {
     /* 1 or 4: audit one of this many of the sampled rays. The audit runs on one core and takes a third of a small
      * frame */
     uint32_t audit;
-    bool traced; /* the tracing pace is in force; this and the rest are for kd_governor_frame only */
+    bool traced; /* the tracing pace is in force; this and the remaining members are for kd_governor_frame only */
     uint32_t ladder, rung, revision;
     double rays;
 };
@@ -115,16 +115,16 @@ struct kd_pace {
     uint32_t rung, ceiling; /* indices of rungs: 0 is the requested quality; never climb above `ceiling` */
     uint32_t count;         /* frames since the last change of rung */
     struct kd_frame_cost costs[KD_PACE_FRAMES];
-    /* changed_at: -INFINITY until the first change of rung for a kind of scene */
+    /* changed_at: time of the last change of rung; -INFINITY until the first change for a kind of scene */
     double changed_at, failed_at, retry_ms;
     double widest, failed_target; /* largest target since the last change; target when failed_at was set */
     bool climbed;                 /* the last change was upwards */
-    uint32_t held;                /* rung that was left because other sessions began */
-    double held_target;           /* target at which it was in time; 0: none */
+    uint32_t held;                /* a rung that was left because other sessions began */
+    double held_target;           /* the target at which frames of that rung were in time; 0: there is no such rung */
     struct kd_rung other;         /* the rung before; no rays: unknown, or already used */
-    double other_ms;              /* time of its rays */
+    double other_ms;              /* time of the rays of frames on that rung */
     double stays;                 /* estimated fraction of the rays' time that does not depend on size */
-    bool tried;                   /* that fraction is measured; no trial of another rung is needed */
+    bool tried;                   /* the fraction `stays` is measured; no trial of another rung is needed */
 };
 
 /* All members are private. */
@@ -135,50 +135,51 @@ struct kd_governor {
     struct kd_ladder ladder;
     uint32_t ladders, revision;
     struct kd_pace paces[2]; /* for frames that reuse their lens map; for frames that trace it */
-    /* last change; last change of the lens; how long the latter counts as recent */
+    /* time of the last change; of the last change of the lens; how long the latter counts as recent */
     double changed_at, lens_at, hold_ms;
-    struct kd_frame_cost traced;  /* latest average of frames that trace, */
-    struct kd_rung traced_on;     /* and their rung; no rays: none yet */
+    struct kd_frame_cost traced;  /* latest average of frames that trace */
+    struct kd_rung traced_on;     /* the rung of these frames; no rays: none yet */
     double blind_until, blind_ms; /* until then lens maps are taken as not cached, whatever changes */
     uint32_t missed;              /* successive frames that traced although the lens was unchanged */
     bool rings;                   /* only brightness changes, nothing moves */
     double least, patience_ms;    /* arguments of kd_governor_least */
-    bool gave_way, slow;          /* frames may be narrower than `least`; index of the pace that was too slow */
+    bool gave_way, slow;          /* frames may be narrower than `least`; index of the pace that was too slow and caused
+                                   * this */
     double wide_ms;               /* varying time of frames on that pace's rung; 0: unknown */
-    struct kd_rung wide;          /* that rung */
+    struct kd_rung wide;          /* the rung of that pace */
     /* fraction of the time of narrow frames that does not depend on size, measured on a rung with this many rays; 0:
      * unknown */
     double stays, stays_of;
     struct kd_quality shown;
     uint32_t shown_revision; /* 0: none */
-    double shown_at;         /* when the newest frame was shown that was not a step of refinement */
+    double shown_at;         /* time at which the newest frame was shown that was not a step of refinement */
     double shown_rays;
 };
 
 void kd_governor_init(struct kd_governor *governor, const struct kd_governor_params *params);
 
-/* Sets the fraction of the device's time for this session: above 0 and at most 1, the initial value. It changes as
- * other sessions stop or begin; set it before kd_governor_expect and before each kd_governor_frame. */
+/* Sets the fraction of the device's time for this session: above 0 and at most 1, the initial value. The fraction
+ * changes as other sessions stop or begin; set it before kd_governor_expect and before each kd_governor_frame. */
 void kd_governor_share(struct kd_governor *governor, double share);
 
-/* Sets the least width of frames while the scene changes, as a fraction of the requested width, 1/4 to 1, in place
- * of bounds.scale. A smaller target then reduces everything else, and after that the frame rate, down to one frame
- * every patience_ms (INFINITY: no limit). If the narrowest frames were measured to take longer than that, frames
- * become narrower after all, down to a quarter, until the scene changes its kind or wide frames are estimated to be
- * well within it. The estimate is the line through the times of the last wide frames and the first narrow ones right
- * after them, since part of a frame's time does not depend on its size. */
+/* Sets the least width of frames while the scene changes, as a fraction of the requested width, 1/4 to 1, in place of
+ * bounds.scale. A smaller target then reduces everything else, and after that the frame rate, down to one frame every
+ * patience_ms (INFINITY: no limit).
+ * If the narrowest frames were measured to take longer than patience_ms, frames become narrower after all, down to a
+ * quarter. They stay so until the scene changes its kind, or until wide frames are estimated to be well within
+ * patience_ms. Part of a frame's time does not depend on its size, so the estimate is the line through two
+ * measurements: the last wide frames, and the first narrow ones right after them. */
 void kd_governor_least(struct kd_governor *governor, double scale, double patience_ms);
 
-/* The scene is now *asked, which must be valid. lens: its lens map changed, that is, lens_key differs between the
- * plans of both scenes as requested; true for a session's first scene. A change of image.* or accuracy.* makes a new
- * ladder, and starts on the rung that old averages suggest. A change of what is drawn starts averages and waits
- * again. */
+/* The scene is now *asked, which must be valid. lens: its lens map changed, that is, lens_key differs between the plans
+ * of both scenes as requested; true for a session's first scene. A change of image.* or accuracy.* makes a new ladder,
+ * and starts on the rung that old averages suggest. A change of the scene's kind starts averages and waits again. */
 void kd_governor_changed(struct kd_governor *governor, double now, const struct kd_scene *asked, bool lens);
 
-/* Sets the expected cost of a frame at the requested quality, for example from its plan. It chooses the first rung,
- * which is otherwise the top one or the one in force. It is ignored once frames of this kind were measured, so it
- * may be called after each change. A frame that traced while few of its kind were measured, as a step of refinement
- * does, has the same effect with better data. */
+/* Sets the expected cost of a frame at the requested quality, for example from its plan. The cost chooses the first
+ * rung; without it frames start on the top rung or stay on the one in force. It is ignored once frames of this kind
+ * were measured, so it may be called after each change. A frame that traced while few of its kind were measured, as a
+ * step of refinement does, has the same effect with better data. */
 void kd_governor_expect(struct kd_governor *governor, const struct kd_frame_cost *cost);
 
 /* Decides what to do now. Call after kd_governor_changed. */

@@ -28,7 +28,7 @@ static bool by_profile(const struct kd_accuracy *a)
 }
 
 /* Estimated cost of a ray: the profile's steps, plus the transfer pass for each order. Only ratios matter, and the
- * governor corrects wrong ones by measuring. The profile reference uses double precision. */
+ * governor corrects wrong ratios by measuring. The profile reference uses double precision. */
 static double ray_cost(const struct kd_quality *quality, const struct kd_scene *asked)
 {
     static const double profile[] = { 0.6, 0.7, 1, 1.6, 12 };
@@ -37,7 +37,7 @@ static double ray_cost(const struct kd_quality *quality, const struct kd_scene *
     return (named ? profile[p] : 2) * (2 + quality->orders);
 }
 
-#define ADAPTIVE_RAYS 2.5 /* approximate mean rays a pixel if each has as many as it needs */
+#define ADAPTIVE_RAYS 2.5 /* approximate mean number of rays a pixel, if each pixel has as many as it needs */
 
 static struct kd_rung make_rung(const struct kd_scene *asked, double scale, int32_t samples, int32_t orders,
                                 int32_t profile)
@@ -51,10 +51,10 @@ static struct kd_rung make_rung(const struct kd_scene *asked, double scale, int3
     return r;
 }
 
-/* approximate time relative to the march at the coarsest profile: 66 ms instead of 100 at 160 x 90 */
+/* approximate time of a sketch relative to the march at the coarsest profile: 66 ms instead of 100 at 160 x 90 */
 #define SKETCHED 0.6
 
-/* The same rung with sketched volumes. */
+/* The same rung, with volumes marched as a sketch. */
 static struct kd_rung sketched(struct kd_rung r)
 {
     r.quality.sketch = true;
@@ -79,7 +79,7 @@ static void make_rungs(const struct kd_scene *asked, const struct kd_ladder_boun
     int32_t samples = asked->image.samples, orders = asked->accuracy.orders;
     out->rungs[0] = make_rung(asked, scale, samples, orders, -1);
     out->n_rungs = 1;
-    if (!samples) /* then one */
+    if (!samples) /* 0 is "auto"; the next rung has one ray a pixel */
         add_rung(out, make_rung(asked, scale, samples = 1, orders, -1));
     while (samples > bounds->samples) {
         samples = samples / 2 > bounds->samples ? samples / 2 : bounds->samples;

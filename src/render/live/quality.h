@@ -28,7 +28,7 @@ void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *a
 
 struct kd_rung {
     struct kd_quality quality;
-    double rays, pixels; /* work: rays weighted by the cost of one; pixels */
+    double rays, pixels; /* the work of a rung: rays, weighted by the cost of one ray; pixels */
 };
 
 /* Limits for the lowest rung. */

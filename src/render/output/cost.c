@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* Time that a scene saves if its lens map is cached. */
+/* Time that a frame saves if its lens map is cached. */
 static double trace_ms(const struct kd_plan *plan)
 {
     double ms = 0;
@@ -14,7 +14,7 @@ static double trace_ms(const struct kd_plan *plan)
     return ms;
 }
 
-/* Bytes of the numbers of its layers, 4 each. */
+/* Bytes of the numbers of the frame's layers, 4 each. */
 static double file_bytes(const struct kd_series *series, const struct kd_scene *scene, const struct kd_plan *plan)
 {
     const struct kd_words *layers = &scene->image.layers;

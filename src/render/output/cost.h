@@ -1,5 +1,5 @@
-/* Estimated total cost of several frames from their plans, before any is rendered: those of a job, or the scenes of
- * a sweep, which share lens maps. Pure, any thread. */
+/* Estimated total cost of several frames from their plans, before any is rendered. The frames are those of a job, or
+ * the scenes of a sweep, which share lens maps. Pure, any thread. */
 #ifndef KD_RENDER_OUTPUT_COST_H
 #define KD_RENDER_OUTPUT_COST_H
 
@@ -7,13 +7,13 @@
 #include "render/plan/sweep_order.h"
 
 struct kd_cost {
-    unsigned frames;   /* frames counted so far */
-    double ms;         /* each frame with a lens map of its own */
-    double trace_ms;   /* of that, the time of lens maps that a sweep may share */
+    unsigned frames;   /* number of frames added so far */
+    double ms;         /* time of all frames if each makes a lens map of its own */
+    double trace_ms;   /* part of `ms`: time of lens maps that a sweep may share */
     double shared_ms;  /* time saved by sharing lens maps; set by kd_cost_end */
     double file_bytes; /* for formats whose file size depends only on the picture's size */
     uint64_t rays;
-    uint64_t device_bytes, host_bytes; /* of the largest frame */
+    uint64_t device_bytes, host_bytes; /* for the largest frame */
     bool guessed;                      /* some pass has no measured cost */
     struct kd_sweep_order order;       /* for a sweep */
     struct kd_cube_shape shape;        /* common to all scenes of a cube */
@@ -27,9 +27,9 @@ enum kd_status kd_cost_add(struct kd_cost *cost, const struct kd_series *series,
 enum kd_status kd_cost_end(struct kd_cost *cost, struct kd_error *error);
 void kd_cost_finish(struct kd_cost *cost);
 
-/* Plans further scenes of a sweep until until_ms (kd_clock_ms), at least one, and ends after the last. The error is
- * that of the first scene that is invalid or does not fit the device, with its number, at /axes. series NULL: the
- * output is not known. */
+/* Plans further scenes of a sweep until until_ms (kd_clock_ms), at least one; after the last scene it calls
+ * kd_cost_end. An error is that of the first scene that is invalid or does not fit the device; it gives the scene's
+ * number, at /axes. series NULL: the output is not known. */
 enum kd_status kd_cost_sweep(struct kd_cost *cost, const struct kd_series *series, const struct kd_sweep *sweep,
                              const struct kd_capacity *capacity, double until_ms, struct kd_error *error);
 /* Writes the document of `kerrd plan --axis` for all scenes. KD_ENOMEM. */

@@ -145,7 +145,7 @@ static bool read_unit(const struct kd_buffer *head, size_t size, struct unit *ou
            channels > 0 && channels <= 4;
 }
 
-/* The first scene sets what all must have. */
+/* Checks one layer of a scene. The first scene sets what all scenes must have. */
 static enum kd_status enter(struct kd_cube *cube, size_t layer, const struct unit *unit, unsigned scene,
                             struct kd_error *error)
 {
@@ -164,7 +164,7 @@ static enum kd_status enter(struct kd_cube *cube, size_t layer, const struct uni
     return KD_OK;
 }
 
-/* Adds the text of a card unless it is known already. *there: whether the card exists. */
+/* Adds the text of a card unless the list has it already. *there: whether the card exists. */
 static enum kd_status keep_text(struct kd_cube_texts *texts, const struct kd_buffer *head, size_t size, const char *key,
                                 bool *there, struct kd_error *error)
 {
@@ -245,7 +245,7 @@ static enum kd_status look_at_notes(struct kd_cube *cube, unsigned scene, const 
     const double flux = kd_fits_find_real(head->data, size, KD_FITS_FLUX);
     text_of(head, size, "KDHASH", hash, sizeof hash);
     text_of(head, size, "KDACCUR", accuracy, sizeof accuracy);
-    memcpy(row, hash, strlen(hash)); /* the rest is NULs */
+    memcpy(row, hash, strlen(hash)); /* the rest of the row is NULs */
     memcpy(row + KD_CUBE_HASH, accuracy, strlen(accuracy));
     kd_cube_put_double((uint8_t *)row + KD_CUBE_TEXT, flux);
     cube->flux = cube->flux || !isnan(flux);

@@ -1,9 +1,9 @@
-/* A cube: an array of each layer over all scenes of a sweep, made from the scenes' FITS files; shared by cube_fits.c
+/* A cube: for each layer an array over all scenes of a sweep, made from the scenes' FITS files. Shared by cube_fits.c
  * and cube_npz.c. All files are scanned before anything is written, because checksums and sentences precede the
  * numbers.
  *
- * In FITS each layer is an image with the picture's axes, for "rgb" the three colours, then the axes of the sweep
- * from the last to the first. In NumPy its shape is (axes of the sweep, height, width[, 3]). Internal to
+ * In FITS a layer is an image whose axes are those of the picture, for "rgb" the three colours, then the axes of the
+ * sweep from the last to the first. In NumPy the array's shape is (axes of the sweep, height, width[, 3]). Internal to
  * render/output. */
 #ifndef KD_RENDER_OUTPUT_CUBE_H
 #define KD_RENDER_OUTPUT_CUBE_H
@@ -36,15 +36,15 @@ struct kd_cube {
     struct kd_cube_layer layers[KD_WORDS_MOST];
     size_t n_layers;
     unsigned seen;     /* scenes scanned so far */
-    uint64_t *places;  /* offsets of the numbers in the files: n_layers a scene */
-    struct kd_wcs wcs; /* of the first scene */
-    bool wcs_differ;   /* whether any scene has another one */
+    uint64_t *places;  /* offsets of the layers' numbers in the scenes' files: n_layers for each scene */
+    struct kd_wcs wcs; /* world coordinates of the first scene */
+    bool wcs_differ;   /* whether any scene has other world coordinates */
     struct kd_cube_texts {
         char *at[KD_CUBE_TEXTS];
         size_t n;
     } sentences, credits, devices;  /* each text once: approximations, credits and devices of all scenes */
     char *rows;                     /* KD_CUBE_ROW bytes for each scene */
-    uint32_t texts_sum, fluxes_sum; /* kd_fits_sum of the scenes' hashes and accuracies; of their fluxes */
+    uint32_t texts_sum, fluxes_sum; /* kd_fits_sum of the scenes' hashes and accuracies; kd_fits_sum of their fluxes */
     bool flux;                      /* some scene has a flux: the file then has fluxes */
     uint8_t *piece;                 /* at least KD_GATHER_PIECE bytes, and room for a row of numbers */
     size_t piece_bytes;
@@ -54,12 +54,12 @@ enum kd_status kd_cube_open(const struct kd_gather_source *source, struct kd_cub
 void kd_cube_finish(struct kd_cube *cube);
 /* Scans some more scenes. *over: all are done. */
 enum kd_status kd_cube_look(struct kd_cube *cube, bool *over, struct kd_error *error);
-/* What is stored for a scene: hash, accuracy of its picture, and flux. */
+/* The bytes stored for a scene: hash, accuracy of its picture, and flux. */
 static inline const char *kd_cube_row(const struct kd_cube *cube, unsigned scene)
 {
     return cube->rows + (size_t)scene * KD_CUBE_ROW;
 }
-/* Joins all texts: "a; b". */
+/* Joins all texts into one: "a; b". */
 enum kd_status kd_cube_join(const struct kd_cube_texts *texts, struct kd_buffer *out);
 /* Bytes of a layer's numbers in one scene. */
 static inline uint64_t kd_cube_slice(const struct kd_cube *cube, size_t layer)

@@ -26,7 +26,7 @@ static double world_of(const struct kd_sweep_axis *axis, size_t i)
     return axis->values[i].number * (is_frequency(axis) ? 1e9 : 1);
 }
 
-/* As the standard spells it (section 4.3), which has no unit for M = G m/c^2 and for stops. */
+/* The unit as the standard spells it (section 4.3). The standard has no unit for M = G m/c^2 and for stops. */
 static const char *unit_of(const struct kd_sweep_axis *axis)
 {
     return !strcmp(axis->unit, "degrees")        ? "deg"
@@ -101,7 +101,7 @@ done:
     return status;
 }
 
-/* A table of one column; its data are whole words, so zero padding does not change the checksum. */
+/* Appends a table of one column. Its data are whole words, so zero padding does not change the checksum. */
 static enum kd_status put_table(const char *name, const char *comment, const char *column, const char *form,
                                 const char *unit, uint64_t row, uint64_t rows, const struct kd_buffer *more,
                                 struct kd_buffer *data, struct kd_buffer *out)
@@ -124,7 +124,7 @@ done:
     return status;
 }
 
-/* The values of an axis as rows of its table. */
+/* Appends the values of an axis as rows of its table. */
 static enum kd_status put_rows(const struct kd_sweep_axis *axis, size_t row, struct kd_buffer *out)
 {
     enum kd_status status = KD_OK;
@@ -155,7 +155,8 @@ enum kd_status kd_cube_put_values(const struct kd_sweep_axis *axis, struct kd_bu
     return status;
 }
 
-/* One row: an array of the shape (1, n), as section 6 of the paper requires for coordinates of one axis. */
+/* The table has one row: an array of the shape (1, n), as section 6 of the paper requires for coordinates of one
+ * axis. */
 enum kd_status kd_cube_put_frequencies(const struct kd_sweep_axis *axis, struct kd_buffer *out)
 {
     struct kd_buffer values = { 0 }, shape = { 0 };

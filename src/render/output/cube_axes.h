@@ -1,10 +1,10 @@
 /* The axes of a sweep in a FITS cube: world coordinates in the header of each layer, and a table of each axis' values.
  * Each function appends to a buffer. Any thread; the only error is KD_ENOMEM. Internal to render/output.
  *
- * An axis of evenly spaced numbers is a linear world coordinate with its field's name; any other axis is numbered
- * from 1. A frequency has its standard name (Greisen et al. 2006, A&A 446, 747, table 1): FREQ, in Hz. Frequencies
- * that are not evenly spaced are numbered from 1 as well; an alternate description F of the same axes gives them by
- * a table (FREQ-TAB, section 6 there). It is not the primary description, because readers such as astropy refuse a
+ * An axis of evenly spaced numbers is a linear world coordinate with its field's name; any other axis is numbered from
+ * 1. A frequency has its standard name (Greisen et al. 2006, A&A 446, 747, table 1): FREQ, in Hz. Frequencies that are
+ * not evenly spaced are numbered from 1 as well. An alternate description F of the same axes then gives the frequencies
+ * by a table (FREQ-TAB, section 6 there). That is not the primary description, because readers such as astropy refuse a
  * header with such a table unless they are given the whole file. */
 #ifndef KD_RENDER_OUTPUT_CUBE_AXES_H
 #define KD_RENDER_OUTPUT_CUBE_AXES_H

@@ -15,8 +15,8 @@
 struct writer {
     struct kd_cube cube;
     size_t unit;    /* current HDU: layers, then axes, then scenes */
-    bool begun;     /* its header is written */
-    unsigned scene; /* next scene of it */
+    bool begun;     /* the header of the current HDU is written */
+    unsigned scene; /* the HDU's next scene */
     uint64_t at, written;
 };
 
@@ -137,7 +137,7 @@ static enum kd_status go_on_with_layer(struct writer *w, struct kd_buffer *out, 
     return KD_OK;
 }
 
-/* Bytes of a scene's row; without the flux if no scene has one. */
+/* Bytes of a scene's row; they do not include the flux if no scene has one. */
 static size_t row_bytes(const struct kd_cube *cube) { return cube->flux ? KD_CUBE_ROW : KD_CUBE_TEXT; }
 
 static enum kd_status put_column(struct kd_buffer *cards, unsigned number, const char *name, unsigned count,

@@ -13,10 +13,10 @@
 struct writer {
     struct kd_cube cube;
     struct kd_zip *zip;     /* NULL: not started */
-    struct kd_buffer bytes; /* its output so far */
+    struct kd_buffer bytes; /* output of the ZIP so far */
     size_t member;          /* current member: axes, layers, scene_hash, scene_accuracy, scene_flux_jy, notes.json */
     bool begun;
-    unsigned scene, row; /* what comes next of it; rows from the top */
+    unsigned scene, row; /* the current member's next scene and row; rows from the top */
     float *rows;         /* room for the rows of a piece */
 };
 
@@ -158,7 +158,7 @@ static enum kd_status put_flux(struct writer *w, const char *row)
     return kd_zip_append(w->zip, &flux, sizeof flux);
 }
 
-/* Writes an item stored for each scene. size: of a text; 0: the flux. */
+/* Writes the array of an item that is stored for each scene. size: of a text; 0: the item is the flux. */
 static enum kd_status put_scenes(struct writer *w, const char *name, size_t from, uint32_t size)
 {
     const struct kd_npy array = array_of(w, size ? KD_NPY_BYTES : KD_NPY_F8, size);

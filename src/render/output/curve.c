@@ -8,7 +8,7 @@ struct kd_curve_row kd_curve_row_of(unsigned number, const struct kd_scene *scen
 {
     const struct kd_light *all = &frame->light.all, *spots = &frame->light.spots;
     const bool linear = frame->light.polarized, circular = frame->light.circular,
-               apart = linear && !circular; /* then only a volume emits light */
+               apart = linear && !circular; /* in that case only a volume emits light */
     return (struct kd_curve_row) {
         .frame = number,
         .t = scene->top.time,

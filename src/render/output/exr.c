@@ -26,7 +26,7 @@ static size_t channels_of(const struct kd_numbers *numbers, struct kd_exr_channe
     return n;
 }
 
-/* "g= r_1=M" */
+/* Writes units as text: "g= r_1=M" */
 static enum kd_status units_of(const struct kd_numbers *numbers, struct kd_buffer *out)
 {
     enum kd_status status = KD_OK;

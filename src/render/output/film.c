@@ -1,6 +1,6 @@
 /* Encodes the pictures of all frames as a film with the program ffmpeg: H.264 in an MP4 file, or VP9 in a WebM file.
- * ffmpeg writes to an unlinked file, because the index of an MP4 precedes its pictures; its contents are produced
- * when ffmpeg is done. */
+ * ffmpeg writes to an unlinked file, because the index of an MP4 precedes its pictures. The contents of that file are
+ * produced when ffmpeg is done. */
 #include "base/clock.h"
 #include "base/program.h"
 #include "image/png.h"
@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #define PICTURE_MAX (32u << 20) /* bytes of one frame's file: twice a 4K picture */
-#define MORE (1u << 20)         /* bytes that a film may have beyond its pictures: its header */
+#define MORE (1u << 20)         /* bytes that a film may have besides its pictures: its header */
 #define SCENE_MAX 100000        /* bytes of the scene's text: an argument of a program may have 128 KiB */
 #define IDLE_MS 30e3            /* ffmpeg is killed if it makes no progress for this long */
 #define HEAD 24                 /* bytes of a PNG file up to the end of its width and height */
@@ -27,12 +27,12 @@ struct film {
     struct kd_program program;
     int fd; /* output file; -1: not started */
     bool done;
-    struct kd_buffer picture; /* of frame `next`, to be written from `at` on; at == size: none */
+    struct kd_buffer picture; /* the file of frame `next`; ffmpeg has taken `at` bytes. at == size: no file is loaded */
     size_t at;
     unsigned next;
-    uint8_t size[8]; /* of frame 0: width and height as in a PNG file */
-    uint64_t given;  /* bytes of the film produced so far */
-    off_t written;   /* size of its file when last checked */
+    uint8_t size[8]; /* width and height of frame 0, as in a PNG file */
+    uint64_t given;  /* bytes of the film's file produced so far */
+    off_t written;   /* size of the film's file when last checked */
 };
 
 /* Quality at which films look like the pictures: banding in a black sky is visible first. */
@@ -122,10 +122,10 @@ static uint64_t bytes_of(const struct kd_gather_source *source)
     return all;
 }
 
-/* Starts ffmpeg. The scene of frame 0, as stored in its picture, goes into the film. Colours: the picture's are
- * sRGB, which players display alike if BT.709 is named; the conversion to Y'CbCr is BT.709's, in video range. Since
- * ffmpeg 7 an encoder takes the colour tags of its frames, for a PNG sRGB's, whatever its options are, so the filter
- * setparams sets them as well. Two pixels share a chroma sample, so odd sides are padded. */
+/* Starts ffmpeg. The scene of frame 0, as stored in its picture, goes into the film. Colours: the pictures are sRGB,
+ * which players display alike if BT.709 is named; the conversion to Y'CbCr is BT.709's, in video range. Since ffmpeg 7
+ * an encoder takes the colour tags of its frames (for a PNG those of sRGB), whatever the encoder's options are, so the
+ * filter setparams sets the tags as well. Two pixels share a chroma sample, so odd sides are padded. */
 static enum kd_status begin(struct film *f, struct kd_error *error)
 {
     static const char filter[] = "pad=ceil(iw/2)*2:ceil(ih/"
@@ -190,7 +190,7 @@ done:
     return status;
 }
 
-/* Whether its file has grown since the last check. */
+/* Whether the film's file has grown since the last check. */
 static bool has_written(struct film *f)
 {
     struct stat about;
@@ -272,7 +272,7 @@ static void close_film(void *state)
 static size_t holds(const struct kd_gather_source *source)
 {
     (void)source;
-    return 2 * PICTURE_MAX; /* a picture's file, and its decoded pixels */
+    return 2 * PICTURE_MAX; /* the file of a picture, and the picture's decoded pixels */
 }
 
 const struct kd_gather_format kd_gather_mp4 = {

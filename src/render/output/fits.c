@@ -55,7 +55,7 @@ static bool has(const struct kd_scene *scene, int kind)
 }
 
 /* If only the picture of a radio source is requested, the file holds the flux of each pixel instead, and Stokes Q, U
- * and V if its light is polarised. Radio astronomy programs (ehtim, CASA, DS9) expect the flux as the primary array,
+ * and V if the light is polarised. Radio astronomy programs (ehtim, CASA, DS9) expect the flux as the primary array,
  * and ehtim 1.3.2 reads no file in which any array is a picture of three colours. */
 static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
 {
@@ -73,8 +73,8 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
     return KD_OK;
 }
 
-/* Beside the layer jy_per_pixel, Stokes Q, U and V are converted to its unit, as programs that read them together
- * expect. Sets *out to numbers that the caller frees, or to NULL if nothing is converted. */
+/* If the file also has the layer jy_per_pixel, Stokes Q, U and V are converted to that layer's unit, as programs that
+ * read them together expect. Sets *out to numbers that the caller frees, or to NULL if nothing is converted. */
 static enum kd_status in_jansky(const struct kd_picture *picture, size_t word, const struct kd_layer *layer,
                                 float **out)
 {

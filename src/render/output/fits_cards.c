@@ -57,7 +57,7 @@ done:
     return status;
 }
 
-/* Which Stokes parameter of all light a layer is; NULL: none. */
+/* The Stokes parameter of all light that a layer is; NULL: the layer is none. */
 static const char *stokes_of(const char *name)
 {
     static const char *const known[][2] = { { "intensity", "I" },    { "specific_intensity", "I" },

@@ -10,14 +10,14 @@
 #define KD_FITS_FLUX \
     "FLUX_JY" /* card with the flux of a picture, a number; it is left out if the picture has no flux */
 
-/* The cards of a layer's HDU. wcs: NULL if the frames have different ones. */
+/* The cards of a layer's HDU. wcs: NULL if the frames have different world coordinates. */
 enum kd_status kd_fits_put_layer(struct kd_buffer *cards, const char *name, const char *unit, bool rgb,
                                  const struct kd_wcs *wcs);
-/* World coordinates of two axes, alternate: "" or one letter. */
+/* World coordinates of two axes. alternate: "" or one letter. */
 enum kd_status kd_fits_put_world_axes(struct kd_buffer *cards, const struct kd_wcs *wcs,
                                       const struct kd_wcs_axis axes[2], const char *alternate);
-/* The hole, the observer, and the frequency of a volume at a radio frequency, for readers that do not parse the
- * scene. sweep: its axes are left out; NULL: none. */
+/* The hole, the observer, and the frequency of a volume at a radio frequency, for readers that do not parse the scene.
+ * sweep: fields that it varies are left out; NULL: there is no sweep. */
 enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene *scene, const struct kd_sweep *sweep);
 
 #endif

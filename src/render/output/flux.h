@@ -4,7 +4,7 @@
 
 #include "render/frame/frame.h"
 
-/* Flux of the whole picture in Jy, for spacetime.mass_msun and spacetime.distance_pc; NAN unless
+/* Flux of the whole picture in Jy, for the scene's spacetime.mass_msun and spacetime.distance_pc; NAN unless
  * kd_scene_is_radio_alone. */
 double kd_flux_jy(const struct kd_scene *scene, const struct kd_frame *frame);
 

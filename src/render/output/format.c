@@ -44,7 +44,7 @@ enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *s
                               const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
     const unsigned shows = KD_CARRIES_PICTURE | KD_CARRIES_LAYERS;
-    const bool told = format->carries & shows && format->scene; /* stored in the file as requested */
+    const bool told = format->carries & shows && format->scene; /* stored in the file, as the scene was requested */
     if (!(format->carries & KD_CARRIES_PICTURE) && !told && isinf(scene->style.exposure))
         scene->style.exposure = 0;
     if (!(format->carries & shows))

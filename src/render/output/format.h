@@ -20,7 +20,7 @@ struct kd_picture {
 };
 
 enum kd_effort {
-    KD_EFFORT_LIVE,  /* one of many frames a second, 8 bits a channel: as fast as possible, without metadata */
+    KD_EFFORT_LIVE,  /* for one of many frames a second, with 8 bits a channel: as fast as possible, without metadata */
     KD_EFFORT_QUICK, /* a client waits for it */
     KD_EFFORT_KEEP,  /* a file that is kept: smaller */
 };
@@ -35,10 +35,10 @@ enum {
 struct kd_format {
     const char *name;       /* "png": value of `format=` and file name extension; lower case */
     const char *media_type; /* "image/png" */
-    const char *magic;      /* first bytes of each file; "": they vary */
-    const char *end;        /* last bytes of each file; NULL: they vary */
+    const char *magic;      /* first bytes of each file; "": the first bytes vary */
+    const char *end;        /* last bytes of each file; NULL: the last bytes vary */
     unsigned carries;
-    bool live; /* it supports KD_EFFORT_LIVE */
+    bool live; /* the format supports KD_EFFORT_LIVE */
     /* Adapts a scene so that its frame carries what the format needs; NULL: no change is necessary. KD_EINVAL at a
      * field if the scene has nothing to write. */
     enum kd_status (*draws)(struct kd_scene *scene, struct kd_error *error);
@@ -56,11 +56,11 @@ struct kd_format {
 KD_FORMATS(KD_FORMAT_DECLARE)
 #undef KD_FORMAT_DECLARE
 
-/* JPEG frames of live views, of the quality given in kd_picture; not in the table. jpeg.c */
+/* JPEG frames of live views, with the quality given in kd_picture. This format is not in the table. jpeg.c */
 extern const struct kd_format kd_format_jpeg;
 
-/* FITS files of the scenes of a cube; not in the table. They have exactly the layers that image.layers names, so
- * that all scenes have the same. fits.c */
+/* FITS files of the scenes of a cube. They have exactly the layers that image.layers names, so that all scenes have the
+ * same layers. This format is not in the table. fits.c */
 extern const struct kd_format kd_format_cubed;
 
 /* The first is the default. formats.c */
@@ -68,7 +68,7 @@ extern const struct kd_format *const kd_formats[];
 extern const size_t kd_n_formats;
 
 const struct kd_format *kd_format_named(const char *name);                 /* NULL: there is none */
-const struct kd_format *kd_format_of_bytes(const void *data, size_t size); /* by its first bytes; NULL: none */
+const struct kd_format *kd_format_of_bytes(const void *data, size_t size); /* by a file's first bytes; NULL: none */
 const struct kd_format *kd_format_live(void);                              /* the format of live views */
 
 /* Plans a frame that carries what the format needs. Settings that neither show in the file nor are recorded in it

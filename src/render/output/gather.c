@@ -28,9 +28,9 @@ void kd_gather_close(struct kd_gather *gather)
 struct files {
     const struct kd_gather_source *source;
     struct kd_zip *zip;     /* NULL: nothing is written yet */
-    struct kd_buffer bytes; /* its output so far */
+    struct kd_buffer bytes; /* output of the ZIP so far */
     unsigned next;
-    uint64_t at, size; /* of the current file; at == size: none */
+    uint64_t at, size; /* position in the current file, and its size; at == size: there is no current file */
     uint8_t piece[KD_GATHER_PIECE];
 };
 
@@ -87,7 +87,7 @@ static enum kd_status open_files(const struct kd_gather_source *source, void **s
     return KD_OK;
 }
 
-/* Stored without compression: the frames' files are compressed already, or incompressible. */
+/* Begins a ZIP without compression: the frames' files are compressed already, or incompressible. */
 static enum kd_status begin(struct files *f)
 {
     enum kd_status status = kd_zip_create(&f->bytes, false, &f->zip);

@@ -32,9 +32,10 @@ struct kd_gather_source {
 struct kd_gather_format {
     const char *name, *media_type;
     const struct kd_format *of; /* format that the frames must have; NULL: any */
-    /* bytes held while it is made, for formats that do much work before their first piece; NULL: none */
+    /* bytes of memory held while the file is made, for formats that do much work before their first piece; NULL:
+     * none */
     size_t (*holds)(const struct kd_gather_source *source);
-    bool counts; /* its size can be computed: produced bytes plus *source->counted */
+    bool counts; /* the size of the gathered file can be computed: produced bytes plus *source->counted */
     bool waits;  /* when `next` produces nothing it waits for another program: call it again some milliseconds later */
     enum kd_status (*open)(const struct kd_gather_source *source, void **state, struct kd_error *error);
     enum kd_status (*next)(void *state, struct kd_buffer *out, bool *over, struct kd_error *error);
@@ -44,7 +45,7 @@ struct kd_gather_format {
 /* "000012.png" ... for a sequence. For a sweep the names contain values, and index.json comes first, with the scene,
  * the axes and these names. */
 extern const struct kd_gather_format kd_gather_zip;
-/* Cubes: an array of each layer over all scenes of a sweep, and an array of the values of each axis (cube.h). */
+/* Cubes: one array for each layer over all scenes of a sweep, and one for the values of each axis (cube.h). */
 extern const struct kd_gather_format kd_gather_fits, kd_gather_npz;
 /* Films of PNG frames, all of one size, encoded by the program ffmpeg, with the scene of frame 0 as `comment`.
  * KD_EABSENT if there is no ffmpeg. */
@@ -55,7 +56,7 @@ extern const struct kd_gather_format kd_gather_mp4, kd_gather_webm;
 /* Checks whether the scenes of a sweep can form a cube: all have the same size and layers. KD_EINVAL at the axis
  * along which they differ. */
 enum kd_status kd_cube_check(const struct kd_sweep *sweep, struct kd_error *error);
-/* Checks one scene and its plan against the shape of scene 0, which the call for scene 0 sets; finds differences
+/* Checks one scene and its plan against the shape of scene 0, which the call for scene 0 sets. This finds differences
  * that no single axis shows. KD_EINVAL at /axes, naming the scene. */
 struct kd_cube_shape {
     unsigned width, height;
@@ -63,7 +64,7 @@ struct kd_cube_shape {
 };
 enum kd_status kd_cube_compare(struct kd_cube_shape *shape, unsigned number, const struct kd_scene *scene,
                                const struct kd_plan *plan, struct kd_error *error);
-size_t kd_cube_holds(const struct kd_gather_source *source); /* memory for a cube */
+size_t kd_cube_holds(const struct kd_gather_source *source); /* memory needed to make a cube */
 
 struct kd_gather {
     const struct kd_gather_format *format;
@@ -74,6 +75,6 @@ enum kd_status kd_gather_open(const struct kd_gather_format *format, const struc
 /* Appends more bytes, sometimes none. *over: everything was produced. KD_ENOMEM; KD_EIO if a frame's file has
  * changed. */
 enum kd_status kd_gather_next(struct kd_gather *gather, struct kd_buffer *out, bool *over, struct kd_error *error);
-void kd_gather_close(struct kd_gather *gather); /* also accepts one that was never opened */
+void kd_gather_close(struct kd_gather *gather); /* also accepts a gather that was never opened */
 
 #endif

@@ -1,4 +1,4 @@
-/* JPEG frames of live views. They are not kept and carry no scene, so JPEG is not in the table of formats. */
+/* JPEG frames of live views. Such frames are not kept and carry no scene, so JPEG is not in the table of formats. */
 #include "image/jpeg.h"
 #include "render/output/format.h"
 

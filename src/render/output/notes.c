@@ -65,17 +65,17 @@ void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *
     }
 }
 
-/* One sentence a line, for readers of the file's properties. */
+/* Joins the approximations, one sentence a line, for readers of the file's properties. */
 static enum kd_status join_approximations(const struct kd_plan *plan, struct kd_buffer *out)
 {
-    enum kd_status status = kd_buffer_append(out, "", 0); /* gives a string even without approximations */
+    enum kd_status status = kd_buffer_append(out, "", 0); /* makes `out` a string even without approximations */
     for (size_t i = 0; i < plan->n_approximations && !status; i++)
         status = kd_buffer_printf(out, "%s%s", i ? "\n" : "", plan->approximations[i].text);
     return status;
 }
 
-/* The canonical scene, and its hash. For a picture of a playground the document also identifies the state that is
- * shown, and cannot be read back as a scene. */
+/* Writes the canonical scene, and its hash. For a picture of a playground the document also identifies the state that
+ * is shown, and cannot be read back as a scene. */
 static enum kd_status put_scene(const struct kd_picture *picture, struct kd_notes *notes)
 {
     const struct kd_dynamic_bodies *crowd = picture->scene->crowd.at;
@@ -126,7 +126,8 @@ enum kd_status kd_notes_scene(const char *text, size_t length, struct kd_scene *
                             "playground's snapshot, by "
                             "kerrd playground SNAPSHOT.json --picture FILE");
     struct kd_scene scene;   /* *out must not change if the document is refused */
-    kd_scene_smooth(&scene); /* fields missing from this complete document did not exist when it was written */
+    kd_scene_smooth(&scene); /* for fields that this complete document lacks, because they did not exist when it was
+                              * written */
     enum kd_status status = kd_scene_from_json(&scene, text, length, error);
     if (!status)
         *out = scene;

@@ -12,8 +12,8 @@
  * median=1.6e-07 worst=2.0e-05"; without the last four if nothing was sampled. */
 #define KD_ACCURACY_TEXT 384
 void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT]);
-/* Writes the same as members of a JSON object, without rays, engine, precision and steps. median, worst: names for
- * the two errors of radii. */
+/* Writes the same accuracy as members of a JSON object, without rays, engine, precision and steps. median, worst: names
+ * for the two errors of radii. */
 void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median,
                          const char *worst);
 
@@ -24,13 +24,13 @@ void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *
 struct kd_notes {
     struct kd_buffer scene; /* canonical JSON */
     char hash[65];
-    struct kd_buffer approximations; /* one a line */
+    struct kd_buffer approximations; /* one approximation a line */
     char accuracy[KD_ACCURACY_TEXT];
     char clock[KD_CLOCK_TEXT]; /* for a falling observer, otherwise "" */
     char flux[KD_FLUX_TEXT];   /* at a radio frequency, otherwise "" */
     char blur[KD_BLUR_TEXT];   /* for a mean of pictures, otherwise "" */
 };
-/* KD_ENOMEM. Call kd_notes_finish in any case. */
+/* Collects the metadata of a picture. KD_ENOMEM. Call kd_notes_finish in any case. */
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error);
 void kd_notes_finish(struct kd_notes *notes);
 

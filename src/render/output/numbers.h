@@ -15,7 +15,7 @@ struct kd_numbers {
     size_t n;
 };
 
-/* KD_EINVAL if the frame was rendered without them. */
+/* Collects the layers. KD_EINVAL if the frame was rendered without them. */
 enum kd_status kd_numbers_of(const struct kd_picture *picture, struct kd_numbers *out, struct kd_error *error);
 
 #endif

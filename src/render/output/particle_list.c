@@ -17,7 +17,7 @@ static const char *const names[] = {
 #undef COLUMN
 };
 
-/* The guiding orbit of the last row: particles are in order of radius, and many share one. */
+/* The guiding orbit of the last row. Particles are in order of radius, and many share an orbit. */
 struct guide {
     uint32_t number; /* UINT32_MAX: none yet */
     struct kd_particle_orbit orbit;
@@ -151,7 +151,7 @@ void kd_particle_list_names(const struct kd_particle_list *list, char out[KD_PAR
     }
 }
 
-/* The derivatives of the formulas in particles.h. */
+/* Fills in the derivatives of the formulas in particles.h. */
 static void fill_rates(double *row, const struct kd_particle_list *list, uint32_t particle,
                        const struct kd_particle_orbit *o)
 {

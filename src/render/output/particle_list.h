@@ -1,4 +1,5 @@
-/* Lists the particles of a disk as numbers: one row each, 32-bit floats, in the order of the requested columns.
+/* Lists the particles of a disk as numbers: one row for each particle, 32-bit floats, in the order of the requested
+ * columns.
  *
  *     struct kd_particle_list list;
  *     kd_particle_list_init(&list, &scene, &error)                    a valid scene
@@ -8,7 +9,8 @@
  *         kd_particle_list_fill(renderer, &list, i, n = ..., rows, &error);
  *
  * Coordinates are Boyer-Lindquist t, r, theta, phi; x = sqrt(r^2 + a^2) cos(latitude) cos(phi), y likewise with
- * sin(phi), z = r sin(latitude): the ellipsoidal coordinates that they become for M -> 0. Any thread, except _fill. */
+ * sin(phi), z = r sin(latitude): the ellipsoidal coordinates that Boyer-Lindquist ones become for M -> 0. Any thread,
+ * except _fill. */
 #ifndef KD_RENDER_OUTPUT_PARTICLE_LIST_H
 #define KD_RENDER_OUTPUT_PARTICLE_LIST_H
 
@@ -68,7 +70,7 @@ void kd_particle_list_names(const struct kd_particle_list *list, char out[KD_PAR
 /* Computes n <= KD_PARTICLE_LIST_SLICE rows, from row `from` on. Render thread only. */
 enum kd_status kd_particle_list_fill(struct kd_renderer *renderer, const struct kd_particle_list *list, size_t from,
                                      size_t n, float *rows, struct kd_error *error);
-/* Requests the kernel that it needs, for kd_kernels_note. */
+/* Requests the kernel that _fill needs, for kd_kernels_note. */
 enum kd_status kd_particle_list_ask(struct kd_renderer *renderer, const struct kd_particle_list *list);
 
 #endif

@@ -1,7 +1,7 @@
-/* Lists the stars in a picture and their places: kd_format_stars, a JSON document of the images of stars with names,
- * sorted by the light that they give to a pixel (docs/physics/sky.md). They are searched between the rays of the
- * lens map, one a pixel, and in the rim of the shadow. Their places are those of the rays that end at stars;
- * brightness is that of one star's image. */
+/* Lists the stars in a picture and their places: kd_format_stars. This is a JSON document of the images of stars with
+ * names, sorted by the light that they give to a pixel (docs/physics/sky.md). Images are searched between the rays of
+ * the lens map, one a pixel, and in the rim of the shadow. The place of an image is that of the ray that ends at the
+ * star; brightness is that of one image, not of the star's images together. */
 #include "render/output/format.h"
 
 #include "base/json.h"
@@ -18,8 +18,8 @@
 #define COARSE \
     0.15 /* rad: next to the critical curve, neighbouring rays of the picture that end further apart than this are not \
             used */
-#define INNER 0.9  /* fraction of the rim's width: nearer to the curve only the rim's images count */
-#define APART 0.05 /* pixels: images of the two grids nearer than this are the same */
+#define INNER 0.9  /* fraction of the rim's width: nearer to the curve than this only the rim's images count */
+#define APART 0.05 /* pixels: images of the two grids that are nearer to each other than this are the same */
 
 enum { MOST = 400 }; /* images in a file, the brightest ones */
 
@@ -33,14 +33,14 @@ struct list {
     const struct kd_picture *picture;
     struct kd_sky_rays rays;
     struct kd_star_name names[KD_STAR_NAMES];
-    double most[KD_STAR_NAMES];          /* the largest solid angle of a pixel, sr, at which each is visible */
+    double most[KD_STAR_NAMES]; /* for each star the largest solid angle of a pixel, sr, at which it is visible */
     struct kd_vec places[KD_STAR_NAMES]; /* directions of the stars in the frame of the lens map */
     size_t n_stars;
     struct image *images;
     size_t n, room, n_rim; /* images; those of the rim come first */
 };
 
-/* Requests the directions in which rays end, and the optical depth of the disk before them. */
+/* Requests the directions in which rays end, and the optical depth of the disk in front of the sky. */
 static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
 {
     const bool disk = scene->disk.model != KD_DISK_NONE;
@@ -71,7 +71,7 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
     return KD_OK;
 }
 
-/* Stars in the frame of the rays, by the transpose of the rays' rotation. */
+/* Lists the stars with names, with directions in the frame of the rays, by the transpose of the rays' rotation. */
 static void name_stars(struct list *list)
 {
     const struct kd_scene *scene = list->picture->scene;
@@ -93,8 +93,8 @@ static void name_stars(struct list *list)
     }
 }
 
-/* Solid angle of the square of four rays in the picture, by the stencil that measured that of the sky: the
- * projection then cancels in their ratio. NAN at infinity, where parallel rays have no solid angle. */
+/* Solid angle in the picture of the square of four rays, by the stencil that measured the solid angle of the sky: in
+ * the ratio of both the projection cancels. NAN at infinity, where parallel rays have no solid angle. */
 static double pixel_angle(const struct kd_camera_exact *camera, const struct kd_star_stencil *by)
 {
     const double h = 1e-3, x0 = by->x, y0 = by->y;
@@ -138,7 +138,7 @@ static bool is_there(const struct list *list, const struct kd_star_image *image)
     return false;
 }
 
-/* Converts a place of the map to one of the picture; false if it is outside. The map of a picture of all directions
+/* Converts a place of the map to a place of the picture; false if it is outside. The map of a picture of all directions
  * has one column and two rows more (find()): an image beyond a pole is in the picture at its equivalent place. */
 static bool place_of(const struct list *list, struct kd_star_image *image)
 {
@@ -159,7 +159,8 @@ static enum kd_status add(void *user, const struct kd_star_image *found)
     if (!place_of(list, &at))
         return KD_OK;
     const double shown = pixel_angle(&list->rays.camera, &(struct kd_star_stencil) { .x = at.x, .y = at.y });
-    at.solid_angle = isnan(magnification) ? at.solid_angle : shown / magnification; /* measured at the place itself */
+    /* the solid angle at the image's place */
+    at.solid_angle = isnan(magnification) ? at.solid_angle : shown / magnification;
     if (at.solid_angle > list->most[at.star] || is_there(list, &at))
         return KD_OK;
     const uint32_t x = (uint32_t)(at.x + edge), y = (uint32_t)(at.y + edge);
@@ -237,7 +238,7 @@ static bool exact(const void *of, double x, double y, struct kd_vec *out)
     return true;
 }
 
-/* Converts from the map's rows to the picture's. */
+/* Converts an image from the map's rows to the picture's, and adds it. */
 static enum kd_status add_around(void *user, const struct kd_star_image *found)
 {
     struct kd_star_image image = *found;

@@ -31,7 +31,7 @@ static struct kd_wcs plane(const struct kd_scene *scene)
     };
 }
 
-/* In a tile pixels count from its own corner, rows from below. */
+/* World coordinates in a tile, whose pixels count from its own corner, rows from below. */
 static struct kd_wcs in_tile(struct kd_wcs wcs, const struct kd_scene *scene)
 {
     const struct kd_window tile = kd_scene_window(scene);
@@ -49,7 +49,7 @@ struct kd_wcs kd_wcs_of(const struct kd_scene *scene)
     const double width = scene->image.width, height = scene->image.height;
     const uint32_t sight = kd_camera_sight(scene);
     if (scene->camera.projection == KD_PROJECTION_RING ||
-        scene->camera.stereo == KD_STEREO_PAIR) /* a pair of pictures has two of them */
+        scene->camera.stereo == KD_STEREO_PAIR) /* a pair has two pictures, each with coordinates of its own */
         return (struct kd_wcs) { 0 };
     if (sight == KD_SIGHT_PLANE)
         return in_tile(plane(scene), scene);

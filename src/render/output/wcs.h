@@ -9,17 +9,20 @@
 
 struct kd_wcs_axis {
     const char *type, *unit; /* "RA---SIN", "deg" */
-    /* reference pixel, counted from 1, from the left or from the lowest row; value there; increment a pixel */
+    /* reference pixel, counted from 1, from the left or from the lowest row; the coordinate there; its increment from
+     * pixel to pixel */
     double pixel, value, step;
 };
 
 struct kd_wcs {
     bool known; /* false: the projection has no linear axes, or the picture is a pair for two eyes */
-    /* far away: east to the left, from the hole's mass and distance; near: right of the camera's axis and above it */
+    /* observer far away: angles on the sky, east to the left, from the hole's mass and distance; otherwise: angles to
+     * the right of the camera's axis and above it */
     struct kd_wcs_axis at[2];
-    bool far;                     /* a distant observer; `impact` is then valid as well */
+    bool far;                     /* the observer is distant, and `impact` is valid as well */
     struct kd_wcs_axis impact[2]; /* the same places as impact parameters alpha and beta, M */
-    double turn[2][2];            /* PCi_j of both: from pixels to steps of the axes when the camera is rolled */
+    double turn[2][2];            /* PCi_j of both pairs of axes: from pixels to steps of the axes when the camera is
+                                   * rolled */
 };
 
 /* The scene must be valid. */

@@ -1,13 +1,12 @@
 /* A telescope's beam (style.beam_uas): light is convolved with a round Gaussian, before exposure, bloom and tone
  * curves. Any thread.
  *
- * The beam determines the resolution of the work, not the picture. If its standard deviation sigma is at least
+ * The work depends on the beam's resolution, not on the picture's. If the beam's standard deviation sigma is at least
  * KD_BEAM_CELLS cells of two pixels or more, light is gathered on a grid of square cells, blurred there, and
  * interpolated back. Gathering and interpolation use quadratic B-splines, which shift nothing and have a variance of
- * 1/4 each, in cells; the blur supplies the rest of sigma^2. The error is 3e-4 of the brightest value if all light
- * is in one cell, and less otherwise. Each axis is blurred by a pass of its own. For a narrower beam cells are
- * pixels, weighted by the Gaussian at their centres. The weights add up to 1, and there is no light outside the
- * picture. */
+ * 1/4 each, in cells; the blur supplies the rest of sigma^2. The error is 3e-4 of the brightest value if all light is
+ * in one cell, and less otherwise. Each axis is blurred by a pass of its own. For a narrower beam the cells are pixels,
+ * weighted by the Gaussian at their centres. The weights add up to 1, and there is no light outside the picture. */
 #ifndef KD_RENDER_PLAN_BEAM_H
 #define KD_RENDER_PLAN_BEAM_H
 
@@ -19,8 +18,10 @@
 
 struct kd_beam_grid {
     uint32_t cell;          /* pixels along the side of a cell; 0: no beam, or one too narrow to show */
-    uint32_t columns, rows; /* of the grid; if cells are larger than pixels, one more on each side of the picture */
-    uint32_t height;        /* of the picture: the rows of cells before they are summed, one for each row of pixels */
+    uint32_t columns, rows; /* of the grid; if cells are larger than pixels, there is one more cell on each side of the
+                             * picture */
+    uint32_t height;        /* rows of the picture: each row of pixels has a row of cells before these are summed to the
+                             * grid */
     double sigma;           /* standard deviation of the blur, in cells */
     uint32_t reach;         /* radius of the blur, in cells: 5 sigma, beyond which lies 6e-7 of its weight */
 };
@@ -28,7 +29,7 @@ struct kd_beam_grid {
 /* The grid for a valid scene's picture. */
 struct kd_beam_grid kd_beam_of(const struct kd_scene *scene);
 
-/* Bytes of the rows of cells, one for each row of pixels; and of one grid. */
+/* Bytes of the rows of cells, one for each row of pixels. kd_beam_cells_bytes: bytes of one grid. */
 static inline uint64_t kd_beam_lines_bytes(const struct kd_beam_grid *beam)
 {
     return 16ull * beam->columns * beam->height;

@@ -1,12 +1,12 @@
 /* Glare of a lens (style.bloom): how much light is spread and how far. Any thread.
  *
- * A grid of KD_BLOOM_ROWS rows of square cells covers the picture; further grids each have half as many cells along
- * a side. Each grid holds the light as a quadratic B-spline, is smoothed once, and is interpolated by such a spline.
- * Light of a point thus falls off as a sum of near Gaussians, the n-th with standard deviation d 2^n, where d is the
- * side of the finest grid's cells. All have the same amount of light, so that brightness falls off as the square of
- * the angle, about as the glare of eyes and lenses does (G. Spencer et al. 1995). The glare covers the same fraction
- * of a picture of any size; grids with cells smaller than pixels are left out. If a picture is wider than four times
- * its height, d is relative to a quarter of its width. */
+ * A grid of KD_BLOOM_ROWS rows of square cells covers the picture; further grids each have half as many cells along a
+ * side. Each grid holds the light as a quadratic B-spline, is smoothed once, and is interpolated by such a spline.
+ * Light of a point thus falls off as a sum of near Gaussians. The n-th has standard deviation d 2^n, where d is the
+ * side of the finest grid's cells. All have the same amount of light, so that brightness falls off as the square of the
+ * angle, about as the glare of eyes and lenses does (G. Spencer et al. 1995). The glare covers the same fraction of a
+ * picture of any size; grids with cells smaller than pixels are left out. If a picture is wider than four times its
+ * height, d is relative to a quarter of its width. */
 #ifndef KD_RENDER_PLAN_BLOOM_H
 #define KD_RENDER_PLAN_BLOOM_H
 
@@ -16,15 +16,15 @@
 #include <stdint.h>
 
 struct kd_bloom {
-    uint32_t columns, rows;      /* of the finest grid, multiples of 2^(levels - 1) */
+    uint32_t columns, rows;      /* size of the finest grid, multiples of 2^(levels - 1) */
     uint32_t levels;             /* number of grids; 0: nothing is spread */
     bool around;                 /* the picture shows all directions, so its left and right edges adjoin */
-    double strength;             /* fraction that is spread of the light above white */
-    double share;                /* of that, the fraction of each grid: equal for each octave of the angle */
+    double strength;             /* fraction of the light above white that is spread */
+    double share;                /* fraction of the spread light on each grid: equal for each octave of the angle */
     uint32_t block_x, block_y;   /* sides in pixels of the blocks whose light is summed first */
     uint32_t blocks_x, blocks_y; /* number of blocks */
-    /* Offsets in one buffer, multiples of 256: of each grid, of its sum with the coarser ones, and of the blocks;
-     * and the buffer's size. */
+    /* Offsets in one buffer, multiples of 256: of each grid; of the sum of each grid with the coarser ones; of the
+     * blocks. bytes: the buffer's size. */
     uint64_t light[KD_BLOOM_LEVELS], sums[KD_BLOOM_LEVELS], blocks, bytes;
 };
 

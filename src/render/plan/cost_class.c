@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Fields that are not part of the class (all fields of a section if the name is NULL), and fields that enter by
- * their power of two. "" is the document itself. */
+/* Fields that are not part of the class (all fields of a section if the name is NULL); and fields of which only the
+ * power of two is part of it. "" is the document itself. */
 struct named { const char *section, *name; };
 static const struct named left_out[] = {
     { "image", NULL },           { "image.tile", NULL },
@@ -67,7 +67,7 @@ double kd_cost_known(const struct kd_capacity *capacity, uint64_t class, enum kd
     return 0;
 }
 
-/* Entry of a class; if it has none, that of the class updated longest ago. */
+/* Entry of a class; if it has none, the entry of the class that was updated longest ago. */
 static struct kd_class_cost *place_of(struct kd_capacity *capacity, uint64_t class)
 {
     struct kd_class_cost *oldest = capacity->classes;

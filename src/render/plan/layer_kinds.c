@@ -63,11 +63,12 @@ size_t kd_layers_of(const struct kd_scene *scene, struct kd_plan_layer out[KD_WO
 uint32_t kd_layers_needs(const struct kd_scene *scene)
 {
     struct kd_plan_layer layers[KD_WORDS_MOST];
-    bool rgb, ring = scene->camera.projection == KD_PROJECTION_RING; /* there Carter's Q follows only from the slope */
+    /* for a ring Carter's Q follows only from the slope */
+    bool rgb, ring = scene->camera.projection == KD_PROJECTION_RING;
     uint32_t needs = 0;
     for (size_t n = kd_layers_of(scene, layers, &rgb); n; n--) {
         if (kd_layer_is_polarized(layers[n - 1].kind) && scene->polarization.model == KD_POLARIZATION_TRANSFER)
-            continue; /* belongs to the march and has no crossing */
+            continue; /* such a layer belongs to the march and has no crossing */
         needs |= kd_layer_kinds[layers[n - 1].kind].needs |
                  (layers[n - 1].kind == KD_LAYER_emission_angle && ring ? KD_LENS_SLOPE : 0);
     }

@@ -25,24 +25,25 @@ struct kd_layer_kind {
     enum kd_layer_of { KD_OF_PICTURE, KD_OF_LIGHT, KD_OF_CROSSING, KD_OF_RAY } of;
     uint32_t needs; /* KD_LENS_... quantities of the lens map that it reads */
     enum kd_colour_map map;
-    struct kd_map_scale scale;  /* an end that is NAN: the least or largest value of the picture */
+    struct kd_map_scale scale;  /* the scale of its colours; an end that is NAN is the least or largest value of the
+                                 * picture */
     const char *const *classes; /* for CATEGORICAL: names of the values 0, 1, ...; NULL: their numbers */
     uint32_t n_classes;         /* 0: given by the largest value */
 };
 extern const struct kd_layer_kind kd_layer_kinds[KD_LAYER_COUNT];
-/* Whether it is a quantity of polarised light. */
+/* Whether the layer is a quantity of polarised light. */
 static inline bool kd_layer_is_polarized(int kind)
 {
     return kind == KD_LAYER_stokes_q || kind == KD_LAYER_stokes_u || kind == KD_LAYER_evpa ||
            kind == KD_LAYER_polarization_fraction || kind == KD_LAYER_stokes_v;
 }
 
-/* A layer of a plan. order: its image order; -1: that of the first crossing on the disk. */
+/* A layer of a plan. order: its image order; -1: the order of the first crossing on the disk. */
 struct kd_plan_layer { int16_t kind, order; };
 
 /* The layers of image.layers except "rgb", in their order; returns their number. *rgb: whether "rgb" is among them. */
 size_t kd_layers_of(const struct kd_scene *scene, struct kd_plan_layer out[KD_WORDS_MOST], bool *rgb);
-/* KD_LENS_... quantities that all of them need. */
+/* KD_LENS_... quantities that all layers of image.layers need together. */
 uint32_t kd_layers_needs(const struct kd_scene *scene);
 /* Whether jy_per_pixel is defined: only a volume at a radio frequency emits light, and all pixels cover the same
  * part of the sky. */

@@ -9,8 +9,9 @@
 
 enum { LEAST = 2, BALANCED = 4, MOST = 64, SKETCH = 2 };
 
-#define UNSEEN 0.05        /* octaves of less than this amplitude contribute less than 1e-4 to the light */
-#define SKETCH_UNSEEN 0.15 /* the same for a sketch: includes octaves that a ray's footprint mostly averages out */
+#define UNSEEN 0.05 /* octaves of less than this amplitude contribute less than 1e-4 to the light */
+/* as UNSEEN, for a sketch: the octaves left out include some that a ray's footprint mostly averages out */
+#define SKETCH_UNSEEN 0.15
 
 static bool is_stirred(const struct kd_scene *scene)
 {
@@ -27,20 +28,20 @@ static double error_of(const struct kd_scene *scene)
 #define PIXEL \
     0.36 /* distance of rays, M over disk.gas.scale: below it, more and more of the fine noise is resolved as the rays \
             get closer */
-#define CLOSER 0.08 /* change of the exponent each time the distance halves */
+#define CLOSER 0.08 /* change of the exponent in fine_of each time the distance halves */
 #define CLOSEST 3   /* number of halvings after which all octaves are resolved */
 
-/* Number of times that the distance of rays is halved compared with a picture 320 wide of the preset thick-disk. */
+/* How many times the distance of rays must be halved, starting from a picture 320 wide of the preset thick-disk. */
 static double closeness(const struct kd_scene *scene)
 {
     const double distance = isfinite(scene->camera.r) ? scene->camera.r : 1, side = fmax(scene->image.samples, 1);
     return fmin(fmax(log2(PIXEL * scene->gas.scale * side / (kd_camera_pixel(scene) * distance)), 0), CLOSEST);
 }
 
-/* Measured in the preset thick-disk at 320 x 180 against 16 times as many stretches: nine of ten rays are within
- * 8e-3 at four quarters, 1.6e-3 at eight and 5e-4 at twelve, because noise is smooth to the second derivative only.
- * Closer rays resolve noise much finer than stretches, and the error falls more slowly: at nine quarters it is 8e-4
- * at 320 x 180, 1.4e-3 at 640 x 360 and 2e-3 at 1280 x 720; at three quarters 1.3e-2, 1.5e-2 and 1.8e-2. */
+/* Measured in the preset thick-disk at 320 x 180 against 16 times as many stretches: nine of ten rays are within 8e-3
+ * at four quarters, 1.6e-3 at eight and 5e-4 at twelve, because noise is smooth to the second derivative only. Closer
+ * rays resolve noise that is much finer than stretches, and the error falls more slowly. At nine quarters it is 8e-4 at
+ * 320 x 180, 1.4e-3 at 640 x 360 and 2e-3 at 1280 x 720; at three quarters it is 1.3e-2, 1.5e-2 and 1.8e-2. */
 static uint32_t fine_of(double error, const struct kd_scene *scene)
 {
     double fine = BALANCED * sqrt(sqrt(1e-4 / error));
@@ -57,9 +58,9 @@ static uint32_t steps_of(double error, const struct kd_setting *rays)
     return mino && rays->steps > least ? rays->steps : least;
 }
 
-/* Cost of a ray through matter at a radio frequency, relative to one through a uniform volume: core seconds of
- * pictures of two sizes by lavapipe, for test 3 of Gold et al., ipole's flow, the torus, and a grid of it with 192 x
- * 96 nodes. */
+/* Cost of a ray through matter at a radio frequency, relative to a ray through a uniform volume. Measured in core
+ * seconds of pictures of two sizes by lavapipe, for test 3 of Gold et al., ipole's flow, the torus, and a grid of the
+ * torus with 192 x 96 nodes. */
 static double of_matter(const struct kd_scene *scene)
 {
     static const double of[] = { [KD_VOLUME_NONE] = 1,   [KD_VOLUME_UNIFORM] = 1, [KD_VOLUME_GOLD] = 1.7,
@@ -67,7 +68,8 @@ static double of_matter(const struct kd_scene *scene)
     return of[scene->volume.model];
 }
 
-/* By lavapipe: an octave of noise in three dimensions takes a quarter of the time of everything else at a sample. */
+/* Measured by lavapipe: an octave of noise in three dimensions takes a quarter of the time of everything else at a
+ * sample. */
 static double weight_of(const struct kd_scene *scene, uint32_t steps, uint32_t fine)
 {
     const double bodies = kd_emit_met(scene) ? BODIES * steps / 16 : 0;
@@ -77,13 +79,13 @@ static double weight_of(const struct kd_scene *scene, uint32_t steps, uint32_t f
                         (is_stirred(scene) ? 1 + 0.25 * scene->gas.octaves : 1);
 }
 
-/* One pixel in 144: measuring the error then takes a thirtieth of the picture's time; more for small pictures, less
- * for large ones. */
+/* Samples one pixel in 144, so that measuring the error takes a thirtieth of the picture's time; more pixels in small
+ * pictures, fewer in large ones. */
 static void lattice(uint32_t size, uint32_t most, uint32_t *n, uint32_t *every, uint32_t *first)
 {
     *n = (uint32_t)fmin(fmin(fmax(size / 12, 4), most), size);
     *every = size / *n;
-    /* not symmetric about the middle, because pictures may be */
+    /* the sample is not symmetric about the middle, because pictures may be */
     *first = (uint32_t)(0.382 * (size - (*n - 1) * *every));
 }
 

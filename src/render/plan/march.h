@@ -4,10 +4,10 @@
 
 #include "render/accuracy/engine.h"
 
-/* The relative error of light that each profile aims at, met by nine of ten rays: draft, interactive, balanced,
- * high, reference. accuracy.tolerance is such an error. Light is in 32 bits, which leave 5e-6 where it is smooth.
- * Turbulence has targets of its own, because its error falls as the third power of the cost instead of the sixth; 32
- * bits leave 5e-5 of its noise. */
+/* The relative error of light that each profile aims at, met by nine of ten rays: draft, interactive, balanced, high,
+ * reference. accuracy.tolerance is such an error. Light has 32 bits, whose rounding leaves an error of 5e-6 where light
+ * is smooth. Turbulence has targets of its own, because its error falls as the third power of the cost instead of the
+ * sixth; rounding leaves an error of 5e-5 of its noise. */
 #define KD_MARCH_ERRORS { 2e-3, 1e-3, 1e-4, 1e-5, 5e-6 }
 #define KD_MARCH_STIRRED_ERRORS { 2e-2, 1e-2, 1e-3, 1e-4, 5e-5 }
 
@@ -17,22 +17,24 @@ struct kd_march_sample { uint32_t columns, rows, every[2], first[2]; };
 struct kd_march {
     uint32_t steps; /* steps per half period, at least 8; 0: the scene has no volumes */
     double weight;  /* cost of a ray, relative to one through a smooth volume at the balanced profile */
-    /* quarters of a stretch per grain, 2 to 64: where light is smooth the error falls at least as the fourth power */
+    /* quarters of a stretch per grain, 2 to 64. Where light is smooth, the error falls at least as the fourth power of
+     * this */
     uint32_t fine;
     /* a ray ends where less than this fraction of the light behind is transmitted: a tenth of the error aimed at */
     double opaque;
     /* octaves of noise are left out whose amplitude, reduced by the local gas and the ray's footprint, is less than
      * this fraction of the first octave's */
     double unseen;
-    bool sketched; /* coarser than any profile: kd_march_sketch */
+    bool sketched; /* the march is coarser than with any profile: kd_march_sketch */
     struct kd_march_sample
         sample; /* pixels whose rays are followed twice more, to measure the error (frame/march_error.c) */
 };
-#define KD_MARCH_SKETCHED 0.05 /* the error that a sketch aims at, besides that of the octaves left out */
-#define KD_MARCH_HOLDS 5e-5    /* an error that is met in turbulence, too; smaller tolerances are refused */
-#define KD_MARCH_SAMPLED 256   /* at most */
-#define KD_MARCH_FINER 2   /* the reference for measuring the error has this many times as many steps and stretches */
-#define KD_MARCH_DARK 1e-3 /* fraction of the brightest ray: errors of darker rays are relative to this */
+/* the error that a sketch aims at, besides the error due to the octaves that it leaves out */
+#define KD_MARCH_SKETCHED 0.05
+#define KD_MARCH_HOLDS 5e-5  /* an error that is met even in turbulence; smaller tolerances are refused */
+#define KD_MARCH_SAMPLED 256 /* pixels of the sample, at most */
+#define KD_MARCH_FINER 2     /* the reference for measuring the error has this many times as many steps and stretches */
+#define KD_MARCH_DARK 1e-3   /* fraction of the brightest ray: errors of darker rays are relative to this */
 
 /* The march for a scene with volumes or bodies, whose rays are traced with this setting. */
 struct kd_march kd_march_of(const struct kd_scene *scene, const struct kd_setting *rays);
@@ -41,7 +43,7 @@ struct kd_march kd_march_of(const struct kd_scene *scene, const struct kd_settin
  * an error measured on a quarter of the rays. */
 struct kd_march kd_march_sketch(struct kd_march march, const struct kd_scene *scene);
 
-/* The same march with KD_MARCH_FINER times as many steps and stretches. */
+/* The given march with KD_MARCH_FINER times as many steps and stretches. */
 struct kd_march kd_march_finer(struct kd_march march);
 
 #endif

@@ -8,7 +8,7 @@
 
 #define STRIPS_MOST 1024u
 
-/* Adds the resources of another picture that is made after this one. */
+/* Adds the resources of a picture that is made after this one. */
 static void add(struct kd_plan *plan, const struct kd_plan *next)
 {
     for (size_t i = 0; i < next->n_passes; i++) {
@@ -45,7 +45,7 @@ static enum kd_status make_pair(const struct kd_scene *scene, const struct kd_ne
     KD_TRY(kd_plan_make_for(&left, needs, capacity, &plan, error));
     KD_TRY(kd_plan_make_for(&right, needs, capacity, &next, error));
     add(&plan, &next);
-    plan.host_bytes = 2 * (plan.host_bytes + next.host_bytes); /* of each picture, and of both together */
+    plan.host_bytes = 2 * (plan.host_bytes + next.host_bytes); /* memory for each picture, and for both together */
     plan.eyes = 2;
     kd_plan_say(&plan, scene);
     KD_TRY(name_lens(&plan, scene, error));
@@ -74,8 +74,8 @@ static enum kd_status make_tile(const struct kd_scene *scene, const struct kd_ne
     return status;
 }
 
-/* Memory left beside the whole picture on the host, which exists twice there: as pixels and as the encoded file.
- * False: none is left. */
+/* Sets *rest to the capacity that is left when the whole picture is on the host. It exists twice there: as pixels and
+ * as the encoded file. False: nothing is left. */
 static bool rest_of(const struct kd_capacity *c, uint64_t host_bytes, struct kd_capacity *rest)
 {
     const uint64_t whole = 2 * host_bytes;
@@ -87,7 +87,7 @@ static bool rest_of(const struct kd_capacity *c, uint64_t host_bytes, struct kd_
     return (c->host_memory ? rest->memory_bytes : !c->host_bytes || rest->host_bytes) > 0;
 }
 
-/* Plans all n strips; the last may be lower. */
+/* Plans all n strips; the last strip may have fewer rows. */
 static enum kd_status plan_strips(const struct kd_scene *scene, const struct kd_needs *needs,
                                   const struct kd_capacity *c, uint32_t n, struct kd_plan *out, struct kd_error *error)
 {
@@ -126,8 +126,8 @@ static enum kd_status refuse_strips(struct kd_error *error, const struct kd_erro
     return kd_error_set(error, KD_ETOOBIG, "%.250s; in strips it may fit, but %.200s", whole.message, why->message);
 }
 
-/* Uses as few strips as fit. If the scene needs what no tile can have, the picture is too large: `error` is left
- * unchanged. */
+/* Uses as few strips as fit. If the scene needs something that no tile can have, the picture is too large: `error` is
+ * left unchanged. */
 static enum kd_status make_strips(const struct kd_scene *scene, const struct kd_needs *needs,
                                   const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
@@ -148,8 +148,8 @@ static enum kd_status make_strips(const struct kd_scene *scene, const struct kd_
     return KD_ETOOBIG;
 }
 
-/* Whether some number of strips may fit, judged without the list of pixels at the critical curve, and by the first
- * strip, which is as high as any. */
+/* Whether some number of strips may fit. Judged without the list of pixels at the critical curve, and by the first
+ * strip, than which no strip has more rows. */
 static enum kd_status check_strips(const struct kd_scene *scene, const struct kd_needs *needs,
                                    const struct kd_capacity *capacity, struct kd_error *error)
 {

@@ -10,7 +10,7 @@
 enum kd_status kd_plan_one(const struct kd_scene *scene, const struct kd_needs *needs,
                            const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
 
-/* Checks the same without listing the pixels at the critical curve, as kd_plan_check does. */
+/* Checks whether kd_plan_one would succeed, without listing the pixels at the critical curve, as kd_plan_check does. */
 enum kd_status kd_plan_one_fits(const struct kd_scene *scene, const struct kd_needs *needs,
                                 const struct kd_capacity *capacity, struct kd_error *error);
 

@@ -11,7 +11,8 @@
 #define NS_PER_AUDIT 4000.0
 #define NS_PER_CLOSED 3000.0
 
-/* The time of listed rays comes from the accuracy table; for settings missing there it is estimated from the steps. */
+/* The time of listed rays comes from the accuracy table; for settings that are not in the table it is estimated from
+ * the steps. */
 static double ns_listed(const struct kd_setting *by, const struct kd_capacity *c)
 {
     for (uint32_t i = 0; c->accuracy_measured && i < c->accuracy->n; i++) {
@@ -39,7 +40,7 @@ static struct kd_pass_cost trace(const struct kd_plan *plan, const struct kd_cap
 }
 
 /* The number of pixels that need more rays depends on the content: turbulent gas takes fifteen times as long as a
- * smooth disk. So the figure is measured on earlier pictures. Light through volumes comes on top. */
+ * smooth disk. So the figure is measured on earlier pictures. The time of light through volumes is added. */
 static struct kd_pass_cost refine(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const double ns = c->ns[KD_NS_RAY_REFINED];
@@ -52,21 +53,21 @@ static struct kd_pass_cost transfer(const struct kd_plan *plan, const struct kd_
     return (struct kd_pass_cost) { "transfer.comp", kd_plan_light_ns(plan, c), kd_plan_light_figure(plan) };
 }
 
-/* One figure serves all volumes; it is measured only on those of the usual weight. */
+/* One figure serves all volumes. It is measured only on volumes of the usual weight. */
 static struct kd_pass_cost march(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const bool usual = fabs(plan->march.weight - 1) < 1e-9;
     return (struct kd_pass_cost) { "transfer.comp", kd_plan_light_ns(plan, c), usual ? KD_NS_RAY_MARCH : KD_NS_NONE };
 }
 
-/* A ray of the sample is followed as in the picture, and again with KD_MARCH_FINER times as many stretches. */
+/* Each ray of the sample is followed as in the picture, and again with KD_MARCH_FINER times as many stretches. */
 static struct kd_pass_cost march_error(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     return (struct kd_pass_cost) { "transfer.comp", (1 + KD_MARCH_FINER) * kd_plan_light_ns(plan, c), KD_NS_NONE };
 }
 
-/* Interpolates a ray from its cell's nodes: on lavapipe a quarter of the time of tracing it for radii only, and a
- * tenth for all quantities. */
+/* Interpolating a ray from its cell's nodes takes, on lavapipe, a quarter of the time of tracing the ray for radii
+ * only, and a tenth for all quantities. */
 static struct kd_pass_cost interpolate(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const double ns = kd_plan_is_radii(plan) ? 0.25 * c->ns[KD_NS_RAY_RADIUS] : 0.1 * c->ns[KD_NS_RAY_FULL];
@@ -79,14 +80,15 @@ static struct kd_pass_cost audit(const struct kd_plan *plan, const struct kd_cap
     return (struct kd_pass_cost) { "", NS_PER_AUDIT, KD_NS_NONE };
 }
 
-/* Reads each pixel once and computes each cell of the grids: on lavapipe 2.1 and 41 ns where post takes 5.3. */
+/* Bloom reads each pixel once and computes each cell of the grids: on lavapipe 2.1 ns a pixel and 41 ns a cell, where
+ * post takes 5.3 ns. */
 static struct kd_pass_cost bloom(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const double cells = kd_bloom_cells(&plan->bloom, 0) / ((double)plan->width * plan->height);
     return (struct kd_pass_cost) { "bloom_bright.comp", (0.4 + 7.8 * cells) * c->ns[KD_NS_PIXEL_POST], KD_NS_NONE };
 }
 
-/* With bloom it also reads cells; such times are not measurements of the figure. */
+/* With bloom the post pass also reads cells; its time then does not update the figure. */
 static struct kd_pass_cost post(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const double more = !plan->bloom.levels ? 1 : kd_bloom_together(&plan->bloom, plan->width) ? 2 : 2.7;
@@ -94,8 +96,8 @@ static struct kd_pass_cost post(const struct kd_plan *plan, const struct kd_capa
                                    plan->bloom.levels ? KD_NS_NONE : KD_NS_PIXEL_POST };
 }
 
-/* By lavapipe: gathering and interpolation take three times as long as post; each weight of the two blurs, and of
- * two more sums if cells are large, takes a seventh of it. */
+/* Measured by lavapipe: gathering and interpolation take three times as long as post. Each weight of the two blurs, and
+ * of two more sums if cells are large, takes a seventh of post's time. */
 static struct kd_pass_cost beam(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const struct kd_beam_grid *b = &plan->beam;
@@ -127,10 +129,10 @@ static bool is_streaked(const struct kd_scene *scene)
     return scene->disk.model == KD_DISK_PARTICLES || (scene->disk.model != KD_DISK_NONE && scene->gas.amplitude > 0);
 }
 
-/* Three in four of the pixels at the critical curve get their denser rays; elsewhere one in 300 is at an edge.
- * Pixels where the map is smooth but light is not linear depend on the content: one in three for streaked disks,
- * otherwise one in thirty. At 1280 x 720 the presets gargantua and default trace 0.59 and 1.09 million rays,
- * estimated here as 0.79 and 0.91; they interpolate 34 000 and 308 000 pixels, estimated as 31 000 and 307 000. */
+/* Of the pixels at the critical curve three in four get their denser rays; elsewhere one in 300 is at an edge. How many
+ * pixels lie where the map is smooth but light is not linear depends on the content: one in three for streaked disks,
+ * otherwise one in thirty. At 1280 x 720 the presets gargantua and default trace 0.59 and 1.09 million rays, estimated
+ * here as 0.79 and 0.91; they interpolate 34 000 and 308 000 pixels, estimated as 31 000 and 307 000. */
 static uint64_t refined(const struct kd_plan *plan, const struct kd_scene *scene)
 {
     const uint64_t curve = 3 * plan->critical_pixels * plan->critical_dense / 4, elsewhere = plan->rays / 300,
@@ -144,7 +146,8 @@ INVOCATIONS(pixels, (uint64_t)plan->width * plan->height)
 INVOCATIONS(layered, plan->n_layers *pixels(plan, scene))
 INVOCATIONS(added_up, plan->light ? pixels(plan, scene) : 0)
 INVOCATIONS(shown, plan->no_image ? 0 : pixels(plan, scene))
-/* Refinement examines the whole picture before its first round and after each. */
+/* The post pass also runs for refinement, which examines the whole picture before its first round and after each
+ * round. */
 INVOCATIONS(posted, shown(plan, scene) * (plan->adaptive ? 1 + KD_PLAN_REFINING_LOOKS : 1))
 INVOCATIONS(spread, plan->bloom.levels ? shown(plan, scene) : 0)
 INVOCATIONS(beamed, plan->beam.cell ? shown(plan, scene) : 0)

@@ -18,8 +18,8 @@ struct kd_capacity;
 struct kd_plan;
 struct kd_scene;
 
-/* Figures: nanoseconds an item, measured on frames. F(id, word, guess): the word is used by GET /v1/device and in
- * the cache; the guess is lavapipe's, used until something has been measured. */
+/* Performance figures: nanoseconds per item, measured on frames. F(id, word, guess): the word is used by GET /v1/device
+ * and in the cache; the guess is lavapipe's value, used until the figure has been measured. */
 #define KD_FIGURES(F) \
     F(RAY_RADIUS, "ray_radius", 30)           /* a ray of a lens map of radii only, in closed form */ \
     F(RAY_FULL, "ray_full", 150)              /* any other ray that a kernel traces */ \
@@ -27,7 +27,7 @@ struct kd_scene;
     F(PIXEL_POST, "pixel_post", 30) \
     F(RAY_MARCH, "ray_march", 4000)     /* light of a ray through volumes */ \
     F(RAY_REFINED, "ray_refined", 400)  /* a ray planned for refinement, including its selection */ \
-    F(RAY_STARS, "ray_stars", 220)      /* a ray where stars are searched, and their images */ \
+    F(RAY_STARS, "ray_stars", 220)      /* a search for stars by a ray, and their images */ \
     F(SAMPLE_STARS, "sample_stars", 90) /* light of a ray under a sky of stars */
 
 #define KD_FIGURE_ID_(id, word, guess) KD_NS_##id,
@@ -77,14 +77,14 @@ enum kd_pass_id { KD_PASSES(KD_PASS_ID_) KD_PASS_COUNT };
 struct kd_pass_cost {
     const char *kernel;
     double ns;
-    enum kd_figure_id figure; /* the figure that the pass's time is a measurement of; KD_NS_NONE: of none */
+    enum kd_figure_id figure; /* the performance figure that the pass's measured time updates; KD_NS_NONE: none */
 };
 
 struct kd_pass {
     const char *name;
     uint64_t (*invocations)(const struct kd_plan *plan, const struct kd_scene *scene);
     struct kd_pass_cost (*by)(const struct kd_plan *plan,
-                              const struct kd_capacity *capacity); /* NULL: cost as given by the next members */
+                              const struct kd_capacity *capacity); /* NULL: the cost is given by the next members */
     const char *kernel;
     enum kd_figure_id figure;
     double share;

@@ -1,16 +1,16 @@
-/* Photometry: flux and centroid of a picture, from linear radiance. They do not depend on the exposure, and on the
- * resolution only by what falls between rays.
+/* Photometry: flux and centroid of a picture, from linear radiance. Both are independent of the exposure. They depend
+ * on the resolution only through what falls between rays.
  *
  * The flux is the sum over the pixels of luminance times solid angle. At infinity solid angle is the area in the image
- * plane, so the unit is M^2 times that of brightness (the disk's maximum); divided by D^2 it is the flux at the
- * distance D. At a finite radius the unit is sr times that of brightness. The centroid, weighted likewise, is (alpha,
- * beta) in M; at a finite radius it is the mean direction, in degrees to the right of the hole and above it. Neither
- * depends on the camera's aim and roll.
+ * plane, so the unit of the flux is M^2 times the unit of brightness (the disk's maximum); divided by D^2 it is the
+ * flux at the distance D. At a finite radius the unit is sr times that of brightness. The centroid, weighted likewise,
+ * is (alpha, beta) in M; at a finite radius it is the mean direction, in degrees to the right of the hole and above it.
+ * Neither depends on the camera's aim and roll.
  *
  * For polarised light Stokes Q, U and V are the same sums of the layers of these names, in the unit of the flux. They
  * are relative to the top of the picture, which rotates with the camera's roll.
  *
- * shaders/comp/photometry.comp sums 64 pixels at a time in 32 bits, to 3e-7; the rest is summed in double. */
+ * shaders/comp/photometry.comp sums 64 pixels at a time in 32 bits, to 3e-7; these sums are added in double. */
 #ifndef KD_RENDER_PLAN_PHOTOMETRY_H
 #define KD_RENDER_PLAN_PHOTOMETRY_H
 
@@ -39,13 +39,13 @@ struct kd_light_report {
 double kd_light_fraction(const struct kd_light *light);
 double kd_light_evpa(const struct kd_light *light);
 
-/* Workgroups of photometry.comp for the pixels of a band; sums of one invocation; bytes of all sums (every band has
- * as many as the first). */
+/* kd_light_groups: workgroups of photometry.comp for the pixels of a band. kd_light_sums: sums of one invocation.
+ * kd_light_bytes: bytes of all sums (every band has as many as the first). */
 uint32_t kd_light_groups(uint32_t pixels);
 uint32_t kd_light_sums(const struct kd_plan *plan);
 uint64_t kd_light_bytes(const struct kd_plan *plan);
 
-/* Flux, centroid and polarisation from the sums of photometry.comp, kd_light_bytes of them. Pure. */
+/* Flux, centroid and polarisation from the sums of photometry.comp, which have kd_light_bytes bytes. Pure. */
 struct kd_light_report kd_light_of(const struct kd_scene *scene, const struct kd_plan *plan, const float *sums);
 
 #endif

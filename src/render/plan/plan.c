@@ -235,9 +235,9 @@ static enum kd_status may_list(const struct kd_scene *scene, const struct kd_set
                           ergosphere(scene));
 }
 
-/* Rays of a ring pass the critical curve at 1e-10, which neither 32 bits nor few steps resolve. Unless an engine or
- * steps are named, the closed form is used: it needs no device and meets each tolerance that a picture may ask for.
- * The table's rows were measured on other rays. */
+/* Settings for a ring. Its rays pass the critical curve at 1e-10, which neither 32 bits nor few steps resolve. Unless
+ * an engine or steps are named, the closed form is used: it needs no device and meets each tolerance that a picture may
+ * ask for. The table's rows do not apply, because they were measured on other rays. */
 static enum kd_status ring(struct kd_accuracy_request *asked_accuracy, struct kd_error *error)
 {
     if (asked_accuracy->precision == KD_PRECISION_F32)
@@ -252,8 +252,8 @@ static enum kd_status ring(struct kd_accuracy_request *asked_accuracy, struct kd
     return KD_OK;
 }
 
-/* The least radius from which the closed form in f32 traces rays: outside all photon orbits, where no ray that
- * starts outwards comes back. */
+/* The least radius from which the closed form in f32 traces rays. It is outside all photon orbits: from there no ray
+ * that starts outwards comes back. */
 static double beyond_orbits(const struct kd_scene *scene)
 {
     return 1.05 * kd_kerr_photon_orbit(kd_hole(-fabs(scene->spacetime.spin)));
@@ -261,9 +261,9 @@ static double beyond_orbits(const struct kd_scene *scene)
 
 static bool within_horizon(const struct kd_scene *scene) { return scene->camera.r <= kd_scene_hole(scene)->outer; }
 
-/* Inside the horizon only lens_map.comp traces light. Its steps are per half turn, which takes longer the nearer the
- * observer is to the centre: w'' = 3K w^2 is faster there by sqrt(6w) than at w = 1/2, for which the steps were
- * chosen. */
+/* Settings for an observer inside the horizon, where only lens_map.comp traces light. Its steps are per half turn,
+ * which takes longer the nearer the observer is to the centre: w'' = 3K w^2 is faster there by sqrt(6w) than at w =
+ * 1/2, for which the number of steps was chosen. */
 static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *scene,
                                   const struct kd_accuracy_request *asked_accuracy, struct kd_error *error)
 {
@@ -291,7 +291,7 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
 {
     struct kd_accuracy_request asked_accuracy = kd_accuracy_request_of(scene);
     struct kd_setting *by = &plan->setting;
-    /* lens_closed.comp can trace it */
+    /* whether lens_closed.comp can trace the picture */
     bool closed_form = scene->camera.r > beyond_orbits(scene) && !kd_plan_holds(plan, KD_LENS_DELAY);
     bool closed32 = asked_accuracy.engine == KD_ENGINE_CLOSED && asked_accuracy.precision == KD_PRECISION_F32;
     if (asked_accuracy.tolerance < KEPT)
@@ -343,7 +343,7 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
     return map ? KD_OK : may_list(scene, by, error);
 }
 
-/* Words of polarisation stored after the radiance of a pixel. */
+/* Number of polarisation numbers that are stored after the radiance of a pixel. */
 static uint32_t stokes_words(const struct kd_plan *plan)
 {
     const bool plane = plan->traits[KD_EMITTER_polarization] & KD_TRAIT_PRESENT,
@@ -385,7 +385,8 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.bright = plan.points && needs->bright;
     plan.quantities = needs->quantities;
     plan.quantities |= plan.quantities & KD_LENS_SHAPE ? KD_LENS_FOOTPRINT : 0;
-    plan.quantities |= plan.quantities & KD_LENS_FOOTPRINT ? KD_LENS_PHI : 0; /* footprints are differences of these */
+    /* footprints are differences of azimuths, too */
+    plan.quantities |= plan.quantities & KD_LENS_FOOTPRINT ? KD_LENS_PHI : 0;
     plan.quantities |= plan.quantities & KD_LENS_SKY_FOOTPRINT ? KD_LENS_SKY : 0;
     /* Without a disk a ray still passes from crossing to crossing in long strides before it escapes. */
     plan.orders = needs->quantities ? (uint32_t)scene->accuracy.orders : 0;
@@ -393,7 +394,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.n_layers = kd_layers_of(scene, plan.layers, &plan.picture);
     plan.n_layers = needs->no_image ? 0 : plan.n_layers;
     if (plan.bright && !plan.n_layers &&
-        !kd_plan_is_spread(&plan)) /* for bright images the differences used in their search are enough */
+        !kd_plan_is_spread(&plan)) /* for bright images the differences that are computed in their search are enough */
         plan.quantities &= ~(uint32_t)KD_LENS_SKY_FOOTPRINT;
     plan.radiance = needs->radiance && plan.picture && !needs->no_image;
     if (!needs->no_image && !kd_plan_is_map(&plan))
@@ -440,7 +441,7 @@ enum kd_status kd_plan_one(const struct kd_scene *scene, const struct kd_needs *
 {
     struct kd_plan plan;
     enum kd_status status;
-    /* limits first: listing the pixels of a picture that is too large takes long */
+    /* limits first, because listing the pixels of a picture that is too large takes long */
     KD_TRY(outline(scene, needs, capacity, &plan, error));
     KD_TRY(kd_plan_critical(&plan, scene, capacity, error));
     if (plan.critical)

@@ -29,7 +29,8 @@
 
 /* What a device allows, and its measured speed. */
 struct kd_capacity {
-    uint64_t max_binding_bytes, memory_bytes; /* limit of one storage-buffer binding; of device memory in all */
+    uint64_t max_binding_bytes, memory_bytes; /* limit of one storage-buffer binding; limit of all device memory
+                                               * together */
     const char *memory_by;                    /* what determines memory_bytes, for messages; NULL: the device */
     bool host_memory;                         /* device memory is host memory, so pixels on the host count as well */
     uint64_t host_bytes;                      /* otherwise, memory for pixels on the host; 0: unknown */
@@ -38,14 +39,15 @@ struct kd_capacity {
     uint32_t max_groups_x, max_groups_y;
     double ns[KD_FIGURE_COUNT]; /* cost of an item, KD_NS_... of pass.h */
     struct kd_class_cost {
-        uint64_t class, learned; /* class of cost_class.h, 0: unused; count of measurements when it was last updated */
+        uint64_t class, learned; /* the class of cost_class.h, 0: unused; the count of measurements when this class was
+                                  * last updated */
         double ns[KD_PASS_COUNT];
     } classes[KD_COST_CLASSES];               /* cost of an item in pictures of a class */
-    uint64_t learned;                         /* measurements of classes so far */
+    uint64_t learned;                         /* number of measurements of classes so far */
     bool measured;                            /* false: the figures are defaults for this type of device */
     bool float64;                             /* whether the device has double precision */
-    unsigned cores;                           /* of the host, on which the closed form in double runs */
-    const struct kd_accuracy_table *accuracy; /* of the device or built in; valid as long as the renderer */
+    unsigned cores;                           /* cores of the host, on which the closed form in double runs */
+    const struct kd_accuracy_table *accuracy; /* the device's or a built-in one; valid as long as the renderer */
     bool accuracy_measured;                   /* false: built in */
 };
 
@@ -53,7 +55,7 @@ struct kd_plan_pass {
     const char *name, *kernel; /* as in pass.h */
     uint64_t invocations;
     double estimate_ms;
-    enum kd_figure_id figure; /* figure that its time is a measurement of; KD_NS_NONE: of none */
+    enum kd_figure_id figure; /* the performance figure that the pass's measured time updates; KD_NS_NONE: none */
 };
 
 struct kd_plan {
@@ -64,14 +66,14 @@ struct kd_plan {
      * host_bytes are for all of them, device_bytes for the largest. 0: in one piece */
     uint32_t strips;
     uint64_t rays; /* rays of the grid */
-    /* 2: a picture for each eye, side by side. Passes, times and host_bytes are then for both, device_bytes for the
-     * larger one, all else for the left one. 0: a single picture */
+    /* 2: a pair, with a picture for each eye, side by side. Passes, times and host_bytes are then for both pictures,
+     * device_bytes for the larger one, all else for the left one. 0: a single picture */
     uint32_t eyes;
     /* rays of each pixel at the critical curve (view/critical_pixels.h); 0: as any other pixel */
     uint32_t critical;
-    uint32_t critical_dense;  /* the same after refinement (frame/refine.c); 0: no refinement there */
+    uint32_t critical_dense;  /* rays of each such pixel after refinement (frame/refine.c); 0: no refinement there */
     uint64_t critical_pixels; /* number of these pixels */
-    uint64_t critical_part;   /* how many of them fit one buffer of their lens map */
+    uint64_t critical_part;   /* how many of these pixels fit one buffer of their lens map */
     uint32_t adaptive;        /* rays of a pixel after refinement (frame/refine.c); 0: no refinement */
     uint64_t listed_bytes;    /* size of the buffer for the lens map of refined pixels, filled part by part */
     enum kd_lens_path {
@@ -87,30 +89,32 @@ struct kd_plan {
     bool points;                       /* some emitter consists of points of light */
     bool bright;                       /* only bright images of points are made, and none next to the critical curve */
     bool apart;                        /* the luminance of some emitter is kept beside the radiance */
-    /* numbers a pixel after the radiance: Stokes Q, U and V if polarised light is measured or marched layers need
-     * them; and Q and U of the separate luminance. 0: none */
+    /* numbers a pixel after the radiance: Stokes Q, U and V, if polarised light is measured or marched layers need
+     * them; Q and U of the separate luminance. 0: none */
     uint32_t stokes_words;
-    bool ends; /* some emitters shine at the ends of rays, and the lens map holds these */
-    struct kd_march
-        march;  /* for volumes and bodies; all 0: the scene has none, and light follows from the lens map alone */
-    bool meets; /* the scene has bodies */
+    bool ends;                /* some emitters shine at the ends of rays, and the lens map holds these ends */
+    struct kd_march march;    /* the march for volumes and bodies; all 0: the scene has none, and light follows from the
+                               * lens map alone */
+    bool meets;               /* the scene has bodies */
     struct kd_beam_grid beam; /* the telescope's beam with which light is convolved */
     struct kd_bloom bloom;    /* glare of the lens */
     bool light;               /* flux and centroid are measured */
-    /* density of matter of a given flux: one found from another viewpoint may be reused (frame/normalise.h) */
+    /* for a scene that gives the flux of matter: a density found from another viewpoint may be reused
+     * (frame/normalise.h) */
     bool reuse_normalisation;
     struct {
         uint32_t width, height;
-    } shape;       /* picture shape for finding that density; 0: its own, which is subject to rounding to pixels */
+    } shape;       /* shape of the picture for which that density is found; 0: this picture's own shape, which is
+                    * subject to rounding to pixels */
     bool no_image; /* no pixels are made of the radiance */
-    bool numbers;  /* the frame is for a file of numbers: processing after the light is not part of it */
+    bool numbers;  /* the frame is for a file of numbers: no processing after the light is part of it */
     bool ring;     /* rays are listed, round the critical curve */
     bool ingoing;  /* the observer falls, in coordinates that are regular at the outer horizon */
     struct kd_plan_layer layers[KD_WORDS_MOST]; /* layers besides the picture */
     size_t n_layers;
     bool picture;              /* image.layers contains the picture */
     bool radiance;             /* linear light is copied to the host, too */
-    uint32_t quantities;       /* of the lens map, KD_LENS_... */
+    uint32_t quantities;       /* KD_LENS_... quantities of the lens map */
     uint32_t orders;           /* crossings of a ray that are recorded */
     uint32_t planes;           /* 4-byte values a ray in the lens map */
     uint32_t band_rows, bands; /* rows of pixels for which one set of buffers has room; number of such sets */
@@ -121,19 +125,19 @@ struct kd_plan {
     uint64_t making_bytes;
     struct kd_plan_pass passes[KD_PASS_COUNT];
     size_t n_passes;
-    double estimate_ms, trace_ns; /* of all passes; of one ray */
+    double estimate_ms, trace_ns; /* estimated time of all passes; of tracing one ray */
     uint64_t cost_class;          /* cost class of its passes (cost_class.h) */
     /* additional time for compiling missing kernels, estimated by server/render/queue.h; 0: none are missing, or it
      * is not known */
     double kernels_ms;
-    /* The remaining settings come from the caller and not from the scene. For showing successive frames: if
-     * style.exposure is "auto", the exposure moves from exposure_from towards that of the picture by this fraction.
-     * 0, as set by kd_plan_make: the picture's own exposure. */
+    /* The remaining settings come from the caller and not from the scene. The next two are for showing successive
+     * frames. If style.exposure is "auto", the exposure moves by the fraction exposure_share from exposure_from towards
+     * the picture's own. exposure_share is 0, as set by kd_plan_make: the picture's own exposure. */
     double exposure_from, exposure_share;
     struct {
         bool on, steps;
         uint32_t x, y;
-        /* describes the light of the middle ray of this pixel (frame/tell.h); with `steps` also the engine's steps */
+        /* describes the light of the middle ray of this pixel (frame/probe.h); with `steps` also the engine's steps */
     } told;
     struct {
         unsigned samples;
@@ -147,8 +151,8 @@ struct kd_plan {
     char lens_key[65]; /* hash of everything that the lens map depends on */
 };
 
-/* scene must be valid (kd_scene_validate). KD_ETOOBIG, with the size, if it does not fit; KD_EINVAL at /accuracy/...
- * for an engine, precision or tolerance that is impossible with this device or camera. */
+/* scene must be valid (kd_scene_validate). KD_ETOOBIG, with the size, if the picture does not fit; KD_EINVAL at
+ * /accuracy/... for an engine, precision or tolerance that is impossible with this device or camera. */
 enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *out,
                             struct kd_error *error);
 
@@ -160,7 +164,7 @@ enum kd_status kd_plan_check(const struct kd_scene *scene, const struct kd_capac
  * with different keys may still share one, if two ways to request an accuracy have the same result. KD_ENOMEM. */
 enum kd_status kd_plan_lens_group(const struct kd_scene *scene, uint64_t *out);
 
-/* Number of buffers for the lens map of the pixels at the critical curve, and the bytes of one. */
+/* Number of buffers for the lens map of the pixels at the critical curve. kd_plan_critical_bytes: bytes of one. */
 static inline uint32_t kd_plan_critical_parts(const struct kd_plan *plan)
 {
     return plan->critical ? (uint32_t)((plan->critical_pixels + plan->critical_part - 1) / plan->critical_part) : 0;
@@ -170,8 +174,8 @@ static inline uint64_t kd_plan_critical_bytes(const struct kd_plan *plan)
     return 4ull * plan->critical_part * (plan->planes * plan->critical + 2);
 }
 
-/* The most rays that a device may leave open for the host out of one dispatch. It is limited to KD_GIVEN_MOST, so
- * that their list is no larger than a band of the lens map. */
+/* The most rays that one dispatch may leave open for the host. It is limited to KD_GIVEN_MOST, so that their list is no
+ * larger than a band of the lens map. */
 uint64_t kd_plan_open_most(const struct kd_plan *plan);
 
 /* If image.samples is "auto", a pixel may have KD_PLAN_ADAPTIVE_SIDE^2 rays. */
@@ -224,9 +228,9 @@ static inline uint64_t kd_plan_rays(const struct kd_plan *plan)
     return plan->rays + plan->critical * plan->critical_pixels;
 }
 
-/* If the map is interpolated, about this many of the grid's rays are traced: those along edges of orders and fates,
- * and in between the fewer the denser they are. Measured on four presets, one of them from 320 x 180 to 4K
- * (docs/accuracy.md): 117 to 154 times the square root of their number. */
+/* If the map is interpolated, this many times the square root of the number of the grid's rays are traced: those along
+ * edges of orders and fates, and in between the fewer, the denser the rays are. Measured on four presets, one of them
+ * from 320 x 180 to 4K (docs/accuracy.md): 117 to 154. */
 #define KD_PLAN_FOLLOWED 130
 static inline uint64_t kd_plan_followed(const struct kd_plan *plan)
 {
@@ -234,14 +238,14 @@ static inline uint64_t kd_plan_followed(const struct kd_plan *plan)
     return plan->interpolates > 0 ? (uint64_t)most + plan->critical * plan->critical_pixels : kd_plan_rays(plan);
 }
 
-/* Time of a ray of the grid's map, traced or interpolated, ns. */
+/* Time of a ray of the grid's map, which may be traced or interpolated, ns. */
 static inline double kd_plan_map_ns(const struct kd_plan *plan)
 {
     return plan->interpolates > 0 ? plan->trace_ns * (fmin(1, KD_PLAN_FOLLOWED / sqrt((double)plan->rays)) + 0.25)
                                   : plan->trace_ns;
 }
 
-/* Limit for the rays traced by refinement: in total a quarter of those of a picture with 16 rays in each pixel. */
+/* Limit for the rays traced by refinement: a quarter of the rays of a picture that has 16 in each pixel. */
 static inline uint64_t kd_plan_followed_most(const struct kd_plan *plan)
 {
     const uint64_t uniform = plan->adaptive * plan->rays + plan->critical_dense * plan->critical_pixels;
@@ -263,7 +267,7 @@ static inline double kd_plan_light_ns(const struct kd_plan *plan, const struct k
     return (plan->march.steps ? plan->march.weight : 1) * c->ns[kd_plan_light_figure(plan)];
 }
 
-/* Bytes a pixel of linear light, including everything stored after it. */
+/* Bytes a pixel of linear light, including everything stored after the radiance. */
 #define KD_PLAN_STOKES 3
 static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan)
 {
@@ -281,9 +285,9 @@ static inline uint64_t kd_plan_lost_bytes(uint64_t most) { return most ? 4 * (KD
 /* Whether Q and U of the separate luminance are kept. */
 static inline bool kd_plan_stokes_apart(const struct kd_plan *plan) { return plan->stokes_words > KD_PLAN_STOKES; }
 
-/* Buffers for spreading points of light: fixed-point numbers for a band of pixels; pairs of a ray and a point, and
- * rays, for one slice of KD_PLAN_STAR_RAYS rays or one row (frame/stars.c). A slice takes about 20 ms, and its pairs
- * fit. */
+/* Sizes of the buffers for spreading points of light: fixed-point numbers for a band of pixels; pairs of a ray and a
+ * point, and rays, for one slice of KD_PLAN_STAR_RAYS rays or one row (frame/stars.c). A slice takes about 20 ms, and
+ * its pairs fit. */
 #define KD_PLAN_PAIRS (1u << 18)
 #define KD_PLAN_BRIGHT 8 /* searching only bright images is about this many times as fast as searching all */
 #define KD_PLAN_STAR_RAYS (1u << 17)
@@ -327,7 +331,7 @@ static inline bool kd_plan_gathers(const struct kd_plan *plan, int kind)
 /* Whether the only requested layer is a map: the picture then shows it in false colour. */
 static inline bool kd_plan_is_map(const struct kd_plan *plan) { return plan->n_layers == 1 && !plan->picture; }
 
-/* Exposure in stops to apply where the picture alone would have `stops`. */
+/* The exposure in stops to apply where the picture by itself would have `stops`. */
 double kd_plan_exposure(const struct kd_plan *plan, double stops);
 
 /* Requirements on the plan. kd_plan_make derives them from the scene; benchmarks and tests ask for more. */

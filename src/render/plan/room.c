@@ -10,7 +10,7 @@
 #include "render/view/layout.h"
 #include "render/view/rim_grid.h"
 
-/* Limits of the device; if the capacity has none, those that Vulkan 1.2 guarantees (maxComputeWorkGroupCount,
+/* Limits of the device. If the capacity names none, those that Vulkan 1.2 guarantees (maxComputeWorkGroupCount,
  * maxMemoryAllocationSize). */
 static uint64_t groups_x(const struct kd_capacity *c) { return c->max_groups_x ? c->max_groups_x : 65535; }
 static uint64_t groups_y(const struct kd_capacity *c) { return c->max_groups_y ? c->max_groups_y : 65535; }
@@ -29,9 +29,9 @@ uint64_t kd_plan_open_most(const struct kd_plan *plan)
     return least(band > part ? band : part, KD_GIVEN_MOST);
 }
 
-/* Rows of pixels that each pass can process in one dispatch. trace has a row of groups for each row of rays; the
- * others take the pixels of a band in one line, light 64 and post 4 an invocation. expose is far below the limit,
- * with a few hundred groups. */
+/* Rows of pixels that each pass can process in one dispatch. The trace pass has a row of groups for each row of rays.
+ * The other passes take the pixels of a band in one line: light takes 64 an invocation, post takes 4. expose is far
+ * below the limit, with a few hundred groups. */
 static uint64_t rows_of_groups(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     uint64_t rows = groups_y(c) / plan->side, in_line = groups_x(c) * KD_GROUP_SIZE;
@@ -158,6 +158,6 @@ void kd_plan_adapt(struct kd_plan *plan, const struct kd_scene *scene, const str
     plan->adaptive = KD_PLAN_ADAPTIVE_SIDE * KD_PLAN_ADAPTIVE_SIDE;
     plan->listed_bytes = least(least(4ull * plan->rays * (plan->planes * plan->adaptive + 2), KD_PLAN_LISTED_BYTES),
                                buffer_bytes(c) - 64);
-    if (!kd_plan_listed_most(plan, KD_CRITICAL_SIDE * KD_CRITICAL_SIDE)) /* not even one pixel */
+    if (!kd_plan_listed_most(plan, KD_CRITICAL_SIDE * KD_CRITICAL_SIDE)) /* the buffer has no room for even one pixel */
         plan->listed_bytes = 4ull * (plan->planes * KD_CRITICAL_SIDE * KD_CRITICAL_SIDE + 2);
 }

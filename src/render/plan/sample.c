@@ -7,12 +7,12 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Along the side of a block: even places, and cells of the last level. */
+/* Along the side of a block: the number of even places, and of cells of the last level. */
 enum { EVEN = KD_CELL_BLOCK / 2, LAST = KD_CELL_BLOCK / 8 };
 #define MOST_COLUMNS (1u << KD_PLACE_BITS)
 #define MOST_ROWS (1u << (32 - KD_PLACE_BITS))
 #define RAYS_AT_ONCE \
-    KD_GIVEN_MOST /* all of them may be open; one dispatch then has a quarter of the 65535 workgroups of any device */
+    KD_GIVEN_MOST /* all may be open; one dispatch then has a quarter of the 65535 workgroups of any device */
 
 /* Bytes that every device can bind as one storage buffer (Vulkan 1.2, 42.1: maxStorageBufferRange). */
 #define BOUND_EVERYWHERE (UINT64_C(1) << 27)
@@ -60,7 +60,7 @@ void kd_sample_fit(struct kd_plan *plan, uint64_t bytes)
 {
     const uint64_t row = (uint64_t)plan->width * plan->side * plan->side,
                    rows = RAYS_AT_ONCE / row > 1 ? RAYS_AT_ONCE / row : 1;
-    const uint64_t held = (MOST_ROWS - 2 * KD_CELL_BLOCK) / plan->side; /* limit of the bits of a place */
+    const uint64_t held = (MOST_ROWS - 2 * KD_CELL_BLOCK) / plan->side; /* as many as fit the bits of a place */
     plan->sample_rows = (uint32_t)least_of(least_of(rows, held), plan->band_rows);
     while (plan->sample_rows > 1 && !fits(plan, plan->sample_rows, bytes))
         plan->sample_rows /= 2;
@@ -76,7 +76,7 @@ uint64_t kd_sample_bytes(const struct kd_plan *plan)
     return most.list_bytes + most.index_bytes + most.node_bytes;
 }
 
-/* Error that interpolation meets: for a smaller tolerance each ray is traced. */
+/* Error that interpolation can meet: for a smaller tolerance each ray is traced. */
 #define HOLDS 1e-5
 
 double kd_sample_tolerance(const struct kd_plan *plan, const struct kd_scene *scene)

@@ -6,15 +6,15 @@
 
 /* The blocks that cover some rows of rays. They are aligned to the whole picture. */
 struct kd_sample_grid {
-    int32_t origin_x, origin_y; /* of the first block, in rays from the first ray of the picture or tile */
+    int32_t origin_x, origin_y; /* place of the first block, in rays from the first ray of the picture or tile */
     uint32_t blocks_x, blocks_y;
-    uint32_t room; /* capacity for nodes */
-    /* offsets in the lists of the nodes' places, and of those of single rays */
+    uint32_t room; /* number of nodes for which there is room */
+    /* offsets in the lists: of the nodes' places; of the places of single rays */
     uint32_t places, alone;
-    uint64_t list_bytes, index_bytes, node_bytes; /* of the three buffers */
+    uint64_t list_bytes, index_bytes, node_bytes; /* sizes of the three buffers */
 };
 
-/* left, top: offset of this picture in the whole one, in rays; row0, rows: the requested rows. */
+/* left, top: offset of this picture in the whole picture, in rays; row0, rows: the requested rows. */
 struct kd_sample_grid kd_sample_grid(const struct kd_plan *plan, uint32_t left, uint32_t top, uint32_t row0,
                                      uint32_t rows);
 
@@ -29,8 +29,8 @@ uint64_t kd_sample_bytes(const struct kd_plan *plan);
  * The plan's path and setting must be set. */
 double kd_sample_tolerance(const struct kd_plan *plan, const struct kd_scene *scene);
 
-/* Makes a plan trace every ray after all. It has another lens map, and the times of its passes are not measurements
- * of figures. */
+/* Makes a plan trace every ray after all. The plan then has another lens map, and the times of its passes do not update
+ * any performance figure. */
 void kd_plan_follow_all(struct kd_plan *plan);
 
 #endif

@@ -7,7 +7,7 @@
 
 enum kd_status kd_sweep_order_add(struct kd_sweep_order *order, uint64_t group, double trace_ms)
 {
-    if (!(order->n & (order->n - 1))) { /* doubles the room at powers of two */
+    if (!(order->n & (order->n - 1))) { /* the room doubles at powers of two */
         struct kd_sweep_order_item *more = realloc(order->items, (order->n ? 2 * (size_t)order->n : 1) * sizeof *more);
         if (!more)
             return KD_ENOMEM;
@@ -57,7 +57,7 @@ enum kd_status kd_sweep_order_end(struct kd_sweep_order *order, double *shared_m
     return KD_OK;
 }
 
-#define AT_LEAST 16 /* scenes, a millisecond */
+#define AT_LEAST 16 /* scenes, which take a millisecond */
 
 enum kd_status kd_sweep_order_go_on(struct kd_sweep_order *order, const struct kd_sweep *sweep, double until_ms)
 {

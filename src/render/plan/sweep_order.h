@@ -1,5 +1,5 @@
-/* Rendering order of a sweep's frames: frames that share a lens map follow one another, whatever the order of the
- * axes. Lens maps are in the order of their first frames. Pure. */
+/* Rendering order of a sweep's frames: frames that share a lens map follow one another, whatever the order of the axes.
+ * The groups of frames are in the order of their first frames. Pure. */
 #ifndef KD_RENDER_PLAN_SWEEP_ORDER_H
 #define KD_RENDER_PLAN_SWEEP_ORDER_H
 
@@ -21,8 +21,8 @@ struct kd_sweep_order {
 enum kd_status kd_sweep_order_add(struct kd_sweep_order *order, uint64_t group, double trace_ms);
 /* Completes the order. *shared_ms: time saved by sharing lens maps. KD_ENOMEM. */
 enum kd_status kd_sweep_order_end(struct kd_sweep_order *order, double *shared_ms);
-/* Does all of the above incrementally, until until_ms (kd_clock_ms), but for a few scenes at least; the order is
- * complete once order->frames is set. KD_ENOMEM. */
+/* Adds and orders the frames of a sweep incrementally, until until_ms (kd_clock_ms), but at least a few scenes; the
+ * order is complete once order->frames is set. KD_ENOMEM. */
 enum kd_status kd_sweep_order_go_on(struct kd_sweep_order *order, const struct kd_sweep *sweep, double until_ms);
 void kd_sweep_order_finish(struct kd_sweep_order *order);
 

@@ -6,8 +6,9 @@
 
 #include <math.h>
 
-/* Pixels. A footprint is a difference between rays two apart. Points of light are searched in tiles of KD_STAR_TILE
- * rays, aligned to the whole picture, with rays up to three beyond them; they light two pixels round their images. */
+/* Width of the margin in pixels. A footprint is a difference between rays two apart. Points of light are searched in
+ * tiles of KD_STAR_TILE rays, aligned to the whole picture, with rays up to three beyond the tiles; they light two
+ * pixels round their images. */
 #define MARGIN 4u
 #define MARGIN_OF_POINTS (KD_STAR_TILE + 7u)
 
@@ -68,7 +69,7 @@ enum kd_status kd_tile_check(const struct kd_scene *scene, const struct kd_needs
     return needs->radiance ? KD_OK : picture(scene, n == 1 && !shown, error);
 }
 
-/* From the first row or column up to but not including `to`, of `all`: widened by a margin, then up to a multiple of
+/* Rows or columns from `from` up to but not including `to`, of `all`: widened by a margin, then up to a multiple of
  * `by`. */
 struct range { uint32_t from, to; };
 static struct range widen(uint32_t from, uint32_t to, int32_t all, uint32_t margin, uint32_t by)
@@ -77,8 +78,8 @@ static struct range widen(uint32_t from, uint32_t to, int32_t all, uint32_t marg
     return (struct range) { from > margin ? (from - margin) / by * by : 0, end < (uint32_t)all ? end : (uint32_t)all };
 }
 
-/* A picture of all directions continues beyond each edge at the opposite one (shaders/ray/around.glsl), and so does
- * the light of points. */
+/* Whether the tile needs rows or columns from the other side: a picture of all directions continues beyond each edge at
+ * the opposite edge (shaders/ray/around.glsl), and so does the light of points. */
 static bool needs_all_round(const struct kd_scene *scene, const struct range *x, const struct range *y)
 {
     return scene->camera.projection == KD_PROJECTION_EQUIRECTANGULAR &&

@@ -1,6 +1,6 @@
-/* A tile of a picture (image.tile) is identical to that part of the whole picture, byte by byte. It is rendered with
- * a margin of surrounding pixels, as far as the picture has them, because light at its edges depends on rays beyond
- * them; then it is cropped. A tile cannot have what depends on all pixels at once: exposure "auto", bloom, a beam,
+/* A tile of a picture (image.tile) is identical to that part of the whole picture, byte by byte. It is rendered with a
+ * margin of surrounding pixels, as far as the picture has them, because light at its edges depends on rays beyond them;
+ * then it is cropped. A tile cannot use anything that depends on all pixels at once: exposure "auto", bloom, a beam,
  * and rays chosen by the displayed picture. Pure; any thread. */
 #ifndef KD_RENDER_PLAN_TILE_H
 #define KD_RENDER_PLAN_TILE_H
@@ -10,7 +10,7 @@
 
 struct kd_needs;
 
-/* KD_EINVAL if a request cannot be met by a tile alone; the message says what would do. */
+/* KD_EINVAL if a request cannot be met by a tile alone; the message says what to request instead. */
 enum kd_status kd_tile_check(const struct kd_scene *scene, const struct kd_needs *needs, struct kd_error *error);
 
 /* The scene whose tile includes the margin; *cut, unless NULL: place of the original tile in it. */

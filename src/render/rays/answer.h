@@ -26,8 +26,9 @@ struct kd_rays_answer {
     double *alpha_beta; /* this and the next two are malloc'd */
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
-    size_t undecided; /* this and the rest are set by kd_rays_answer_summarise */
-    /* With a tolerance: rays that were traced again for it; rays that exceed it even so, including undecided ones. */
+    size_t undecided; /* this and the following members are set by kd_rays_answer_summarise */
+    /* With a tolerance: the number of rays that were traced again for it; the number that exceed it even so, including
+     * undecided rays. */
     size_t followed_again, beyond;
     double worst_error, median_error; /* over the rays that have an error; NaN if none has */
 };
@@ -41,7 +42,7 @@ size_t kd_rays_answer_bytes(const struct kd_rays_params *params, size_t n);
 
 enum kd_status kd_rays_answer_summarise(struct kd_rays_answer *answer, struct kd_error *error);
 
-/* The approximations in force, by index: false after the last. params NULL: all that exist. */
+/* The approximations in force, by index: false after the last. params NULL: all approximations of rays that exist. */
 bool kd_rays_approximation(const struct kd_rays_params *params, size_t index, struct kd_approximation *out);
 
 enum { KD_RAYS_ROW_MAX = 4096 };

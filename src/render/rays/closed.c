@@ -11,7 +11,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-#define SLICE 1024 /* rays: some milliseconds of work, and small compared with what is worth another thread */
+#define SLICE 1024 /* rays: they take some milliseconds, little compared with the work that is worth another thread */
 #define THREADS_MAX 16
 
 _Static_assert(KD_NULL_ORDERS >= KD_RAYS_MAX_ORDERS, "the closed form gives too few crossings");
@@ -55,7 +55,7 @@ static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, 
     };
     if (end->fate == KD_RAY_ESCAPED) {
         end->theta = acos(fmax(-1, fmin(1, path.sky_u)));
-        end->phi = remainder(path.sky_phi, 2 * M_PI); /* a direction, so whole turns are dropped */
+        end->phi = remainder(path.sky_phi, 2 * M_PI); /* whole turns are dropped, because this is a direction */
         end->error = path.crossings || !errors ? NAN : path.sky_error;
     }
     for (uint32_t k = 0; k < p->orders; k++) {
@@ -131,8 +131,8 @@ enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct 
     return atomic_load(&share.stop) ? kd_error_set(error, KD_ECANCELLED, "the rays were cancelled") : KD_OK;
 }
 
-/* Inside the ISCO the closed form gives the photon's radial direction; a ray that starts inwards and is captured
- * never turns. */
+/* Whether the photon leaves the gas outwards. Inside the ISCO the closed form gives its radial direction; a ray that
+ * starts inwards and is captured never turns. */
 static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_beta, bool outward,
                             const struct kd_ray_end *end, uint32_t crossing)
 {
@@ -157,7 +157,7 @@ void kd_rays_redshift(const struct kd_rays_params *params, const struct kd_ray_l
         }
 }
 
-/* w'^2 = W^2 - D K w^2 as in shaders/ray/radial_step.glsl, a form that keeps its precision next to the horizon. */
+/* Uses w'^2 = W^2 - D K w^2 as in shaders/ray/radial_step.glsl, a form that keeps its precision next to the horizon. */
 double kd_rays_slope(const struct kd_rays_params *p, const double *alpha_beta, bool outward,
                      const struct kd_ray_end *end, uint32_t k, double r)
 {

@@ -1,4 +1,4 @@
-/* The closed engine, which traces rays in closed form; also computes the redshift at crossings for all engines.
+/* The closed engine, which traces rays in closed form. It also computes the redshift at crossings for all engines.
  * Private to src/render; any thread. */
 #ifndef KD_RENDER_RAYS_CLOSED_H
 #define KD_RENDER_RAYS_CLOSED_H
@@ -16,8 +16,8 @@ enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct 
 void kd_rays_redshift(const struct kd_rays_params *params, const struct kd_ray_labels *rays,
                       struct kd_ray_crossing *crossings, const struct kd_ray_end *ends);
 
-/* dw/dtau, w = 1/r, of a traced ray with E = 1 at its k-th crossing of the plane, at the r found by any engine.
- * outward: as in kd_ray_labels. */
+/* dw/dtau, w = 1/r, of a traced ray with E = 1 at its k-th crossing of the plane, for the radius r that any engine has
+ * found. outward: as in kd_ray_labels. */
 double kd_rays_slope(const struct kd_rays_params *params, const double *alpha_beta, bool outward,
                      const struct kd_ray_end *end, uint32_t k, double r);
 

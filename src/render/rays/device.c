@@ -13,10 +13,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Rays a slice, after which other work may use the device: few at first, then as many as take TARGET_MS. A ray's
- * cost varies by a factor of a million, from the fastest engine to Tao's with its most steps, and from a GPU to one
- * core. A slice is submitted in parts of at most CHUNK rays; the device traces one part while the host unpacks the
- * one before. */
+/* Sizes of slices, in rays. Between two slices other work may use the device. A slice has few rays at first, then as
+ * many as take TARGET_MS. A ray's cost varies by a factor of a million: from the fastest engine to Tao's with the
+ * largest number of steps, and from a GPU to one core. A slice is submitted in parts of at most CHUNK rays; the device
+ * traces one part while the host unpacks the part before. */
 #define LEAST 32u
 #define MOST (1u << 20)
 #define CHUNK 65536u
@@ -51,7 +51,7 @@ static void put(const struct work *w, void *at, size_t i, double value)
         ((float *)at)[i] = (float)value;
 }
 
-/* Converts alpha and beta for the device. The ratio of two tiny ones is kept to rounding, since the azimuth depends
+/* Converts alpha and beta for the device. If both are tiny, their ratio is kept to rounding, since the azimuth depends
  * on it. */
 static void label(const struct work *w, const double *alpha_beta, double out[2])
 {
@@ -70,12 +70,12 @@ static double get(const struct work *w, const void *at, size_t i)
     return w->wide ? ((const double *)at)[i] : (double)((const float *)at)[i];
 }
 
-/* Where a Cartesian ray from infinity starts: distant positions lose digits of b, and phase in Tao's method. A
- * nearer start would be more accurate only because Mino time (start.c) would do the work: at 100 M single precision
- * has a sixth of the error that it has here. */
+/* Radius from which a Cartesian ray from infinity starts. At more distant positions digits of b are lost, and phase in
+ * Tao's method. A nearer start would be more accurate only because Mino time (start.c) would do the work: from 100 M
+ * single precision has a sixth of the error that it has from here. */
 #define FAR 1e3
-/* The radius at which a ray counts as escaped: its momentum has reached its limit within M b/r^2. Further out single
- * precision gains no accuracy of the direction, and the copies of Tao's method diverge. */
+/* The radius at which a ray counts as escaped: there its momentum has reached its limit within M b/r^2. Further out the
+ * direction in single precision does not become more accurate, and the copies of Tao's method diverge. */
 static double escape(const struct work *w) { return w->wide && w->params->engine != KD_ENGINE_KS_TAO6 ? 1e7 : 1e4; }
 
 static void upload_states(const struct work *w, const struct set *set, const struct kd_ray_labels *rays)
@@ -195,7 +195,8 @@ static struct kd_ray_labels part_of(const struct kd_ray_labels *rays, size_t fir
     return (struct kd_ray_labels) { rays->alpha_beta + 2 * first, rays->outward ? rays->outward + first : NULL, n };
 }
 
-/* One of the renderer's buffers for lists of rays, which are reused for the next list and only grow. */
+/* Makes one of the renderer's buffers for lists of rays large enough. These buffers are reused for the next list and
+ * only grow. */
 static enum kd_status hold(struct kd_renderer *r, struct kd_vk_buffer **kept, uint64_t size, enum kd_vk_memory memory,
                            const char *name, struct kd_vk_buffer **out, struct kd_error *error)
 {
@@ -243,7 +244,7 @@ enum kd_status kd_rays_device_ask(struct kd_renderer *r, const struct kd_rays_pa
     return none ? KD_OK : kernel_of(r, params, told, &later, NULL);
 }
 
-/* Prepares the renderer for a slice; it may have been used for other rays since the last one. */
+/* Prepares the renderer for a slice. It may have been used for other rays since the last slice. */
 static enum kd_status prepare(struct work *w, size_t n)
 {
     enum kd_status status = kernel_of(w->r, w->params, w->told != NULL, &w->pipeline, w->error);
@@ -252,7 +253,8 @@ static enum kd_status prepare(struct work *w, size_t n)
     return status;
 }
 
-/* Traces one slice. Unless it failed, no work is in progress on return: callbacks between slices may use the device. */
+/* Traces one slice. When it returns without an error, no work is in progress: callbacks between slices may use the
+ * device. */
 static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                                   struct kd_ray_end *ends)
 {
@@ -272,8 +274,8 @@ static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *ra
 }
 
 /* Size of the next slice after one of m rays that took `ms`. least_ms: time of the smallest slices. If even one ray
- * takes longer than TARGET_MS, a GPU takes no longer for several: slices double as long as that is so, and may take
- * up to half as long again. */
+ * takes longer than TARGET_MS, a GPU takes no longer for several rays: slices double as long as that holds, and may
+ * take up to half as long again. */
 static uint32_t next_size(uint32_t m, double ms, double least_ms)
 {
     double grow = fmax(TARGET_MS / fmax(ms, 1e-3), ms <= 1.25 * least_ms ? 2 : 1.5 * least_ms / ms),
@@ -281,7 +283,8 @@ static uint32_t next_size(uint32_t m, double ms, double least_ms)
     return n < LEAST ? LEAST : n > MOST ? MOST : (uint32_t)n;
 }
 
-/* Size of a list's first slice. A list with the settings of the last one starts with half of its last slice. */
+/* Size of a list's first slice. A list with the settings of the list before starts with half of that list's last
+ * slice. */
 static uint32_t first_size(const struct work *w)
 {
     const struct kd_rays_params *p = w->params;

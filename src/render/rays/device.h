@@ -4,8 +4,8 @@
 
 #include "render/rays/rays.h"
 
-/* kd_rays_trace for any engine except KD_ENGINE_CLOSED, with checked params. g is left NaN, and so are the errors of
- * the Kerr-Schild engines. */
+/* kd_rays_trace for any engine except KD_ENGINE_CLOSED, with checked params. g is left NaN; so are the errors of the
+ * Kerr-Schild engines. */
 enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
                               const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);

@@ -7,7 +7,8 @@
 
 #define AT(member) offsetof(struct kd_rays_request, member)
 
-/* A horizon is above 1 M whatever the spin: 1 + sqrt(1 - a^2), Bardeen, Press & Teukolsky 1972. */
+/* The least radius of an observer: a horizon is above 1 M whatever the spin, 1 + sqrt(1 - a^2), Bardeen, Press &
+ * Teukolsky 1972. */
 const struct kd_rays_field kd_rays_fields[KD_RAYS_FIELDS] = {
     { "", "spin", "/spin", KD_RAYS_REAL, -1, 1, KD_RAYS_OPEN, 0, NULL, "a number above -1 and below 1",
       "of the hole, a/M", AT(params.spin) },

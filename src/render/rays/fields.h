@@ -12,7 +12,7 @@ enum kd_rays_kind {
     KD_RAYS_INT,
     KD_RAYS_PROFILE,
     KD_RAYS_WORD_OR_AUTO,
-    KD_RAYS_WORD_OR_NONE /* 0 if it is not given */
+    KD_RAYS_WORD_OR_NONE /* 0 if the word is not given */
 };
 enum kd_rays_open { KD_RAYS_CLOSED, KD_RAYS_OPEN, KD_RAYS_OPEN_BELOW };
 

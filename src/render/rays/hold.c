@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SLICE ((size_t)16384) /* rays that are traced again together: a tenth of a second */
-/* The least number of rays for which the device is used again: the closed form traces fewer in less time than it
+#define SLICE ((size_t)16384) /* rays that are traced again together; they take a tenth of a second */
+/* The least number of rays for which the device is used again: the closed form traces fewer rays in less time than it
  * takes to compile a kernel. */
 #define WORTH_A_KERNEL 8192
 #define MORE_STEPS 4 /* factor of the steps: at order 6 the error falls by 4096 */
@@ -56,7 +56,7 @@ static void gather(struct batch *b, const struct kd_ray_labels *rays, const stru
     }
 }
 
-/* Replaces results by those of a finer setting, unless that leaves a decided ray undecided. */
+/* Replaces results by those of a finer setting, except where that would leave a decided ray undecided. */
 static void adopt(const struct batch *b, uint32_t orders, struct kd_ray_crossing *crossings, struct kd_ray_end *ends)
 {
     for (size_t i = 0; i < b->n; i++) {

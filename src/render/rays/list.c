@@ -40,11 +40,11 @@ static size_t skip_string(const char *text, size_t at, size_t length)
     return at < length ? at + 1 : length;
 }
 
-/* Reports no errors; the parser of the rest of the document does. */
+/* Finds the array. Reports no errors; the parser of the rest of the document does that. */
 bool kd_rays_list_find(const char *text, size_t length, size_t *start)
 {
     int depth = 0;
-    bool key = false; /* a string here would be a member's name */
+    bool key = false; /* whether a string at this place would be a member's name */
     for (size_t at = 0; at < length;) {
         char c = text[at];
         if (c == '"') {

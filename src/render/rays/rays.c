@@ -46,7 +46,7 @@ static double error_of(const struct kd_ray_crossing *found, const struct kd_ray_
                                   2 * DBL_EPSILON); /* fmax ignores NaN: a captured ray without crossings */
 }
 
-#define SLICE ((size_t)16384) /* rays: a tenth of a second */
+#define SLICE ((size_t)16384) /* rays; they take a tenth of a second */
 
 /* The Kerr-Schild engines have no error estimate. They exist for comparison, so their rays are compared with the
  * closed form, which takes less time than they do. */
@@ -99,8 +99,8 @@ done:
     return status;
 }
 
-/* For all engines: a ray without a crossing that does not escape has no number that could be wrong, hence no error,
- * unless a crossing may be missing. */
+/* Drops the errors of rays without numbers, for all engines: a ray without a crossing that does not escape has no
+ * number that could be wrong, unless a crossing may be missing. */
 static void drop_idle_errors(struct kd_ray_end *ends, size_t n)
 {
     for (size_t i = 0; i < n; i++)

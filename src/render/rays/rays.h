@@ -25,14 +25,14 @@
 
 struct kd_rays_params {
     double spin;            /* |a| < 1 */
-    double r;               /* of the observer: INFINITY, or outside the horizon */
+    double r;               /* the observer's radius: INFINITY, or outside the horizon */
     double inclination_deg; /* 0 to 180 */
     uint32_t orders;        /* number of requested crossings, 1 to KD_RAYS_MAX_ORDERS */
     enum kd_engine engine;
     enum kd_precision precision; /* closed: F64 only */
     uint32_t steps;              /* per half period, a multiple of 4; 0: the engine's default; closed form: 0 */
     double tolerance;            /* > 0: rays whose own error exceeds it are traced again more finely; 0: none */
-    double holds; /* tolerance that the setting meets by the table, for the answer; 0: no tolerance was asked for */
+    double holds; /* the tolerance that the setting meets by the table, for the answer; 0: no tolerance was asked for */
     /* 0: rays are labels, for any observer at this place. Otherwise 1 + enum kd_observer: rays are directions in
      * this observer's frame, with the parameters of kd_observer_motion: */
     int observer;
@@ -42,7 +42,7 @@ struct kd_rays_params {
 /* Rays by their labels. Rays of a request start inwards; those of a picture from a finite radius may start outwards. */
 struct kd_ray_labels {
     const double *alpha_beta; /* 2 n */
-    const bool *outward;      /* n: the traced ray starts away from the hole; NULL: no ray does */
+    const bool *outward;      /* n values: the traced ray starts away from the hole; NULL: no ray does */
     size_t n;
 };
 
@@ -55,12 +55,14 @@ struct kd_ray_end {
     enum kd_ray_fate fate;
     uint32_t n_crossings; /* number of the requested orders that exist outside the horizon */
     double theta, phi;    /* direction of an escaping ray: polar angle and azimuth, source minus observer */
-    /* Estimated relative error of the worst crossing radius; without a crossing, of the direction in radians. It is
-     * an upper bound for at least 999 of 1000 rays. NaN for a ray that has neither, for every engine. 1 or more: the
-     * number of crossings may be wrong by one next to the horizon or very far out (Mino engines, closed form), or
-     * the number or the fate differs from the closed form's (Kerr-Schild engines). */
+    /* Estimated relative error of the worst crossing radius; for a ray without a crossing, the error of its direction
+     * in radians. It is an upper bound for at least 999 of 1000 rays. NaN for a ray that has neither, with every
+     * engine. A value of 1 or more means that the number of crossings may be wrong by one next to the horizon or very
+     * far out (Mino engines, closed form), or that the number or the fate differs from the closed form's (Kerr-Schild
+     * engines). */
     double error;
-    /* at infinity, in units of the energy that the observer measures; only if the observer's motion is given */
+    /* energy at infinity, in units of the energy that the observer measures; only if the observer's motion is
+     * given */
     double energy;
     bool again; /* traced again by a finer setting, for the tolerance */
 };
@@ -68,12 +70,12 @@ struct kd_ray_end {
 /* Whether two ends are equal bit for bit, ignoring padding. */
 bool kd_ray_ends_equal(const struct kd_ray_end *a, const struct kd_ray_end *b);
 
-/* Traces n rays: labels [alpha, beta], or directions [yaw, pitch] in degrees if params->observer is set. With a
- * tolerance, each ray that is undecided or exceeds it by its own error is traced again with more steps in double
- * precision, then in closed form; what still exceeds it is beyond double precision. rays: 2 n numbers. crossings: n
- * * orders records, those of one ray together; unused ones are NaN. ends: n. renderer may be NULL for
- * KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render thread. KD_EINVAL with a pointer
- * such as "/observer/r" or "/rays/17/0" for bad input; KD_EDEVICE if this device lacks the precision. */
+/* Traces n rays: labels [alpha, beta], or directions [yaw, pitch] in degrees if params->observer is set.
+ * With a tolerance, each ray that is undecided or exceeds it by its own error estimate is traced again with more steps
+ * in double precision, then in closed form. A ray that still exceeds it is beyond double precision.
+ * rays: 2 n numbers. crossings: n * orders records, those of one ray together; unused ones are NaN. ends: n. renderer
+ * may be NULL for KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render thread. KD_EINVAL
+ * with a pointer such as "/observer/r" or "/rays/17/0" for bad input; KD_EDEVICE if this device lacks the precision. */
 enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *rays,
                              size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends,
                              kd_progress_fn progress, void *user, struct kd_error *error);

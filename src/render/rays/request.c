@@ -118,7 +118,7 @@ enum kd_status kd_rays_request_add(struct kd_rays_request *request, double alpha
 
 struct document {
     struct kd_rays_request *request;
-    unsigned seen; /* bits: one a field, then one a section, and one for the rays */
+    unsigned seen; /* what was seen so far, as bits: one a field, then one a section, and one for the rays */
     struct kd_error *error;
 };
 
@@ -168,7 +168,7 @@ static enum kd_status wrong_type(struct document *d, const cJSON *item, const ch
                           allowed);
 }
 
-/* The rays have been read already and are replaced by an empty array here. */
+/* Reads the outermost object. The rays have been read already and are replaced by an empty array in this document. */
 static enum kd_status read_outermost(struct document *d, const cJSON *item)
 {
     static const char *const sections[] = { "/observer", "/accuracy" };
@@ -246,7 +246,7 @@ static enum kd_status read_rest(struct document *d, const char *text, const char
     return status;
 }
 
-/* Parses the document with an empty array in place of the one from start to end. */
+/* Parses the document with an empty array in place of the array from start to end. */
 static enum kd_status read_without_rays(struct document *d, const char *text, size_t length, size_t start, size_t end)
 {
     size_t kept = start < end ? 2 : 0, rest_length = start + kept + length - end;

@@ -5,7 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* 16 orders of `,{"order":15,"r":,"phi":,"delay":,"g":}` with four numbers, and some 150 bytes more. */
+/* A row has at most 16 orders of `,{"order":15,"r":,"phi":,"delay":,"g":}` with four numbers, and some 150 bytes
+ * more. */
 _Static_assert(KD_RAYS_ROW_MAX >= KD_RAYS_MAX_ORDERS * (40 + 4 * KD_DECIMAL_SIZE) + 300, "a row may not fit");
 
 struct row { char *at; };
@@ -19,7 +20,7 @@ static void text(struct row *row, const char *s)
 
 static void number(struct row *row, double value) { row->at += kd_decimal_print(row->at, value); }
 
-/* "name":value if the value is finite, with a comma before it unless it is the first of its object. */
+/* Writes "name":value if the value is finite, with a comma before it unless it is the first of its object. */
 static void member(struct row *row, const char *name, double value)
 {
     if (!isfinite(value))
@@ -62,7 +63,7 @@ static size_t json(const struct kd_rays_answer *answer, size_t i, char *out)
     return (size_t)(row.at - out);
 }
 
-/* Little-endian whatever the machine is. */
+/* Writes a little-endian number whatever the machine's byte order is. */
 static void put(struct row *row, double value)
 {
     uint64_t bits;

@@ -119,7 +119,7 @@ static const char *precision(size_t i)
 }
 static const char *fate(size_t i) { return i <= KD_RAY_UNDECIDED ? kd_ray_fate_name((enum kd_ray_fate)i) : NULL; }
 
-/* The observer is returned completely, as requested. */
+/* Adds the schema of the observer, which is returned completely, as requested. */
 static void add_observer(struct kd_json *json)
 {
     begin_strict(json, "RaysObserver");

@@ -6,10 +6,10 @@
 
 #include <stddef.h>
 
-/* Schema of a request as JSON, as the member `name`. */
+/* Writes the schema of a request as the JSON member `name`. */
 void kd_rays_request_schema(struct kd_json *json, const char *name);
-/* A field outside a JSON request, for use with an NPY array: its schema as the member "schema". The name is NULL
- * after the last field; *help describes it. */
+/* A field outside a JSON request, for use with an NPY array. The second function writes its schema as the member
+ * "schema". The name is NULL after the last field; *help describes the field. */
 const char *kd_rays_field_name(size_t index, const char **help);
 void kd_rays_field_schema(struct kd_json *json, size_t index);
 

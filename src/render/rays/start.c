@@ -23,8 +23,8 @@ static double drag(const struct motion *m, double w)
     return m->a * w * (2 - m->a * m->l * w) / (1 + w * (m->a * m->a * w - 2));
 }
 
-/* Nystroem's method of order 4, as in nystroem.glsl; frame dragging by Simpson's rule with the midpoint from the
- * cubic through both ends. */
+/* A step of Nystroem's method of order 4, as in nystroem.glsl. Frame dragging is integrated by Simpson's rule, with the
+ * midpoint from the cubic through both ends. */
 static struct point step(const struct motion *m, const struct point *p, double h)
 {
     double k1[4], k2[4], k3[4], y[4];
@@ -59,7 +59,7 @@ static double share(const struct point *p, const struct point *q, double h)
  * less than a half turn. */
 static struct point approach(const struct motion *m, struct point p, double t, struct kd_rays_origin *out)
 {
-    enum { STEPS = 32 }; /* each turns by at most a 256th of a radian: accurate to 1e-13 */
+    enum { STEPS = 32 }; /* each step turns by at most a 256th of a radian: accurate to 1e-13 */
     double h = t / STEPS;
     for (int i = 0; i < STEPS; i++) {
         struct point q = step(m, &p, h);
@@ -90,8 +90,8 @@ static void cartesian(const struct motion *m, const struct point *p, bool outwar
     double v[3] = { c * p->v[0] - s * p->v[1], s * p->v[0] + c * p->v[1], p->v[2] };
     double x[3] = { r * n[0] - a * n[1], r * n[1] + a * n[0], r * n[2] }, k = r / (r * r * r * r + a * a * x[2] * x[2]);
     double dr[3] = { r * r * x[0] * k, r * r * x[1] * k, q * x[2] * k };
-    /* p_r = (2r - aL -+ sqrt(R))/Delta, R = W^2 - Delta K, W = r^2 + a^2 - aL; for inward rays in a form without
-     * cancellation. */
+    /* p_r = (2r - aL -+ sqrt(R))/Delta, R = W^2 - Delta K, W = r^2 + a^2 - aL. For inward rays it is computed in a form
+     * without cancellation. */
     double big = q - a * m->l, delta = r * (r - 2) + a * a, radial = sqrt(fmax(big * big - delta * m->k, 0));
     double p_r = (outward ? (big + radial) / delta : m->k / (big + radial)) - 1;
     p_r += (v[0] * (x[0] - 2 * r * n[0]) + v[1] * (x[1] - 2 * r * n[1])) / q - v[2] * n[2] / r;
@@ -110,7 +110,7 @@ void kd_rays_start(const struct kd_hole *hole, double r, double u, double s, dou
     m.k = m.q + (m.l - a) * (m.l - a);
     struct point p = { { s, 0, u, isinf(r) ? 0 : 1 / r }, { -u * beta, -alpha, s * beta, 1 }, 0 };
     out->w = out->phi = 0;
-    if (isinf(r)) /* there w' = 1, so Mino time equals w */
+    if (isinf(r)) /* at infinity w' = 1, so Mino time equals w */
         p = approach(&m, p, 1 / fmax(far, 8 * hypot(alpha, beta)), out);
     cartesian(&m, &p, outward, out);
 }

@@ -28,10 +28,10 @@ static double radial(const struct constants *c, double w, double dw)
     return dw * dw - (1 + w * w * (c->a2 + w * (2 * c->k - c->d * w)));
 }
 
-/* Source minus observer, reduced to half a turn either way. */
+/* The azimuth, source minus observer, reduced to half a turn either way. */
 static double azimuth(double y, double x, double chi) { return 0 + remainder(-(atan2(y, x) + chi), 2 * M_PI); }
 
-/* A record in Mino time holds n and w, or u and w on the way to a crossing. */
+/* Unpacks a record in Mino time: it holds n and w, or on the way to a crossing u and w. */
 static void mino(const struct constants *c, const struct record *r, struct kd_rays_step *s)
 {
     const double *n = r->y, *v = r->dy;
@@ -49,14 +49,15 @@ static void mino(const struct constants *c, const struct record *r, struct kd_ra
     s->res_l = n[0] * v[1] - n[1] * v[0] - c->momentum;
 }
 
-/* Kerr-Schild minus Boyer-Lindquist azimuth is atan2(a, r) minus the integral of a/Delta from infinity. */
+/* Kerr-Schild minus Boyer-Lindquist azimuth: atan2(a, r) minus the integral of a/Delta from infinity. */
 static double drag(double a, double r)
 {
     double root = sqrt((1 - a) * (1 + a));
     return root > 0 ? a / (2 * root) * log1p(2 * root / (r - 1 - root)) : a / (r - 1);
 }
 
-/* The Hamiltonian of rays_kerr_schild.comp, implemented again; `momentum`: L at the start. */
+/* Unpacks a record in Kerr-Schild coordinates, with the Hamiltonian of rays_kerr_schild.comp implemented again.
+ * momentum: L at the start. */
 static void kerr_schild(double a, double momentum, const struct record *record, struct kd_rays_step *s)
 {
     const double *x = record->y, *p = record->dy;
@@ -126,7 +127,7 @@ enum kd_status kd_rays_steps_ask(struct kd_renderer *renderer, const struct kd_r
     return status ? status : kd_rays_device_ask(renderer, params, false); /* the kernel of compare() */
 }
 
-/* Twice the records of the longest ray by any method. */
+/* Room for twice the records of the longest ray by any method. */
 static size_t room(const struct kd_rays_params *p)
 {
     return KD_TRACE_HEADER + KD_TRACE_RECORD * (size_t)(64 * p->steps + 64);

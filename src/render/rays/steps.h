@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 enum kd_rays_stage {
-    KD_STAGE_START,    /* at the observer, or where a Cartesian ray starts */
+    KD_STAGE_START,    /* at the observer, or at the place where a Cartesian ray starts */
     KD_STAGE_STEP,     /* a step towards the crossing of that order; discarded if there is no such crossing */
     KD_STAGE_CROSSING, /* the crossing of that order; not a step */
     KD_STAGE_END,      /* after the last crossing, to infinity or the horizon */
@@ -19,9 +19,9 @@ enum kd_rays_stage {
  * own numbers and constants: their deviation from 0 is the error of steps and rounding. */
 struct kd_rays_step {
     enum kd_rays_stage stage;
-    unsigned order, number;        /* of the next crossing; of the step */
-    double time;                   /* Mino time since the observer; the Kerr-Schild engines' s, with d(lambda) = r ds */
-    double r, phi, delay;          /* delay: of a crossing */
+    unsigned order, number;        /* order of the next crossing; number of the step */
+    double time;                   /* Mino time since the observer; Kerr-Schild engines: their s, d(lambda) = r ds */
+    double r, phi, delay;          /* delay: of a crossing only */
     double w, dw, u, du, n_x, n_y; /* Mino: M/r, cos(theta), their rates, the direction in the plane; u = n_z */
     double x, y, z, p_x, p_y, p_z; /* Kerr-Schild: position and momentum of the mirrored ray */
     double res_w;                  /* w'^2 - R(w) */
@@ -33,7 +33,7 @@ struct kd_rays_step {
 };
 
 struct kd_rays_steps {
-    struct kd_rays_params params; /* with the steps and other settings that were used */
+    struct kd_rays_params params; /* the ray's parameters, with the steps and other settings that were used */
     double alpha, beta;
     bool outward;               /* the ray starts away from the hole */
     size_t n, lost;             /* records; records that did not fit */

@@ -15,8 +15,8 @@
 
 enum { ORDERS = KD_ACCURACY_ORDERS, WARM_UP = 64, RUNS = 5, BATCH = 1 << 18, RAYS = 4096, RAYS_QUICK = 256 };
 
-/* Steps double from first to last. Below the first an engine is useless; above the last rounding dominates or
- * another engine is better at the same cost. */
+/* Numbers of steps double from first to last. Below the first an engine is useless. Above the last rounding dominates,
+ * or another engine is better at the same cost. */
 static const struct span {
     enum kd_engine engine;
     uint32_t first, last;
@@ -83,7 +83,7 @@ static void end_in_closed_form(const struct kd_null_ray *ray, double s, struct k
     }
 }
 
-/* Computes the true end points, as far as they can be known. *s: time of one core. */
+/* Computes the true end points, as far as they can be known. *s: the time that one core takes. */
 static void reference_of(const struct kd_accuracy_view *view, const double *rays, size_t n,
                          struct kd_ray_crossing *crossings, struct kd_ray_end *ends, double *s)
 {
@@ -134,8 +134,9 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Seconds a ray: the best of several runs, because other work on the machine only slows them. Each run traces the
- * list repeatedly for its share of the time; a list that takes longer is cut. *s is the list's time on entry. */
+/* Measures the seconds a ray: the best of several runs, because other work on the machine only slows them. Each run
+ * traces the list repeatedly for its share of the time; a list that takes longer than that is cut. *s is the list's
+ * time on entry. */
 static enum kd_status time_view(struct bench *b, const struct kd_accuracy_row *row, const struct truth *t, double share,
                                 double *s)
 {
@@ -169,7 +170,7 @@ static double error_of(double value, double truth, int quantity)
     }
 }
 
-/* Appends the errors of one view to those already counted. */
+/* Appends the errors of one view to the errors already collected. */
 static void judge(struct bench *b, const struct kd_accuracy_row *row, const struct truth *t,
                   struct kd_accuracy_entry *e, size_t counts[KD_ACCURACY_QUANTITIES])
 {
@@ -283,7 +284,7 @@ static void finish(struct bench *b)
     free(b->ends);
 }
 
-/* Lists the rows to be measured, without figures. */
+/* Lists the rows to be measured, without their results. */
 static void list_rows(struct kd_accuracy_table *table, bool float64)
 {
     table->rows[table->n++] = (struct kd_accuracy_row) { .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64 };

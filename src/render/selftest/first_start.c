@@ -26,8 +26,9 @@ static void restore(struct kd_renderer *r, const struct kd_capacity *capacity)
     pthread_mutex_unlock(&r->lock);
 }
 
-/* Measures the cost of a ray and a pixel, which replaces the guess for this type of device: the least over several
- * small pictures, because a driver may compile a kernel at its first run, and a busy machine slows any of them. */
+/* Measures the cost of a ray and a pixel, which replaces the guess for this type of device. It is the least over
+ * several small pictures, because a driver may compile a kernel at its first run, and a busy machine slows any of
+ * them. */
 static enum kd_status measure(struct kd_renderer *r, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
@@ -50,7 +51,8 @@ static enum kd_status measure(struct kd_renderer *r, struct kd_error *error)
         kd_frame_finish(&frame);
     }
     r->probing = false;
-    for (int i = 0; i < KD_FIGURE_COUNT; i++) /* not measured here: particles; without timestamps: all */
+    for (int i = 0; i < KD_FIGURE_COUNT; i++) /* figures that are not measured here: particles; without timestamps all
+                                               * of them */
         c->ns[i] = isfinite(c->ns[i]) ? c->ns[i] : guess.ns[i];
     return status;
 }

@@ -53,9 +53,9 @@ done:
     return status;
 }
 
-/* Compares g^4 F/F_max. A file's 16 bits round a luminance of 0.2 to 0.9 (1/2)/65535 of it, 3.4e-5. The tables from
- * which T is interpolated have errors of 1e-6, so T^4 has four times that. Roundoff is multiplied by the gain of r
- * for F and four times that of g. */
+/* Compares g^4 F/F_max. A file's 16 bits round a luminance of 0.2; the relative error is 0.9 (1/2)/65535 over 0.2,
+ * 3.4e-5. The tables from which T is interpolated have errors of 1e-6, so T^4 has four times that. Roundoff is
+ * multiplied by the gain of r for F and by four times that of g. */
 static enum kd_status brightness(const struct kd_selftest *test)
 {
     struct kd_selftest_row row;

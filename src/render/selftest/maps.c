@@ -10,8 +10,8 @@
 #define STEPS 16
 #define PLANES (2 * ORDERS + 3)
 
-/* Bounds as in rays.c: roundoff, and the error of 16 steps of order 6. The camera adds the operations from pixel to
- * ray; the azimuth comes from a series accurate to 1e-7 a half turn (polar_azimuth.glsl). */
+/* Bounds are as in rays.c: roundoff, and the error of 16 steps of order 6. The camera adds the operations from pixel to
+ * ray. The azimuth comes from a series accurate to 1e-7 a half turn (polar_azimuth.glsl). */
 static double unit_of(void) { return KD_SELFTEST_OPERATIONS * (double)(FLT_EPSILON / 2) + 1e-3 * pow(M_PI / STEPS, 6); }
 
 static double turn(double x) { return remainder(x, 2 * M_PI); }
@@ -39,7 +39,7 @@ static struct kd_scene scene_of(const struct kd_selftest_ray *ray, const struct 
     return scene;
 }
 
-/* Planes of the single ray. */
+/* Computes the planes of the single ray. */
 static enum kd_status trace(const struct kd_selftest *test, const struct kd_scene *scene, const struct kd_needs *needs,
                             float planes[PLANES])
 {
@@ -118,8 +118,8 @@ done:
     return status;
 }
 
-/* Converts the reference's Boyer-Lindquist azimuths to the map's, which are relative to a falling observer's ingoing
- * azimuth: larger by the integral of a/Delta from r to infinity. */
+/* Converts the reference's Boyer-Lindquist azimuths to the azimuths of the map, which are relative to a falling
+ * observer's ingoing azimuth. They are larger by the integral of a/Delta from r to infinity. */
 static struct kd_selftest_ray by_own_azimuth(const struct kd_selftest_camera *camera)
 {
     struct kd_selftest_ray ray = camera->ray;

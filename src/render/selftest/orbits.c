@@ -37,7 +37,8 @@ static enum kd_status shape(const struct kd_selftest *test, double spin, double 
     return status;
 }
 
-/* Some tens of operations of 1.1e-16 each, amplified up to a hundredfold by orbits this far from the separatrix. */
+/* The bound: some tens of operations of 1.1e-16 each, amplified up to a hundredfold by orbits this far from the
+ * separatrix. */
 static enum kd_status bound_orbits(const struct kd_selftest *test)
 {
     static const char source[] = "Carter's equations by quadrature, 40 digits";
@@ -83,7 +84,7 @@ static enum kd_status mercury(const struct kd_selftest *test)
     return kd_selftest_end(test, &row);
 }
 
-/* Relative error by physics/disk/thin_disk.h: 1e-11 and 4e-14/(r - r_isco)^2. */
+/* The relative error that physics/disk/thin_disk.h states: 1e-11 and 4e-14/(r - r_isco)^2. */
 static enum kd_status flux(const struct kd_selftest *test)
 {
     struct kd_selftest_row row;

@@ -22,7 +22,7 @@ enum kd_status kd_selftest_maps(const struct kd_selftest *test);   /* the lens m
 enum kd_status kd_selftest_light(const struct kd_selftest *test);  /* brightness and encoding */
 enum kd_status kd_selftest_same(const struct kd_selftest *test);   /* repeated pictures, and pictures in pieces */
 
-/* Number of operations, each with an error of a unit roundoff, that bounds allow for a number: rays.c. */
+/* Bounds allow for this many operations, each with an error of a unit roundoff, for each number: rays.c. */
 #define KD_SELFTEST_OPERATIONS 64
 
 #endif

@@ -25,16 +25,17 @@ static const struct engine engines[] = {
 };
 enum { ENGINES = sizeof engines / sizeof *engines };
 
-/* The unit of allowed error: a number results from some tens of operations, each with an error up to the unit
- * roundoff, and the steps of a method of order 6 have an error of (pi/steps)^6 a half turn times its error constant.
- * The constant was measured for these rays and has a margin of about ten. */
+/* The unit of allowed error. A number results from some tens of operations, each with an error up to the unit roundoff.
+ * To this the steps of a method of order 6 add (pi/steps)^6 a half turn times the method's error constant. The constant
+ * was measured for these rays and has a margin of about ten. */
 static double unit_of(const struct engine *e)
 {
     double roundoff = e->precision == KD_PRECISION_F32 ? FLT_EPSILON / 2 : DBL_EPSILON / 2;
     return KD_SELFTEST_OPERATIONS * roundoff + (e->steps ? 1e-3 * pow(M_PI / e->steps, 6) : 0);
 }
 
-/* After the last crossing frame dragging is integrated by Simpson's rule, of order 4. */
+/* The unit of error at the ray's end: after the last crossing frame dragging is integrated by Simpson's rule, of order
+ * 4. */
 static double end_unit_of(const struct engine *e)
 {
     return unit_of(e) + (e->steps ? 2e-5 * pow(M_PI / e->steps, 4) : 0);
@@ -67,8 +68,8 @@ static const char *const quantities[QUANTITIES] = { "r (relative)", "phi (rad)",
 
 static double turn(double x) { return remainder(x, 2 * M_PI); }
 
-/* Compares with known numbers. Each bound is a unit of error times the size of the terms summed and the gain. phi is
- * a sum over half turns; delay is a sum of terms as large as the radius, and near the hole about 10 M. */
+/* Compares with known numbers. Each bound is a unit of error times the size of the terms summed and the gain. phi is a
+ * sum over half turns. delay is a sum of terms that are as large as the radius, or about 10 M near the hole. */
 static void judge(const struct kd_selftest_ray *ray, const struct engine *e, const struct kd_ray_crossing *crossings,
                   const struct kd_ray_end *end, struct kd_selftest_row rows[QUANTITIES])
 {
@@ -177,11 +178,11 @@ static enum kd_status deflection(const struct kd_selftest *test, const struct en
     return kd_selftest_end(test, &row);
 }
 
-#define NEAREST 60 /* each is a quarter of a power of ten */
+#define NEAREST 60 /* number of distances, which differ by a quarter of a power of ten each */
 
-/* Traces rays at 1 +- 10^(-k/4) of the distance of a point of the critical curve, and finds the furthest one with
- * the wrong fate. Rays just inside and outside diverge by e^pi each half turn. An error of the constants, of E^2 = 1
- * or of a step shifts the curve by as much as a unit of change of b. */
+/* Traces rays at 1 +- 10^(-k/4) of the distance of a point of the critical curve, and finds the ray furthest from the
+ * curve with the wrong fate. Rays just inside and outside diverge by e^pi each half turn. An error of one unit in the
+ * constants, in E^2 = 1 or in a step shifts the curve by about one unit of b. */
 static enum kd_status critical(const struct kd_selftest *test, const struct engine *e,
                                const struct kd_selftest_critical *p)
 {

@@ -1,8 +1,8 @@
-/* Reference numbers of the self-test. They are in reference.c, made by tests/oracle/selftest_reference.py from the
- * metric, by quadrature and by Taylor series in 38 digits; they use no formula of src/ or shaders/.
+/* Reference numbers of the self-test. They are in reference.c. tests/oracle/selftest_reference.py makes that file from
+ * the metric, by quadrature and by Taylor series in 38 digits, without any formula of src/ or shaders/.
  *
- * A gain is the sum of |x df/dx| over the spin, the inclination, the radius and the two coordinates of a ray, with
- * logarithms in place of r and g: the change of the answer for a relative change of the input. */
+ * A gain is the change of an answer for a relative change of the input: the sum of |x df/dx| over the spin, the
+ * inclination, the radius and the two coordinates of a ray, with logarithms in place of r and g. */
 #ifndef KD_RENDER_SELFTEST_REFERENCE_H
 #define KD_RENDER_SELFTEST_REFERENCE_H
 
@@ -25,10 +25,10 @@ struct kd_selftest_orbit { double spin, horizon, photon, bound, isco, efficiency
 
 /* The ray in the middle of a camera's picture. */
 struct kd_selftest_camera {
-    enum kd_observer observer; /* a falling observer is rain */
+    enum kd_observer observer; /* a falling observer starts from rest at infinity ("rain") */
     double velocity[3];
     double yaw_deg, pitch_deg;
-    struct kd_selftest_ray ray; /* alpha and beta label the constants computed for the direction */
+    struct kd_selftest_ray ray; /* alpha and beta are labels of the constants computed for the direction */
 };
 
 /* Azimuth swept by a ray in the equatorial plane from infinity to infinity; b = lambda. */
@@ -43,8 +43,8 @@ struct kd_selftest_critical {
     double spin, inclination_deg, alpha, beta;
 };
 
-/* An orbit between p/(1+e) and p/(1-e) whose inclination to the plane has the cosine x: its constants of motion, and
- * its rates in Mino time: of the radial and polar cycles, azimuth, time and proper time. */
+/* A bound orbit between p/(1+e) and p/(1-e) whose inclination to the plane has the cosine x. It has constants of
+ * motion, and rates in Mino time: of the radial and polar cycles, azimuth, time and proper time. */
 struct kd_selftest_bound {
     double spin, p, e, x, energy, momentum, carter, mino_r, mino_theta, mino_phi, mino_t, mino_proper;
 };
@@ -57,7 +57,7 @@ struct kd_selftest_pixel {
     double brightness;
 };
 
-/* A grey: linear, encoded as sRGB, and encoded after the film-like curve. */
+/* A grey in three encodings: linear, as sRGB, and as sRGB after the film-like curve. */
 struct kd_selftest_grey { double linear, srgb, film[3]; };
 
 struct kd_selftest_reference {

@@ -44,7 +44,7 @@ static double differing(const struct kd_frame *a, const struct kd_frame *b)
     return n;
 }
 
-/* One row a submission, which is what the renderer does on a very slow device. */
+/* Renders with one row in each submission, as the renderer does on a very slow device. */
 static enum kd_status draw_by_rows(const struct kd_selftest *test, const struct kd_capacity *capacity,
                                    struct kd_frame *out)
 {

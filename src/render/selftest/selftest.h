@@ -2,15 +2,16 @@
  * calls as pictures and answers, compares them with independently known values, and reports each error with its bound.
  * A few seconds on two CPU cores.
  *
- * Each bound is explained where it is set: a number of operations of unit roundoff each, times the amplification of
- * the answer (reference.h), plus the error of a method's steps. */
+ * Each bound is explained where it is set. It is the error of some number of operations of unit roundoff each, times
+ * the amplification of the answer (reference.h), plus the error of a method's steps. */
 #ifndef KD_RENDER_SELFTEST_SELFTEST_H
 #define KD_RENDER_SELFTEST_SELFTEST_H
 
 #include "render/device/renderer.h"
 #include "render/selftest/reference.h"
 
-/* One line of the table: many comparisons, of which the one closest to its bound, or furthest beyond it, is shown. */
+/* One line of the table. It stands for many comparisons, of which it shows the one closest to its bound, or furthest
+ * beyond it. */
 struct kd_selftest_row {
     char what[64], by[32]; /* "rays, bulk: r (relative)", "mino-rkn6 f32" */
     const char *source;    /* the reference in a few words */

@@ -80,14 +80,14 @@ static struct kd_rotation about_y(double degrees)
 
 struct kd_rotation kd_rotation_galactic(void)
 {
-    /* Takes the galactic pole to z, then the equatorial pole to its longitude. */
+    /* Turns the galactic pole to z, then the equatorial pole to its galactic longitude. */
     const struct kd_rotation turned = about_z(180 - 192.85948), tilted = about_y(90 - 27.12825),
                              both = kd_rotation_then(&turned, &tilted);
     const struct kd_rotation last = about_z(122.93192);
     return kd_rotation_then(&both, &last);
 }
 
-/* From the hole's frame to the galactic one, for a camera at azimuth 0. */
+/* The rotation from the hole's frame to the galactic one, for a camera at azimuth 0. */
 static struct kd_rotation oriented(const struct kd_scene *scene)
 {
     const struct kd_vec pole = { 0, 0, 1 };

@@ -13,12 +13,12 @@ struct kd_vec kd_sky_direction(double longitude, double latitude); /* radians */
 struct kd_vec kd_rotate(const struct kd_rotation *by, struct kd_vec v);
 struct kd_rotation kd_rotation_then(const struct kd_rotation *first, const struct kd_rotation *then);
 
-/* From equatorial to galactic: the pole at RA 192.85948, Dec 27.12825 degrees, the equatorial pole at l = 122.93192
- * (J2000 by ESA, The Hipparcos Catalogue, vol. 1, 1.5.3). */
+/* The rotation from equatorial to galactic directions: the pole is at RA 192.85948, Dec 27.12825 degrees, the
+ * equatorial pole at l = 122.93192 (J2000 by ESA, The Hipparcos Catalogue, vol. 1, 1.5.3). */
 struct kd_rotation kd_rotation_galactic(void);
 
-/* From directions in which rays escape, with azimuth measured from the observer's, to galactic ones. Depends on
- * sky.orientation, sky.tilt_deg, sky.turn_deg and the camera's azimuth. */
+/* The rotation from directions in which rays escape, with azimuth measured from the observer's, to galactic directions.
+ * Depends on sky.orientation, sky.tilt_deg, sky.turn_deg and the camera's azimuth. */
 struct kd_rotation kd_sky_rotation(const struct kd_scene *scene);
 
 #endif

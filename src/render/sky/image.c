@@ -23,7 +23,7 @@ static uint32_t sample(const struct kd_png *png, size_t at)
     return png->bit_depth == 16 ? ((const uint16_t *)png->pixels)[at] : ((const uint8_t *)png->pixels)[at];
 }
 
-/* A texel of the target covers [from, end) of the source; this is the length of pixel k within it. */
+/* A texel of the target covers [from, end) of the source. Returns the length of source pixel k within this range. */
 static double part(double from, double end, uint32_t k) { return fmin(end, k + 1.0) - fmax(from, k); }
 
 /* One row of the file, averaged over areas to the width of the target. */
@@ -44,7 +44,7 @@ static void narrow_row(const struct kd_png *png, const float *curve, uint32_t y,
     }
 }
 
-/* line, sum: scratch for one row of the target each. */
+/* Averages the file over areas to the target. line, sum: scratch for one row of the target each. */
 static void average(const struct kd_png *png, const float *curve, const struct kd_sky_picture *out, double *line,
                     double *sum)
 {
@@ -109,7 +109,7 @@ enum kd_status kd_sky_image(const void *data, size_t size, struct kd_sky_picture
     struct kd_error why = { 0 };
     enum kd_status status;
     *out = (struct kd_sky_picture) { 0 };
-    KD_TRY(kd_png_look(data, size, &about, &why)); /* reads the size before memory for it is allocated */
+    KD_TRY(kd_png_look(data, size, &about, &why)); /* reads the size before memory is allocated */
     if (!kd_asset_is_panorama(about.width, about.height))
         KD_TRY(kd_error_set(&why, KD_EINVAL,
                             "a picture of %u x %u pixels; it must be one of the whole sky, twice as wide as it is "

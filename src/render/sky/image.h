@@ -1,8 +1,8 @@
 /* Reads sky.image, a picture of the whole sky in a PNG file. Pure; any thread.
  *
- * The file has 8 or 16 bits a channel, is taken as sRGB whatever it declares, and has the axes of panorama.h. It is
- * resampled by area averages to the power of two of rows that is nearest to its own, at most KD_SKY_IMAGE_ROWS: what
- * a device can bind at once, 5.3 minutes of arc a texel. White becomes 1. */
+ * The file has 8 or 16 bits a channel, is taken as sRGB whatever it declares, and has the axes of panorama.h. The
+ * picture is resampled by area averages. Its rows become the power of two nearest to their number, at most
+ * KD_SKY_IMAGE_ROWS: what a device can bind at once, 5.3 minutes of arc a texel. White becomes 1. */
 #ifndef KD_RENDER_SKY_IMAGE_H
 #define KD_RENDER_SKY_IMAGE_H
 

@@ -1,9 +1,9 @@
 /* The procedural Milky Way: a smooth band and a bulge, star clouds, and dust in front of them, from noise with a seed.
  *
- * The profiles are fits by eye to photographs. The dust absorbs 1.35 times as much of blue light as of green, and
- * 0.72 times of red (J. Cardelli, G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as bright as the real one:
- * some 21 magnitudes a square arcsecond at its brightest, a tenth of that 30 degrees from it (C. Leinert et al.
- * 1998, A&AS 127, 1, section 10). Its details correspond to nothing in the real sky. */
+ * The profiles are fits by eye to photographs. The dust absorbs 1.35 times as much of blue light as of green, and 0.72
+ * times as much of red (J. Cardelli, G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as bright as the real one:
+ * some 21 magnitudes a square arcsecond at its brightest place, and a tenth of that light 30 degrees from there (C.
+ * Leinert et al. 1998, A&AS 127, 1, section 10). The details of the picture correspond to nothing in the real sky. */
 #include "render/sky/panorama.h"
 
 #include "base/random.h"
@@ -64,7 +64,7 @@ static float octaves(const struct clouds *c, const float n[3], const struct octa
     return sum;
 }
 
-/* Values shared by all directions of one longitude, and of one latitude; degrees. */
+/* Values shared by all directions of one longitude, or of one latitude; degrees. */
 struct along { float l, cos, sin, inwards, inner; };
 struct across { float b, cos, sin, near, far, contrast, halo; };
 
@@ -88,8 +88,8 @@ static struct across across_of(float b)
                              0.018f * expf(-above / 26) };
 }
 
-/* Smooth components: noise of few cells changes little from texel to texel. It is computed at every STEP-th column
- * and row, at least five of these a cell, and interpolated. FIRST, SECOND: octaves of the filaments, before `ridge`. */
+/* Smooth components. Noise of few cells changes little from texel to texel. So it is computed at every STEP-th column
+ * and row, at least five of them a cell, and interpolated. FIRST, SECOND: octaves of the filaments, before `ridge`. */
 enum { STEP = 4, FEW = 2, NODES = KD_MILKY_WAY_WIDTH / STEP };
 enum smooth { CLOUDS, BENT, WARP_X, WARP_Y, PATCHES, FIRST, SECOND, SMOOTH };
 #define DUSTY 32.0f /* degrees from the plane: there is no dust beyond */
@@ -115,7 +115,7 @@ static void smooth_at(const struct clouds *c, const float n[3], bool dusty, floa
     out[SECOND] = octaves(c, warped, &filaments[1]);
 }
 
-/* Starlight of a direction before dust: the band, reddish towards the middle. */
+/* Starlight from a direction, before extinction by dust: the band, which is redder towards the galactic centre. */
 static void starlight(const struct clouds *c, const float n[3], const float smooth[SMOOTH], const struct along *l,
                       const struct across *b, float rgb[3])
 {
@@ -191,7 +191,7 @@ static void paint_row(const struct clouds *c, const struct along *columns, uint3
 struct painter {
     struct clouds clouds;
     struct along *columns;
-    float (*nodes)[SMOOTH]; /* of two rows */
+    float (*nodes)[SMOOTH]; /* nodes of two rows */
 };
 
 static void finish(struct painter *p)

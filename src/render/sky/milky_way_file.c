@@ -43,12 +43,13 @@ static struct head head_of(int32_t seed, const uint32_t *words)
     return head;
 }
 
-/* Another version of this program or of its mathematics library may compute another picture. */
+/* Whether this program would compute the same picture. Another version of it or of its mathematics library may compute
+ * another. */
 static bool is_ours(int32_t seed, const uint32_t *words)
 {
     static const uint32_t rows[] = {
         5, 301, 422, 483, 512, 561, 702, 1022
-    }; /* at the poles, in clouds, in dust, at nodes and between them */
+    }; /* rows at the poles, in clouds, in dust, at nodes and between nodes */
     enum { N = sizeof rows / sizeof *rows };
     float *texels = malloc(sizeof(float) * 3 * N * KD_MILKY_WAY_WIDTH);
     bool same = texels && !kd_milky_way_rows(seed, rows, N, texels, NULL);

@@ -22,7 +22,7 @@ static uint32_t bits_of(float x)
     return bits;
 }
 
-/* 2^exponent, not denormal. */
+/* 2^exponent; the result must not be denormal. */
 static float power(int exponent)
 {
     const uint32_t bits = (uint32_t)(exponent + 127) << 23;
@@ -34,7 +34,7 @@ static float power(int exponent)
 /* Rounds x, at least 0 and below 2^22, to the nearest whole number: a float above 2^23 has no fraction bits. */
 static uint32_t rounded(float x) { return bits_of(x + 0x1p23f) & 0x7fffff; }
 
-/* Written without frexpf, ldexpf and lrintf: there are millions of texels, and these are function calls. */
+/* Written without frexpf, ldexpf and lrintf, because these are function calls and there are millions of texels. */
 uint32_t kd_panorama_pack(const float rgb[3])
 {
     float most = smaller(larger(larger(rgb[0], rgb[1]), rgb[2]), 65000);
@@ -71,8 +71,8 @@ static void halve(struct kd_sky_picture *p)
     p->height = height;
 }
 
-/* Replaces each texel of a row by the mean over `over` texels about it (fewer than the row has), the end texels by
- * their fraction. The row is periodic. */
+/* Replaces each texel of a row by the mean over `over` texels about it, where `over` is less than the row's length. The
+ * texels at both ends of this range count by their fraction within it. The row is periodic. */
 static void spread_row(float *row, uint32_t n, double over, double *sums)
 {
     for (int c = 0; c < 3; c++) {

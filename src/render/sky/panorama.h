@@ -19,12 +19,13 @@ struct kd_sky_picture {
     uint32_t width, height;
     float *texels;
     /* Texels of a row are narrower towards the poles. If set, each level is averaged along rows over 1/cos(latitude)
-     * texels, so that it is as coarse there as at the equator and the poles are not drawn as stars of many rays. */
+     * texels, so that a row is as coarse there as at the equator; otherwise the poles would look like stars with many
+     * rays. */
     bool even;
 };
 void kd_sky_picture_finish(struct kd_sky_picture *picture);
 
-/* Texels of all levels. */
+/* Number of texels of all levels together. */
 static inline size_t kd_panorama_words(uint32_t width, uint32_t height)
 {
     size_t sum = 0;
@@ -41,7 +42,8 @@ void kd_panorama_unpack(uint32_t word, float rgb[3]);
 /* The procedural Milky Way (milky_way.c) of sky.seed. KD_ENOMEM. Takes some tenths of a second. */
 enum { KD_MILKY_WAY_WIDTH = 2048, KD_MILKY_WAY_HEIGHT = 1024 };
 enum kd_status kd_milky_way(int32_t seed, struct kd_sky_picture *out, struct kd_error *error);
-/* Only some of its rows, one after the other into texels; identical to those of the whole picture, bit by bit. */
+/* Computes only some of the Milky Way's rows, one after the other into texels. They are identical, bit by bit, to the
+ * rows of the whole picture. */
 enum kd_status kd_milky_way_rows(int32_t seed, const uint32_t *rows, size_t n, float *texels, struct kd_error *error);
 
 /* Largest number of rows of a picture of the sky after it is read (image.h). */

@@ -9,7 +9,7 @@
 #define SLACK 0.05 /* rays: images this far outside a grid's part are examined as well */
 #define BESIDE 4.0 /* pixels: images this far outside the picture are examined as well */
 
-/* The part of one grid's rays, and their neighbours, as a map: from `column` and `row` on. */
+/* The rays of one grid's part and their neighbours, as a map that begins at the grid's `column` and `row`. */
 struct rim_map {
     const struct kd_rim *rim;
     const struct kd_rim_grid *grid;
@@ -77,8 +77,8 @@ static bool change_at(const struct rim_map *m, double column, double row, struct
     return true;
 }
 
-/* Pixels per square of rays, from the curve's points in the grid's table: five times as fast, and accurate enough
- * for an estimate. */
+/* Pixels per square of rays. Computed from the curve's points in the grid's table, which is five times as fast, and
+ * accurate enough for an estimate. */
 static double pixels(const void *of, double column, double row)
 {
     const struct rim_map *m = of;
@@ -115,7 +115,7 @@ static bool cell_of(double place, uint32_t all, uint32_t *first, double *part)
     return low >= 1 && low + 3 <= all;
 }
 
-/* By bicubic interpolation: rays are KD_RIM_STEP apart, so the error is about 1e-5 rad. */
+/* The tangent between rays by bicubic interpolation. Rays are KD_RIM_STEP apart, so the error is about 1e-5 rad. */
 static bool between(const void *of, double column, double row, struct kd_sky_tangent *out)
 {
     const struct rim_map *m = of;
@@ -140,8 +140,8 @@ static bool between(const void *of, double column, double row, struct kd_sky_tan
     return true;
 }
 
-/* Whether a place is at a border or beyond it. The tolerance is larger than the difference between results of
- * Newton's method from the two sides. */
+/* Whether a place is at a border or beyond it. The tolerance is larger than the difference between the results of
+ * Newton's method from both sides of the border. */
 static bool is_from(double place, double border) { return place > border - 1e-8; }
 
 /* Whether a place is in the grid's own part, and in the picture or close to it. */
@@ -164,7 +164,7 @@ static enum kd_status hand_on(void *user, const struct kd_star_image *image)
     const double u = turn_at(m, image->x), l = log_at(m, image->y);
     if (!is_from(u, m->grid->low_u) || is_from(u, m->grid->high_u) || !is_from(l, m->grid->low_l) ||
         is_from(l, m->grid->high_l))
-        return KD_OK; /* it belongs to another grid */
+        return KD_OK; /* the image belongs to another grid */
     if (!seen(m, image->x, image->y, &o.x, &o.y) || !change_at(m, image->x, image->y, &by))
         return KD_OK;
     const double area = by.xc * by.yr - by.yc * by.xr;

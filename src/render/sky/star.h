@@ -1,8 +1,8 @@
-/* The stars of a sky, as points: those of the Hipparcos catalogue, or as many random ones. Pure; any thread.
+/* The stars of a sky, as points: the stars of the Hipparcos catalogue, or as many random ones. Pure; any thread.
  *
- * Directions are galactic, J2000: x towards l = 0, b = 0, z towards the galactic pole. Fluxes are in units of the
- * light of one steradian of surface brightness KD_SKY_UNIT_MAG: F = 10^(-0.4 (V - 21)) square arcseconds. Diffuse
- * light and points thus keep their true ratio in the V band; sky.brightness multiplies both. */
+ * Directions are galactic, J2000: x towards l = 0, b = 0, z towards the galactic pole. Fluxes are in units of the light
+ * of one steradian of surface brightness KD_SKY_UNIT_MAG: F = 10^(-0.4 (V - 21)) square arcseconds. Diffuse light and
+ * points thus keep their true ratio in the V band; sky.brightness multiplies both. */
 #ifndef KD_RENDER_SKY_STAR_H
 #define KD_RENDER_SKY_STAR_H
 
@@ -18,7 +18,7 @@
 struct kd_star {
     float x, y, z;
     float flux;   /* sr, as above */
-    float kelvin; /* of the black body that has its colour */
+    float kelvin; /* temperature of the black body that has the star's colour, K */
 };
 struct kd_stars {
     struct kd_star *at; /* the brightest first */
@@ -28,10 +28,11 @@ struct kd_stars {
  * About 30 ms. */
 enum kd_status kd_stars_make(const struct kd_scene *scene, struct kd_stars *out, struct kd_error *error);
 void kd_stars_finish(struct kd_stars *stars);
-/* An upper bound on their number. */
+/* An upper bound on the number of stars that kd_stars_make returns. */
 size_t kd_stars_most(const struct kd_scene *scene);
 
-/* Flux of a magnitude V; temperature of a black body of colour B-V: F. J. Ballesteros 2012, EPL 97, 34008, eq. 14. */
+/* kd_star_flux: the flux of a magnitude V. kd_star_kelvin: the temperature of a black body of colour B-V: F. J.
+ * Ballesteros 2012, EPL 97, 34008, eq. 14. */
 double kd_star_flux(double magnitude);
 double kd_star_kelvin(double colour);
 

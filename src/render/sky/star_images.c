@@ -8,8 +8,8 @@
 #define SAME 1e-3  /* rays: two roots of one star nearer than this are the same image, unless only one is mirrored */
 #define FOLDED 0.2 /* rad: only cells up to this size are searched for folds */
 #define REACH \
-    0.5 /* fraction of a cell's size: where the map folds, stars so near to a corner or the middle of the cell are \
-           searched for */
+    0.5 /* fraction of a cell's size: where the map folds, stars this near to a corner or the middle of the cell are \
+         * searched for */
 #define BESIDE 0.35 /* rays: distance from the fold at which the search starts, on both sides */
 #define MARGIN 3.0  /* except at folds, an image is at most this many times as bright as its triangle indicates */
 
@@ -20,14 +20,14 @@ struct listed {
 struct told {
     double x, y;
     bool mirrored;
-    size_t before; /* index + 1 of the previous image of this star; 0: none */
+    size_t before; /* index + 1 of the previous reported image of this star; 0: none */
 };
 
 struct search {
     const struct kd_sky_map *map;
     struct listed *stars; /* sorted by z, ascending */
     size_t n;
-    size_t *near, n_near; /* indices of those that may be in the current cell and are bright enough */
+    size_t *near, n_near; /* indices of the stars that may be in the current cell and are bright enough */
     size_t *last;         /* index + 1 of each star's last reported image */
     struct told *told;
     size_t n_told, room;
@@ -41,7 +41,7 @@ static int by_z(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Index of the first star whose z is at least this. */
+/* Index of the first star whose z is at least the given z. */
 static size_t first_from(const struct search *s, double z)
 {
     size_t low = 0, high = s->n;
@@ -78,14 +78,14 @@ static enum kd_status tell(struct search *s, const struct listed *star, double x
     s->told[s->n_told++] = (struct told) { x, y, image.mirrored, s->last[image.star] };
     s->last[image.star] = s->n_told;
     kd_sky_steps_to(t, (struct kd_vec) { star->n.y, -star->n.x, 0 }, &image.x_by_azimuth,
-                    &image.y_by_azimuth); /* when the observer's azimuth grows, the sky turns the other way */
+                    &image.y_by_azimuth); /* when the observer's azimuth grows, the sky turns the other way round */
     return s->found(s->user, &image);
 }
 
-/* Corners of a triangle, clockwise as the picture is seen. The first has the right angle, the second is along
- * `across`, the third along `down`, +1 or -1. A star s = w0 a + w1 b + w2 c is inside if all w are positive
- * (Cramer's rule). The volume of a, b, c is twice the triangle's solid angle: that of a pixel, which has two
- * triangles. */
+/* Corners of a triangle, clockwise as the picture is seen. The first has the right angle, the second is along `across`,
+ * the third along `down`, +1 or -1. A star s = w0 a + w1 b + w2 c is inside if all w are positive (Cramer's rule). The
+ * volume of a, b, c is twice the solid angle of the triangle, which is the solid angle of a pixel, since a pixel has
+ * two triangles. */
 struct corner {
     double x, y;
     struct kd_vec n;
@@ -99,12 +99,12 @@ static struct kd_sky_tangent tangent_of(const struct corner *a, const struct cor
     return t;
 }
 
-/* A cell of four rays, clockwise; the stars that may be in it; whether the map folds there. */
+/* A cell of four rays, clockwise; the stars that may be in the cell; whether the map folds there. */
 struct cell {
     struct corner c[4];
     double side[4], across, size, pixels;
     bool folds;
-    double area, beside[2][2]; /* if it folds: its largest area, and places on both sides of the fold */
+    double area, beside[2][2]; /* if the cell folds: its largest area, and places on both sides of the fold */
 };
 
 /* Whether a star may be bright enough where the map takes a cell to a solid angle `area`. */
@@ -175,8 +175,8 @@ done:
 /* Four rows of rays with the cells between the middle two; NULL: the row does not exist. */
 struct rows { const struct kd_vec *of[4]; };
 
-/* The difference between the rays after and before one, over two steps. If one of them is missing, twice the
- * difference to the other. */
+/* The difference between the rays after and before a ray, over two steps. If one of them is missing, twice the
+ * difference between the ray and the other one. */
 static struct kd_vec difference(struct kd_vec middle, const struct kd_vec *before, const struct kd_vec *after)
 {
     const bool has_before = before && isfinite(before->x), has_after = after && isfinite(after->x);
@@ -202,7 +202,7 @@ static void find_fold(const struct kd_sky_map *map, const struct rows *rows, uin
                  d = area_at(map, rows, 2, next);
     const double mean = 0.25 * (a + b + c + d), gx = 0.5 * (b + d - a - c), gy = 0.5 * (c + d - a - b),
                  slope = hypot(gx, gy), off = -mean / slope;
-    cell->folds = fabs(off) < KD_STAR_ROOT_NEAR; /* also false if any of it is a NAN */
+    cell->folds = fabs(off) < KD_STAR_ROOT_NEAR; /* the result is also false if any number is a NAN */
     cell->area = 0.25 * fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(d)));
     for (int k = 0; k < 2; k++) {
         const double by = (off + (k ? BESIDE : -BESIDE)) / slope;

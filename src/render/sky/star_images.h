@@ -1,11 +1,11 @@
 /* Finds the images of stars under a map of rays to the sky: for each star the places of rays that end at it. Pure; any
  * thread.
  *
- * Neighbouring rays form triangles, which the map takes to triangles of the sky. A star within the latter has an
- * image in the former, at the same barycentric coordinates. From there Newton's method finds the ray that ends at
- * the star, if the map can follow single rays (star_root.h). Where the map folds between four rays, two images of a
- * star merge, and triangles miss both or report a false one; there each nearby star is searched from both sides of
- * the fold. A triangle with a side longer than `coarse` has no images. */
+ * Neighbouring rays form triangles, which the map takes to triangles of the sky. A star within a triangle of the sky
+ * has an image in the corresponding triangle of rays, at the same barycentric coordinates. From there Newton's method
+ * finds the ray that ends at the star, if the map can follow single rays (star_root.h). Where the map folds between
+ * four rays, two images of a star merge, and triangles miss both or report a false one. There each nearby star is
+ * searched from both sides of the fold. A triangle with a side longer than `coarse` has no images. */
 #ifndef KD_RENDER_SKY_STAR_IMAGES_H
 #define KD_RENDER_SKY_STAR_IMAGES_H
 
@@ -35,21 +35,24 @@ struct kd_sky_map {
     /* directions from which the rays of a row come, unit vectors; NAN where one does not escape */
     void (*row)(const void *of, uint32_t y, struct kd_vec *out);
     bool (*exact)(const void *of, double x, double y,
-                  struct kd_vec *out); /* the same of any single ray; false: unknown. NULL: no ray can be followed */
-    /* The map between its rays, except `area`, to 1e-3 of a ray; it saves exact rays where there is no image. False:
-     * unknown. NULL: unknown everywhere. */
+                  struct kd_vec *out); /* direction from which any single ray comes; false: unknown. NULL: no ray can be
+                                        * followed */
+    /* The linearised map at a place between rays, except `area`, accurate to 1e-3 of a ray. It saves following exact
+     * rays where there is no image. False: unknown. NULL: unknown everywhere. */
     bool (*between)(const void *of, double x, double y, struct kd_sky_tangent *out);
     bool (*wanted)(const void *of, double x,
                    double y); /* whether an image near this place must be reported, to 0.01 rays; NULL: always */
 };
 
-/* A place and the steps from it over which a solid angle is measured. Steps of 0: the derivative at the place. */
+/* A place, and steps from that place. A solid angle is measured over these steps. Steps of 0: the derivative at the
+ * place. */
 struct kd_star_stencil { double x, y, across, down; };
 
 struct kd_star_image {
     size_t star;               /* index in the list */
-    double x, y;               /* its place among the rays */
-    double solid_angle;        /* sr: the solid angle of the sky that the map makes of the square of four rays there */
+    double x, y;               /* the image's place among the rays */
+    double solid_angle;        /* sr: solid angle of the part of the sky to which the map takes the square of four rays
+                                * about the place */
     struct kd_star_stencil by; /* how solid_angle was measured */
     double x_by_azimuth, y_by_azimuth; /* change of the place per radian of the observer's azimuth */
     bool mirrored;                     /* left and right are exchanged */

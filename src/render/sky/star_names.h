@@ -12,12 +12,12 @@
 
 struct kd_star_name {
     size_t place;                   /* in the catalogue: kd_catalogue_star */
-    char name[KD_STAR_NAME];        /* "Vega"; "" if it has no proper name */
-    char designation[KD_STAR_NAME]; /* in that case "α Lyr", by J. Bayer or J. Flamsteed; else "" */
+    char name[KD_STAR_NAME];        /* "Vega"; "" if the star has no proper name */
+    char designation[KD_STAR_NAME]; /* "α Lyr", by J. Bayer or J. Flamsteed; "" if the star has none */
 };
 
-/* Reads the next one, the brightest first. *text: NULL at the first call; it becomes NULL after the last name, and
- * then *out is not set. */
+/* Reads the next name, that of the brightest star first. *text: NULL at the first call; it becomes NULL after the last
+ * name, and then *out is not set. */
 void kd_star_name_next(const char **text, struct kd_star_name *out);
 
 #endif

@@ -2,13 +2,14 @@
 
 #define NUDGE 1e-3   /* rays: step of the differences for the derivative */
 #define EXACT 1e-7   /* rays: convergence; the next step would be 1e-10 */
-#define BETWEEN 1e-4 /* rays: convergence on the interpolated map, which is not more accurate */
-#define STEADY 0.02  /* rays: after a step shorter than this, */
-/* and shorter than the last by this factor, the derivative is kept, as the next step shrinks by as much */
+#define BETWEEN 1e-4 /* rays: convergence on the interpolated map, which is not more accurate than this */
+#define STEADY 0.02  /* rays: the derivative is kept after a step that is shorter than this */
+/* The derivative is kept only if the step is also shorter than the step before by this factor, because the next step
+ * shrinks by as much. */
 #define SHRINKS 0.1
 #define DOUBTFUL \
-    1e-3 /* rad: next to a fold, a star to which the interpolated map comes so near may have an image, and is searched \
-          */
+    1e-3 /* rad: next to a fold, a star may have an image if the interpolated map comes this near to it; the image is \
+          * then searched */
 #define STEPS 30
 
 void kd_sky_steps_to(const struct kd_sky_tangent *from, struct kd_vec star, double *dx, double *dy)
@@ -17,7 +18,7 @@ void kd_sky_steps_to(const struct kd_sky_tangent *from, struct kd_vec star, doub
     *dy = kd_vec_volume(from->n, from->across, star) / from->area;
 }
 
-/* The derivative by differences to rays on one side of a place, or between both sides where `both`. */
+/* The derivative by differences to rays: on both sides of a place if `both`, otherwise on one side. */
 static bool set_slopes(const struct kd_sky_map *map, double x, double y, bool both, struct kd_sky_tangent *out)
 {
     struct kd_vec across, down, left = out->n, up = out->n;
@@ -31,8 +32,8 @@ static bool set_slopes(const struct kd_sky_map *map, double x, double y, bool bo
     return true;
 }
 
-/* A step of at most half a ray towards the star. Returns the length of the full step; not finite if there is no
- * direction. */
+/* Takes a step of at most half a ray towards the star. Returns the length of the full step, which is not finite if
+ * there is no direction. */
 static double step(const struct kd_sky_tangent *at, struct kd_vec star, double *x, double *y)
 {
     double dx, dy;

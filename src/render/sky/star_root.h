@@ -6,12 +6,12 @@
 
 #include <math.h>
 
-#define KD_STAR_ROOT_NEAR 1.5 /* rays: an image further than this from the start is not looked for */
+#define KD_STAR_ROOT_NEAR 1.5 /* rays: an image further from the start than this is not looked for */
 
 /* UNKNOWN: the map cannot follow the first ray. UNWANTED: there may be an image, but it need not be reported. */
 enum kd_star_root { KD_STAR_ROOT_NONE, KD_STAR_ROOT_FOUND, KD_STAR_ROOT_UNKNOWN, KD_STAR_ROOT_UNWANTED };
 
-/* Moves a place to the ray that ends at a star; *at becomes the linearised map there. */
+/* Moves a place to that of the ray that ends at a star; *at becomes the linearised map there. */
 enum kd_star_root kd_star_root(const struct kd_sky_map *map, struct kd_vec star, double *x, double *y,
                                struct kd_sky_tangent *at);
 

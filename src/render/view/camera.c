@@ -50,7 +50,7 @@ double kd_camera_twist(const struct kd_scene *scene)
     return falls ? kd_kerr_twist(kd_hole(at.spin), at.r) : 0;
 }
 
-/* Axes of the observer's frame. A valid scene has no observer where the frame does not exist. */
+/* Sets the axes of the observer's frame. A valid scene has no observer where the frame does not exist. */
 static void frame(struct kd_camera_exact *o, const struct kd_scene *scene, const struct kd_vantage *at)
 {
     const struct kd_observer_motion motion = kd_scene_observer(scene);
@@ -104,8 +104,8 @@ double kd_camera_pixel(const struct kd_scene *scene)
     return (isinf(c->r) ? c->field_m : 2 * tan(0.5 * c->fov_deg * (M_PI / 180))) / scene->image.width;
 }
 
-/* Bound on (sum of the terms' sizes) - (size of their sum): the constant counts twice, and the smaller of the other
- * two, which may cancel. */
+/* Bound on (sum of the terms' sizes) - (size of their sum): twice the constant, and twice the smaller of the other two
+ * terms, which may cancel. */
 static double more_than_sum(double constant, double across, double up)
 {
     return 2 * (fabs(constant) + fmin(fabs(across), fabs(up)));
@@ -124,7 +124,7 @@ static void bound_rounding(struct kd_camera_exact *o, double width, double heigh
         d_p = more_than_sum(o->c0y, x * o->cxy, y * o->cyy);
         most_l = fabs(o->c0x) + x * fabs(o->cxx) + y * fabs(o->cyx);
     } else {
-        const bool flat = o->sight == KD_SIGHT_PINHOLE; /* its directions are no shorter than 1 */
+        const bool flat = o->sight == KD_SIGHT_PINHOLE; /* a pinhole's unnormalised directions are no shorter than 1 */
         const double d_theta = flat ? fmin(all, more_than_sum(o->c0y, x * o->cxy, y * o->cyy)) : all,
                      d_phi = flat ? fmin(all, more_than_sum(o->c0z, x * o->cxz, y * o->cyz)) : all;
         o->size_e = fabs(o->e_t) + all * (fabs(o->e_r) + fabs(o->e_theta) + fabs(o->e_phi));
@@ -185,7 +185,8 @@ struct kd_camera_block kd_camera_block(const struct kd_scene *scene)
     return o;
 }
 
-/* At infinity alpha, beta, 0; else along e_r, e_theta, e_phi, of any length. */
+/* What determines the ray at a place of the picture. At infinity: (alpha, beta, 0). Otherwise: its direction, along
+ * e_r, e_theta, e_phi, of any length. */
 static struct vec direction(const struct kd_camera_exact *c, double px, double py)
 {
     double x = px - c->middle_x, y = c->middle_y - py, ahead = kd_camera_ahead(c->sight, c->turn_x, c->turn_y, &x, &y);
@@ -257,7 +258,7 @@ void kd_camera_label_towards(const struct kd_camera_exact *c, const double k[3],
                        c->dw_t - (c->dw_r * k[0] + c->dw_theta * k[1] + c->dw_phi * k[2]) * n < 0, out);
 }
 
-/* Labels cannot express E = 0; a ray with E = 1e-12 of what the observer measures differs by 1e-12. */
+/* Labels cannot express E = 0, so |E| is at least 1e-12 of what the observer measures; this changes a ray by 1e-12. */
 void kd_camera_label_of(double energy, double momentum, double up, bool outward, struct kd_camera_label *out)
 {
     double e = fabs(energy) < 1e-12 ? copysign(1e-12, energy) : energy;

@@ -6,7 +6,7 @@
 #include "render/view/layout.h"
 #include "scene/scene.h"
 
-/* The camera of the kernels before it is rounded. */
+/* The camera of the kernels before its numbers are rounded. */
 #define F(name) double name;
 #define U(name) uint32_t name;
 struct kd_camera_exact { KD_CAMERA_FIELDS_(F, U) };
@@ -37,17 +37,17 @@ double kd_camera_pixel(const struct kd_scene *scene);
 struct kd_camera_label {
     double alpha, beta;
     bool outward;  /* at a finite radius: whether the traced ray starts away from the hole */
-    double energy; /* at infinity, in units of the energy that the observer measures; not 0 */
+    double energy; /* energy at infinity, in units of the energy that the observer measures; not 0 */
 };
 /* Direction from which the ray at (x, y) arrives, in the observer's frame: a unit vector along e_r, e_theta, e_phi.
  * x and y count rays from the upper left one. The camera must be at a finite radius. */
 void kd_camera_direction(const struct kd_camera_exact *camera, double x, double y, double out[3]);
 
-/* As above, but the vector is not normalised; for a camera at infinity it is (alpha, beta, 0). */
+/* As kd_camera_direction, but the vector is not normalised; for a camera at infinity it is (alpha, beta, 0). */
 void kd_camera_look(const struct kd_camera_exact *camera, double x, double y, double out[3]);
 
-/* Place in the picture, in rays as above, at which the camera sees a direction of any length; at infinity the
- * direction is alpha and beta. False if the direction is behind a pinhole. */
+/* The place in the picture, in rays as in kd_camera_direction, at which the camera sees a direction of any length; at
+ * infinity the direction is alpha and beta. False if the direction is behind a pinhole. */
 bool kd_camera_seen(const struct kd_camera_exact *camera, const double direction[3], double *x, double *y);
 
 /* Labels from E, L/sin(theta), and beta |E|. */

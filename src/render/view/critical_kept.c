@@ -15,7 +15,7 @@ struct key {
 static struct kept {
     struct key key;
     struct kd_critical_pixels list; /* may be empty, with pixels NULL; that is cached as well */
-    uint64_t used;                  /* time of the last use, counted; 0: the slot is free */
+    uint64_t used;                  /* value of a counter at the last use; 0: the slot is free */
 } all[KD_CRITICAL_KEPT];
 static uint64_t now;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* guards all of the above */
@@ -45,7 +45,7 @@ static enum kd_status copy(const struct kd_critical_pixels *from, struct kd_crit
     return KD_OK;
 }
 
-/* The cached list of a key, or NULL. The lock must be held, as for the next three. */
+/* The cached list of a key, or NULL. The lock must be held, also for the next three functions. */
 static struct kept *find(const struct key *key)
 {
     for (size_t i = 0; i < KD_CRITICAL_KEPT; i++)

@@ -5,10 +5,10 @@
 
 #include "render/view/critical_pixels.h"
 
-#define KD_CRITICAL_KEPT 16                      /* cameras; the least recently used is evicted */
+#define KD_CRITICAL_KEPT 16                      /* number of cameras; the least recently used one is evicted */
 #define KD_CRITICAL_KEPT_BYTES ((size_t)4 << 20) /* total size of the lists; a longer list is not cached */
 
-/* The result of kd_critical_pixels_of, from the cache if possible. The caller finishes it. */
+/* Returns the list of kd_critical_pixels_of, from the cache if possible. The caller finishes it. */
 enum kd_status kd_critical_kept(const struct kd_scene *scene, struct kd_critical_pixels *out, struct kd_error *error);
 
 #endif

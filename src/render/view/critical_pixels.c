@@ -12,7 +12,8 @@ static const double straight = 0.05; /* largest distance, in pixels, of a chord'
 
 struct tile { uint64_t rows[TILE]; }; /* a bit a pixel; the lowest bit is leftmost */
 
-/* Tiles exist only where the curve passes, so that work and memory grow with its length and not with the picture. */
+/* Tiles of pixels exist only where the curve passes, so that work and memory grow with the length of the curve and not
+ * with the picture. */
 struct work {
     struct kd_critical curve;
     struct kd_camera_exact camera;
@@ -44,7 +45,8 @@ static struct spot turned(const struct kd_camera_exact *c, double right, double 
     return (struct spot) { c->middle_x + off * right / aside, c->middle_y - off * up / aside, true };
 }
 
-/* The inverse of kd_camera_label. half: 1, the upper half, or -1. */
+/* The place of a point of the curve in the picture: the inverse of kd_camera_label. half: 1, the upper half of the
+ * curve, or -1. */
 static struct spot project(const struct work *w, double along, double half)
 {
     struct kd_critical_point p = kd_critical_upper(&w->curve, along);
@@ -103,7 +105,8 @@ static void mark(struct work *w, struct spot a, struct spot b)
         }
 }
 
-/* Whether the curve between two spots may enter the picture; the curve is not much longer than their distance. */
+/* Whether the curve between two spots may enter the picture; that piece of the curve is not much longer than their
+ * distance. */
 static bool meets(const struct work *w, struct spot a, struct spot b)
 {
     double room = KD_CRITICAL_NEAR + hypot(a.x - b.x, a.y - b.y);
@@ -111,7 +114,7 @@ static bool meets(const struct work *w, struct spot a, struct spot b)
            fmin(a.y, b.y) - room <= w->height;
 }
 
-/* Draws the curve between two parameters in straight, short pieces; they are short because mark examines their
+/* Draws the curve between two parameters in short, straight pieces. They must be short because mark examines their
  * bounding boxes. */
 static void draw(struct work *w, double half, double from, struct spot a, double to, struct spot b, int depth)
 {
@@ -121,7 +124,7 @@ static void draw(struct work *w, double half, double from, struct spot a, double
     struct spot m = project(w, middle, half);
     bool whole = a.seen && m.seen && b.seen;
     if (depth == DEEPEST && whole && hypot(b.x - a.x, b.y - a.y) > 0.5 * w->whole)
-        return; /* a jump from one edge of a sphere to the other, or past what is behind a dome */
+        return; /* the curve jumps here: from one edge of a sphere to the other, or across the part behind a dome */
     if (whole && (depth == DEEPEST || (fabs(m.x - 0.5 * (a.x + b.x)) < straight &&
                                        fabs(m.y - 0.5 * (a.y + b.y)) < straight && hypot(b.x - a.x, b.y - a.y) < 24))) {
         mark(w, a, m);

@@ -32,8 +32,8 @@ void kd_critical_pixels_finish(struct kd_critical_pixels *pixels);
 /* Number of listed pixels above row y. */
 size_t kd_critical_pixels_above(const struct kd_critical_pixels *pixels, uint32_t y);
 
-/* The scene with the camera of these rays, for a lattice of `rays` rays a pixel. Its picture has `rays` times as
- * many steps each way, so that kd_camera_exact and kd_camera_block count places in steps of the lattice. */
+/* The scene with the camera of these rays, for a lattice of `rays` rays a pixel. Its picture has `rays` times as many
+ * steps along each axis, so that kd_camera_exact and kd_camera_block count places in steps of the lattice. */
 struct kd_scene kd_critical_camera(const struct kd_scene *scene, uint32_t rays);
 
 /* The rays of a pixel form a lattice of K rays: ray k is in column k and row (generator k + shift) mod K of a K x K
@@ -43,8 +43,8 @@ struct kd_scene kd_critical_camera(const struct kd_scene *scene, uint32_t rays);
 struct kd_critical_lattice { uint32_t rays, generator, shift; };
 struct kd_critical_lattice kd_critical_lattice(uint32_t rays); /* 1 to 256 */
 
-/* The square grid of side x side rays, which all pixels have where image.samples is `side`. It is marked by
- * generator 0, and shift holds the side. */
+/* The square grid of side x side rays that all pixels have if image.samples is `side`. It is marked by generator 0, and
+ * shift holds the side. */
 struct kd_critical_lattice kd_critical_grid(uint32_t side);
 /* Steps along a pixel's side in the picture of kd_critical_camera. */
 static inline uint32_t kd_critical_steps(const struct kd_critical_lattice *l)
@@ -52,7 +52,7 @@ static inline uint32_t kd_critical_steps(const struct kd_critical_lattice *l)
     return l->generator ? l->rays : l->shift;
 }
 
-/* Place of a ray in these steps. */
+/* Place of a ray, in steps of kd_critical_steps. */
 static inline struct kd_pixel kd_critical_place(const struct kd_critical_lattice *l, struct kd_pixel pixel,
                                                 uint32_t ray)
 {
@@ -61,8 +61,8 @@ static inline struct kd_pixel kd_critical_place(const struct kd_critical_lattice
     return (struct kd_pixel) { pixel.x * l->rays + ray, pixel.y * l->rays + (ray * l->generator + l->shift) % l->rays };
 }
 
-/* Four vectors from a ray of a lattice (not a grid) to neighbours; there is a neighbour at (x, y) and one at (-x,
- * -y) for each. They are the two shortest vectors that are not parallel, their sum and their difference. */
+/* Four vectors from a ray of a lattice (not a grid) to neighbours. For each vector (x, y) there is a neighbour at (x,
+ * y) and one at (-x, -y). They are the two shortest vectors that are not parallel, their sum and their difference. */
 struct kd_critical_neighbours {
     struct { int32_t x, y; } to[4];
 };

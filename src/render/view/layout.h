@@ -42,8 +42,8 @@ struct kd_beam_blur_push { KD_BEAM_BLUR_FIELDS_(F, U) };
 #undef F
 #undef U
 
-/* Sizes for post.comp: workgroups for a number of pixels; bytes of radiance that they read, in blocks of four
- * pixels; bytes of packed pixels that they write, a multiple of a workgroup's. */
+/* Sizes for post.comp: the workgroups for a number of pixels; the bytes of radiance that these read, in blocks of four
+ * pixels; the bytes of packed pixels that they write, a multiple of a workgroup's. */
 static inline uint32_t kd_post_groups(uint64_t pixels)
 {
     const uint64_t each = KD_GROUP_SIZE * KD_POST_PIXELS;
@@ -66,9 +66,9 @@ _Static_assert(sizeof(struct kd_slice) <= 128 && sizeof(struct kd_footprint_push
                    sizeof(struct kd_post_push) <= 128,
                "the push constants that every device has");
 
-/* Cameras of a frame, in one buffer at offsets at which a binding may begin. In order: rays of the grid; rays at the
- * critical curve; extra rays of refined pixels, on the grid and at the curve; rays that measure the remaining error;
- * the whole picture that this one may be a tile of. */
+/* Cameras of a frame, in one buffer at offsets at which a binding may begin. In order: for rays of the grid; for rays
+ * at the critical curve; for extra rays of refined pixels, on the grid and at the curve; for rays that measure the
+ * remaining error; for the whole picture of which this one may be a tile. */
 enum {
     KD_CAMERA_GRID,
     KD_CAMERA_CRITICAL,
@@ -144,7 +144,8 @@ _Static_assert(offsetof(struct kd_spec_transfer, traits) == 4 * KD_SPEC_TRAITS,
 #undef CHECK_BEAM_BLUR
 #undef TRAIT
 
-/* Index of the first plane of one quantity in a lens map with these quantities, and the number of all planes. */
+/* Index of the first plane of one quantity in a lens map with these quantities. kd_lens_planes: the number of all
+ * planes. */
 static inline uint32_t kd_lens_plane(uint32_t quantities, uint32_t orders, uint32_t quantity)
 {
     uint32_t before = quantities & (quantity - 1);

@@ -14,14 +14,15 @@ static void scale(double a[3], double by)
         a[i] *= by;
 }
 
-/* fraction of half the curve: nearer to its ends, where `up` loses digits, the curve is taken as a parabola */
+/* fraction of half the curve: nearer than this to the curve's ends, where `up` loses digits, the curve is taken as a
+ * parabola */
 #define ENDS 3e-4
 #define MIDST \
     1e-9 /* Fraction of ENDS: no point is nearer to an end, because light there stays in the observer's plane, which \
             null_bend.h does not follow. */
 
-/* A point of the upper half, along = 0 to 1. Near both ends all components are even functions of the distance to the
- * end, except up and beta, which are odd. */
+/* A point of the upper half of the curve, along = 0 to 1. Near both ends all components are even functions of the
+ * distance to the end, except up and beta, which are odd. */
 static struct kd_critical_point upper(const struct kd_critical *curve, double along)
 {
     const double end = along < 0.5 ? 0 : 1, t = fmax(fabs(along - end) / ENDS, MIDST);
@@ -102,8 +103,8 @@ static bool set_edges_between(struct kd_rim *o, const double p[2], const double 
     return true;
 }
 
-/* False if the curve does not go round the middle, or some of it is too far off. *least: its least distance from the
- * middle. */
+/* Sets all edges. False if the curve does not go round the middle, or some of the curve is too far from the middle.
+ * *least: the curve's least distance from the middle. */
 static bool set_edges(struct kd_rim *o, double d[KD_RIM_ANGLES][3], double *least)
 {
     double p[KD_RIM_ANGLES][2];
@@ -120,7 +121,7 @@ static bool set_edges(struct kd_rim *o, double d[KD_RIM_ANGLES][3], double *leas
     return true;
 }
 
-/* How differently the sky shifts at neighbouring points of the curve while a ray comes e times nearer to it. The
+/* How differently the sky shifts at neighbouring points of the curve while a ray comes e times nearer to the curve. The
  * shift is larger where light leaves its orbit more slowly (photon_shell.h). */
 static double winding(const struct kd_critical *curve)
 {

@@ -1,16 +1,16 @@
 /* Layout of the rim of the shadow, where images of stars are searched with extra rays. Next to the critical curve
- * neighbouring rays of a picture end too far apart for that. The extra rays are spaced by angle round the curve and by
- * the logarithm of the distance to it, in which every image order of the sky has the same width (docs/physics/sky.md).
- * rim_grid.h chooses the rays. Double precision; pure, any thread. The scene must be valid.
+ * neighbouring rays of a picture end too far apart for a search. The extra rays are spaced by the angle round the curve
+ * and by the logarithm of the distance to it, in which every image order of the sky has the same width
+ * (docs/physics/sky.md). rim_grid.h chooses the rays. Double precision; pure, any thread. The scene must be valid.
  *
- * The rim lies on a plane. For an observer at infinity it is (alpha, beta) about the curve's middle. For others it is
- * the tangent plane of the sky of directions at the curve's middle, with tangents of angles as coordinates. A place has
- * a turn u round the curve, KD_RIM_ANGLES for a whole turn, and l = log(off): its distance from the middle is 1 + off
- * times that of the curve's point.
+ * The rim lies on a plane. For an observer at infinity this is the plane of (alpha, beta) about the curve's middle. For
+ * other observers it is the tangent plane of the sphere of directions at the curve's middle, with tangents of angles as
+ * coordinates. A place has a turn u round the curve, KD_RIM_ANGLES for a whole turn, and l = log(off): its distance
+ * from the middle is 1 + off times that of the curve's point.
  *
- * The innermost rays are KD_RIM_LEAST from the curve. They are nearer if the brightest star could still be seen
- * there, down to KD_RIM_NEAREST. An image at `off` of a star of flux F has at least the radiance F off
- * (radius/pixel)^2, and not much more unless the star is next to a caustic. */
+ * The innermost rays are KD_RIM_LEAST from the curve. They are nearer if the brightest star could still be seen there,
+ * down to KD_RIM_NEAREST. An image at `off` of a star of flux F has at least the radiance F off (radius/pixel)^2, and
+ * not much more unless the star is next to a caustic. */
 #ifndef KD_RENDER_VIEW_RIM_H
 #define KD_RENDER_VIEW_RIM_H
 
@@ -22,20 +22,20 @@
 
 #define KD_RIM_LEAST 3e-5
 #define KD_RIM_NEAREST 1e-7     /* nearer than this, double precision loses 1e-6 rad and more */
-#define KD_RIM_BRIGHTEST 0.0235 /* sr: a star slightly brighter than Sirius, V = -1.5 (sky/star.h) */
+#define KD_RIM_BRIGHTEST 0.0235 /* flux in sr, of a star slightly brighter than Sirius: V = -1.5 (sky/star.h) */
 #define KD_RIM_SEEN 0.1         /* fraction of KD_STAR_LEAST; motion makes stars brighter */
-#define KD_RIM_PIXELS 14.0      /* width of the rim in pixels: there neighbouring pixels end far apart */
+#define KD_RIM_PIXELS 14.0      /* width of the rim in pixels; within it neighbouring pixels end far apart on the sky */
 #define KD_RIM_NOISE \
-    1.3e-3 /* The rim is at least this wide, times its radius in pixels: beyond that width the rounding of 32 bits, \
-              7e-6 over the distance, is less than half a percent of the step from pixel to pixel. */
-#define KD_RIM_MOST 1.0 /* its width is at most this fraction of its radius */
+    1.3e-3 /* The width of the rim is at least this times its radius in pixels: beyond that width the rounding of 32 \
+            * bits, 7e-6 over the distance, is less than half a percent of the step from pixel to pixel. */
+#define KD_RIM_MOST 1.0 /* the width of the rim is at most this fraction of its radius */
 
 struct kd_rim {
     bool there;
     /* relative distances from the curve: beyond `none` images come from the grid alone, within `full` from the rim
      * alone; between them their light is shared */
     double none, full;
-    double last; /* the least relative distance of its rays */
+    double last; /* the least relative distance from the curve of the rim's rays */
     /* rad, roughly: the most by which the sky shifts from one point of the curve to the next, from the first ray in
      * to the last */
     double winds;
@@ -43,7 +43,7 @@ struct kd_rim {
     bool flat;
     double ahead[3], right[3],
         up[3]; /* axes of the plane in the observer's frame; at infinity `ahead` is (alpha, beta) of the middle */
-    float edge[KD_RIM_EDGES]; /* distance of the curve from the middle, by angle from `right`; to 1e-4 */
+    float edge[KD_RIM_EDGES]; /* distance of the curve from the middle, by the angle from `right`; to 1e-4 */
     struct kd_critical curve;
 };
 

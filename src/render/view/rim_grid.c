@@ -14,10 +14,10 @@ enum { ROUND = 64, ACROSS = 20 };
 #define NUDGE 1e-4
 #define SLOW 0.6   /* rad: if a rim's `winds` is less, every second cell is measured */
 #define BESIDE 0.2 /* fraction of a cell's size in the picture by which it may extend beyond its corners */
-#define FEW 6.0    /* rad: a rim whose `winds` is less has too many rays in no picture */
+#define FEW 6.0    /* rad: if a rim's `winds` is less, the rim has too many rays in no picture */
 #define SPREAD 4.0 /* pixels: an image this far outside the picture may light some of it */
 
-/* by_u, by_l: shift of the sky along u and l; most_u, most_l: the largest of these here and half way to the
+/* by_u, by_l: shift of the sky along u and l; most_u, most_l: the largest such shift here and half way to the
  * neighbours; shown: solid angle of the sky that a pixel shows, sr. */
 struct cell {
     double by_u, by_l, most_u, most_l, shown;
@@ -29,7 +29,7 @@ struct part { int u0, u1, l0, l1; };
 struct layout {
     const struct kd_rim *rim;
     struct kd_sky_rays rays;
-    double first, du, dl; /* the logarithm at which the cells begin; the size of a cell */
+    double first, du, dl; /* first: the logarithm at which the cells begin; du, dl: the size of a cell */
     double step;
     struct cell of[ROUND][ACROSS];
     struct kd_rim_grids *out;
@@ -57,7 +57,7 @@ static double solid_angle(const double n[3], const double a[3], const double b[3
                 n[2] * (i[0] * j[1] - i[1] * j[0]));
 }
 
-/* Measures cells by the ray in their middle and two next to it. */
+/* Measures cells by the ray in their middle and two rays next to it. */
 static void measure(struct layout *o, int i, int j, int apart)
 {
     const double u = (i + 0.5 * apart) * o->du, l = o->first - (j + 0.5 * apart) * o->dl;
@@ -120,7 +120,8 @@ static void set_most(struct layout *o, int i, int j)
     }
 }
 
-/* Whether any of these cells, or a neighbour of one, is in the picture; neighbours enter the means of choose_cells. */
+/* Whether any of these cells, or a neighbour of one, is in the picture. Neighbours count because they enter the means
+ * of choose_cells. */
 static bool is_near_picture(const struct layout *o, int i, int j, int apart)
 {
     for (int u = i - 1; u <= i + apart; u++)
@@ -180,7 +181,7 @@ static void choose_cells(struct layout *o, double faintest)
         }
 }
 
-/* Shrinks a part to the cells that are wanted; false if none is. */
+/* Shrinks a part to the cells that are wanted; false if no cell is. */
 static bool tighten(const struct layout *o, struct part *p)
 {
     struct part t = { ROUND, 0, ACROSS, 0 };
@@ -264,7 +265,7 @@ static void divide(const struct layout *o, struct part p)
         return;
     }
     const struct kd_rim_grid g = grid_of(o, &p);
-    /* more than the limit: counts as too many */
+    /* a part that exceeds the limit counts as too many rays */
     o->out->rays += kd_rim_grid_rays(&g) <= KD_RIM_GRID_RAYS ? kd_rim_grid_rays(&g) : KD_RIM_RAYS + 1;
     if (o->out->n < KD_RIM_GRIDS)
         o->out->of[o->out->n] = g;

@@ -14,21 +14,22 @@
 #define KD_RIM_STEP 0.1      /* rad */
 #define KD_RIM_STEP_MOST 0.3 /* used where KD_RIM_STEP would take more than KD_RIM_RAYS */
 #define KD_RIM_RAYS \
-    (1u << 19) /* in all grids together, at most; if that is too few even with KD_RIM_STEP_MOST, only images that are \
-                  brighter are searched for */
+    (1u << 19) /* rays in all grids together, at most; if they are too few even with KD_RIM_STEP_MOST, only images \
+                * that are brighter are searched for */
 #define KD_RIM_GRIDS 192            /* at most */
-#define KD_RIM_GRID_RAYS (1u << 16) /* at most, of one */
+#define KD_RIM_GRID_RAYS (1u << 16) /* rays of one grid, at most */
 #define KD_RIM_HALO 3               /* extra rays on each side of the part */
 #define KD_RIM_SHARED_U 0.5
 #define KD_RIM_SHARED_L 0.05
 
-/* Ray (x, y) is at the turn u + x du and the logarithm l - y dl. */
+/* One grid. Ray (x, y) is at the turn u + x du and the logarithm l - y dl. */
 struct kd_rim_grid {
     double u, du, l, dl;
     uint32_t columns, rows;
-    /* its part, from low to high; infinite at the outermost and innermost borders */
+    /* the part of the rim that belongs to the grid, from low to high; infinite at the outermost and innermost
+     * borders */
     double low_u, high_u, low_l, high_l;
-    uint32_t first, table; /* offsets in the buffer, in numbers: of its rays and of its table */
+    uint32_t first, table; /* offsets of its rays and of its table in the buffer, counted in numbers */
 };
 
 struct kd_rim_grids {
@@ -39,14 +40,15 @@ struct kd_rim_grids {
     struct kd_rim_grid of[KD_RIM_GRIDS];
 };
 
-/* Makes the grids; n is 0 if there is no rim or none of it is seen. 3 to 15 ms. */
+/* Makes the grids; n is 0 if there is no rim or no part of it is seen. 3 to 15 ms. */
 void kd_rim_grids_of(const struct kd_scene *scene, const struct kd_rim *rim, struct kd_rim_grids *out);
 
-/* Whether even KD_RIM_STEP_MOST takes too many rays, so that fainter images are left out. About 5 ms for a fast
- * hole, no time for others. */
+/* Whether even KD_RIM_STEP_MOST takes too many rays, so that fainter images are left out. Takes about 5 ms for a fast
+ * hole, and no time for others. */
 bool kd_rim_is_thinned(const struct kd_scene *scene, const struct kd_rim *rim);
 
-/* Solid angle of the sky, sr, that a pixel may show with Sirius still visible; with some margin, since it varies. */
+/* Largest solid angle of the sky, sr, that a pixel may show with Sirius still visible; with some margin, since the
+ * brightness varies. */
 #define KD_RIM_FAINTEST (3.3 * KD_RIM_BRIGHTEST / KD_STAR_LEAST)
 
 /* Layout of the buffer: the rim's edges (KD_RIM_EDGES numbers), then for each grid the directions of its rays

@@ -12,7 +12,8 @@ enum {
     LEAST = 9, /* least number of intervals along a side of a grid */
     MOST = 96,
     ASIDE = 4, /* lines across the grid on which a number of intervals is tried */
-    SHARED = 4 /* up to this many grids the threads share each grid; beyond, each thread takes whole grids */
+    SHARED = 4 /* up to this many grids the threads work together on each grid; if there are more, each thread takes
+                * whole grids */
 };
 
 /* A ray has four angles: turn, drag, t_theta, t_phi. */
@@ -22,7 +23,7 @@ struct angles { double of[ANGLES]; };
 struct follower {
     const struct kd_rim *rim;
     struct kd_sky_rays rays;
-    bool alone; /* one thread fills this grid, since others fill other grids */
+    bool alone; /* only one thread fills this grid, since others fill other grids */
 };
 
 static void run_each(const struct follower *f, size_t n, void (*each)(void *user, size_t item), void *user)
@@ -103,7 +104,7 @@ static bool follow_on(const struct follower *f, bool along_u, double place, doub
     return along_u ? follow(f, place, line, out) : follow(f, line, place, out);
 }
 
-/* 1 if n intervals are accurate enough along a line, 0 if not, -1 if rays do not escape. */
+/* Whether n intervals are accurate enough along a line: 1 if they are, 0 if not, -1 if rays do not escape. */
 static int serves(const struct follower *f, const struct side *s, int n, bool along_u, double line)
 {
     struct angles at[MOST + 1], want;
@@ -121,7 +122,7 @@ static int serves(const struct follower *f, const struct side *s, int n, bool al
         if (!follow_on(f, along_u, place, line, &want))
             return -1;
         if (apart(&sum, &want) >
-            0.1 * KD_RIM_EXACT) /* between the lines the error is larger; so is that of images next to a caustic */
+            0.1 * KD_RIM_EXACT) /* between the lines the error is larger; so is the error of images next to a caustic */
             return 0;
     }
     return 1;
@@ -163,7 +164,7 @@ struct sheet {
     const struct kd_rim_grid *grid;
     struct side u, l;
     struct angles at[MOST + 1][MOST + 1]; /* rows of l */
-    double *columns;                      /* by row and angle, for all columns */
+    double *columns;                      /* values by row and angle, for all columns */
     float *out;
     _Atomic bool escapes; /* whether every ray of the sheet escapes */
 };
@@ -239,7 +240,7 @@ static void fill_row(void *user, size_t row)
     }
 }
 
-/* Follows each ray of a row, where no polynomial of MOST intervals is accurate enough; 10 us a ray. */
+/* Follows each ray of a row by itself, where no polynomial of MOST intervals is accurate enough; 10 us a ray. */
 static void follow_row(void *user, size_t row)
 {
     struct sheet *o = user;
@@ -300,7 +301,7 @@ struct fill {
     struct follower f;
     const struct kd_rim_grids *grids;
     float *out;
-    _Atomic int status; /* of the first grid that failed: KD_ENOMEM or KD_EINVAL */
+    _Atomic int status; /* error of the first grid that failed: KD_ENOMEM or KD_EINVAL */
 };
 
 static void fill_grid(void *user, size_t i)

@@ -1,10 +1,10 @@
-/* Follows the rays of the rim (rim_grid.h) in double precision: so near to the critical curve 32 bits lose 1e-4 to 1e-2
- * rad of a ray's final direction.
+/* Follows the rays of the rim (rim_grid.h) in double precision: so near to the critical curve single precision loses
+ * 1e-4 to 1e-2 rad of a ray's final direction.
  *
  * The angles of physics/null/null_bend.h are smooth functions of the curve's point and of the logarithm of the
  * distance. In each grid they are computed at some tens to hundreds of rays and interpolated to the others by
- * polynomials through Chebyshev extrema, along the curve and across it. The number of nodes is chosen so that rays
- * between them are met within KD_RIM_EXACT. Pure; any thread. */
+ * polynomials through Chebyshev extrema, along the curve and across it. The number of nodes is chosen so that the
+ * interpolation at rays between them is accurate to KD_RIM_EXACT. Pure; any thread. */
 #ifndef KD_RENDER_VIEW_RIM_SKY_H
 #define KD_RENDER_VIEW_RIM_SKY_H
 

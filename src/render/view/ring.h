@@ -1,9 +1,9 @@
-/* The ring projection: across the picture runs the angle round the critical curve, upwards the distance to it as a
- * signed logarithm. Every image order has then the same width. Double precision; pure, any thread. The scene must be
- * valid and project a ring.
+/* The ring projection. Across the picture runs the angle round the critical curve; upwards runs the distance to the
+ * curve as a signed logarithm. Every image order then has the same width. Double precision; pure, any thread. The scene
+ * must be valid and project a ring.
  *
- * Across, left to right: one turn about the curve's centre, with camera.roll_deg in the middle; angle 0 is where
- * alpha > 0 (physics/null/critical.h). Upper half: outside the curve, from d = 10^ring_decades_max at the top to
+ * Across, left to right: one turn about the curve's centre, with camera.roll_deg in the middle; angle 0 is where alpha
+ * > 0 (physics/null/critical.h). Upper half: outside the curve, from d = 10^ring_decades_max at the top to
  * 10^ring_decades_min at the middle. Lower half: inside the curve, mirrored. d = rho/rho_c - 1
  * (physics/null/lensing.h). Rays go through the centres of their rows and columns. */
 #ifndef KD_RENDER_VIEW_RING_H
@@ -21,11 +21,11 @@ struct kd_ring {
 
 struct kd_ring kd_ring_of(const struct kd_scene *scene);
 
-/* The curve's point of a column, and the distance d of a row. */
+/* The point of the critical curve for a column. kd_ring_distance: the distance d of a row. */
 struct kd_critical_point kd_ring_column(const struct kd_ring *ring, uint32_t x);
 double kd_ring_distance(const struct kd_ring *ring, uint32_t y);
 
-/* Labels of the ray in a column and row. alpha and beta represent d to a relative error of 1e-15 / d. */
+/* Labels of the ray in a column and row. The relative error of d, computed back from alpha and beta, is 1e-15 / d. */
 struct kd_camera_label kd_ring_label(const struct kd_ring *ring, const struct kd_critical_point *column, uint32_t y);
 
 #endif

@@ -1,4 +1,4 @@
-/* Follows one ray of a camera to the sky in double precision by closed form, for any direction of look
+/* Follows one ray of a camera to the sky in double precision by closed form, for any direction
  * (physics/null/null_bend.h). Pure; any thread. */
 #ifndef KD_RENDER_VIEW_SKY_RAY_H
 #define KD_RENDER_VIEW_SKY_RAY_H

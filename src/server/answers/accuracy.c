@@ -1,5 +1,5 @@
-/* GET /v1/accuracy: the table that `kerrd bench accuracy` stores for this device. Workers read it, because a disk may
- * be slow. */
+/* GET /v1/accuracy: the table that `kerrd bench accuracy` stores for this device. A worker reads the table, because a
+ * disk may be slow. */
 #include "server/http/reply.h"
 #include "server/render/queue.h"
 #include "server/render/task.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 struct reading {
-    struct kd_task task; /* first member */
+    struct kd_task task; /* must be the first member */
     struct kd_buffer json;
 };
 

@@ -54,9 +54,9 @@ static void write_picture(struct kd_json *json, const struct kd_asset_about *abo
     kd_json_number(json, "channels", about->channels);
 }
 
-/* Writes {"sha256", "type", "bytes", "created"}; for a picture also "width", "height", "bit_depth" and "channels", for
- * a grid "nodes" and "spin", for an observation "visibilities" and "stations"; and for the client that has uploaded it
- * the token. */
+/* Writes {"sha256", "type", "bytes", "created"}. Further members: of a picture "width", "height", "bit_depth" and
+ * "channels"; of a grid "nodes" and "spin"; of an observation "visibilities" and "stations". The client that has
+ * uploaded the asset also gets its token. */
 static enum kd_status to_json(const struct kd_asset_about *about, bool token, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
@@ -72,19 +72,20 @@ static enum kd_status to_json(const struct kd_asset_about *about, bool token, st
     return kd_json_finish_line(&json);
 }
 
-/* An upload, which workers hash and write. */
+/* State of an upload. Workers hash and write the asset. */
 struct putting {
-    struct kd_task task; /* first member */
+    struct kd_task task; /* must be the first member */
     struct kd_asset_put put;
 };
 
-/* On the HTTP thread, which does not wait for the disk. */
+/* Answers. Runs on the HTTP thread, which does not wait for the disk. */
 static void finish(struct kd_task *task)
 {
     struct putting *p = (struct putting *)task;
     const struct kd_server *server = task->request->server;
     kd_asset_put_finish(&p->put);
-    if (p->put.created && task->request->status != MHD_HTTP_CREATED) /* the client does not know it */
+    /* the answer was not sent, so the client does not know the new asset */
+    if (p->put.created && task->request->status != MHD_HTTP_CREATED)
         kd_asset_store_remove_later(server->assets, p->put.asset, server->turns);
     if (p->put.asset)
         kd_asset_release(server->assets, p->put.asset);
@@ -142,8 +143,8 @@ static enum MHD_Result deliver(struct kd_request *request)
 
 static const struct kd_task_kind KIND = { "assets", sizeof(struct putting), work, finish };
 
-/* Whether Content-Type contradicts the first bytes; text then holds the message. Bytes of an unknown kind are refused
- * when they are parsed. */
+/* Whether Content-Type contradicts the first bytes. If so, `text` holds the message. Bytes of an unknown kind are
+ * refused later, when they are parsed. */
 static bool wrong_type(const struct kd_request *request, char text[200])
 {
     static const struct {
@@ -185,8 +186,8 @@ static enum MHD_Result put(struct kd_request *request)
     return p ? kd_task_submit(&p->task) : refused;
 }
 
-/* Answers with the number and size of assets and the limits, without hashes, because whoever knows a hash may download
- * the asset. */
+/* Answers with the number and size of assets and the limits. It does not list hashes, because whoever knows a hash may
+ * download the asset. */
 enum MHD_Result kd_handle_assets(struct kd_request *request)
 {
     enum MHD_Result refused;
@@ -239,7 +240,7 @@ static void release(void *cls)
     free(s);
 }
 
-/* Takes over the reference. The bytes at this address never change. */
+/* Sends an asset's bytes and takes over the reference to it. The bytes at this address never change. */
 static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *asset)
 {
     const struct kd_asset_about *about = kd_asset_about(asset);
@@ -262,9 +263,9 @@ static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *a
                                                .cls = s });
 }
 
-/* A deletion, which runs on a worker: when it is answered the files are deleted. */
+/* State of a deletion. It runs on a worker, so that the files are deleted when the request is answered. */
 struct removing {
-    struct kd_task task; /* first member */
+    struct kd_task task; /* must be the first member */
     struct kd_asset *asset;
     bool was;
 };
@@ -306,7 +307,7 @@ static enum MHD_Result deliver_removal(struct kd_request *request)
                   : refuse_unknown(request);
 }
 
-/* Takes over the reference. */
+/* Begins a deletion and takes over the reference to the asset. */
 static enum MHD_Result begin_removal(struct kd_request *request, struct kd_asset *asset)
 {
     enum MHD_Result refused = MHD_NO;

@@ -1,5 +1,5 @@
 /* POST /v1/line and other integrals over a thin disk or over pictures of a scene (integral/run.h). A worker computes
- * them, and has their pictures rendered one after another. */
+ * the integral, and lets the render queue render its pictures one after another. */
 #include "integral/run.h"
 #include "server/asset/store.h"
 #include "server/http/negotiate.h"
@@ -11,22 +11,23 @@
 #include <string.h>
 
 #define OFFERED "application/json, text/csv, " KD_NPY_TYPE
-/* estimated time of one product, of a pixel (or one image order of it) and a baseline, on one core */
+/* estimated time of one product on one core; a product combines one pixel, or one image order of a pixel, with a
+ * baseline */
 #define NS_A_PRODUCT 1.2
-#define BYTES_PER_ROW (KD_INTEGRAL_COLUMNS * (sizeof(double) + 26)) /* with its text */
+#define BYTES_PER_ROW (KD_INTEGRAL_COLUMNS * (sizeof(double) + 26)) /* including the number's text */
 
 static const char *const types[] = { [KD_INTEGRAL_JSON] = "application/json",
                                      [KD_INTEGRAL_CSV] = "text/csv",
                                      [KD_INTEGRAL_NPY] = KD_NPY_TYPE };
 
 struct job {
-    struct kd_task task; /* first member */
+    struct kd_task task; /* must be the first member */
     struct kd_integral_request request;
     enum kd_integral_format format;
     bool malformed;
     enum { NEW, RENDERS, SUMS } stage;
     struct kd_integral_run run;
-    struct kd_render_job picture; /* in the render queue in the stage RENDERS */
+    struct kd_render_job picture; /* it is in the render queue in the stage RENDERS */
     struct kd_buffer text;
 };
 
@@ -79,8 +80,8 @@ static enum kd_status begin(struct job *job, struct kd_error *error)
         return status;
     KD_TRY(plan_pictures(job, &bytes, error));
     KD_TRY(kd_task_hold(task->request->server, task->turns.client, bytes, &task->held, &task->quota, error));
-    /* Without pictures the integral is one piece: mostly some hundredths of a second, and 0.3 s for the largest
-     * request. */
+    /* An integral without pictures is computed in one slice: mostly in some hundredths of a second, and in 0.3 s for
+     * the largest request. */
     KD_TRY(kd_integral_run_begin(&job->run, &job->request, error));
 done:
     return status;
@@ -99,7 +100,8 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
     struct kd_request *request = job->task.request;
     struct kd_render_queue *renders = request->server->renders;
     struct kd_capacity capacity;
-    /* Only the first picture needs admission; the others take its place, so that a request is not refused halfway. */
+    /* Only the first picture needs admission. The later ones take its place, so that a request is not refused
+     * halfway. */
     enum kd_status status =
         job->run.picture ? KD_OK : kd_render_queue_admit(renders, request->client, &job->task.quota, error);
     if (status)
@@ -121,7 +123,7 @@ done:
     return status;
 }
 
-/* Runs one piece. *end: more is to be done, or a picture is being rendered. */
+/* Runs one slice. *end: whether there is more to do or a picture is being rendered. */
 static enum kd_status piece(struct job *job, double until_ms, enum kd_slice_result *end, struct kd_error *error)
 {
     enum kd_status status = KD_OK;

@@ -41,7 +41,7 @@ struct counts {
     struct kd_playground_sessions_counts plays;
 };
 
-/* Runs on the thread of the health routes, which must not block: if a lock is held for long, for example while a job is
+/* Runs on the thread of the health routes, which must not block. If a lock is held for long, for example while a job is
  * written to a slow disk, the last values are reported. */
 static struct counts count(struct kd_server *server)
 {

@@ -1,4 +1,4 @@
-/* POST /v1/orbits: workers integrate the orbits in slices. A long answer may be streamed meanwhile. */
+/* POST /v1/orbits: workers integrate the orbits in slices. A long answer may be streamed during the integration. */
 #include "server/answers/orbits.h"
 
 #include "orbit/feed.h"
@@ -13,9 +13,9 @@
 #include <string.h>
 
 #define OFFERED "application/json, application/x-ndjson, text/csv, " KD_NPY_TYPE
-/* unsent bytes of a stream at which the integration pauses; it continues at a quarter of this */
+/* unsent bytes of a stream at which the integration pauses; it continues when a quarter of this is left */
 #define FULL (1u << 20)
-#define BYTES_PER_SAMPLE 220 /* estimates for the size of an answer as text */
+#define BYTES_PER_SAMPLE 220 /* estimated sizes as text: of a sample, and of an orbit */
 #define BYTES_PER_ORBIT 2400
 
 static const char *const types[] = { [KD_ORBIT_JSON] = "application/json",
@@ -25,18 +25,18 @@ static const char *const types[] = { [KD_ORBIT_JSON] = "application/json",
 
 /* A job with two owners, the request and the scheduler; the last one to release it frees it. */
 struct kd_orbits_job {
-    struct kd_scheduler_job turns; /* first member */
+    struct kd_scheduler_job turns; /* must be the first member */
     struct kd_server *server;
     _Atomic unsigned holders;
     enum kd_orbit_format format;
-    struct kd_request *owner; /* valid in the first turn only, while the request is suspended */
+    struct kd_request *owner; /* valid in the first slice only, while the request is suspended */
     struct kd_orbit_request request;
     struct kd_orbit_feed feed;
     double submitted_ms, begun_ms, deadline_ms, queue_ms, run_ms;
     size_t held;
     enum { READING, RUNNING } state;
 
-    pthread_mutex_t lock;       /* for all members below */
+    pthread_mutex_t lock;       /* protects all members below */
     struct MHD_Connection *mhd; /* NULL once the request is closed */
     int socket;
     bool suspended, full, finished;
@@ -67,12 +67,12 @@ void kd_orbits_job_abandon(struct kd_orbits_job *job)
     job->mhd = NULL;
     bool wake = !job->finished;
     pthread_mutex_unlock(&job->lock);
-    if (wake) /* the scheduler still has it; if it is being finished, nothing is parked */
+    if (wake) /* the job is still in the scheduler; if it is about to finish, it is not parked */
         kd_scheduler_wake(job->server->turns, &job->turns);
     unref(job);
 }
 
-/* Called with the lock. */
+/* Resumes the connection of the request, if it is suspended. Called with the lock. */
 static void resume(struct kd_orbits_job *job)
 {
     if (job->suspended && job->mhd) {
@@ -122,7 +122,7 @@ static enum kd_status read_body(struct kd_orbits_job *job, struct kd_error *erro
     return status;
 }
 
-/* Whether `out` has room for another piece; frees the part that was sent. Called with the lock. */
+/* Whether `out` has room for what another slice produces; frees the part that was sent. Called with the lock. */
 static bool has_room(struct kd_orbits_job *job)
 {
     if (job->format != KD_ORBIT_NDJSON)
@@ -202,7 +202,7 @@ static void done(struct kd_scheduler_job *turns)
     unref(job);
 }
 
-/* Appends an error to the stream, since the status line was sent before. Called with the lock. */
+/* Appends an error to the stream, since the status line is already sent. Called with the lock. */
 static void say_in_stream(struct kd_orbits_job *job)
 {
     struct kd_problem problem = kd_problem_from(&job->error);
@@ -270,7 +270,7 @@ static enum MHD_Result deliver(struct kd_request *request)
         return refuse(request, &job->error, job->malformed, job->quota);
     if (job->format == KD_ORBIT_NDJSON) {
         response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 32u << 10, produce, job, NULL);
-        /* sets the deadline to that of the integration */
+        /* sets the deadline for the answer to that of the integration */
         request->reply_bytes = (unsigned long)job->server->longest_s << 24;
         if (response)
             MHD_add_response_header(response, "Content-Type", types[job->format]);

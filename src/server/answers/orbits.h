@@ -4,7 +4,7 @@
 
 struct kd_orbits_job;
 
-/* Releases the job of a closed request, which ends it at its next turn. HTTP thread; accepts NULL. */
+/* Releases the job when its request closes. The job then ends at its next slice. HTTP thread; accepts NULL. */
 void kd_orbits_job_abandon(struct kd_orbits_job *job);
 
 #endif

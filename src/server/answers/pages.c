@@ -22,8 +22,8 @@ static bool document(const struct kd_served *file)
            strncmp(file->type, "text/css", strlen("text/css"));
 }
 
-/* Redirects from the base path without a slash to the one with it: a browser would otherwise resolve the page's files
- * one folder too high. */
+/* Redirects from the base path without a slash at its end to the base path with one. Otherwise a browser would resolve
+ * the addresses of the page's files one folder too high. */
 static enum MHD_Result moved(struct kd_request *request)
 {
     const char *token = kd_access_query(request);
@@ -36,8 +36,8 @@ static enum MHD_Result moved(struct kd_request *request)
     return kd_reply_send(request, MHD_HTTP_PERMANENT_REDIRECT, response);
 }
 
-/* Turns a token in the page's address into a cookie and redirects to the address without it. The cookie has no Path, so
- * browsers use the folder of the address: behind a proxy only the browser knows that. */
+/* Turns a token in the page's address into a cookie and redirects to the address without the token. The cookie has no
+ * Path, so browsers use the folder of the address. Behind a proxy only the browser knows that folder. */
 static enum MHD_Result signed_in(struct kd_request *request, const char *token)
 {
     char cookie[KD_ACCESS_TOKEN_MAX + 80];
@@ -51,14 +51,14 @@ static enum MHD_Result signed_in(struct kd_request *request, const char *token)
     return kd_reply_send(request, MHD_HTTP_SEE_OTHER, response);
 }
 
-/* blob: is needed to show a picture in an <img> whose headers were read by script. */
+/* blob: lets a script show in an <img> a picture that the script has fetched in order to read its headers. */
 static const char *const guarded[] = { "Content-Security-Policy",
                                        "default-src 'self'; img-src 'self' blob:; base-uri 'none'; form-action "
                                        "'self'; frame-ancestors 'none'",
                                        "Referrer-Policy", "no-referrer", NULL };
 
-/* Handles "/" and files below "/web/". They are small and may change with the next version, so browsers revalidate them
- * each time. */
+/* Handles "/" and files below "/web/". The files are small and may change with the next version, so browsers revalidate
+ * them each time. */
 enum MHD_Result kd_handle_page(struct kd_request *request)
 {
     if (!*request->target.path)

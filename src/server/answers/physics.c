@@ -1,5 +1,5 @@
-/* GET /v1/physics/NAME: quantities by name (quantity/quantity.h). Quick ones are computed on the HTTP thread, others by
- * workers in slices. */
+/* GET /v1/physics/NAME: quantities by name (quantity/quantity.h). Quick quantities are computed on the HTTP thread,
+ * others by workers in slices. */
 #include "base/clock.h"
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"
@@ -21,7 +21,7 @@
 enum form { FORM_JSON, FORM_CSV, FORM_WAV, FORM_NONE };
 
 struct job {
-    struct kd_task task; /* first member */
+    struct kd_task task; /* must be the first member */
     struct kd_quantity_run run;
     enum form form;
     struct kd_buffer text;
@@ -46,7 +46,7 @@ static enum form accepted(struct kd_request *request, const struct kd_quantity *
     return best < n ? (enum form)best : FORM_NONE;
 }
 
-/* Parses the query. `format` is an alternative to Accept, for links. */
+/* Parses the query. The parameter `format` is an alternative to Accept, for links. */
 static enum kd_status read_query(const struct kd_target *target, struct kd_quantity_request *quantity, enum form *form,
                                  struct kd_error *error)
 {

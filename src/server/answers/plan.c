@@ -1,5 +1,5 @@
-/* POST /v1/plan: cost of rendering a scene, or all scenes of a sweep, for which the body is that of a job with axes.
- * Workers plan the scenes of a sweep in slices. */
+/* POST /v1/plan: cost of rendering a scene, or all scenes of a sweep. For a sweep the body is that of a job with axes,
+ * and workers plan the scenes in slices. */
 #include "render/output/cost.h"
 #include "scene/scan.h"
 #include "server/asset/store.h"
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 
 struct sweep {
-    struct kd_task task; /* first member */
+    struct kd_task task; /* must be the first member */
     struct kd_job_spec spec;
     char preset[32];
     struct kd_cost cost;

@@ -11,7 +11,7 @@
 #define JSON_TYPE "application/json"
 #define OFFERED JSON_TYPE ", " KD_NPY_TYPE
 #define BLOCK (64u << 10) /* bytes of the answer generated at once, in some tenths of a millisecond */
-#define TEXT_PER_RAY 180  /* estimated size without crossings, for the answer's deadline */
+#define TEXT_PER_RAY 180  /* estimated size of a ray without crossings as text, for the answer's deadline */
 #define TEXT_PER_CROSSING 110
 
 /* The answer while it is sent; it outlives the request if the client reads slowly. */
@@ -58,7 +58,7 @@ static struct outgoing *take_answer(struct kd_request *request, enum kd_rays_for
     return NULL;
 }
 
-/* Adds headers with the content of the first members of the JSON form, for both forms. */
+/* Adds headers. They hold the first members of the JSON form, and are sent with both forms. */
 static void describe(struct MHD_Response *response, const struct kd_rays_job *job, const struct kd_rays_answer *answer)
 {
     struct kd_buffer text = { 0 };
@@ -132,7 +132,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-/* Parses the parameters that an NPY body cannot hold; a JSON body holds them itself. */
+/* Parses the parameters that an NPY body cannot hold. A JSON body contains them. */
 static enum kd_status read_query(const struct kd_target *target, bool npy, struct kd_rays_request *request,
                                  struct kd_error *error)
 {

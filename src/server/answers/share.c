@@ -29,7 +29,7 @@ static enum kd_status tell_preset(const char *name, struct kd_shared *out)
     return status ? status : kd_buffer_printf(&out->about, "%s.", known ? kd_scene_preset_title(i) : PLAIN_ABOUT);
 }
 
-/* target: the parsed link. */
+/* Describes how the scene differs from its preset. target: the parsed link. */
 static enum kd_status tell_changes(const struct kd_target *target, struct kd_shared *out)
 {
     struct kd_scene_changed *changed = calloc(target->n_pairs + 1, sizeof *changed);
@@ -106,8 +106,8 @@ enum kd_status kd_shared_fragment(const struct kd_shared *shared, struct kd_buff
     return kd_buffer_printf(out, "%s%s%s", plain, *plain && *text ? "&" : "", text);
 }
 
-/* Adds an address of this server: absolute if the public address is known, else relative to the request's, as in
- * Location. */
+/* Adds an address of this server. It is absolute if the public address is known, else relative to the request's
+ * address, as in Location. */
 static enum kd_status add_address(const struct kd_request *request, struct kd_json *json, const char *name,
                                   const char *path, const char *rest)
 {
@@ -120,8 +120,8 @@ static enum kd_status add_address(const struct kd_request *request, struct kd_js
     return status;
 }
 
-/* Adds the address to share, which is that of the page if the server has access tokens, because the page asks for one;
- * and the address for frames, if there are origins that may embed it. */
+/* Adds the address to share, and the address for frames if there are origins that may embed it. If the server has
+ * access tokens, the address to share is that of the page, because the page asks for a token. */
 static enum kd_status add_addresses(const struct kd_request *request, const struct kd_shared *shared,
                                     struct kd_json *json)
 {
@@ -180,7 +180,7 @@ static char *code_in(const struct kd_request *request, const char *url)
     return ours ? strndup(at, strcspn(at, "/?#")) : NULL;
 }
 
-/* Chooses the widest picture that fits within maxwidth and maxheight. */
+/* Chooses the width of the widest picture that fits within maxwidth and maxheight. */
 static bool width_of(const struct kd_request *request, int32_t *width, struct kd_error *error)
 {
     static const char *const names[] = { "maxwidth", "maxheight" };

@@ -8,18 +8,19 @@
 
 /* Texts in UTF-8, each followed by NUL. They contain nothing but kerrd's own strings and numbers. */
 struct kd_shared {
-    struct kd_buffer link, code;    /* the link (scene/link.h) and its code (image/text_code.h) */
-    struct kd_buffer title, about;  /* title, such as "Gargantua"; one or two sentences */
-    struct kd_buffer home, address; /* absolute addresses: of the page, without a slash at its end; of /s/CODE */
-    struct kd_buffer picture;       /* absolute address of the picture, KD_SHARED_WIDTH pixels wide */
+    struct kd_buffer link, code;   /* link: the link (scene/link.h); code: its code (image/text_code.h) */
+    struct kd_buffer title, about; /* title: such as "Gargantua"; about: one or two sentences */
+    /* absolute addresses; home: of the page, without a slash at its end; address: of /s/CODE */
+    struct kd_buffer home, address;
+    struct kd_buffer picture; /* absolute address of the picture, KD_SHARED_WIDTH pixels wide */
 };
 
 /* Makes the texts. Fails with KD_EINVAL and a pointer, KD_ETOOBIG or KD_ENOMEM. Call kd_shared_finish whatever the
  * result. */
 enum kd_status kd_shared_tell(const struct kd_request *request, const struct kd_scene *scene, struct kd_shared *out,
                               struct kd_error *error);
-/* Appends the fragment of the page's address, the text behind #. It names the preset, because the page would otherwise
- * start from its first view. */
+/* Appends the fragment of the page's address, the text behind #. The fragment names the preset, because otherwise the
+ * page would start from its first view. */
 enum kd_status kd_shared_fragment(const struct kd_shared *shared, struct kd_buffer *out);
 void kd_shared_finish(struct kd_shared *shared);
 

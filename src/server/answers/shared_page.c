@@ -1,6 +1,6 @@
-/* Handlers of /s/CODE and /embed/CODE. /s/CODE is a page from which other sites take title, description and picture of
- * a link (Open Graph, https://ogp.me; oEmbed). Its script opens the page with the scene; without scripts it shows the
- * picture and a link. */
+/* Handlers of /s/CODE and /embed/CODE. /s/CODE is a page for other sites, which read the title, description and picture
+ * of a link from it (Open Graph, https://ogp.me; oEmbed). Its script opens the page with the scene; without scripts it
+ * shows the picture and a link. */
 #include "server/answers/share.h"
 
 #include "server/http/cors.h"
@@ -119,7 +119,7 @@ static enum MHD_Result reply(struct kd_request *request, const struct kd_shared 
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-/* Makes the page for frames from the link that the code decodes to, not from the code as received. */
+/* Makes the page for frames. It uses the link that the code decodes to, not the code as received. */
 static enum kd_status make_frame(const struct kd_shared *shared, struct kd_buffer *page)
 {
     struct kd_buffer texts[3] = { 0 };

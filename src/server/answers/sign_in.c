@@ -21,7 +21,7 @@ static const struct {
 };
 enum { LANGUAGES = sizeof words / sizeof *words };
 
-/* The first known language in Accept-Language, which browsers order by preference. */
+/* Returns the first known language in Accept-Language, which browsers order by preference. */
 static size_t language(struct kd_request *request)
 {
     struct kd_buffer list = kd_reply_header_list(request, "Accept-Language");
@@ -47,7 +47,7 @@ static enum kd_status write_page(struct kd_request *request, const struct kd_pro
 {
     const size_t i = language(request);
     const char *base = strrchr(request->server->base.path,
-                               '/'); /* base path without a slash at its end: the form leads to the one with it */
+                               '/'); /* base path without a slash at its end: the form leads to the path with one */
     const bool bare = base && !*request->target.path, tried = kd_target_value(&request->target, KD_ACCESS_QUERY);
     const char *says = problem->type == KD_PROBLEM_WRONG_TOKENS ? words[i].later : tried ? words[i].wrong : "";
     return kd_buffer_printf(

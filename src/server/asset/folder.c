@@ -134,7 +134,7 @@ static const char *read_bytes(int folder, struct kd_asset_about *about, struct k
     return NULL;
 }
 
-/* Whether an asset has a record, whatever it holds. */
+/* Whether an asset has a record, whatever the record contains. */
 static bool has_record(int folder, const char *hash)
 {
     char name[FILE_NAME];

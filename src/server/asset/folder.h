@@ -5,7 +5,8 @@
 #include "base/buffer.h"
 #include "server/asset/store.h"
 
-/* Opens STATE/assets and creates it if needed. *out is a descriptor. Fails with KD_EIO; the message has the path. */
+/* Opens STATE/assets, and creates it if it does not exist. *out is a descriptor. Fails with KD_EIO; the message has the
+ * path. */
 enum kd_status kd_asset_folder_open(const char *state, int *out, struct kd_error *error);
 
 /* Calls found() for each complete asset that kd_asset_look accepts; found() owns the bytes. Removes files that a killed

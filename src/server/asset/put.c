@@ -1,6 +1,6 @@
-/* Stores an asset in pieces, one in each slice: hash, look for the same bytes, check, reserve room, write. Nothing is
- * checked twice. The bytes that a check unpacks count in the limit meanwhile. A check that runs alone may exceed it,
- * since no asset is evicted for bytes that may turn out not to be a grid. */
+/* Stores an asset in steps, one in each slice: hash it, look for the same bytes, check it, reserve room, write it.
+ * Nothing is checked twice. While a grid is checked, its unpacked bytes count towards the limit. A check that runs
+ * alone may exceed the limit, because no asset is evicted for bytes that may turn out not to be a grid. */
 #include "server/asset/internal.h"
 
 #include "base/clock.h"
@@ -24,7 +24,7 @@ struct kd_asset_putting {
     struct sha256_ctx hash;
     struct kd_asset_about about;
     struct kd_matter_reader *grid;
-    uint64_t reserved; /* part of store->checking */
+    uint64_t reserved; /* the part of store->checking that belongs to this asset */
     enum kd_status (*step)(struct kd_asset_put *put, double until_ms, enum kd_asset_progress *how,
                            struct kd_error *error);
 };
@@ -64,7 +64,7 @@ static enum room find_room(struct kd_asset_store *store, uint64_t bytes, struct 
     return *leaves || is_anyone_leaving(store) ? ROOM_LATER : ROOM_NONE;
 }
 
-/* Whether these bytes exceed the client's share. Called with the lock. */
+/* Whether these bytes would exceed the client's share. Called with the lock. */
 static bool has_share(const struct kd_asset_store *store, size_t size, const char *client)
 {
     unsigned assets = 0;
@@ -123,7 +123,7 @@ static void end_check(struct kd_asset_putting *p)
     p->reserved = 0;
 }
 
-/* Writes the files of an asset that has a place; it can then be found. */
+/* Writes the files of an asset that is inserted already; it can then be found. */
 static enum kd_status settle(struct kd_asset_store *store, struct kd_asset *asset, struct kd_error *error)
 {
     enum kd_status status = store->folder >= 0 ? kd_asset_folder_write(store->folder, &asset->about, error) : KD_OK;
@@ -137,7 +137,7 @@ static enum kd_status settle(struct kd_asset_store *store, struct kd_asset *asse
     return status;
 }
 
-/* Looks for room, and inserts the asset if it has been made. Called with the lock. */
+/* Looks for room. If there is room and the asset has been made, inserts it. Called with the lock. */
 static enum room take_place(struct kd_asset_put *put, struct kd_asset *fresh, struct kd_asset **leaves,
                             enum kd_asset_progress *how, bool *here)
 {
@@ -161,8 +161,8 @@ static enum kd_status is_beyond_share(const struct kd_asset_store *store, struct
                         store->limits.client_most, (unsigned long long)store->limits.client_bytes);
 }
 
-/* Finds room and stores the asset. The bytes are copied when there is room, without the lock; the room is then checked
- * again. */
+/* Finds room and stores the asset. When there is room the bytes are copied without the lock; therefore the room is
+ * checked again afterwards. */
 static enum kd_status place(struct kd_asset_put *put, double until_ms, enum kd_asset_progress *how,
                             struct kd_error *error)
 {

@@ -128,7 +128,8 @@ void kd_asset_store_close(struct kd_asset_store *store)
     if (!store)
         return;
     while (store->first) {
-        if (store->first->state == KD_ASSET_LEAVING && store->folder >= 0) /* its removal did not run before the end */
+        /* its removal did not run before the server ended */
+        if (store->first->state == KD_ASSET_LEAVING && store->folder >= 0)
             kd_asset_folder_remove(store->folder, store->first->about.hash);
         kd_asset_take_out(store, store->first);
     }
@@ -154,14 +155,14 @@ struct kd_asset *kd_asset_store_find(struct kd_asset_store *store, const char *h
 
 void kd_asset_leave(struct kd_asset_store *store, struct kd_asset *asset)
 {
-    if (store->folder >= 0) /* before the same bytes can be stored again */
+    if (store->folder >= 0) /* deleted here, before the same bytes can be stored again */
         kd_asset_folder_remove(store->folder, asset->about.hash);
     pthread_mutex_lock(&store->lock);
     kd_asset_take_out(store, asset);
     pthread_mutex_unlock(&store->lock);
 }
 
-/* Hides the asset from searches. Returns false if another thread removes it. */
+/* Hides the asset from searches. Returns false if another thread already removes it. */
 static bool begin_to_leave(struct kd_asset_store *store, struct kd_asset *asset)
 {
     pthread_mutex_lock(&store->lock);
@@ -186,7 +187,7 @@ static enum kd_slice_result removal_turn(struct kd_scheduler_job *job)
     return KD_SLICE_LAST;
 }
 
-/* Runs last, because it may free the asset that contains the job. */
+/* Called after the removal; it may free the asset, which contains the job. */
 static void removal_done(struct kd_scheduler_job *job)
 {
     struct kd_asset *asset = (struct kd_asset *)((char *)job - offsetof(struct kd_asset, removal));

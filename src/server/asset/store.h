@@ -1,6 +1,6 @@
-/* Asset store: files that clients upload, and that scenes name by their SHA-256. They are kept in memory, and on disk
- * if the server has a state folder: DIRECTORY/assets/HASH.png, .npz, .uvfits or .csv, and HASH.json, which is written
- * last. Each file is written atomically. Any thread.
+/* Asset store: files that clients upload, and that scenes name by their SHA-256. They are kept in memory. If the server
+ * has a state folder they are also kept on disk, as DIRECTORY/assets/HASH.png, .npz, .uvfits or .csv, and HASH.json,
+ * which is written last. Each file is written atomically. Any thread.
  *
  * Errors contain no path, because clients see them. */
 #ifndef KD_SERVER_ASSET_STORE_H
@@ -21,36 +21,39 @@ struct kd_asset;
 #define KD_ASSET_GRID_TYPE "application/x-npz"      /* grids of matter (render/emit/matter_grid.h) */
 #define KD_ASSET_UVFITS_TYPE "application/x-uvfits" /* observations (observe/observation.h) */
 #define KD_ASSET_CSV_TYPE "text/csv"
-#define KD_ASSET_BYTES ((size_t)32 << 20)   /* of one asset */
-#define KD_ASSET_PIXELS ((uint64_t)1 << 28) /* of one picture */
+#define KD_ASSET_BYTES ((size_t)32 << 20)   /* largest size of one asset */
+#define KD_ASSET_PIXELS ((uint64_t)1 << 28) /* most pixels of one picture */
 
 struct kd_asset_limits {
-    unsigned most, client_most; /* assets in all; of one client */
+    /* most: limit of the number of all assets; client_most: of the number of one client's assets */
+    unsigned most, client_most;
     uint64_t bytes,
-        /* bytes of all, including those that grids unpack while they are checked; of those of one client */
+        /* bytes: total size of all assets, including the unpacked bytes of grids that are being checked; client_bytes:
+         * of those of one client */
         client_bytes;
     double keep_s; /* an asset unused for this long may be evicted for a new one */
 };
 /* Makes an empty store. */
 enum kd_status kd_asset_store_create(const struct kd_asset_limits *limits, struct kd_asset_store **out,
                                      struct kd_error *error);
-/* Loads the assets of the server's state folder and stores further ones there. This process holds the folder's lock
- * (job/store.h). Unreadable assets are logged and left alone. Call it once, before any asset is added. */
+/* Loads the assets of the server's state folder. Assets that are added later are stored there. This process holds the
+ * folder's lock (job/store.h). Unreadable assets are logged and left alone. Call it once, before any asset is added. */
 enum kd_status kd_asset_store_open(struct kd_asset_store *store, const char *state, struct kd_error *error);
-/* The store as scenes and renderers use it: assets by hash. */
+/* The store in the form in which scenes and renderers use it: assets by hash. */
 const struct kd_assets *kd_asset_store_assets(const struct kd_asset_store *store);
 /* Call it when no references are left. Accepts NULL. */
 void kd_asset_store_close(struct kd_asset_store *store);
 const struct kd_asset_limits *kd_asset_store_limits(const struct kd_asset_store *store);
 
-/* Adds a copy of a client's bytes, in pieces (put.c). In slices of workers, one thread at a time.
+/* Adds a copy of a client's bytes, in pieces (put.c). Runs in slices of workers, on one thread at a time.
  *
  *     kd_asset_put_begin(&put, store, data, size, client)        data must stay valid
- *     status = kd_asset_put_go_on(&put, until_ms, &how, &error)  until it is over or fails
- *     kd_asset_put_finish(&put)                                  at any time
+ *     status = kd_asset_put_go_on(&put, until_ms, &how, &error)  repeat until it is over or fails
+ *     kd_asset_put_finish(&put)                                  may be called at any time
  *
  * put.asset: a reference for the caller; put.created: the bytes were not stored before. KD_EINVAL: unsupported content.
- * KD_EBUSY with put.quota: the client's share is used up. KD_EFULL: the disk is full, or with put.full the store. */
+ * KD_EBUSY with put.quota: the client's share is used up. KD_EFULL: the disk is full, or, if put.full is set, the
+ * store. */
 struct kd_asset_put {
     struct kd_asset *asset;
     bool created, quota, full;
@@ -58,7 +61,7 @@ struct kd_asset_put {
 };
 enum kd_asset_progress {
     KD_ASSET_MORE, /* call again */
-    KD_ASSET_WAIT, /* call again a little later, when another thread has finished */
+    KD_ASSET_WAIT, /* another thread works on the same bytes or on room: call again a little later */
     KD_ASSET_OVER,
 };
 enum kd_status kd_asset_put_begin(struct kd_asset_put *put, struct kd_asset_store *store, const void *data, size_t size,
@@ -66,13 +69,14 @@ enum kd_status kd_asset_put_begin(struct kd_asset_put *put, struct kd_asset_stor
 enum kd_status kd_asset_put_go_on(struct kd_asset_put *put, double until_ms, enum kd_asset_progress *how,
                                   struct kd_error *error);
 void kd_asset_put_finish(struct kd_asset_put *put);
-/* Finds an asset by its hash. Returns a reference, or NULL. The asset then counts as used, so that it is not evicted
- * soon. */
+/* Finds an asset by its hash. Returns a reference, or NULL. The search counts as a use, so that the asset is not
+ * evicted soon. */
 struct kd_asset *kd_asset_store_find(struct kd_asset_store *store, const char *hash);
-/* Removes an asset: it cannot be found any more, and its files are deleted when this returns. Waits for the disk, so it
- * is for workers. The memory is freed with the last reference. Returns false if another thread has removed it. */
+/* Removes an asset. When this returns the asset cannot be found any more, and its files are deleted. It waits for the
+ * disk, so it is for workers. The memory is freed with the last reference. Returns false if another thread has removed
+ * the asset. */
 bool kd_asset_store_remove(struct kd_asset_store *store, struct kd_asset *asset);
-/* The same on a worker, for callers that must not wait. */
+/* Like kd_asset_store_remove, but on a worker; for callers that must not wait. */
 void kd_asset_store_remove_later(struct kd_asset_store *store, struct kd_asset *asset, struct kd_scheduler *workers);
 void kd_asset_release(struct kd_asset_store *store, struct kd_asset *asset);
 /* Counts the assets that can be found and their bytes, without those whose files are being written or removed. */
@@ -81,11 +85,11 @@ void kd_asset_store_count(struct kd_asset_store *store, unsigned *assets, uint64
 /* Description of an asset; immutable while a reference is held. */
 struct kd_asset_about {
     char hash[KD_ASSET_NAME], token[KD_SECRET_TOKEN];
-    uint32_t width, height; /* of a picture */
+    uint32_t width, height; /* size of a picture */
     int bit_depth, channels;
     enum kd_observation_kind observation; /* NONE: not an observation */
-    uint32_t visibilities, stations;      /* of an observation */
-    uint32_t nodes[3];                    /* of a grid, in r, theta and phi; 0: not a grid */
+    uint32_t visibilities, stations;      /* numbers of both, for an observation */
+    uint32_t nodes[3];                    /* nodes of a grid in r, theta and phi; 0: not a grid */
     double spin;
     double created; /* seconds since 1970 */
     size_t size;

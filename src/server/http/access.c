@@ -25,7 +25,7 @@
 
 struct entry {
     struct kd_visitor visitor;
-    uint8_t hash[SHA256_DIGEST_SIZE]; /* of the token; the token itself is not stored */
+    uint8_t hash[SHA256_DIGEST_SIZE]; /* hash of the token; the token itself is not stored */
 };
 
 struct kd_access {
@@ -162,7 +162,8 @@ enum { COOKIES = 4 };
 
 /* Tokens found in a request. */
 struct brought {
-    /* alone: if set, the only one that counts; bearer: the one in Authorization; each may be NULL */
+    /* alone: the token in the page's address or in Kerrd-Access; if it is set, no other is checked. bearer: the token
+     * in Authorization. Each may be NULL. */
     const char *alone, *bearer;
     const char *cookies[COOKIES]; /* checked after bearer if alone is NULL */
     size_t n_cookies;
@@ -208,14 +209,15 @@ static bool may_be_sessions(const char *bearer)
     return strlen(bearer) == 32 && strspn(bearer, "0123456789abcdef") == 32;
 }
 
-/* Seconds until tokens of this address are checked again; 0: they are checked, or the request has none. Runs while
- * request->client is still the address. */
+/* Returns the seconds until tokens from this address are checked again; 0: they are checked now, or the request has no
+ * token. Must be called while request->client still holds the address. */
 static unsigned guesses_wait_s(const struct kd_request *request, const struct brought *brought)
 {
     struct kd_auth_throttle *auth_throttle = request->server->auth_throttle;
     const char *const texts[] = { brought->alone, brought->alone ? NULL : brought->bearer };
     uint64_t hash = KD_HASH_BEGIN; /* so that the same token has the same hash wherever it stands */
-    /* known by its cookie, perhaps; a wrong bearer beside it counts as a guess unless it may be a session's token */
+    /* The visitor may be known by a cookie alone. A wrong token in Authorization then counts as a guess, unless it may
+     * be a session's token. */
     if (request->visitor) {
         const bool tried = brought->bearer && !brought->alone && !request->spent && !may_be_sessions(brought->bearer);
         const unsigned wait =

@@ -58,7 +58,7 @@ void kd_allowance_charge(struct kd_allowance *all, const char *client, double ms
 double kd_allowance_wait_ms(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms)
 {
     const double left = kd_allowance_left_ms(all, client, now_ms) - owed_ms;
-    return left > 0 ? 0 : (1 - left) * MINUTE_S / all->seconds; /* until the bucket holds 1 ms */
+    return left > 0 ? 0 : (1 - left) * MINUTE_S / all->seconds; /* time until the bucket holds 1 ms */
 }
 
 struct kd_quota kd_allowance_quota(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms)

@@ -14,7 +14,7 @@ struct kd_allowance {
     unsigned seconds;
     struct kd_allowance_place {
         char client[KD_CLIENT];
-        double ms, at_ms; /* contents of the bucket at the time at_ms; at_ms 0: full */
+        double ms, at_ms; /* contents of the bucket at the time at_ms; at_ms 0: the bucket is full */
     } places[KD_ALLOWANCE_CLIENTS];
 };
 
@@ -25,8 +25,8 @@ double kd_allowance_left_ms(const struct kd_allowance *all, const char *client, 
 void kd_allowance_charge(struct kd_allowance *all, const char *client, double ms, double now_ms);
 /* Milliseconds until the bucket holds at least 1 ms after a further owed_ms is subtracted; 0: it does now. */
 double kd_allowance_wait_ms(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms);
-/* Quota for display and headers, in seconds: what a client may use in a minute, what is left of that after owed_ms is
- * subtracted, and the time until the bucket is full. Only valid where there is a limit. */
+/* Quota for display and headers, in seconds: how much a client may use in a minute, how much of that is left after
+ * owed_ms is subtracted, and the time until the bucket is full. Valid only if there is a limit. */
 struct kd_quota { unsigned seconds, left_s, whole_in_s; };
 struct kd_quota kd_allowance_quota(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms);
 /* Whether waiting work of a client may run. patient: work in the background, which may use only the upper half of the

@@ -10,10 +10,10 @@
 
 struct place {
     char client[KD_CLIENT];
-    double tries, at_ms; /* tries left at the time at_ms; at_ms 0: unused */
+    double tries, at_ms; /* tries left at the time at_ms; at_ms 0: the entry is unused */
     uint64_t wrong[REMEMBERED];
     const void *right[KD_GUESSES_NAMES];
-    unsigned n_wrong, n_right; /* totals written; the arrays are ring buffers */
+    unsigned n_wrong, n_right; /* how many tokens have been written; the arrays are ring buffers */
 };
 
 struct kd_auth_throttle {

@@ -1,7 +1,7 @@
 /* Throttle against guessing of access tokens. Each address may present a few wrong tokens at once, and one more every
- * few seconds. Beyond that, tokens new to that address are rejected unseen, so that guessing learns nothing; a token
- * that was accepted from there before still works, so that one client cannot lock out another behind the same proxy.
- * Repeating the same wrong token, as an open page does, counts once. Any thread. */
+ * few seconds. Beyond that, a token that is new to the address is rejected without a check, so that guessing learns
+ * nothing. A token that was accepted from the address before still works, so that one client cannot lock out another
+ * behind the same proxy. Repeating the same wrong token, as an open page does, counts once. Any thread. */
 #ifndef KD_SERVER_HTTP_AUTH_THROTTLE_H
 #define KD_SERVER_HTTP_AUTH_THROTTLE_H
 
@@ -12,8 +12,8 @@
 #define KD_GUESSES_MOST 20u  /* wrong tokens that an address may present in a burst */
 #define KD_GUESSES_EACH_S 3u /* seconds after which it may present one more */
 #define KD_GUESSES_NAMES 64u /* accepted token owners remembered for each address, the latest ones */
-/* addresses tracked; when full, the address with the fewest recent failures is evicted, of equals the least recently
- * seen */
+/* addresses tracked; when the table is full, the address with the fewest recent failures is evicted; among equals, the
+ * one least recently seen */
 #define KD_GUESSES_CLIENTS 256u
 
 struct kd_auth_throttle;
@@ -25,8 +25,8 @@ void kd_auth_throttle_destroy(struct kd_auth_throttle *throttle); /* accepts NUL
  * until this address may present a new token. */
 unsigned kd_auth_throttle_right(struct kd_auth_throttle *throttle, const char *client, const void *whose,
                                 double now_ms);
-/* Reports a wrong token by its hash. Returns 0 if it is counted (or known already) and the client may be answered, else
- * the seconds until this address may present another. */
+/* Reports a wrong token by its hash. Returns 0 if the client may be answered: the token is counted now, or was counted
+ * before. Else returns the seconds until this address may present another. */
 unsigned kd_auth_throttle_wrong(struct kd_auth_throttle *throttle, const char *client, uint64_t hash, double now_ms);
 
 #endif

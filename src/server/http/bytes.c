@@ -15,7 +15,7 @@ struct kd_bytes {
     struct kd_bytes_params params;
     pthread_mutex_t lock;
     _Atomic size_t bytes;
-    struct place places[]; /* params.clients of them, and one for all other clients */
+    struct place places[]; /* params.clients places, and one for all other clients */
 };
 
 struct kd_bytes *kd_bytes_create(const struct kd_bytes_params *params)
@@ -56,7 +56,7 @@ static struct place *find_or_make(struct kd_bytes *b, const char *client)
     return place ? place : &b->places[b->params.clients];
 }
 
-/* Called locked. */
+/* Counts n more bytes of a client. Called with the lock. */
 static void add(struct kd_bytes *b, const char *client, size_t n)
 {
     find_or_make(b, client)->bytes += n;
@@ -68,7 +68,7 @@ enum kd_status kd_bytes_take(struct kd_bytes *b, const char *client, size_t n, s
     pthread_mutex_lock(&b->lock);
     size_t own = find_or_make(b, client)->bytes;
     const struct kd_bytes_params *p = &b->params;
-    /* in the reserve a client has the same fraction */
+    /* a client's fraction of the reserve is its fraction of max */
     double room = size <= p->small ? 1 + (double)p->reserve / (double)p->max : 1;
     *quota = (double)(own + n) > room * (double)p->share && !(p->lone && !own);
     bool fits = !*quota && ((double)(b->bytes + n) <= room * (double)p->max || (p->lone && !b->bytes));
@@ -91,7 +91,8 @@ void kd_bytes_give(struct kd_bytes *b, const char *client, size_t n)
 {
     pthread_mutex_lock(&b->lock);
     struct place *place = find(b, client);
-    if (!place || place->bytes < n) /* its bytes were counted in the common place, because all others were in use */
+    /* its bytes were counted in the place for all other clients, because no place of its own was free */
+    if (!place || place->bytes < n)
         place = &b->places[b->params.clients];
     place->bytes -= n < place->bytes ? n : place->bytes;
     b->bytes -= n;

@@ -16,15 +16,15 @@
 #include <unistd.h>
 
 #define IDLE_MS 60e3    /* longer than libmicrohttpd's idle timeout, so it ends only connections that trickle bytes */
-#define CROWDED_MS 2e3  /* for the header of a connection accepted beyond the limit */
-#define REPLY_MS 30e3   /* for reading an answer, ... */
+#define CROWDED_MS 2e3  /* time for the header of a connection that is accepted beyond the limit */
+#define REPLY_MS 30e3   /* time for reading an answer, ... */
 #define BYTES_PER_MS 32 /* ... and in addition the time for its bytes at 32 kB/s, a poor mobile line */
 
-#define STALL_MS 2e3  /* a client that reads takes some bytes within this time on nearly any line */
-#define LINGER_MS 2e3 /* several round trips and a few MiB; a client that sends more is reset */
+#define STALL_MS 2e3  /* a client that reads takes some bytes within this time, on nearly any line */
+#define LINGER_MS 2e3 /* time for several round trips and a few MiB; a client that sends more is reset */
 #define LINGER_BYTES ((size_t)16 << 20)
-#define LINGERING 64 /* sockets being drained */
-#define SILENT 32    /* connections that may wait without having sent anything when all others are in use */
+#define LINGERING 64 /* limit of sockets being drained */
+#define SILENT 32    /* limit of connections that may wait without having sent anything, when all others are in use */
 
 struct kd_connection {
     struct kd_connection *previous, *next;
@@ -33,17 +33,17 @@ struct kd_connection {
     bool linger, handed_on, health, cut; /* cut: shut down to make room */
     size_t discarded;
     enum kd_stage stage;
-    double deadline;   /* on kd_clock_ms; 0: none */
+    double deadline;   /* a time on kd_clock_ms; 0: none */
     int unsent;        /* unsent bytes in the socket at the last check */
-    double stalled_ms; /* when unsent last changed; 0: not checked yet */
+    double stalled_ms; /* when `unsent` last changed; 0: not checked yet */
 };
 
 struct kd_connections {
     pthread_mutex_t lock;
     struct kd_connection *first;
-    unsigned count, limit, share; /* without the health routes' connections */
+    unsigned count, limit, share; /* count: open connections, not counting those to the health routes */
     unsigned n_handed_on, n_health;
-    struct kd_connection *lingering; /* removed, being drained; singly linked */
+    struct kd_connection *lingering; /* removed connections whose sockets are being drained; singly linked */
     unsigned n_lingering;
     double header_ms, body_ms;
 };
@@ -109,7 +109,7 @@ struct kd_connection *kd_connections_add(struct kd_connections *all, int socket,
     one->socket = socket;
     snprintf(one->client, sizeof one->client, "%s", client);
     pthread_mutex_lock(&all->lock);
-    /* the library has closed this socket without a callback: otherwise its number would not be free */
+    /* The library has closed this socket without a callback. Otherwise its number could not be in use again. */
     struct kd_connection *stale = find(all, socket);
     if (stale) {
         unlink_one(all, stale);
@@ -142,7 +142,8 @@ static void cut_oldest_health(struct kd_connections *all)
     shutdown(oldest->socket, SHUT_RDWR);
 }
 
-/* Counts the connections of one's client, including one. handed_on: without those that have not sent anything yet. */
+/* Counts the connections of the client of `one`, including `one` itself. handed_on: omits those that have not sent
+ * anything yet. */
 static unsigned of_client(const struct kd_connections *all, const struct kd_connection *one, bool handed_on)
 {
     unsigned n = 0;
@@ -180,7 +181,7 @@ struct kd_connection *kd_connections_find(struct kd_connections *all, int socket
 
 bool kd_connection_is_health(const struct kd_connection *one) { return one && one->health; }
 
-/* Keeps the socket open by a second descriptor when the library closes its own. */
+/* Duplicates the descriptor of the socket, so that the socket stays open when the library closes its own. */
 static bool keep(struct kd_connections *all, struct kd_connection *one)
 {
     int socket = all->n_lingering < LINGERING ? fcntl(one->socket, F_DUPFD_CLOEXEC, 0) : -1;
@@ -271,7 +272,8 @@ bool kd_connections_full(struct kd_connections *all)
     return full;
 }
 
-/* In these stages nothing of an answer has been sent, so a complete answer can be written to the socket directly. */
+/* Answers a request that is late with 408. In these stages nothing of an answer has been sent, so a complete answer can
+ * be written to the socket directly. */
 static void answer_late(const struct kd_connection *one)
 {
     if (one->stage == KD_STAGE_HEADER)
@@ -280,8 +282,8 @@ static void answer_late(const struct kd_connection *one)
         kd_problem_send_raw(one->socket, KD_PROBLEM_TIMEOUT, "the request's body took too long to arrive", NULL);
 }
 
-/* Discards what has arrived, at most 1 MiB a sweep because the lock is held. False at the end or beyond
- * LINGER_BYTES. */
+/* Discards the bytes that have arrived, at most 1 MiB in one sweep because the lock is held. Returns false if the
+ * client has closed its end, or has sent more than LINGER_BYTES. */
 static bool empty(struct kd_connection *one)
 {
     enum { READS = 64 };
@@ -303,7 +305,7 @@ static void empty_lingering(struct kd_connections *all, double now)
     }
 }
 
-/* A request that has arrived but that its daemon has not read yet is not late. */
+/* Whether a request has arrived that its daemon has not read yet. Such a request is not late. */
 static bool waits_for_us(const struct kd_connection *one)
 {
     int unread = 0;

@@ -26,7 +26,7 @@ enum kd_stage {
     KD_STAGE_IDLE, /* kept alive between requests */
 };
 
-/* share: connections that one client may have, out of limit. share = limit disables the limit per client. */
+/* limit: of all connections; share: of the connections of one client. share = limit disables the limit per client. */
 struct kd_connections *kd_connections_create(unsigned limit, unsigned share, unsigned header_ms, unsigned body_ms);
 void kd_connections_destroy(struct kd_connections *all);
 

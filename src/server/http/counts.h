@@ -11,14 +11,14 @@ struct kd_sessions_counts {
 
 struct kd_playground_sessions_counts {
     unsigned plays, watchers;
-    uint64_t bytes;         /* upper bound of the memory they use */
+    uint64_t bytes;         /* upper bound of the memory of all playgrounds */
     uint64_t steps, events; /* totals since the start; steps: sub-steps of running playgrounds */
 };
 
 struct kd_jobs_counts {
     unsigned waiting, running, done, failed;
-    uint64_t frames; /* finished by this server since its start */
-    uint64_t bytes;  /* on disk, of all jobs */
+    uint64_t frames; /* number of frames that this server has finished since its start */
+    uint64_t bytes;  /* size of all jobs on disk */
 };
 
 #endif

@@ -10,8 +10,8 @@
 #include <sys/resource.h>
 
 #define MOST 65536u /* upper bound: each costs the kernel memory */
-/* for the device, files of frames under way, lingering sockets, connections that have sent nothing yet, health
- * checks */
+/* Descriptors for other uses: the device, files of frames under way, lingering sockets, connections that have sent
+ * nothing yet, health checks. */
 #define RESERVE 200u
 
 /* Whether the limit is enough: each connection needs a socket and a file to send. */

@@ -1,6 +1,9 @@
-"""Files as C arrays, as they are and, but for pictures, as gzip: embed.py MINIFIER OUTPUT FILE..., named as seen from
-the first one's folder. MINIFIER is the program esbuild, which shortens scripts and styles, or nothing: they stay as
-they are written then."""
+"""Write files as C arrays: embed.py MINIFIER OUTPUT FILE...
+
+Each file is written as it is, and also compressed by gzip unless it is a picture. Files are named by their paths below
+the folder of the first one. MINIFIER is the program esbuild, which minifies scripts and styles. If it is "", they stay
+as they are written.
+"""
 
 import gzip
 import hashlib
@@ -24,8 +27,10 @@ rows = []
 
 
 def shortened(names):
-    """The bytes of these files, each a module by itself still, under the name that it had: who looks at a fault finds
-    the file."""
+    """Minify these files. Each stays a module of its own and keeps its name, so that a fault can be traced to its file.
+
+    Return a dictionary from name to bytes.
+    """
     with tempfile.TemporaryDirectory() as out:
         told = subprocess.run(
             [

@@ -33,7 +33,7 @@ struct guest {
 struct kd_front {
     struct kd_front_params params;
     int epoll, stop, reserve;   /* reserve: a descriptor to release when none is left; -1: released */
-    struct guest *first, *last; /* the latest first */
+    struct guest *first, *last; /* all guests; `first` is the latest */
     pthread_t thread;
 };
 
@@ -46,7 +46,8 @@ static void unlink_guest(struct kd_front *front, struct guest *guest)
 static void send_away(struct kd_front *front, struct guest *guest)
 {
     unlink_guest(front, guest);
-    /* A lingering socket stays open by another descriptor, and epoll would report events for a guest that is freed. */
+    /* A lingering socket stays open by another descriptor. If it were still watched, epoll would report events for a
+     * guest that is freed. */
     epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL);
     kd_connections_remove(front->params.connections, guest->connection);
     close(guest->socket);
@@ -78,13 +79,13 @@ static void hand_on(struct kd_front *front, struct guest *guest, bool health)
     }
     unlink_guest(front, guest);
     epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL); /* ignored if it is not watched yet */
-    /* on failure the library has closed the socket */
+    /* If this fails, the library has closed the socket. */
     if (MHD_add_connection(daemon, guest->socket, (struct sockaddr *)&guest->address, guest->address_size) != MHD_YES)
         kd_connections_remove(front->params.connections, guest->connection);
     free(guest);
 }
 
-/* Hands a guest on once its first bytes decide which daemon is its own. gone: no more bytes will come. Returns true
+/* Hands a guest to its daemon once its first bytes show which one that is. gone: no more bytes will come. Returns true
  * while it remains a guest. */
 static bool look_at(struct kd_front *front, struct guest *guest, bool gone)
 {
@@ -121,7 +122,8 @@ static struct guest *admit(struct kd_front *front, int socket, const struct sock
     return guest;
 }
 
-/* Watches edge-triggered, because bytes that are only peeked at would keep a level-triggered event set. */
+/* Watches a guest's socket. The events are edge-triggered, because bytes that are only peeked at would keep a
+ * level-triggered event set. */
 static void watch(struct kd_front *front, struct guest *guest)
 {
     struct epoll_event event = { .events = EPOLLIN | EPOLLRDHUP | EPOLLET, .data.ptr = guest };
@@ -131,13 +133,13 @@ static void watch(struct kd_front *front, struct guest *guest)
 
 static int keep_reserve(void) { return open("/dev/null", O_RDONLY | O_CLOEXEC); }
 
-/* Frees a descriptor when all are in use: closes the guest that has waited longest, or else releases the reserve.
- * Without either, it waits until a connection closes. */
+/* Frees a descriptor when all are in use: closes the guest that has waited longest. If there is none, releases the
+ * reserve; if that is released already, waits FULL_MS. */
 static void make_room(struct kd_front *front)
 {
     struct pollfd waiting = { .fd = front->params.listener, .events = POLLIN };
     if (poll(&waiting, 1, 0) < 1)
-        return; /* accept would fail for lack of a descriptor although nobody waits */
+        return; /* nobody waits: accept failed only for lack of a descriptor */
     if (front->last)
         send_away(front, front->last);
     else if (front->reserve >= 0) {
@@ -156,7 +158,7 @@ static bool accept_one(struct kd_front *front)
     int socket = accept4(front->params.listener, (struct sockaddr *)&address, &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (socket < 0 && (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)) {
         make_room(front);
-        return false; /* the waiting connection is reported again */
+        return false; /* the waiting connection will be reported again */
     }
     if (socket < 0)
         return errno != EAGAIN && errno != EWOULDBLOCK && errno != EINVAL &&
@@ -169,7 +171,8 @@ static bool accept_one(struct kd_front *front)
     guest->spare = front->reserve < 0;
     while (front->last != guest && kd_connections_full(front->params.connections))
         send_away(front, front->last);
-    if (look_at(front, guest, false)) /* most requests arrive with the connection, and need no watching */
+    /* most requests arrive together with their connection, which then needs no watching */
+    if (look_at(front, guest, false))
         watch(front, guest);
     return true;
 }
@@ -190,7 +193,8 @@ static void *run(void *user)
             else
                 look_at(front, events[i].data.ptr, events[i].events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR));
         }
-        for (int i = 0; more && i < BATCH; i++) /* after the events, because it may close guests that have events */
+        /* accepts after the events, because accepting may close guests that have events */
+        for (int i = 0; more && i < BATCH; i++)
             more = accept_one(front);
     }
 }

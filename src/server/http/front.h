@@ -16,7 +16,7 @@ struct kd_front_params {
     int listener; /* listening socket, non-blocking; the front closes it, even if creation fails */
     struct kd_connections *connections;
     const struct kd_base_path *base;    /* outlives the front */
-    struct MHD_Daemon *health, *others; /* without listening sockets; they outlive the front */
+    struct MHD_Daemon *health, *others; /* daemons without listening sockets; they outlive the front */
 };
 
 enum kd_status kd_front_create(const struct kd_front_params *params, struct kd_front **out, struct kd_error *error);

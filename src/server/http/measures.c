@@ -3,11 +3,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define CLASSES 6 /* the first: cut before a status */
+#define CLASSES 6 /* classes of statuses, by their first digit; class 0: the connection was cut before a status */
 
 struct kd_measures {
-    size_t n;                                  /* routes and one for requests without a route */
-    struct kd_histogram histograms[][CLASSES]; /* by route; last: without a route */
+    size_t n; /* number of routes, plus one for requests without a route */
+    /* histograms of each route; the last row is for requests without a route */
+    struct kd_histogram histograms[][CLASSES];
 };
 
 struct kd_measures *kd_measures_create(void)

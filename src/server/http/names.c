@@ -11,7 +11,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#define MOST 64 /* names; a machine with more addresses can add the others by --host */
+#define MOST 64 /* limit of names; a machine with more addresses can add the others by --host */
 
 bool kd_names_any(const char *listen)
 {
@@ -25,7 +25,8 @@ void kd_names_free(char **names)
     free(names);
 }
 
-/* Writes an address as a URL has it; "" for other families and for addresses that are valid on one interface only. */
+/* Writes an address as it is written in URLs; "" for other families and for addresses that are valid on one interface
+ * only. */
 static void text_of(const struct sockaddr *address, int family, char out[80])
 {
     char text[INET6_ADDRSTRLEN] = "";

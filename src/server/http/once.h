@@ -1,9 +1,10 @@
 /* Idempotency-Key (draft-ietf-httpapi-idempotency-key-header-07): a repeated POST with the same key creates nothing
- * new. The key is kept with the object that it created, for as long as that exists (a job: across restarts), and the
- * same request of the same client is answered with that object. HTTP thread only.
+ * new. The key is kept with the object that it created, for as long as the object exists; the key of a job also
+ * survives restarts. If the same client repeats the same request, it is answered with that object. HTTP thread only.
  *
- * Handlers of routes that are marked `once` look for an object that holds the request's key, call kd_once_begin with
- * that object's struct kd_once before they create anything, and copy request->once into what they create. */
+ * A handler of a route that is marked `once` first looks for an object that holds the request's key. It calls
+ * kd_once_begin with that object's struct kd_once before it creates anything, and copies request->once into what it
+ * creates. */
 #ifndef KD_SERVER_HTTP_ONCE_H
 #define KD_SERVER_HTTP_ONCE_H
 
@@ -17,14 +18,14 @@ enum { KD_ONCE_TEXT = 300 };
 
 struct kd_request;
 
-/* SHA-256 in hexadecimal; "" if the request has no key. */
+/* Two hashes by SHA-256, in hexadecimal; "" if the request has no key. */
 struct kd_once {
     char key[65];     /* hash of the client, the route and the key */
     char request[65]; /* hash of the target and the body */
 };
 
-/* Reads the header before the body arrives; without the header the request has no key. Returns false if the key is
- * malformed; text then holds the detail of *problem. */
+/* Reads the header, before the body arrives. Without the header the request has no key. Returns false if the key is
+ * malformed; `text` then holds the detail of *problem. */
 bool kd_once_read(struct kd_request *request, struct kd_problem *problem, char text[KD_ONCE_TEXT]);
 /* Adds the next part of the body to the hash. */
 void kd_once_take(struct kd_request *request, const void *data, size_t size);
@@ -34,6 +35,6 @@ void kd_once_take(struct kd_request *request, const void *data, size_t size);
  * with the same key is under way, and 422 if the earlier request was a different one. */
 enum kd_once_verdict { KD_ONCE_FIRST, KD_ONCE_AGAIN, KD_ONCE_REFUSED };
 enum kd_once_verdict kd_once_begin(struct kd_request *request, const struct kd_once *earlier, enum MHD_Result *refused);
-void kd_once_end(struct kd_request *request); /* the request has been answered */
+void kd_once_end(struct kd_request *request); /* call it when the request has been answered */
 
 #endif

@@ -50,7 +50,7 @@ void kd_problem_limit(struct kd_problem *problem, const struct kd_error *error, 
         problem->retry_after = error->retry_s ? error->retry_s : otherwise_s;
 }
 
-/* A message may contain bytes of the request or end within a character, which JSON must not. */
+/* A message may contain bytes of the request or end within a character. JSON allows neither. */
 static void add_text(struct kd_json *json, const char *key, const char *text)
 {
     char copy[512];

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* name, HTTP status, word in the type's URI, title */
+/* X(name, HTTP status, word in the type's URI, title) */
 #define KD_PROBLEMS(X) \
     X(BAD_REQUEST, 400, "bad-request", "The request is not sound HTTP") \
     X(MALFORMED_JSON, 400, "malformed-json", "The body cannot be read as a JSON object") \
@@ -66,15 +66,15 @@ struct kd_problem {
     const char *content_range; /* 416: the value of Content-Range, which has the length */
     const char *request_id;    /* NULL or "" for none */
     unsigned retry_after;      /* Retry-After in seconds; 0: no such header */
-    /* close the connection: the rest of what this client sends is not wanted, or cannot be parsed safely */
+    /* close the connection, because the rest of what the client sends is not wanted or cannot be parsed safely */
     bool close;
 };
 
 /* Makes the problem of a status. pointer and detail point into *error. */
 struct kd_problem kd_problem_from(const struct kd_error *error);
 
-/* Completes a result of kd_problem_from where a limit may be the reason. quota: the limit is that of one client, so the
- * status is 429. For KD_EBUSY it sets Retry-After to the seconds in the error, else to otherwise_s. */
+/* Completes a result of kd_problem_from if a limit may be the reason. quota: the limit is that of one client, so the
+ * status is 429. Retry-After is the number of seconds in the error for KD_EBUSY, else otherwise_s. */
 void kd_problem_limit(struct kd_problem *problem, const struct kd_error *error, bool quota, unsigned otherwise_s);
 
 unsigned kd_problem_status(enum kd_problem_type type);

@@ -35,8 +35,8 @@ static double boot_time_s(void)
     return s;
 }
 
-/* proc(5): the process name may contain anything and is skipped; the fields used are the 14th, 15th and 22nd to
- * 24th. */
+/* Reads /proc/self/stat (proc(5)). The process name may contain anything and is skipped. The fields used are the 14th,
+ * 15th and 22nd to 24th. */
 static struct process look(void)
 {
     struct process p = { NAN, NAN, NAN, NAN };

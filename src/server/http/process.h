@@ -5,7 +5,7 @@
 
 #include "base/buffer.h"
 
-/* Values that /proc does not have are left out. */
+/* Writes the metrics. A value that /proc does not have is left out. */
 enum kd_status kd_process_write(struct kd_buffer *out);
 
 #endif

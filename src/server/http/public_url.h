@@ -1,13 +1,13 @@
-/* The public address of this server, for URLs that must be absolute: links and pictures that other sites show. It is
- * --public-url; without that, "http://" and the Host of the request, which the server has checked. */
+/* The public address of this server. It is used in URLs that must be absolute: links and pictures that other sites
+ * show. It is --public-url, or else "http://" and the Host of the request, which the server has checked. */
 #ifndef KD_SERVER_HTTP_PUBLIC_URL_H
 #define KD_SERVER_HTTP_PUBLIC_URL_H
 
 #include "server/http/request.h"
 
-/* Parses text: "https://HOST" or "https://HOST:PORT", optionally with a path. *out (malloc'd, NULL if text is NULL) is
- * the address; without a path the base path is appended. *host is its host as Host headers are compared. KD_EINVAL with
- * a message if text is malformed. */
+/* Parses text: "https://HOST" or "https://HOST:PORT", optionally with a path. *out is the address; if it has no path,
+ * the base path is appended. It is malloc'd; NULL if text is NULL. *host is its host in the form in which Host headers
+ * are compared. KD_EINVAL with a message if text is malformed. */
 enum kd_status kd_public_url_make(const char *text, const struct kd_base_path *base, char **out, char **host,
                                   struct kd_error *error);
 

@@ -20,10 +20,10 @@ static bool number(const char **at, uint64_t *out)
     return n > 0;
 }
 
-/* Elements of a list may be empty (RFC 9110 5.6.1). */
+/* Skips empty elements, which a list may have (RFC 9110 5.6.1). */
 static const char *skip_empty(const char *at) { return at + strspn(at, BLANKS ","); }
 
-/* first-last, first- or -suffix */
+/* One range of a Range header: first-last, first- or -suffix. */
 struct spec {
     uint64_t first, last;
     bool suffix;

@@ -5,13 +5,13 @@
 #include <stdint.h>
 
 enum kd_range {
-    KD_RANGE_WHOLE,  /* send the whole: there is no Range, or one that is ignored */
-    KD_RANGE_PART,   /* `count` bytes from `first` on */
+    KD_RANGE_WHOLE,  /* send all bytes: there is no Range, or it is ignored */
+    KD_RANGE_PART,   /* send `count` bytes from position `first` */
     KD_RANGE_BEYOND, /* no byte of the range exists: 416 */
 };
 
-/* Which of `size` bytes a Range value asks for. NULL, malformed values, other units than bytes and lists of several
- * ranges select the whole, as RFC 9110 14.2 permits. */
+/* Decides which of `size` bytes a Range value selects. NULL, malformed values, units other than bytes and lists of
+ * several ranges select all of them, as RFC 9110 14.2 permits. */
 enum kd_range kd_range_read(const char *value, uint64_t size, uint64_t *first, uint64_t *count);
 
 #endif

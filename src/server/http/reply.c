@@ -21,7 +21,7 @@ struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type)
     return response;
 }
 
-/* Below, the header of gzip outweighs the gain; above, compression would block the HTTP thread for more than some 20
+/* A shorter text gains less than gzip's header costs. A longer one would block the HTTP thread for more than some 20
  * ms. */
 enum { PACK_LEAST = 1 << 10, PACK_MOST = 1 << 20 };
 
@@ -60,9 +60,9 @@ static ssize_t nothing(void *cls, uint64_t position, char *to, size_t size)
 struct MHD_Response *kd_reply_empty(const char *type)
 {
     struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64, nothing, NULL, NULL);
-    /* Otherwise libmicrohttpd announces chunks and sends the final chunk "0", although there is no body; a client that
-     * keeps the connection would take it for the beginning of the next answer. This option makes it close the
-     * connection. */
+    /* Without this option libmicrohttpd announces chunks and sends the final chunk "0", although there is no body. A
+     * client that keeps the connection would take that for the beginning of the next answer. With the option the
+     * library closes the connection. */
     if (response)
         MHD_set_response_options(response, MHD_RF_HTTP_1_0_COMPATIBLE_STRICT, MHD_RO_END);
     if (response && type)
@@ -157,14 +157,16 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
         return kd_reply_unmatched(request);
     }
     const char *type = MHD_get_response_header(response, "Content-Type");
-    if (type && (status == MHD_HTTP_NO_CONTENT || status == MHD_HTTP_NOT_MODIFIED)) /* these have no body */
+    /* answers with these statuses have no body */
+    if (type && (status == MHD_HTTP_NO_CONTENT || status == MHD_HTTP_NOT_MODIFIED))
         MHD_del_response_header(response, "Content-Type", type);
     MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
     MHD_add_response_header(response, "Cross-Origin-Resource-Policy",
                             server->cross_site ? "cross-origin" : "same-site");
     if (!MHD_get_response_header(response, "Cache-Control"))
         MHD_add_response_header(response, "Cache-Control", "no-store");
-    if (server->access) /* a cached answer is for the same token only */
+    /* so that a cached answer is used for the same token only */
+    if (server->access)
         MHD_add_response_header(response, "Vary", "Authorization, " KD_ACCESS_HEADER ", Cookie");
     kd_cors_add(request, response);
     add_quota(request, response);

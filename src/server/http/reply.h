@@ -9,12 +9,12 @@
 #include "server/http/problem.h"
 #include "server/http/request.h"
 
-/* Makes a response of the buffer's bytes and takes them over: the buffer is empty afterwards, also on failure. Returns
- * NULL on failure. */
+/* Makes a response and moves the buffer's bytes into it. The buffer is empty afterwards, even on failure. Returns NULL
+ * on failure. */
 struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type);
-/* The same for text. It is compressed by gzip if the client accepts that and the text is long enough. */
+/* Like kd_reply_take, for text. It is compressed by gzip if the client accepts that and the text is long enough. */
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type);
-/* Makes a response of bytes that outlive it. type NULL: no content, so no Content-Type. */
+/* Makes a response of bytes that outlive the response. type NULL: no content, so no Content-Type. */
 struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type);
 /* Makes a response without a body for HEAD and 304 where the length of GET's answer is unknown. Closes the
  * connection. */
@@ -56,7 +56,7 @@ bool kd_reply_only(struct kd_request *request, const char *const *known, enum MH
 
 /* Joins all values of a list-valued request header by commas; empty when it is absent or memory ran out. */
 struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *name);
-/* kd_accept_best with the request's Accept. */
+/* Calls kd_accept_best with the request's Accept. */
 size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*type)(size_t i, const void *list),
                          const void *list);
 /* Appends a name to the value of a header that is a List of Tokens (RFC 9651). */

@@ -14,13 +14,13 @@
 
 #define PIECE ((size_t)256 << 10) /* bytes read at once */
 
-/* The bytes to send, and the status. */
+/* Selection of the bytes to send, and the status. */
 struct part {
     unsigned status;
     uint64_t first, count;
 };
 
-/* State of a part that is read piece by piece. */
+/* State of a selection that is read in pieces of PIECE bytes. */
 struct reading {
     struct part part;
     MHD_ContentReaderCallback read;
@@ -84,15 +84,16 @@ static bool names(struct kd_request *request, const char *header, const char *et
     return yes;
 }
 
-/* Whether If-Range holds: strong comparison; dates never match, since we send no Last-Modified (RFC 9110 13.1.5). */
+/* Whether If-Range holds for the ETag, by strong comparison. A date never holds, because we send no Last-Modified (RFC
+ * 9110 13.1.5). */
 static bool is_of(struct kd_request *request, const char *etag)
 {
     const char *tag = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "If-Range");
     return !tag || !strcmp(tag, etag);
 }
 
-/* Evaluates preconditions in the order of RFC 9110 13.2.2. A failed If-Match is refused when the answer is sent
- * (reply.c). */
+/* Evaluates preconditions in the order of RFC 9110 13.2.2. If-Match is not evaluated here: kd_reply_send refuses the
+ * request if it fails (reply.c). */
 static struct part choose(struct kd_request *request, const struct kd_representation *r)
 {
     struct part part = { MHD_HTTP_OK, 0, r->size };
@@ -125,8 +126,8 @@ static enum MHD_Result beyond(struct kd_request *request, const struct kd_repres
                             &(struct kd_problem) { .type = KD_PROBLEM_RANGE, .content_range = size, .detail = detail });
 }
 
-/* Adds digests (RFC 9530): Repr-Digest of all bytes, and Content-Digest where all are sent. They are sent whatever
- * Want-Content-Digest and Want-Repr-Digest say. */
+/* Adds digests (RFC 9530), whatever Want-Content-Digest and Want-Repr-Digest say. Repr-Digest is that of all bytes;
+ * Content-Digest is added if all bytes are sent. */
 static void add_digests(struct MHD_Response *response, const struct kd_request *request,
                         const struct kd_representation *r, struct part part)
 {

@@ -8,14 +8,16 @@
 
 struct kd_representation {
     const char *type;
-    const char *etag;          /* strong, with its quotes: changes whenever the bytes change */
-    bool hashed;               /* the ETag between its quotes is the SHA-256 of the bytes, which is sent as digests */
+    const char *etag; /* strong, with its quotes: changes whenever the bytes change */
+    /* the ETag without its quotes is the SHA-256 of the bytes, and is also sent as digests */
+    bool hashed;
     const char *cache_control; /* NULL: "private, no-cache", so that caches revalidate each time */
     const char *coding;        /* Content-Encoding; NULL: none */
-    bool negotiated;           /* the coding was chosen by Accept-Encoding, so that Vary is sent */
+    bool negotiated;           /* the coding was chosen by Accept-Encoding, so Vary is sent */
     const char *const *fields; /* further headers: name, value, name, ..., NULL; NULL: none */
     uint64_t size;
-    /* Source of the bytes, the first of fd, data and read that is set. It stays valid and unchanged until `release`. */
+    /* Source of the bytes: `fd`, `data` or `read`, the first of them that is set. It stays valid and unchanged until
+     * `release`. */
     int fd;                         /* a file, closed at the end; -1: none */
     const void *data;               /* bytes in memory; NULL: none */
     MHD_ContentReaderCallback read; /* returns bytes from a position; positions only increase */
@@ -23,10 +25,10 @@ struct kd_representation {
     void *cls;                      /* argument of read and release */
 };
 
-/* Sends it. Closes or releases its source in every case. */
+/* Sends the representation. Closes or releases its source in every case. */
 enum MHD_Result kd_reply_representation(struct kd_request *request, const struct kd_representation *r);
 
-/* Sends a file of the page or a cached document, by gzip if the client accepts that. fields: as in
+/* Sends a file of the page or a cached document, compressed by gzip if the client accepts that. fields: as in
  * kd_representation. */
 enum MHD_Result kd_reply_served(struct kd_request *request, const struct kd_served *file, const char *const *fields);
 

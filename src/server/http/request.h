@@ -35,26 +35,26 @@ struct kd_request {
     bool spent;                       /* Authorization holds the access token, so it holds no other token */
     const char *method, *rest;        /* rest: the segment of the path that the route has in braces */
     bool head, begun, body_announced, close;
-    struct kd_once once;          /* hashes of its Idempotency-Key and content */
-    struct sha256_ctx taken;      /* running hash of target and body, if it has a key */
+    struct kd_once once;          /* hashes of the request's Idempotency-Key and content */
+    struct sha256_ctx taken;      /* running hash of target and body, if the request has a key */
     struct kd_request *once_next; /* next request under way that has a key */
     struct kd_buffer body;
     size_t body_mark;                              /* size of body when its deadline was last extended */
     const struct kd_format *format;                /* requested format of the picture; NULL: any, or no picture */
-    struct kd_render_job *job;                     /* render under way; owned */
+    struct kd_render_job *job;                     /* the render under way for this request; owned */
     struct kd_request *also_waiting;               /* next request waiting for the same thumbnail */
     bool waited;                                   /* it has waited for a thumbnail */
-    struct kd_orbits_job *orbits;                  /* orbits being computed; holds a reference */
+    struct kd_orbits_job *orbits;                  /* orbits being computed; a counted reference */
     struct kd_particles_job *particles;            /* list of particles being made; owned */
     struct kd_task *task;                          /* work of the task scheduler; owned */
-    struct kd_viewer *viewer;                      /* wait for a session's next frame; owned */
-    struct kd_playground_session_watcher *watcher; /* wait for a playground's next tick; owned */
+    struct kd_viewer *viewer;                      /* the request's wait for a session's next frame; owned */
+    struct kd_playground_session_watcher *watcher; /* the request's wait for a playground's next tick; owned */
     char etag[120];
     char file[96];      /* Content-Disposition if the answer is 200 (kd_reply_file) */
     size_t reply_bytes; /* size of a large reply, which extends its deadline */
     double start_ms;
     double bytes_before; /* bytes written to the connection before this request, for the log */
-    unsigned status;     /* of the reply, for the log */
+    unsigned status;     /* status of the reply, for the log */
 };
 
 /* Token in Authorization; NULL if there is none. Defined in reply.c. */

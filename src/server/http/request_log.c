@@ -11,9 +11,9 @@
 #include <string.h>
 #include <sys/socket.h>
 
-/* this many hexadecimal digits in a row are an id or a token: whoever has it may read or change the object */
+/* So many hexadecimal digits in a row are an id or a token. Whoever has it may read or change the object. */
 #define SECRET 16
-#define SHOWN 4 /* digits of these that are logged */
+#define SHOWN 4 /* digits of an id or token that are logged */
 
 static void target_for_log(const char *raw, char *out, size_t size)
 {
@@ -32,7 +32,7 @@ static void target_for_log(const char *raw, char *out, size_t size)
     out[n] = 0;
 }
 
-/* Bytes written to the request's connection since it was opened, NAN if unknown. The client may have received fewer. */
+/* Bytes written to the request's connection since it was opened; NAN if unknown. The client may have received fewer. */
 static double bytes_written(const struct kd_request *request)
 {
     const size_t needed =

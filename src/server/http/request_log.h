@@ -1,4 +1,4 @@
-/* Logs each finished request as one line of level info. HTTP threads. */
+/* Logs each finished request as one line of level info. HTTP threads only. */
 #ifndef KD_SERVER_HTTP_REQUEST_LOG_H
 #define KD_SERVER_HTTP_REQUEST_LOG_H
 
@@ -6,9 +6,9 @@
 
 /* Call it when the request begins: it records the connection's byte count. */
 void kd_request_log_begin(struct kd_request *request);
-/* Writes the line. As text: method, target, status, time, client. As JSON: id, method, route, status, ms, bytes
- * (written to the socket with the header, where the system counts them), client, visitor, cut_off. JSON has the route
- * in place of the target, because ids of sessions and jobs are capabilities. */
+/* Writes the line. As text: method, target, status, time, client. As JSON: id, method, route, status, ms, bytes,
+ * client, visitor, cut_off. bytes: those written to the socket, including the header, where the system counts them.
+ * JSON has the route instead of the target, because ids of sessions and jobs are capabilities. */
 void kd_request_log_end(const struct kd_request *request, double ms, bool cut_off);
 
 #endif

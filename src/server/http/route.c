@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Cuts *rest out of the path, which is modified if it matches. */
+/* Whether the path matches the route. If so, cuts *rest out of the path, which is modified. */
 static bool matches(const struct kd_route *route, char *path, const char **rest)
 {
     const char *brace = strchr(route->path, '{');

@@ -20,7 +20,7 @@ struct attributes {
 void kd_sched_short_slices(void)
 {
     static _Thread_local int asked;
-    if (asked || sched_getscheduler(0) != SCHED_OTHER) /* a policy set for the whole process is kept */
+    if (asked || sched_getscheduler(0) != SCHED_OTHER) /* a policy that was set for the whole process is kept */
         return;
     asked = 1;
     struct attributes a = {

@@ -1,9 +1,9 @@
 /* State shared by the parts of the HTTP service. Private to src/server.
  *
  * Threads: the front (front.h) accepts connections. One libmicrohttpd thread runs the handlers of the health routes,
- * another all other handlers ("the HTTP thread"). The render queue has render threads and encoders, the task scheduler
- * (turns.h) its workers. The reaper (reaper.h) enforces deadlines, detects clients that have disconnected, and runs the
- * shutdown. */
+ * another all other handlers ("the HTTP thread"). The render queue has render threads and encoders. The task scheduler
+ * (task_scheduler.h) has workers. The reaper (reaper.h) enforces deadlines, detects clients that have disconnected, and
+ * runs the shutdown. */
 #ifndef KD_SERVER_HTTP_SERVICE_H
 #define KD_SERVER_HTTP_SERVICE_H
 
@@ -20,23 +20,25 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
-#define KD_BODY_MAX KD_SCENE_JSON_MAX         /* bytes of one body; others: KD_RAYS_BODY_MAX, KD_ORBIT_BODY_MAX */
-#define KD_BODIES_MAX ((size_t)192 << 20)     /* bytes of all bodies being received */
-#define KD_BODIES_SHARE ((size_t)96 << 20)    /* of these, of one client; leaves room for the largest body of another */
-#define KD_BODIES_SMALL ((size_t)16 << 20)    /* reserve beyond KD_BODIES_MAX for bodies of at most KD_BODY_MAX */
-#define KD_REPLIES_MAX (512u << 20)           /* bytes of all answers not yet sent; a single answer may exceed it */
+#define KD_BODY_MAX KD_SCENE_JSON_MAX     /* bytes of one body, except KD_RAYS_BODY_MAX and KD_ORBIT_BODY_MAX */
+#define KD_BODIES_MAX ((size_t)192 << 20) /* limit of bytes of all bodies being received */
+/* the most of these that one client may hold; leaves room for the largest body of another */
+#define KD_BODIES_SHARE ((size_t)96 << 20)
+#define KD_BODIES_SMALL ((size_t)16 << 20) /* reserve beyond KD_BODIES_MAX for bodies of at most KD_BODY_MAX */
+/* limit of bytes of all answers not yet sent; a single answer may exceed it */
+#define KD_REPLIES_MAX (512u << 20)
 #define KD_REPLIES_RESERVE ((size_t)64 << 20) /* reserve beyond KD_REPLIES_MAX for small answers */
 #define KD_REPLIES_SMALL ((size_t)4 << 20)    /* largest size of a small answer */
 #define KD_HEADER_POOL (32u << 10)            /* bytes of a connection for its header and read buffer */
-#define KD_IDLE_S 30u                         /* closes a kept-alive connection without traffic */
-#define KD_SESSION_IDLE_MS 60000u             /* ends a session without viewers */
-#define KD_PLAYS_BYTES ((size_t)1 << 30)      /* memory of all playgrounds */
-#define KD_JOBS_KEPT 64u                      /* jobs stored, finished ones included */
-#define KD_JOB_LONGEST_S (24 * 3600.0)        /* estimated time of all frames of a job */
-#define KD_JOB_KEEP_S (24 * 3600.0)           /* deletes a finished job */
-#define KD_JOB_BYTES ((uint64_t)16 << 30)     /* disk space of all jobs */
-#define KD_ASSETS 64u                         /* assets stored */
-#define KD_ASSETS_BYTES ((uint64_t)256 << 20) /* their bytes */
+#define KD_IDLE_S 30u                         /* a kept-alive connection without traffic is closed after this time */
+#define KD_SESSION_IDLE_MS 60000u             /* a session without viewers ends after this time */
+#define KD_PLAYS_BYTES ((size_t)1 << 30)      /* limit of the memory of all playgrounds */
+#define KD_JOBS_KEPT 64u                      /* limit of jobs stored, including finished ones */
+#define KD_JOB_LONGEST_S (24 * 3600.0)        /* largest estimated time of all frames of a job */
+#define KD_JOB_KEEP_S (24 * 3600.0)           /* a finished job is deleted after this time */
+#define KD_JOB_BYTES ((uint64_t)16 << 30)     /* limit of the disk space of all jobs */
+#define KD_ASSETS 64u                         /* limit of assets stored */
+#define KD_ASSETS_BYTES ((uint64_t)256 << 20) /* limit of the bytes of all assets */
 #define KD_ASSET_KEEP_S (24 * 3600.0)         /* an asset unused for this long may be evicted for a new one */
 
 #define KD_STATUS_CLASSES 6
@@ -45,8 +47,8 @@
 enum kd_phase {
     KD_SERVING,
     KD_DRAINING, /* /readyz fails; everything else is served */
-    KD_REFUSING, /* new renders are refused; accepted ones finish */
-    KD_CLOSING,  /* not listening any more; answers under way are sent */
+    KD_REFUSING, /* new renders are refused; those accepted before finish */
+    KD_CLOSING,  /* the server does not listen any more; answers under way are sent */
     KD_STOPPED,
 };
 
@@ -81,7 +83,7 @@ struct kd_server {
     struct kd_sessions *sessions;
     struct kd_playground_sessions *plays;
     struct kd_jobs *jobs;
-    struct kd_job_whole *cubes; /* cubes being downloaded (job/whole.c); HTTP thread only */
+    struct kd_job_whole *cubes; /* cubes being downloaded (job/archive.c); HTTP thread only */
     struct kd_request *once;    /* requests under way that have an Idempotency-Key; HTTP thread only */
     struct kd_asset_store *assets;
     struct kd_cached_documents *kept;
@@ -89,23 +91,25 @@ struct kd_server {
     char etag_tail[20]; /* part of a picture's ETag besides the scene: version and device */
 
     _Atomic int phase;
-    _Atomic unsigned requests;              /* begun and not completely answered */
+    _Atomic unsigned requests;              /* number of requests that are begun and not completely answered */
     struct kd_bytes *bodies, *replies;      /* memory budgets: bodies being received; answers not yet sent */
     struct kd_access *access;               /* access tokens; NULL: everybody may send every request */
     struct kd_auth_throttle *auth_throttle; /* throttle of wrong tokens, used with access */
     struct kd_cors *cors;                   /* origins permitted besides our own; NULL: none */
-    bool cross_site;                        /* pages of other sites may send requests whose answers they cannot read */
-    struct kd_measures *measures;           /* durations of requests */
-    /* counts by the first digit of the status; 0: cut before a status */
+    /* whether pages of other sites may send requests whose answers they cannot read */
+    bool cross_site;
+    struct kd_measures *measures; /* durations of requests */
+    /* Numbers of answers by the first digit of the status; 0: the connection was cut before a status. */
     _Atomic unsigned long answers[KD_STATUS_CLASSES];
 
     int stop_fd; /* eventfd that wakes the reaper */
     pthread_t reaper;
     bool reaper_runs;
-    _Atomic bool abandon; /* destroy without stop: do not wait */
-    _Atomic bool ended;   /* drain_s after a stop request: remaining work is cancelled and its clients get an answer */
-    pthread_mutex_t lock; /* for all members below */
-    struct kd_sessions_counts sessions_counts; /* last values read */
+    _Atomic bool abandon; /* the server is destroyed without having been stopped: do not wait */
+    /* set drain_s after a stop request: remaining work is cancelled and its clients get an answer */
+    _Atomic bool ended;
+    pthread_mutex_t lock;                      /* protects all members below */
+    struct kd_sessions_counts sessions_counts; /* the counts that were last read */
     struct kd_jobs_counts jobs_counts;
     struct kd_playground_sessions_counts plays_counts;
     pthread_cond_t changed;

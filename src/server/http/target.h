@@ -8,11 +8,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_TARGET_PAIRS 384 /* exceeds the number of fields of a scene with full lists */
+#define KD_TARGET_PAIRS 384 /* more than a scene with full lists has fields */
 
 struct kd_target {
     char *text; /* buffer that the pointers below point into; owned */
-    char *path; /* without the base path once the route is found */
+    char *path; /* path; once the route is found, without the base path */
     struct kd_target_pair { const char *name, *value; } pairs[KD_TARGET_PAIRS];
     size_t n_pairs;
 };
@@ -35,8 +35,8 @@ enum kd_status kd_target_only(const struct kd_target *target, const char *const 
 const char *kd_target_value(const struct kd_target *target, const char *name);
 /* Parses decimal digits. False if text is anything else or the number exceeds most. */
 bool kd_target_number(const char *text, uint64_t most, uint64_t *out);
-/* Parses a parameter as such a number; otherwise: the value if it is absent. False if it is malformed or exceeds
- * most. */
+/* Parses a parameter by kd_target_number; `otherwise` is the value if the parameter is absent. False if it is malformed
+ * or exceeds most. */
 bool kd_target_whole(const struct kd_target *target, const char *name, uint64_t otherwise, uint64_t most,
                      uint64_t *out);
 

@@ -11,12 +11,12 @@
 #include <string.h>
 
 #define WORKERS_MAX 16
-#define THREADS_MAX (4 * WORKERS_MAX) /* with those suspended in a turn */
-#define PIECE_MS 15.                  /* of a turn, after which other jobs run first */
+#define THREADS_MAX (4 * WORKERS_MAX) /* including threads that are suspended in a slice */
+#define PIECE_MS 15.                  /* time that a slice runs before other jobs go first */
 
-/* A suspended turn, on the stack of its thread. It is listed among the jobs and resumed in its place. */
+/* A suspended slice, on the stack of its thread. It is listed among the jobs, and is resumed when it is the first. */
 struct paused {
-    struct kd_scheduler_job place; /* first member; its turn is NULL */
+    struct kd_scheduler_job place; /* must be the first member; its turn is NULL */
     pthread_cond_t resumed;
 };
 
@@ -26,17 +26,18 @@ struct kd_scheduler {
     pthread_mutex_t lock;
     pthread_cond_t changed;
     bool closing;
-    struct kd_scheduler_job *first, **end, *parked; /* first: in order of their turns; parked: waiting */
-    struct kd_scheduler_job *accepted;              /* all that are not done */
+    /* first: listed jobs, in the order in which they run; parked: jobs that wait */
+    struct kd_scheduler_job *first, **end, *parked;
+    struct kd_scheduler_job *accepted; /* all jobs that are not done */
     unsigned n_accepted, unfinished;
     pthread_t threads[THREADS_MAX];
-    unsigned n_threads, n_workers, busy, idle; /* busy: threads that run a turn, at most n_workers */
+    unsigned n_threads, n_workers, busy, idle; /* busy: threads that run a slice, at most n_workers */
 };
 
-/* Of the calling thread, if it is a worker. */
+/* the calling thread's scheduler and job, if it is a worker */
 static _Thread_local struct kd_scheduler *mine;
 static _Thread_local struct kd_scheduler_job *under_way;
-static _Thread_local double piece_ms; /* start of the current piece */
+static _Thread_local double piece_ms; /* when the current slice began or was last resumed */
 
 static void append(struct kd_scheduler *turns, struct kd_scheduler_job *job)
 {
@@ -86,7 +87,7 @@ static void park(struct kd_scheduler *turns, struct kd_scheduler_job *job, bool 
         pthread_cond_signal(&turns->changed); /* a sleeping worker must wake earlier */
 }
 
-/* Ends the parks whose time has come. Returns when the next one ends, or INFINITY. */
+/* Resumes the jobs whose parking time has ended. Returns the time at which the next one ends, or INFINITY. */
 static double unpark_due(struct kd_scheduler *turns)
 {
     double next = INFINITY;
@@ -131,14 +132,15 @@ static void unref(struct kd_scheduler *turns, struct kd_scheduler_job *job)
     turns->n_accepted--;
 }
 
-/* While a turn of a shared job is suspended no other turn of it begins: each would occupy a thread. */
+/* Lists a job again, if it may have a further slice now. While a slice of a shared job is suspended no other slice of
+ * it begins: each would occupy a thread. */
 static void list_again(struct kd_scheduler *turns, struct kd_scheduler_job *job)
 {
     if (!job->paused && !job->over)
         append(turns, job);
 }
 
-/* Runs a turn of the first job in the list. Locked on entry and exit. */
+/* Runs a slice of the first job in the list. Locked on entry and exit. */
 static void give_turn(struct kd_scheduler *turns, struct kd_scheduler_job *job)
 {
     take_out(turns, job);
@@ -174,8 +176,8 @@ static void give_turn(struct kd_scheduler *turns, struct kd_scheduler_job *job)
     turns->unfinished--;
 }
 
-/* Runs the first in the list: resumes the thread of a suspended turn, or runs a job's turn on this one. Locked on entry
- * and exit. */
+/* Runs the first entry of the list: resumes the thread of a suspended slice, or runs a job's slice on this thread.
+ * Locked on entry and exit. */
 static void go_on(struct kd_scheduler *turns)
 {
     struct kd_scheduler_job *job = turns->first;
@@ -220,7 +222,7 @@ static bool start_thread(struct kd_scheduler *turns)
     return true;
 }
 
-/* Suspends the current turn until its place in the list is reached. Locked on entry and exit. */
+/* Suspends the current slice until its place in the list is reached. Locked on entry and exit. */
 static void pause_turn(struct kd_scheduler *turns)
 {
     struct paused me = { .resumed = PTHREAD_COND_INITIALIZER };
@@ -236,8 +238,8 @@ static void pause_turn(struct kd_scheduler *turns)
     pthread_cond_destroy(&me.resumed);
 }
 
-/* Hook of base/pause.h: suspends this thread's turn until the other listed jobs have had theirs. If no other thread can
- * run these, it continues. */
+/* Hook of base/pause.h: suspends this thread's slice until the other listed jobs have had theirs. If no other thread
+ * can run these, the slice continues. */
 static void let_others_go_first(void)
 {
     struct kd_scheduler *turns = mine;

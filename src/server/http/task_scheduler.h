@@ -1,6 +1,7 @@
 /* Cooperative task scheduler: a few workers run slices of long tasks in turn, so that a short task does not wait for a
- * long one. A slice returns after some 10 ms. A function that it calls may also be suspended in the middle
- * (base/pause.h); it then keeps its thread, while as many other threads as there are workers go on. */
+ * long one. A slice returns after some 10 ms. A function that a slice calls may also be suspended in the middle
+ * (base/pause.h). A suspended function keeps its thread; another thread replaces that thread, so that the number of
+ * running workers stays the same. */
 #ifndef KD_SERVER_HTTP_TASK_SCHEDULER_H
 #define KD_SERVER_HTTP_TASK_SCHEDULER_H
 
@@ -9,44 +10,47 @@
 
 #include <stdbool.h>
 
-/* How a turn of a job ended. */
+/* Result of a slice of a job. */
 enum kd_slice_result {
     KD_SLICE_MORE, /* there is more to do */
     KD_SLICE_PARK, /* wait for kd_scheduler_wake, kd_scheduler_cancel or the job's due_ms, then continue */
     KD_SLICE_AWAY, /* wait for kd_scheduler_wake alone: another thread uses the job meanwhile */
-    KD_SLICE_LAST, /* nothing is left to begin */
+    KD_SLICE_LAST, /* the job has no further slice */
 };
 
 struct kd_scheduler_job {
     enum kd_slice_result (*turn)(struct kd_scheduler_job *job); /* runs one slice; on a worker */
     void (*done)(
-        struct kd_scheduler_job *job); /* called once on a worker when every turn has returned; may free the job */
-    double due_ms;                     /* end of the next park on kd_clock_ms; 0: parked without a time limit */
-    bool shared;            /* several workers may run turns at once, from the next turn on; a turn may set it */
-    char client[KD_CLIENT]; /* the client that kd_scheduler_admit was asked about */
+        struct kd_scheduler_job *job); /* called once on a worker when every slice has returned; may free the job */
+    /* time on kd_clock_ms at which the job is resumed if it is parked; 0: there is none */
+    double due_ms;
+    /* several workers may run slices of the job at once, from the next slice on; a slice may set it */
+    bool shared;
+    char client[KD_CLIENT]; /* the client that was passed to kd_scheduler_admit */
     /* private to the scheduler */
     struct kd_scheduler_job *next, *next_accepted, **accepted_at;
     bool listed, parked, away, woken, over;
-    unsigned workers, paused; /* turns under way, and those of them that are suspended */
+    unsigned workers, paused; /* slices under way, and those of them that are suspended */
 };
 
 struct kd_scheduler;
 
-/* limit: unfinished jobs; share: those of one client. */
+/* limit: the most unfinished jobs; share: the most of them that one client may have */
 enum kd_status kd_scheduler_create(unsigned limit, unsigned share, struct kd_scheduler **out, struct kd_error *error);
 /* All jobs must be finished. Accepts NULL. */
 void kd_scheduler_destroy(struct kd_scheduler *turns);
 
-/* Tests whether the client may add a job: KD_OK or KD_EBUSY. *quota: it is the client's share that is used up.
- * Submitting thread. */
+/* Tests whether the client may add a job: KD_OK or KD_EBUSY. *quota: true if the limit is the client's share. Called by
+ * the thread that adds the job. */
 enum kd_status kd_scheduler_admit(struct kd_scheduler *turns, const char *client, bool *quota, struct kd_error *error);
 void kd_scheduler_push(struct kd_scheduler *turns, struct kd_scheduler_job *job);
-/* Ends a park, also one that a turn under way is about to request. The job must not be done. Any thread. */
+/* Wakes a parked job, including one whose current slice is about to park it. The job must not have finished. Any
+ * thread. */
 void kd_scheduler_wake(struct kd_scheduler *turns, struct kd_scheduler_job *job);
 unsigned kd_scheduler_unfinished(struct kd_scheduler *turns);
 
-/* Makes kd_scheduler_cancelled true, which jobs poll in their turns, and ends all parks but KD_SLICE_AWAY. Any thread.
- */
+/* Makes kd_scheduler_cancelled true, which jobs poll in their slices. Resumes all parked jobs except those of
+ * KD_SLICE_AWAY. Any thread. */
 void kd_scheduler_cancel(struct kd_scheduler *turns);
 bool kd_scheduler_cancelled(struct kd_scheduler *turns);
 

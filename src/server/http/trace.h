@@ -1,5 +1,4 @@
-/* Parses the header traceparent (W3C Trace Context, 3.2). The log then names the trace that a request belongs to.
- * Pure; any thread. */
+/* Parses the header traceparent (W3C Trace Context, 3.2). Its trace is logged with the request. Pure; any thread. */
 #ifndef KD_SERVER_HTTP_TRACE_H
 #define KD_SERVER_HTTP_TRACE_H
 

@@ -1,8 +1,8 @@
-/* Films of playgrounds. While one frame is rendered, workers move the bodies on to the next.
+/* Films of playgrounds. While one frame is rendered, workers move the bodies on to the next frame.
  *
  * What a frame shows depends on all frames before it. So a frame that is rendered again, and a film that is resumed
- * after a restart, start from the request; the motion is reproduced to the bit. One film is made at a time, the others
- * wait, so that memory and slices of the workers are used for one only. */
+ * after a restart, are computed from the request on; the motion is reproduced to the bit. One film is made at a time
+ * while others wait, so that only one uses memory and slices of the workers. */
 #include "server/job/internal.h"
 
 #include "base/clock.h"
@@ -11,12 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TURN_MS 10. /* slice, the same as for a playground that is watched */
+#define TURN_MS 10. /* length of a slice, as for a playground session */
 
-/* A task that moves a film's playground on to a frame. */
+/* A task that moves a film's playground on to the next frame. */
 struct stride {
-    struct kd_scheduler_job turns; /* first member */
-    struct kd_job *job;            /* a reference */
+    struct kd_scheduler_job turns; /* must be the first member */
+    struct kd_job *job;            /* a counted reference */
     unsigned to;
     bool under_way; /* `run` has begun */
     struct kd_playground_run run;
@@ -52,7 +52,7 @@ done:
     return status;
 }
 
-/* Moves the playground until until_ms. Returns false if the frame is not reached. */
+/* Moves the playground until until_ms. Returns false if the frame has not been reached by then. */
 static bool go_on(struct stride *s, double until_ms)
 {
     struct kd_job_film *film = &s->job->film;
@@ -71,7 +71,7 @@ static bool go_on(struct stride *s, double until_ms)
     return film->at == s->to;
 }
 
-/* Whether the job is still to be done by this server. Called with the lock. */
+/* Whether this server still has to do the job. Called with the lock. */
 static bool wanted(const struct kd_job *job) { return kd_job_is_active(job) && !job->all->closed; }
 
 static enum kd_slice_result turn(struct kd_scheduler_job *turns)
@@ -131,7 +131,7 @@ static enum kd_status move_on(struct kd_job *job, unsigned frame, struct kd_erro
     job->film.crowd = NULL;
     job->film.to = frame;
     job->film.moving = true;
-    kd_job_strike(job); /* moving bodies may crash the server as well */
+    kd_job_strike(job); /* counts an attempt, because moving bodies may crash the server as well */
     job->references++;
     kd_scheduler_push(turns, &s->turns);
     return KD_OK;

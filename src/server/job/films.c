@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Returns NULL if there is none. Called with the lock. */
+/* Returns NULL if the film is not in the list. Called with the lock. */
 static struct kd_job_kept_film *find(struct kd_job *job, const char *format, unsigned rate)
 {
     for (unsigned i = 0; i < job->n_films; i++)
@@ -83,7 +83,7 @@ done:
     return status;
 }
 
-/* Reserves the film's bytes if the limit permits. */
+/* Reserves the film's bytes, if the limit permits that. */
 static enum kd_status reserve(const struct kd_job_film_writer *w, struct kd_error *error)
 {
     struct kd_jobs *all = w->job->all;

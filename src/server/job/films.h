@@ -1,8 +1,8 @@
-/* Films of a job's frames, cached in the job's folder: each is encoded once and deleted with the job. Their size
- * counts towards the quota of frames. Any thread.
+/* Films of a job's frames, cached in the job's folder. Each film is encoded once and deleted with the job. Its size
+ * counts towards the limit of the frames. Any thread.
  *
- * A request opens the film. If it does not exist yet, one request at a time claims the job, encodes the film and
- * releases the claim, even on failure; the others retry a little later. */
+ * A request opens the film. If it does not exist yet, one request claims the job, encodes the film and releases the
+ * claim, even on failure. Other requests retry a little later. */
 #ifndef KD_SERVER_JOB_FILMS_H
 #define KD_SERVER_JOB_FILMS_H
 
@@ -14,13 +14,14 @@
 
 struct kd_job;
 
-enum { KD_JOB_FILMS = 4 }; /* films of a job; a further one replaces the oldest */
+enum { KD_JOB_FILMS = 4 }; /* largest number of films of a job; a further one replaces the oldest */
 struct kd_job_kept_film {
     struct kd_job_film_name name;
     uint64_t bytes;
 };
 
-/* Opens a film by its format and frame rate in 1/s; its mark is its SHA-256. Returns false if it does not exist. */
+/* Opens a film, given its format and its frame rate in 1/s. out->mark is the SHA-256 of the film. Returns false if the
+ * film does not exist. */
 bool kd_job_film_open(struct kd_job *job, const char *format, unsigned rate, struct kd_job_file *out);
 
 /* A film that is being written. */
@@ -35,12 +36,13 @@ struct kd_job_film_writer {
 /* Claims a job for encoding a film. Returns false if the film exists, or another one is being written. */
 bool kd_job_film_claim(struct kd_job_film_writer *w, struct kd_job *job, const char *format, unsigned rate);
 enum kd_status kd_job_film_append(struct kd_job_film_writer *w, const void *data, size_t size, struct kd_error *error);
-/* Publishes the film, so that it can be opened. Returns KD_EFULL if the files of all jobs would exceed their limit. */
+/* Publishes the film, so that it can be opened. Returns KD_EFULL if the files of all jobs would then exceed their
+ * limit. */
 enum kd_status kd_job_film_keep(struct kd_job_film_writer *w, struct kd_error *error);
-/* Deletes an unpublished film and releases the claim, if any. */
+/* Deletes an unpublished film and releases the claim. Either may be absent. */
 void kd_job_film_end(struct kd_job_film_writer *w);
 
-/* Finds films written before a restart. Before any other thread uses the job. */
+/* Finds films that were written before a restart. Call it before any other thread uses the job. */
 void kd_job_films_find(struct kd_job *job);
 
 #endif

@@ -1,7 +1,7 @@
 /* Names and removes the files of a job, and no others; never follows a link. Private to store.c.
  *
- * The folder of jobs has one folder for each job, named by its ID, and `lock`. While a job is being written its folder
- * is called ID.new. */
+ * The folder of all jobs holds a file `lock` and one folder for each job, named by the job's ID. While a job is being
+ * written its folder is called ID.new. */
 #ifndef KD_SERVER_JOB_FOLDER_H
 #define KD_SERVER_JOB_FOLDER_H
 
@@ -12,7 +12,7 @@
 enum { KD_JOB_NAME = KD_SECRET_ID + 4 }; /* size of the name of a job's folder, with ".new" */
 
 bool kd_job_folder_is_id(const char *name);
-bool kd_job_folder_is_new(const char *name); /* of the form ID.new */
+bool kd_job_folder_is_new(const char *name); /* the name has the form ID.new */
 
 void kd_job_folder_frame(unsigned frame, char name[20]); /* "000000.png" */
 
@@ -30,11 +30,12 @@ void kd_job_folder_new_film(const char *format, unsigned rate, char name[KD_JOB_
 /* Opens a job's folder. Returns a descriptor, or -1 with errno; ELOOP or ENOTDIR if it is no folder. */
 int kd_job_folder_open(int jobs, const char *name);
 
-/* Removes at most `most` of a job's files, job.json last because it identifies the job; then the folder, unless it
- * holds other files. Returns true when nothing removable is left. */
+/* Removes at most `most` of a job's files; job.json goes last, because it identifies the job. Then removes the folder,
+ * unless it holds other files. Returns true when nothing removable is left. */
 bool kd_job_folder_remove(int jobs, const char *name, unsigned most);
 
-/* Removes files of a job that a killed server has left half written, and no others, even if their names begin alike. */
+/* Removes files of a job that a killed server has left half written. Removes no others, even if their names begin
+ * alike. */
 void kd_job_folder_tidy(int folder);
 /* Removes all jobs in a folder, then its lock. */
 void kd_job_folder_empty(int jobs);

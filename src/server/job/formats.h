@@ -8,7 +8,7 @@
 
 struct kd_job_format { const char *name, *media_type; };
 
-/* The stream of a job's frames, from any frame on, for series whose frames are files. */
+/* The stream of a job's frames, which may begin at any frame. It exists for series whose frames are files. */
 extern const struct kd_job_format kd_job_as_stream;
 
 /* Entry i of the list of all formats without duplicates. Returns false beyond the end. */

@@ -10,34 +10,35 @@
 
 #include <pthread.h>
 
-struct kd_job_render; /* a frame in the render queue, or being planned */
+struct kd_job_render; /* a frame that is in the render queue, or being planned */
 
-/* Preview of an unfinished frame (preview.c). */
+/* Preview of an unfinished frame (preview_hook.c). */
 struct kd_job_preview_hook {
     struct kd_buffer png;
     unsigned frame;
     uint32_t rows, height;
-    double until_ms; /* previews are made until then; all times on kd_clock_ms */
-    double due_ms;   /* no preview is made before */
+    double until_ms; /* previews are made until this time; all times on kd_clock_ms */
+    double due_ms;   /* no preview is made before this time */
     double began_ms; /* start of the latest preview */
 };
 
 /* State of the playground of a film (film.c). */
 struct kd_job_film {
-    /* While `moving` owned by the worker, without the lock; else protected by the lock. */
+    /* The members up to spent_ms belong to the worker, without the lock, while `moving` is set. Otherwise the lock
+     * protects them. */
     struct kd_playground *p; /* NULL: not created yet */
-    unsigned at;             /* frame that the playground has reached or moves on from */
-    double begin;            /* its time at frame 0 */
-    double spent_ms;         /* time spent on moving it */
-    /* Always protected by the lock. */
+    unsigned at;             /* frame that the playground has reached, or from which it moves on */
+    double begin;            /* the playground's time at frame 0 */
+    double spent_ms;         /* computing time spent on moving the bodies */
+    /* The lock always protects these. */
     bool moving;
     unsigned to;                     /* target frame */
     struct kd_dynamic_bodies *crowd; /* bodies at the target frame, a reference; NULL: not reached yet */
 };
 
-/* Common exposure of all frames, measured before the first of them (job/exposure.h). */
+/* Common exposure of all frames. It is measured before the first frame is rendered (job/exposure.h). */
 struct kd_job_exposure {
-    unsigned n, done; /* pictures needed and measured; n 0: not measured */
+    unsigned n, done; /* numbers of pictures needed, and of those measured; n 0: the exposure is not measured */
     unsigned frames[KD_JOB_EXPOSURE_FRAMES];
     double stops[KD_JOB_EXPOSURE_FRAMES];
 };
@@ -50,34 +51,35 @@ struct kd_job {
     struct kd_sweep_order order;
     struct kd_job_film film;
     struct kd_job_exposure exposure;
-    bool unordered; /* the order of frames is being computed again after a restart (watch.c); no frame begins before */
+    bool unordered; /* after a restart the order of frames is being computed again (watch.c); no frame begins before */
     const struct kd_series *series;
-    unsigned frames, next, finished; /* next: all places before it are done or under way */
+    unsigned frames, next, finished; /* next: all places in the order before this one are done or under way */
     unsigned char *have;             /* one flag for each frame: its file exists */
-    double fraction;                 /* progress of the frame being rendered */
-    double estimate_ms;              /* of all frames, from their plans */
-    double began_ms;                 /* by this server; 0: not begun */
-    double due_ms;                   /* no frame begins before; on kd_clock_ms */
-    double delay_ms;                 /* delay of the next retry after a shortage; 0: no shortage */
+    double fraction;                 /* fraction of the present frame that is rendered */
+    double estimate_ms;              /* estimated time of all frames, from their plans */
+    double began_ms;                 /* when this server began the job; 0: it has not */
+    double due_ms;                   /* no frame begins before this time; on kd_clock_ms */
+    double delay_ms;                 /* length of the next delay after a shortage; 0: no shortage */
     double counted_ms;               /* when the number of lens maps was last written to the record */
-    double ended_ms;                 /* on kd_clock_ms, so that changes of the system clock have no effect */
-    char delayed[160];               /* why it waits until due_ms */
-    bool begun_here;                 /* this server has begun a frame, or moved its bodies */
-    bool struck;                     /* and has counted an attempt for that in the record */
+    /* when the job ended; on kd_clock_ms, so that changes of the system clock have no effect */
+    double ended_ms;
+    char delayed[160]; /* why the job waits until due_ms */
+    bool begun_here;   /* this server has begun a frame of the job, or moved its bodies */
+    bool struck;       /* this server has counted an attempt in the record */
     unsigned finished_here;
     struct kd_job_kept_film films[KD_JOB_FILMS]; /* oldest first */
     unsigned n_films;
     bool filming;           /* a film is being encoded (films.c) */
     unsigned encoding;      /* frames rendered and not yet in files */
-    uint64_t bytes;         /* of its frames and films */
+    uint64_t bytes;         /* total size of its frames and films */
     unsigned revision;      /* incremented when its status changes */
-    char client[KD_CLIENT]; /* "": unknown, after a restart */
+    char client[KD_CLIENT]; /* client that requested the job; "": unknown, after a restart */
     bool listed;
-    bool creating;  /* its files are being created; no frame begins */
-    bool unwritten; /* its record has changed since it was written */
+    bool creating;  /* the job's files are being created; no frame begins */
+    bool unwritten; /* the record has changed since it was written to disk */
     bool keeping;   /* no frame begins before the record is written */
-    bool measured;  /* `keeping` is because of the measured exposure */
-    bool forgotten; /* its request is deleted from disk */
+    bool measured;  /* the reason for `keeping` is that the exposure was measured */
+    bool forgotten; /* the job's request is deleted from disk */
     struct kd_job_preview_hook preview;
     struct kd_job_watcher *watchers;
     struct kd_job *link;
@@ -88,21 +90,22 @@ struct kd_jobs {
     struct kd_job_store *store;
     bool temporary;          /* the store is created with the first job and deleted at the end */
     pthread_mutex_t opening; /* held while that store is created */
-    /* for all members below. Never held while a file is written or removed, because the HTTP thread takes it */
+    /* Protects all members below. Never held while a file is written or removed, because the HTTP thread takes this
+     * lock. */
     pthread_mutex_t lock;
     struct kd_scheduler_job writer;  /* scheduler job that writes records (records.c) */
     bool writes, begun;              /* writes: the writer is under way; begun: other threads use the jobs */
     struct kd_job *first;            /* oldest first */
     struct kd_job *gone;             /* jobs whose files are to be removed */
-    struct kd_job_render *rendering; /* in the render queue, or being planned */
-    struct kd_job *filming;          /* job whose playground is moved; NULL: none */
+    struct kd_job_render *rendering; /* frame that is in the render queue, or being planned */
+    struct kd_job *filming;          /* job whose playground is being moved; NULL: none */
     unsigned behind;
     uint64_t bytes;
-    uint64_t frames; /* finished by this server, of all jobs */
+    uint64_t frames; /* frames of all jobs that this server has finished */
     bool closed;
 };
 
-/* Called with all->lock unless a comment says otherwise. */
+/* The functions below are called with all->lock unless a comment says otherwise. */
 
 double kd_job_now_s(void); /* system time in s since 1970 */
 
@@ -111,44 +114,45 @@ static inline bool kd_job_is_active(const struct kd_job *job)
 {
     return job->listed && job->record.state == KD_JOB_ACTIVE;
 }
-/* records.c: has a worker write the job's record; failures are logged. */
+/* records.c: requests that a worker writes the job's record; failures are logged. */
 void kd_job_write(struct kd_job *job);
-void kd_jobs_begin_writing(struct kd_jobs *all); /* starts the writer if a record is to be written */
-/* The same, and no frame of the job begins before it is written. */
+void kd_jobs_begin_writing(struct kd_jobs *all); /* starts the writer if any record is to be written */
+/* Like kd_job_write, and no frame of the job begins before the record is written. */
 void kd_job_keep(struct kd_job *job);
-/* Writes all changed records. When no other thread uses the jobs. */
+/* Writes all changed records. Call it when no other thread uses the jobs. */
 void kd_jobs_write_all(struct kd_jobs *all);
-/* counts an attempt, once in a server's run, because the work may crash the server */
+/* Counts an attempt, because the work may crash the server. Only the first call for a job in a server's run counts. */
 void kd_job_strike(struct kd_job *job);
 void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why);
-/* Delays a job after a shortage that may pass; each delay is longer than the last. */
+/* Delays a job after a shortage that may pass. Each delay is longer than the one before. */
 void kd_job_delay(struct kd_job *job, const char *why);
-/* Removes the job from the list; the caller gets the list's reference. Its files are deleted with the last reference,
- * the request first (kd_jobs_bury). */
+/* Removes the job from the list; the caller gets the list's reference. The job's files are deleted with the last
+ * reference, beginning with the request (kd_jobs_bury). */
 void kd_job_unlist(struct kd_job *job);
 void kd_job_wake(struct kd_job *job, double now); /* resumes watchers that have news */
 
-/* Makes a job of a spec and empties the spec; the job is not listed yet. Returns NULL when out of memory. Called
+/* Makes a job from a spec and empties the spec. The job is not in the list yet. Returns NULL when out of memory. Called
  * without the lock. */
 struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec);
 void kd_job_append(struct kd_jobs *all, struct kd_job *job); /* adds it to the list as the youngest */
-/* resume.c, callback of kd_job_store_load: resumes a stored job; user: the jobs. Before any other thread uses them. */
+/* resume.c, callback of kd_job_store_load: resumes a stored job. user: the jobs. Call it before any other thread uses
+ * them. */
 void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buffer *request);
 
-/* Removes at most `files` files of deleted jobs. Called without the lock, by one thread. */
+/* Removes at most `files` files of deleted jobs. Called without the lock, by one thread at a time. */
 void kd_jobs_bury(struct kd_jobs *all, unsigned files);
 
 /* run.c: begins the next frame if possible. A worker plans it and pushes it to the render queue. */
 void kd_jobs_pump(struct kd_jobs *all);
-/* Frees the frame that waits to be planned. When no other thread uses the jobs. */
+/* Frees the frame that waits to be planned. Call it when no other thread uses the jobs. */
 void kd_jobs_drop_unplanned(struct kd_jobs *all);
 /* Finds the job of a frame from the user pointer of kd_job_preview_hook; number may be NULL. Any thread. */
 struct kd_job *kd_job_of_frame(const void *render, unsigned *number);
 extern const struct kd_preview_hook kd_job_preview_hook;
 /* Handles the failure of a frame or its scene: delays the job if memory or disk space is short, else ends it. */
 void kd_job_give_up(struct kd_job *job, const struct kd_error *error);
-/* film.c: bodies that a frame of a film shows; owned by the job. NULL: not reached yet, or another film is being made;
- * kd_jobs_pump is called when they are. KD_ENOMEM. */
+/* film.c: *out is the bodies that a frame of a film shows; the job owns them. NULL: the film is not moved that far yet,
+ * or another film is being made; kd_jobs_pump is called when the bodies are there. KD_ENOMEM. */
 enum kd_status kd_job_film_at(struct kd_job *job, unsigned frame, struct kd_dynamic_bodies **out,
                               struct kd_error *error);
 /* Frees the playground, except while a worker owns it, and lets another film begin. */

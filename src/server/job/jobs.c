@@ -40,7 +40,7 @@ void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why)
            state == KD_JOB_DONE ? "is done" : "has failed: ", why);
 }
 
-#define DELAY_MS 1e3 /* first delay, doubled each time up to ... */
+#define DELAY_MS 1e3 /* length of the first delay; each further one is twice as long, up to ... */
 #define DELAY_MAX_MS 60e3
 
 void kd_job_delay(struct kd_job *job, const char *why)
@@ -72,7 +72,7 @@ static void unref(struct kd_job *job)
     job->all->gone = job;
 }
 
-/* Called without the lock, by one thread. */
+/* Called without the lock, by one thread at a time; it takes the lock itself. */
 void kd_jobs_bury(struct kd_jobs *all, unsigned files)
 {
     pthread_mutex_lock(&all->lock);
@@ -85,7 +85,7 @@ void kd_jobs_bury(struct kd_jobs *all, unsigned files)
     if (!job || !kd_job_store_remove(all->store, job->record.id, files))
         return;
     pthread_mutex_lock(&all->lock);
-    struct kd_job **link = &all->gone; /* others may have been added before it */
+    struct kd_job **link = &all->gone; /* searched again, because others may have been added before it */
     while (*link != job)
         link = &(*link)->link;
     *link = job->link;
@@ -117,7 +117,7 @@ void kd_job_unlist(struct kd_job *job)
     kd_job_wake(job, kd_clock_ms());
 }
 
-/* Functions from here on are called without the lock. */
+/* The functions from here on are called without the lock. */
 
 struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec)
 {
@@ -129,7 +129,7 @@ struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec)
         return NULL;
     }
     job->all = all;
-    job->references = 1; /* for the list */
+    job->references = 1; /* the list's reference */
     job->have = have;
     kd_dynamic_bodies_release(
         spec->first); /* planning is done, so the bodies of the first frame are not needed any more */
@@ -194,7 +194,7 @@ void kd_jobs_destroy(struct kd_jobs *all)
     free(all);
 }
 
-/* Whether another job is accepted, possibly by deleting a finished one. Called with the lock. */
+/* Whether another job is accepted. A finished job may be deleted for it. Called with the lock. */
 static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota, struct kd_error *error)
 {
     unsigned unfinished = 0, kept = 0, own = 0;
@@ -232,7 +232,7 @@ static enum kd_status open_store(struct kd_jobs *all, struct kd_error *error)
     return status;
 }
 
-/* Removes a job whose files could not be created from the list. Called with the lock. */
+/* Removes a job from the list again, because its files could not be created. Called with the lock. */
 static void take_back(struct kd_job *job)
 {
     struct kd_job **link = &job->all->first;
@@ -242,7 +242,7 @@ static void take_back(struct kd_job *job)
     move_up(job->all);
 }
 
-/* Deletes the oldest finished job that nobody reads if too many are stored. Called with the lock. */
+/* If too many jobs are stored, deletes the oldest finished job that nobody reads. Called with the lock. */
 static void make_room(struct kd_jobs *all)
 {
     unsigned kept = 0;
@@ -258,7 +258,7 @@ static void make_room(struct kd_jobs *all)
     unref(oldest);
 }
 
-/* Adds the job to the list before its files are created, so that the lock is not held meanwhile. */
+/* Adds the job to the list before its files are created, because the lock must not be held while they are. */
 static enum kd_status enter(struct kd_jobs *all, struct kd_job *job, const char *text, size_t length, bool *quota,
                             struct kd_error *error)
 {
@@ -394,13 +394,14 @@ static bool is_next(const struct kd_job *job)
     return other == job;
 }
 
-/* Frames rendered, including those being encoded and the rendered part of the present one. Called with the lock. */
+/* Number of frames rendered. It includes those being encoded, and the rendered fraction of the present one. Called with
+ * the lock. */
 static double drawn(const struct kd_job *job)
 {
     return fmin(job->finished + job->encoding + job->fraction, job->frames);
 }
 
-#define SURE 0.02 /* frames after which elapsed time estimates better than the plan */
+#define SURE 0.02 /* After this number of frames, elapsed time gives a better estimate than the plan. */
 
 /* Estimates the time left; NAN: unknown. Called with the lock. */
 static double remaining_s(const struct kd_job *job)
@@ -410,8 +411,8 @@ static double remaining_s(const struct kd_job *job)
         return NAN;
     const double planned_ms = job->estimate_ms / job->frames, done = job->finished_here + job->encoding + job->fraction;
     const double passed_ms = job->began_ms > 0 ? kd_clock_ms() - job->began_ms : 0;
-    /* Later frames take the mean of those so far, waiting included. Before the first progress a frame takes the planned
-     * time, or the time elapsed if that is longer. */
+    /* Later frames take the mean of those so far, including waiting. Before any progress, a frame is estimated to take
+     * the planned time, or the elapsed time if that is longer. */
     const double frame_ms = done > SURE ? passed_ms / done : fmax(planned_ms, passed_ms);
     return frame_ms > 0 ? 1e-3 * fmax(left, 0) * frame_ms : NAN;
 }
@@ -463,7 +464,7 @@ bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out)
         out->done += job->record.state == KD_JOB_DONE;
         out->failed += job->record.state == KD_JOB_FAILED;
     }
-    out->running = out->waiting > 0; /* the oldest is running */
+    out->running = out->waiting > 0; /* of the unfinished jobs, the oldest is running */
     out->waiting -= out->running;
     pthread_mutex_unlock(&all->lock);
     return true;

@@ -1,8 +1,8 @@
-/* Jobs: pictures, and sequences of them, that take longer than a client wants to hold a connection for.
+/* Jobs: pictures, and sequences of pictures, that take longer than a client wants to hold a connection for.
  *
- * The oldest unfinished job renders, one frame at a time and with the smallest share of the device; its frames are
- * written to files. A job does not depend on its client: it ends when it is done, fails or is deleted, and continues
- * after a restart if the server has a state folder. Any thread; functions on watchers belong to the HTTP thread. */
+ * The oldest unfinished job is rendered, one frame at a time and with the smallest share of the device. Its frames are
+ * written to files. A job does not depend on its client: it ends when it is done, fails or is deleted. If the server
+ * has a state folder, it continues after a restart. Any thread; functions on watchers belong to the HTTP thread. */
 #ifndef KD_SERVER_JOB_JOBS_H
 #define KD_SERVER_JOB_JOBS_H
 
@@ -17,47 +17,48 @@
 struct kd_jobs;
 struct kd_job;
 
-#define KD_JOB_ATTEMPTS 3   /* crashes without a new frame after which a job is delayed, because it may be the cause */
-#define KD_JOB_WAIT_MS 30e3 /* first delay, doubled after each further crash up to ... */
+/* A job is delayed after so many crashes without a new frame, because it may be their cause. */
+#define KD_JOB_ATTEMPTS 3
+#define KD_JOB_WAIT_MS 30e3 /* length of the first delay; it doubles with each further crash, up to ... */
 #define KD_JOB_WAIT_MAX_MS 3600e3
 
 struct kd_jobs_params {
     struct kd_render_queue *renders;
     struct kd_scheduler *turns; /* scheduler whose workers move the bodies of films */
-    const char *state;          /* state folder, NULL: jobs end with the server */
-    unsigned limit, kept;       /* unfinished jobs; all jobs stored */
-    unsigned client_limit;      /* unfinished jobs of one client; 0: no separate limit */
-    unsigned longest_s;         /* longest frame, by its plan, in s */
-    double longest_job_s;       /* longest job, all frames together, in s */
-    uint64_t bytes;             /* limit of the frames of all jobs */
+    const char *state;          /* state folder; NULL: jobs end with the server */
+    unsigned limit, kept;       /* limit: of unfinished jobs; kept: of all jobs stored */
+    unsigned client_limit;      /* limit of unfinished jobs of one client; 0: no separate limit */
+    unsigned longest_s;         /* limit of one frame's estimated time, in s */
+    double longest_job_s;       /* limit of the estimated time of all frames of a job, in s */
+    uint64_t bytes;             /* limit of the size of all jobs' frames */
     double keep_s;              /* time until a finished job is deleted */
 };
 /* Loads the jobs of the state folder, if there is one. params->state may be freed afterwards. */
 enum kd_status kd_jobs_create(const struct kd_jobs_params *params, struct kd_jobs **out, struct kd_error *error);
 /* Starts the loaded jobs, once everything that they use exists. */
 void kd_jobs_begin(struct kd_jobs *all);
-/* Call it after kd_jobs_close and when the render queue has finished. Accepts NULL. */
+/* Call it after kd_jobs_close, when the render queue has finished. Accepts NULL. */
 void kd_jobs_destroy(struct kd_jobs *all);
 
 /* A requested job that is being checked: the result of kd_job_spec_parse, and the cost of the frames checked so far.
  * One thread at a time. */
 struct kd_job_draft {
     struct kd_job_spec spec;
-    struct kd_cost cost; /* of the frames checked so far, cost.frames of spec.frames */
-    struct kd_once once; /* hashes of its Idempotency-Key and request */
+    struct kd_cost cost; /* cost of the frames checked so far, which are cost.frames of spec.frames */
+    struct kd_once once; /* hashes of the Idempotency-Key and the request */
     char preset[32];     /* preset with which the spec was parsed */
 };
 void kd_job_draft_finish(struct kd_job_draft *draft);
-/* Checks further frames until until_ms, at least one; after the last, computes their order. KD_EINVAL and KD_ETOOBIG
+/* Checks further frames until until_ms, at least one. After the last it computes their order. KD_EINVAL and KD_ETOOBIG
  * with a pointer into the request. */
 enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms,
                              struct kd_error *error);
-/* Makes a job from a checked draft, which it empties. The caller gets a reference. text: the request; client: its
- * client. Returns KD_EBUSY at a limit; *quota: it is the limit of one client. */
+/* Makes a job from a checked draft, and empties the draft. The caller gets a reference to the job. text: the request;
+ * client: who sent it. Returns KD_EBUSY at a limit; *quota is true if that is the limit of one client. */
 enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length,
                             const char *client, bool *quota, struct kd_job **out, struct kd_error *error);
 struct kd_job *kd_jobs_find(struct kd_jobs *all, const char *id); /* returns a reference, or NULL */
-/* The same by the hash of its Idempotency-Key; "" finds none. */
+/* Like kd_jobs_find, by the hash of the job's Idempotency-Key; "" finds none. */
 struct kd_job *kd_jobs_find_once(struct kd_jobs *all, const char *key);
 const struct kd_once *kd_job_once(const struct kd_job *job);
 void kd_job_release(struct kd_job *job);
@@ -70,63 +71,64 @@ struct kd_job_status {
     enum kd_job_state state;
     bool deleted;
     const struct kd_series *series;
-    unsigned frames, finished, place; /* place: number of jobs before it */
-    double fraction;                  /* finished part of the whole job */
-    double remaining_s;               /* NAN: unknown, because it waits for others or is over */
+    unsigned frames, finished, place; /* place: number of unfinished jobs before this one */
+    double fraction;                  /* finished fraction of the whole job */
+    double remaining_s;               /* NAN: unknown, because the job waits for others or is over */
     double created, ended;            /* seconds since 1970 */
-    unsigned traced;                  /* lens maps traced */
+    unsigned traced;                  /* number of lens maps traced */
     double exposure;                  /* measured exposure of all frames in stops; NAN: none, or not yet */
-    const struct kd_sweep *sweep;     /* valid as long as the job; NULL: none */
+    const struct kd_sweep *sweep;     /* valid as long as the job; NULL: the job is not a sweep */
     uint64_t bytes;
     char error[480];
-    char delayed[160]; /* why it waits before a retry; "": it does not */
+    char delayed[160]; /* why the job waits before a retry; "": it does not wait */
 };
 void kd_job_status(struct kd_job *job, struct kd_job_status *out);
 
 struct kd_jobs_counts;
-/* Reads the counts. Returns false if the lock is not free soon. */
+/* Reads the counts. Returns false if the lock does not become free soon. */
 bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out);
 
 /* Opens a finished frame like kd_job_store_get. */
 bool kd_job_frame(struct kd_job *job, unsigned frame, struct kd_job_file *out);
-/* Previews a job of pictures and requests further previews: the frame under way as `png`, rendered down to some row,
- * else the last finished frame. Returns false if there is none yet. */
+/* Gets the preview of a job of pictures, and requests that further previews are made. The frame under way is given as
+ * `png`, rendered down to some row; without such a preview, `out` names the last finished frame. Returns false if there
+ * is neither. */
 struct kd_job_sight {
     unsigned frame;
-    bool finished;         /* it is in its file: kd_job_frame */
-    uint32_t rows, height; /* of a frame under way: rows rendered, and all rows */
+    bool finished;         /* the frame is finished and in its file: see kd_job_frame */
+    uint32_t rows, height; /* of a frame under way: number of rows rendered, and of all rows */
 };
 bool kd_job_glimpse(struct kd_job *job, struct kd_buffer *png, struct kd_job_sight *out);
-/* Deletes a job: it cannot be found any more, not even after a restart. Its files go with the last reference. Waits for
- * the disk, so it is for workers. */
+/* Deletes a job: it cannot be found any more, not even after a restart. Its files are deleted with the last reference.
+ * Waits for the disk, so it is for workers. */
 void kd_job_delete(struct kd_job *job);
-/* The same without waiting: until its files are deleted, a restart may find the job. */
+/* Like kd_job_delete, without waiting. Until its files are deleted, a restart may find the job. */
 void kd_job_drop(struct kd_job *job);
 
 /* A stream that follows a job. */
 struct kd_job_watcher {
     struct kd_job *job; /* a reference */
     struct MHD_Connection *mhd;
-    bool by_frame; /* waits for the frame `next`, else for any change */
+    bool by_frame; /* true: it waits for the frame `next`; false: for any change */
     unsigned next, revision;
     double deadline_ms; /* end of waiting on kd_clock_ms; INFINITY: none */
-    bool waiting;       /* suspended */
+    bool waiting;       /* its connection is suspended */
     struct kd_job_watcher *previous, *next_watcher;
 };
 void kd_job_watch(struct kd_job_watcher *watcher); /* takes over the reference */
 void kd_job_unwatch(struct kd_job_watcher *watcher);
 enum kd_job_news {
-    KD_JOB_NEWS,  /* the frame or change has come */
-    KD_JOB_LATE,  /* its deadline has passed */
-    KD_JOB_OVER,  /* it will not come */
-    KD_JOB_LATER, /* the connection is suspended, and will be resumed for one of the others */
+    KD_JOB_NEWS,  /* what the watcher waited for has happened */
+    KD_JOB_LATE,  /* the watcher's deadline has passed */
+    KD_JOB_OVER,  /* what the watcher waits for will not happen any more */
+    KD_JOB_LATER, /* the connection is suspended, and will be resumed for one of the other results */
 };
 enum kd_job_news kd_job_await(struct kd_job_watcher *watcher);
 
-/* Resumes watchers that have news and deletes expired jobs. One thread, ten times a second. */
+/* Resumes watchers that have news, and deletes expired jobs. Called by one thread, ten times a second. */
 void kd_jobs_sweep(struct kd_jobs *all);
-/* Accepts no more jobs and begins no more frames. The running frame is cancelled, and rendered again after a restart;
- * watchers are notified. */
+/* Accepts no more jobs and begins no more frames. The frame under way is cancelled, and rendered again after a restart.
+ * Watchers are notified. */
 void kd_jobs_close(struct kd_jobs *all);
 
 #endif

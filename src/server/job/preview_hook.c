@@ -1,13 +1,13 @@
-/* Previews of a frame of a job while it renders, for clients that ask. */
+/* Previews of a frame of a job while it is rendered, for clients that request them. */
 #include "image/png.h"
 #include "base/clock.h"
 #include "server/job/internal.h"
 
 #include <stdio.h>
 
-#define WANTED_MS 10000.0 /* previews are made for this long after a request */
-#define APART_MS 500.0    /* shortest interval between previews, ... */
-#define SHARE 20.0        /* ... and at least this many times the duration of one */
+#define WANTED_MS 10000.0 /* time after a request during which previews are made */
+#define APART_MS 500.0    /* shortest interval between two previews; it is also ... */
+#define SHARE 20.0        /* ... at least this many times as long as making one takes */
 
 static bool wanted(void *user)
 {
@@ -20,7 +20,7 @@ static bool wanted(void *user)
     return yes;
 }
 
-/* Stores a preview of an unfinished frame; the PNG says that it is unfinished. */
+/* Stores a preview of an unfinished frame. The PNG itself says that it is unfinished. */
 static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
 {
     unsigned number;

@@ -1,4 +1,4 @@
-/* Writes records of jobs on a worker, one in each slice, so that threads that change a record never wait for the
+/* Writes records of jobs on a worker, one record in each slice, so that threads that change a record never wait for the
  * disk. */
 #include "server/job/internal.h"
 
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Continues what waited for the record. Called with the lock. */
+/* Continues the work that waited for the record. Called with the lock. */
 static void written(struct kd_job *job, enum kd_status status, const struct kd_error *error)
 {
     if (status && job->listed)
@@ -22,13 +22,13 @@ static void written(struct kd_job *job, enum kd_status status, const struct kd_e
         return;
     }
     job->record.exposure =
-        NAN; /* otherwise a restart would find frames without an exposure and give the missing frames another */
+        NAN; /* otherwise a restart would find frames without an exposure, and give the missing frames another one */
     job->exposure.done = 0;
     if (kd_job_is_active(job))
         kd_job_delay(job, error->message);
 }
 
-/* Called with the lock. */
+/* Finds a job whose record has to be written; NULL: none. Called with the lock. */
 static struct kd_job *first_unwritten(const struct kd_jobs *all)
 {
     struct kd_job *job = all->first;
@@ -60,7 +60,7 @@ static enum kd_slice_result turn(struct kd_scheduler_job *writer)
     return KD_SLICE_MORE;
 }
 
-/* The scheduler has finished the writer, which may be pushed again. */
+/* Called when the scheduler has finished the writer, which may now be pushed again. */
 static void done(struct kd_scheduler_job *writer)
 {
     struct kd_jobs *all = (struct kd_jobs *)((char *)writer - offsetof(struct kd_jobs, writer));

@@ -1,4 +1,4 @@
-/* Resumes the jobs in the state folder at a start. */
+/* Resumes the jobs in the state folder when the server starts. */
 #include "server/job/internal.h"
 
 #include "base/clock.h"
@@ -16,8 +16,8 @@ static bool stands_at(int fd, uint64_t at, const char *text)
     return n <= sizeof found && pread(fd, found, n, (off_t)at) == (ssize_t)n && !memcmp(found, text, n);
 }
 
-/* Whether a frame's file has the size, beginning and end of its format. It was written completely, but a file system
- * that was not unmounted may have truncated it. */
+/* Whether a frame's file has the size, beginning and end that its format requires. The file was written completely, but
+ * a file system that was not unmounted may have truncated it. */
 static bool is_whole(int fd, uint64_t size, const struct kd_series *series)
 {
     const struct kd_format *format = series->frame;
@@ -28,7 +28,7 @@ static bool is_whole(int fd, uint64_t size, const struct kd_series *series)
            (!end || stands_at(fd, size - end, format->end));
 }
 
-/* Damaged frames count as missing. */
+/* Finds the frames that exist. Damaged frames count as missing. */
 static void find_frames(struct kd_job *job)
 {
     for (unsigned i = 0; i < job->frames; i++) {
@@ -57,7 +57,7 @@ static void reopen(struct kd_job *job)
     job->record.ended = 0;
 }
 
-/* Time since the job ended. If the system clock was set back, it is 0; if the clock was set forward, an hour remains to
+/* Time since the job ended. It is 0 if the system clock was set back. If the clock was set forward, an hour is left to
  * download the result. */
 static double age_ms(const struct kd_jobs *all, const struct kd_job_record *record)
 {
@@ -65,7 +65,7 @@ static double age_ms(const struct kd_jobs *all, const struct kd_job_record *reco
     return 1e3 * fmin(fmax(s, 0), most);
 }
 
-/* Delays a job that may have crashed servers; others go first (kd_job_store_load). Such a job is never given up. */
+/* Delays a job that may have crashed servers. Other jobs go first (kd_job_store_load). Such a job is never given up. */
 static void wait_after_strikes(struct kd_job *job)
 {
     unsigned n = job->record.attempts;
@@ -94,7 +94,7 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
     }
     if (status)
         snprintf(why, sizeof why, "this version cannot read the request: %.400s", error.message);
-    if (*why) { /* its results stay readable although this version cannot parse the request */
+    if (*why) { /* its results stay readable, although this version cannot parse the request */
         spec.frames = known->frames;
         spec.series = known->series;
     }
@@ -113,7 +113,7 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
     if (!*why)
         reopen(job);
     job->spec.exposure = known->exposure;
-    /* frames without a measured exposure were made by an older version, each with its own exposure */
+    /* Frames without a measured exposure were made by an older version, each with its own exposure. */
     if (!isnan(known->exposure) || job->finished)
         job->exposure.n = 0;
     job->unordered = job->record.state == KD_JOB_ACTIVE && job->spec.sweep;
@@ -123,7 +123,7 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
         return;
     }
     wait_after_strikes(job);
-    if (*why) { /* another version may be able to; until then it waits */
+    if (*why) { /* another version may be able to parse it; until then the job waits */
         job->due_ms = INFINITY;
         snprintf(job->delayed, sizeof job->delayed, "%.159s", why);
         kd_log(KD_LOG_WARN, "job %.4s... waits: %s", known->id, why);

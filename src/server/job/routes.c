@@ -105,12 +105,12 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
     return kd_reply_problem(request, &problem);
 }
 
-/* A request for a job that is parsed and checked by workers. */
+/* A requested job. Workers parse and check it. */
 struct draft {
-    struct kd_task task; /* first member */
+    struct kd_task task; /* must be the first member */
     struct kd_job_draft draft;
     bool read;
-    struct kd_job *job; /* a reference */
+    struct kd_job *job; /* the created job, a counted reference; NULL: none yet */
 };
 
 static void finish(struct kd_task *task)
@@ -151,13 +151,13 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (d->task.status)
         return refuse(request, &d->task.error, d->task.quota);
     enum MHD_Result result = answer(request, d->job, true);
-    /* the client does not know it and cannot ask again */
+    /* The client does not know the job, and without a key cannot request it again. */
     if (request->status != MHD_HTTP_ACCEPTED && !*request->once.key)
         kd_job_drop(d->job);
     return result;
 }
 
-/* Handles Idempotency-Key: true if *result answers the request, by the earlier job or a refusal. */
+/* Handles Idempotency-Key. Returns true if the request is answered in *result, with the earlier job or a refusal. */
 static bool made_before(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_job *job = kd_jobs_find_once(request->server->jobs, request->once.key);
@@ -189,10 +189,10 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request)
     return kd_task_submit(&d->task);
 }
 
-/* A deletion, which runs on a worker: when it is answered the job is off the disk. */
+/* State of a deletion. It runs on a worker, so that the job's files are deleted when the request is answered. */
 struct removing {
-    struct kd_task task; /* first member */
-    struct kd_job *job;  /* a reference */
+    struct kd_task task; /* must be the first member */
+    struct kd_job *job;  /* a counted reference */
 };
 
 static enum kd_slice_result remove_work(struct kd_task *task, double until_ms)
@@ -223,7 +223,7 @@ static enum MHD_Result deliver_removal(struct kd_request *request)
     return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
 }
 
-/* Takes over the reference. */
+/* Begins a deletion and takes over the reference to the job. */
 static enum MHD_Result begin_removal(struct kd_request *request, struct kd_job *job)
 {
     enum MHD_Result refused = MHD_NO;
@@ -260,8 +260,8 @@ enum MHD_Result kd_handle_job(struct kd_request *request)
 }
 
 struct events {
-    struct kd_job_watcher watcher; /* first member */
-    struct kd_buffer text;         /* of one event */
+    struct kd_job_watcher watcher; /* must be the first member */
+    struct kd_buffer text;         /* text of one event */
     size_t at;
     bool over;
 };
@@ -291,9 +291,9 @@ static enum kd_status next_event(struct events *e, ssize_t *instead)
     case KD_JOB_NEWS: return write_event(e);
     case KD_JOB_OVER:
         *instead = MHD_CONTENT_READER_END_OF_STREAM;
-        return KD_OK; /* the server stops, and the job may continue after a restart */
+        return KD_OK; /* the server is stopping, and the job may continue after a restart */
     case KD_JOB_LATER: *instead = 0; return KD_OK;
-    case KD_JOB_LATE: /* a heartbeat, which also detects clients that have vanished */
+    case KD_JOB_LATE: /* time for a heartbeat, which also detects clients that have vanished */
         e->watcher.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         return kd_buffer_printf(&e->text, ":\n\n");
     }
@@ -330,7 +330,7 @@ enum MHD_Result kd_job_stream(struct kd_request *request, const char *type, MHD_
     MHD_add_response_header(response, "Content-Type", type);
     MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* disables buffering in proxies */
     enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
-    /* A stream has no deadline; libmicrohttpd's timeout ends readers that stall. */
+    /* A stream has no deadline. libmicrohttpd's timeout ends connections whose client stops reading. */
     kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0);
     return result;
 }

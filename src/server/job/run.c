@@ -11,15 +11,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BEHIND_MAX 2 /* frames rendered and not yet in files, so that one is rendered while another is encoded */
+/* limit of frames that are rendered and not yet in files; one can be rendered while another is encoded */
+#define BEHIND_MAX 2
 struct kd_job_render {
-    struct kd_render_job render;      /* first member: the queue stores a pointer to it */
-    struct kd_scheduler_job planning; /* scheduler job, before the frame is pushed */
-    struct kd_job *job;               /* a reference */
-    unsigned number, place;           /* place in the order of rendering */
-    struct kd_dynamic_bodies *crowd;  /* bodies of a film's scene; a reference */
+    struct kd_render_job render;      /* must be the first member: the queue stores a pointer to it */
+    struct kd_scheduler_job planning; /* scheduler job that plans the frame before it is pushed */
+    struct kd_job *job;               /* a counted reference */
+    unsigned number, place;           /* place: its place in the order of rendering */
+    struct kd_dynamic_bodies *crowd;  /* bodies in the scene of a film; a counted reference */
     bool rendered;
-    bool measures; /* a small picture that measures the common exposure and is not stored */
+    bool measures; /* the picture is small, measures the common exposure and is not stored */
 };
 
 static void rendered(struct kd_render_job *render);
@@ -61,9 +62,9 @@ static unsigned next_frame(struct kd_job *job)
     return still_measures(job) ? job->exposure.frames[job->exposure.done] : at_place(job, job->next);
 }
 
-/* Plans a frame on a worker, without the lock, because the critical curve of a camera alone takes milliseconds. What it
- * reads of the job does not change meanwhile: the exposure is set while no frame is under way, the order before the
- * first. */
+/* Plans a frame on a worker, without the lock, because computing the critical curve of a camera alone takes
+ * milliseconds. The members of the job that it reads do not change meanwhile: the exposure is set only while no frame
+ * is under way, the order only before the first frame. */
 static enum kd_slice_result plan(struct kd_scheduler_job *planning)
 {
     struct kd_job_render *frame = (struct kd_job_render *)((char *)planning - offsetof(struct kd_job_render, planning));
@@ -87,7 +88,7 @@ static void finish(struct kd_job_render *frame)
     free(frame);
 }
 
-/* Makes the frame pending again. Called with the lock. */
+/* Marks the frame as not begun again. Called with the lock. */
 static void take_back(struct kd_job_render *frame)
 {
     struct kd_job *job = frame->job;
@@ -107,12 +108,13 @@ static void push(struct kd_job_render *frame)
     job->revision++;
     const bool films = frame->crowd; /* read before the push, after which the queue owns the frame */
     kd_render_queue_push(job->all->params.renders, &frame->render);
-    /* the bodies move on meanwhile; an error is reported when the next frame begins */
+    /* The bodies move on while this frame is rendered. An error is reported when the next frame begins. */
     if (films && job->next < job->frames)
         kd_job_film_at(job, at_place(job, job->next), &next, &error);
 }
 
-/* Planning is done. Meanwhile the job may have been deleted or have failed, or the server may be stopping. */
+/* Called when planning is done. Meanwhile the job may have been deleted or have failed, or the server may be
+ * stopping. */
 static void planned(struct kd_scheduler_job *planning)
 {
     struct kd_job_render *frame = (struct kd_job_render *)((char *)planning - offsetof(struct kd_job_render, planning));
@@ -135,7 +137,7 @@ static void planned(struct kd_scheduler_job *planning)
     finish(frame);
 }
 
-/* Makes the next frame of a job, to be planned. */
+/* Makes the next frame of a job; it has to be planned next. */
 static struct kd_job_render *make_frame(struct kd_job *job, unsigned number, struct kd_dynamic_bodies *crowd)
 {
     struct kd_job_render *frame = calloc(1, sizeof *frame);
@@ -164,7 +166,7 @@ static struct kd_job_render *make_frame(struct kd_job *job, unsigned number, str
     return frame;
 }
 
-/* Begins the next frame of a job. Returns false if none can begin now. Called with the lock. */
+/* Begins the next frame of a job. Returns false if no frame can begin now. Called with the lock. */
 static bool begin(struct kd_job *job)
 {
     struct kd_jobs *all = job->all;
@@ -225,9 +227,10 @@ void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job)
         atomic_store(&all->rendering->render.drop, true);
 }
 
-#define COUNTED_MS 500.0 /* shortest interval between two records of a sweep's number of lens maps */
+#define COUNTED_MS 500.0 /* shortest interval between two writes of a sweep's number of lens maps to its record */
 
-/* Counts a frame's lens map. Stored sweeps write the number now and then, so that it survives a restart. */
+/* Counts the lens map of a frame, if one was traced. A sweep's record is written now and then, so that the number
+ * survives a restart. */
 static void count_map(struct kd_job *job, const struct kd_render_job *render)
 {
     const unsigned traced =
@@ -243,7 +246,8 @@ static void count_map(struct kd_job *job, const struct kd_render_job *render)
 
 static void finished(struct kd_job *job, unsigned number, uint64_t size)
 {
-    if (job->have[number]) /* rendered twice: the frame before it failed while this one was being encoded */
+    /* the frame was rendered twice, because the frame before it failed while this one was being encoded */
+    if (job->have[number])
         return;
     job->have[number] = 1;
     if (job->preview.frame == number)
@@ -268,7 +272,7 @@ static void finished(struct kd_job *job, unsigned number, uint64_t size)
         kd_job_end(job, KD_JOB_FAILED, "the frames of all jobs are more bytes than this server keeps");
 }
 
-/* The three functions below are called by the render queue, without the lock. */
+/* The render queue calls the three functions below, without the lock. */
 
 static void progress(struct kd_render_job *render, double fraction)
 {
@@ -279,8 +283,8 @@ static void progress(struct kd_render_job *render, double fraction)
     pthread_mutex_unlock(&frame->job->all->lock);
 }
 
-/* Stores the exposure of a small picture. After the last one all frames have the exposure, once it is on disk
- * (records.c). Called with the lock. */
+/* Stores the exposure that a small picture has measured. After the last of these, all frames have the common exposure
+ * as soon as it is on disk (records.c). Called with the lock. */
 static void measured(struct kd_job *job, double stops)
 {
     struct kd_job_exposure *exposure = &job->exposure;
@@ -303,7 +307,7 @@ static void rendered(struct kd_render_job *render)
     frame->job->encoding += !frame->measures;
     if (frame->measures)
         measured(frame->job, render->frame.exposure);
-    frame->job->fraction = 0; /* of the next frame */
+    frame->job->fraction = 0; /* progress of the next frame */
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
 }
@@ -317,7 +321,7 @@ static void done(struct kd_render_job *render)
     bool stored = !status && !frame->measures;
     if (stored)
         status = kd_job_store_put(all->store, job->record.id, frame->number, &render->file, &render->error);
-    /* a failure to write, whatever the cause: the frame can be rendered again later */
+    /* Writing failed, for whatever cause. The frame can be rendered again later. */
     if (stored && status)
         render->error.status = KD_EFULL;
     pthread_mutex_lock(&all->lock);
@@ -327,14 +331,14 @@ static void done(struct kd_render_job *render)
     } else
         all->rendering = NULL;
     if (frame->measures && frame->rendered)
-        status = KD_OK; /* measured already; its file is not needed */
+        status = KD_OK; /* its exposure is measured already, and its file is not needed */
     else
         count_map(job, render);
     if (!status && !frame->measures)
         finished(job, frame->number, render->file.size);
     else if (status && status != KD_ECANCELLED &&
              !(status == KD_EDEVICE && kd_render_queue_lost(all->params.renders, NULL)) &&
-             kd_job_is_active(job)) { /* cancelled frames and those of a lost device are rendered after a restart */
+             kd_job_is_active(job)) { /* cancelled frames, and those of a lost device, are rendered after a restart */
         take_back(frame);
         kd_job_give_up(job, &render->error);
     }
@@ -350,12 +354,12 @@ void kd_job_draft_finish(struct kd_job_draft *draft)
     kd_cost_finish(&draft->cost);
 }
 
-/* Limits the cost of the frames, not their number. */
+/* Checks the cost of a job's frames. Their number has no limit of its own. */
 static enum kd_status afford(const struct kd_jobs *all, const struct kd_job_draft *draft, struct kd_error *error)
 {
     const struct kd_cost *cost = &draft->cost;
     const unsigned frames = draft->spec.frames;
-    /* until all frames are checked, any lens map may turn out to be shared */
+    /* Until all frames are checked, any lens map may turn out to be shared. */
     const double not_spent = cost->frames < frames ? cost->trace_ms : cost->shared_ms;
     const double s = 1e-3 * (cost->ms - not_spent), bytes = (double)all->params.bytes;
     if (s > all->params.longest_job_s)

@@ -21,17 +21,17 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define RECORD_MAX ((size_t)64 << 10) /* bytes of job.json, which normally has some 500 */
+#define RECORD_MAX ((size_t)64 << 10) /* limit of bytes of job.json, which normally has some 500 */
 #define TEMPORARY "kerrd-jobs-"
 
 struct kd_job_store {
-    char *parent, *name; /* of a temporary store, in TMPDIR */
+    char *parent, *name; /* of a temporary store: TMPDIR, and the folder's name in it */
     int folder, lock;
 };
 
 static const char *const states[] = { [KD_JOB_ACTIVE] = "active", [KD_JOB_DONE] = "done", [KD_JOB_FAILED] = "failed" };
 
-/* Logs the path. Failures that may pass are KD_EFULL and KD_ENOMEM, others KD_EIO. */
+/* Logs the path. Returns KD_EFULL or KD_ENOMEM for failures that may pass, and KD_EIO for others. */
 enum kd_status kd_job_store_failed(struct kd_error *error, const char *what)
 {
     int cause = errno;
@@ -116,7 +116,8 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
         rmdir(path);
         store->folder = -1;
         errno = cause;
-        if (cause != EWOULDBLOCK && cause != ENOENT) /* otherwise another server has just tidied it away: try again */
+        /* otherwise another server has just removed the file, and this one tries again */
+        if (cause != EWOULDBLOCK && cause != ENOENT)
             return kd_job_store_failed(error, "a folder for jobs cannot be made");
     }
     store->parent = strdup(parent);
@@ -126,8 +127,8 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
     return KD_OK;
 }
 
-/* Locks the folder, because two servers with the same jobs would do all work twice. The path to it may contain links,
- * the folder may not. */
+/* Locks the folder, because two servers with the same jobs would do all work twice. The path to the folder may contain
+ * links; the folder itself must not be one. */
 static enum kd_status open_state(struct kd_job_store *store, const char *state, struct kd_error *error)
 {
     if (mkdir(state, 0700) && errno != EEXIST)
@@ -227,11 +228,11 @@ static bool read_state(const cJSON *o, enum kd_job_state *out)
     return false;
 }
 
-/* Returns NULL for a kind that only newer versions have. */
+/* Returns the record's series; NULL if only newer versions have it. */
 static const struct kd_series *series_of(const cJSON *o)
 {
     const char *name = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(o, "output"));
-    if (!name) /* older records lack it; those versions had two kinds */
+    if (!name) /* records of older versions lack it; those versions had two series */
         name = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(o, "curve")) ? "light-curve" : "pictures";
     return kd_series_named(name);
 }
@@ -265,7 +266,7 @@ struct found {
 
 enum fate { KEPT, GONE, ASIDE };
 
-/* Parses a record of this version. Returns false with the reason in *why. */
+/* Parses a job.json of this version. Returns false with the reason in *why. */
 static bool parse_record(const struct kd_buffer *text, const char *id, struct kd_job_record *out, const char **why)
 {
     bool starved;
@@ -281,7 +282,8 @@ static bool parse_record(const struct kd_buffer *text, const char *id, struct kd
     return good;
 }
 
-/* An unreadable job may be readable later, or by another version. Only a deleted job is GONE. */
+/* Finds out what a job's folder holds. An unreadable job may be readable later, or by another version; only a deleted
+ * job is GONE. */
 static enum fate look(int folder, const char *id, struct found *out, const char **why)
 {
     struct kd_buffer text = { 0 };
@@ -329,7 +331,7 @@ static bool load(struct kd_job_store *store, const char *name, struct found *out
     return fate == KEPT;
 }
 
-/* Orders records by attempts, then by age. */
+/* Orders records by attempts, and among equals by age. */
 static int by_age(const void *a, const void *b)
 {
     const struct kd_job_record *x = &((const struct found *)a)->record, *y = &((const struct found *)b)->record;
@@ -432,7 +434,7 @@ enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_j
     return status;
 }
 
-/* Uses another name until both documents are written, so that a job is stored completely or not at all. */
+/* The folder has another name until both documents are written, so that a job is stored completely or not at all. */
 enum kd_status kd_job_store_create(struct kd_job_store *store, const struct kd_job_record *record, const void *request,
                                    size_t size, struct kd_error *error)
 {

@@ -1,9 +1,10 @@
 /* Jobs on disk. DIRECTORY/ID/ holds request.json as it was received, job.json, and the frames: 000000.png and so on,
- * whatever their format. Each file is written atomically. A folder with our job.json but without a request is the rest
- * of a deleted job. Other files and unreadable ones are left alone; links are never followed. Any thread, but one for
- * each job.
+ * whatever their format. Each file is written atomically. A folder with a job.json of ours but without a request is
+ * what is left of a deleted job. Other files and unreadable ones are left alone; links are never followed. Any thread,
+ * but only one at a time for each job.
  *
- * Errors contain no path, because clients see them. KD_EFULL and KD_ENOMEM (also for descriptors) may be temporary. */
+ * Errors contain no path, because clients see them. KD_EFULL and KD_ENOMEM (also if descriptors run out) may be
+ * temporary. */
 #ifndef KD_SERVER_JOB_STORE_H
 #define KD_SERVER_JOB_STORE_H
 
@@ -21,29 +22,30 @@ struct kd_job_record {
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
     enum kd_job_state state;
     double created, ended; /* seconds since 1970; ended: 0 while active */
-    /* crashes of servers that had begun work on it, since its latest frame; a shutdown by request does not count */
+    /* number of servers that had begun work on the job and crashed, since its latest frame; a shutdown by request does
+     * not count */
     unsigned attempts;
     double exposure;                /* measured exposure of all frames in stops; NAN: none, or not yet */
-    unsigned traced;                /* lens maps traced */
+    unsigned traced;                /* number of lens maps traced */
     unsigned frames;                /* number of frames requested; 0 in records of older versions */
     const struct kd_series *series; /* kind of result */
     struct kd_once once;            /* hashes of its Idempotency-Key and request */
-    char preset[32];                /* preset that its scenes are merged over; "": none */
-    char error[480];                /* of a failed job */
+    char preset[32];                /* preset over which the job's scenes are merged; "": none */
+    char error[480];                /* message of a failed job */
 };
 
 struct kd_job_store;
 enum { KD_JOB_MARK = 65 };
 
-/* Opens a store. state: NULL for a temporary folder in TMPDIR, deleted with the store; else a folder, created if
- * needed, that no other server uses. Returns KD_EIO with a message that contains its path. */
+/* Opens a store. If state is NULL it is a temporary folder in TMPDIR, which is deleted with the store. Else state is a
+ * folder that no other server uses; it is created if needed. Returns KD_EIO with a message that contains its path. */
 enum kd_status kd_job_store_open(const char *state, struct kd_job_store **out, struct kd_error *error);
 void kd_job_store_close(struct kd_job_store *store); /* accepts NULL */
-/* Removes temporary folders in TMPDIR of servers that were killed. */
+/* Removes the temporary folders that killed servers have left in TMPDIR. */
 void kd_job_store_tidy(void);
 
-/* Calls `found` for each job, those without attempts first, then the oldest first; unreadable ones are logged. The
- * callback owns the request. */
+/* Calls `found` for each job: first those without attempts, and among equals the oldest first. Unreadable jobs are
+ * logged. The callback owns the request. */
 enum kd_status kd_job_store_load(struct kd_job_store *store,
                                  void (*found)(void *user, const struct kd_job_record *record,
                                                struct kd_buffer *request),
@@ -56,8 +58,8 @@ enum kd_status kd_job_store_request(const struct kd_job_store *store, const char
                                     struct kd_error *error);
 enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_job_record *record,
                                    struct kd_error *error);
-/* forget: removes a job's request, so that a restart does not find the job. remove: then deletes at most `most` of its
- * files; returns true when all are gone. */
+/* kd_job_store_forget removes a job's request, so that a restart does not find the job. kd_job_store_remove then
+ * deletes at most `most` of its files, and returns true when all are gone. */
 void kd_job_store_forget(struct kd_job_store *store, const char *id);
 bool kd_job_store_remove(struct kd_job_store *store, const char *id, unsigned most);
 
@@ -65,18 +67,19 @@ enum kd_status kd_job_store_put(struct kd_job_store *store, const char *id, unsi
                                 struct kd_error *error);
 /* A file of a job, open for reading. */
 struct kd_job_file {
-    int fd; /* to be closed by the caller */
+    int fd; /* the caller closes it */
     uint64_t size;
-    char mark[KD_JOB_MARK]; /* changes whenever the file's bytes change; of a film it is their SHA-256 */
+    /* changes whenever the file's bytes change; the mark of a film is the SHA-256 of its bytes */
+    char mark[KD_JOB_MARK];
 };
 /* Opens a finished frame. Returns false if it does not exist. */
 bool kd_job_store_get(const struct kd_job_store *store, const char *id, unsigned frame, struct kd_job_file *out);
 
 /* Opens a job's folder for films.c. Returns a descriptor, or -1 with errno. */
 int kd_job_store_folder(const struct kd_job_store *store, const char *id);
-/* Opens a file there. Returns false if it does not exist. */
+/* Opens a file in a job's folder. Returns false if the file does not exist. */
 bool kd_job_store_open_file(int folder, const char *name, struct kd_job_file *out);
-/* Makes an error without a path, for clients, from errno. */
+/* Makes an error from errno for clients, without a path. */
 enum kd_status kd_job_store_failed(struct kd_error *error, const char *what);
 
 #endif

@@ -11,12 +11,12 @@
 #include <unistd.h>
 
 struct table {
-    struct kd_task task; /* first member */
-    struct kd_job *job;  /* a reference */
+    struct kd_task task; /* must be the first member */
+    struct kd_job *job;  /* a counted reference */
     struct kd_job_status status;
     const struct kd_table_format *format;
     char *rows;
-    unsigned there; /* rows read so far */
+    unsigned there; /* number of rows read so far */
     struct kd_buffer text;
 };
 
@@ -75,7 +75,7 @@ static enum MHD_Result answer(struct kd_request *request)
     return kd_reply_json(request, KD_OK, &t->text, t->format->media_type);
 }
 
-/* Starts the task for a finished job. Takes over the reference. */
+/* Starts the task for a finished job. Takes over the reference to the job. */
 static enum MHD_Result write_table(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status,
                                    const struct kd_table_format *format)
 {

@@ -1,9 +1,9 @@
-/* Watchers of jobs, and the periodic sweep. */
+/* Watchers of jobs, and the regular check of all jobs. */
 #include "base/log.h"
 #include "base/clock.h"
 #include "server/job/internal.h"
 
-/* files removed in one sweep: some milliseconds, so that the sweeper is not late for others */
+/* files removed in one check of all jobs; takes some milliseconds, so that the thread is not late for other work */
 #define FILES_A_SWEEP 200
 
 void kd_job_watch(struct kd_job_watcher *watcher)
@@ -31,7 +31,7 @@ void kd_job_unwatch(struct kd_job_watcher *watcher)
     kd_job_release(job);
 }
 
-/* What a watcher waits for. Called with the lock. */
+/* Whether what a watcher waits for has happened. Called with the lock. */
 static enum kd_job_news news(const struct kd_job_watcher *w, double now)
 {
     const struct kd_job *job = w->job;
@@ -49,7 +49,7 @@ enum kd_job_news kd_job_await(struct kd_job_watcher *w)
     w->revision = w->job->revision;
     if (what == KD_JOB_LATER) {
         w->waiting = true;
-        MHD_suspend_connection(w->mhd); /* before a wake-up can happen, which needs the lock */
+        MHD_suspend_connection(w->mhd); /* suspended before the connection can be resumed, which needs the lock */
     }
     pthread_mutex_unlock(&w->job->all->lock);
     return what;
@@ -64,8 +64,8 @@ void kd_job_wake(struct kd_job *job, double now)
         }
 }
 
-/* Removes an expired finished job that nobody reads from the list; the caller gets its reference. Called with the
- * lock. */
+/* Removes from the list an expired finished job that nobody reads. The caller gets the list's reference. Called with
+ * the lock. */
 static struct kd_job *take_old(struct kd_jobs *all)
 {
     double now = kd_clock_ms();
@@ -78,7 +78,7 @@ static struct kd_job *take_old(struct kd_jobs *all)
     return NULL;
 }
 
-#define ORDER_MS 20.0 /* time spent in one sweep of the jobs */
+#define ORDER_MS 20.0 /* time spent in one check of all jobs */
 
 /* Continues to compute the order of a sweep's frames after a restart. Called without the lock. */
 static void put_in_order(struct kd_jobs *all)
@@ -111,7 +111,7 @@ void kd_jobs_sweep(struct kd_jobs *all)
     pthread_mutex_lock(&all->lock);
     for (struct kd_job *job = all->first; job; job = job->link)
         kd_job_wake(job, now);
-    kd_jobs_pump(all); /* a delay may have ended */
+    kd_jobs_pump(all); /* a job's delay may have ended */
     struct kd_job *old = take_old(all);
     pthread_mutex_unlock(&all->lock);
     if (old)
@@ -119,7 +119,8 @@ void kd_jobs_sweep(struct kd_jobs *all)
     kd_jobs_bury(all, FILES_A_SWEEP);
 }
 
-/* At a shutdown by request, the attempts counted for jobs under way are taken back: they have crashed nothing. */
+/* At a shutdown by request, takes back the attempts that were counted for jobs under way: they have not crashed the
+ * server. */
 static void take_back_strikes(struct kd_jobs *all)
 {
     for (struct kd_job *job = all->first; job; job = job->link)

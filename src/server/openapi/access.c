@@ -18,7 +18,7 @@ void kd_openapi_access_schemes(struct kd_json *json)
                    "\",\"description\":\"the same, of a browser that opened the page with ?access=TOKEN\"}}");
 }
 
-/* Ways to authenticate, with the role required: OpenAPI permits names of roles in place of scopes. */
+/* The ways to authenticate for a role. OpenAPI permits names of roles where scopes stand. */
 #define WAYS(role) "{\"access\":[\"" role "\"]},{\"accessHeader\":[\"" role "\"]},{\"accessCookie\":[\"" role "\"]}]"
 
 void kd_openapi_access_default(struct kd_json *json, bool closed)

@@ -1,4 +1,4 @@
-/* Access control in openapi.json: the tokens of a token file, and those of a session, playground, job or asset. */
+/* Access control in openapi.json: the tokens of a token file, and the tokens of a session, playground, job or asset. */
 #ifndef KD_SERVER_OPENAPI_ACCESS_H
 #define KD_SERVER_OPENAPI_ACCESS_H
 
@@ -7,7 +7,7 @@
 
 /* Writes the member "securitySchemes" of the components. */
 void kd_openapi_access_schemes(struct kd_json *json);
-/* Writes the member "security" of the document, the default of all operations. */
+/* Writes the member "security" of the document, which is the default for all operations. */
 void kd_openapi_access_default(struct kd_json *json, bool closed);
 /* Writes the member "security" of an operation, if it differs from the default. closed: the server has a token file. */
 void kd_openapi_access_operation(struct kd_json *json, const struct kd_route *route, unsigned method, bool closed);

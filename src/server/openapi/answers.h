@@ -6,7 +6,8 @@
 
 #include <stdbool.h>
 
-/* Schema, as JSON text, of a route's application/json answer to a method such as KD_GET; NULL: not in the table. */
+/* Schema, as JSON text, of the application/json answer that a route gives to a method such as KD_GET. NULL: the route
+ * has no such answer in the table. */
 const char *kd_openapi_answer(const char *path, unsigned method);
 
 #endif

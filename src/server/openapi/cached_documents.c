@@ -49,7 +49,7 @@ static const struct {
     const char *path, *type;
     enum kd_status (*make)(struct kd_buffer *out);
 } makers[] = {
-    { "/openapi.json", "application/json", NULL /* kd_openapi_json, which has other parameters */ },
+    { "/openapi.json", "application/json", NULL /* made by kd_openapi_json, which has other parameters */ },
     { "/v1/schema", "application/schema+json", kd_scene_schema },
     { "/v1/presets", "application/json", presets_json },
     { "/v1/physics", "application/json", kd_quantity_list_json },

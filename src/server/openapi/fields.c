@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* Writes something for a field, given its path. */
+/* Writes what openapi.json needs for one field, given its path. */
 typedef void writer(struct kd_json *json, const char *path, const cJSON *property);
 
 static void each(struct kd_json *json, const cJSON *schema, const char *prefix, writer *write);
@@ -56,7 +56,7 @@ static void add_parameter(struct kd_json *json, const char *path, const cJSON *p
     kd_json_object(json, NULL);
     kd_json_string(json, "name", path);
     kd_json_string(json, "in", "query");
-    if (type && !strcmp(type, "array")) { /* one text with commas between */
+    if (type && !strcmp(type, "array")) { /* a list as one text, separated by commas */
         kd_json_string(json, "style", "form");
         kd_json_bool(json, "explode", false);
     }

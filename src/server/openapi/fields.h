@@ -6,7 +6,8 @@
 
 #include <cjson/cJSON.h>
 
-/* Writes the parameters of an operation: every scalar in the schema of a scene, without deprecated names. */
+/* Writes the query parameters of an operation: one for every scalar in the schema of a scene, without deprecated
+ * names. */
 void kd_openapi_field_parameters(struct kd_json *json, const cJSON *schema);
 /* Writes FieldPath, a member of components.schemas: the enumeration of these paths. */
 void kd_openapi_field_paths(struct kd_json *json, const cJSON *schema);

@@ -11,7 +11,7 @@
 #define COUNT KD_SCHEMA_COUNT
 #define TEXT KD_SCHEMA_TEXT
 
-/* required: present in every answer for which it is listed. */
+/* required: the header is present in every answer for which it is listed. */
 static const struct {
     const char *name, *schema, *help;
     bool required;
@@ -78,7 +78,7 @@ static const struct {
 #define SAME "Kerrd-Scene-Hash Kerrd-Approximations Kerrd-Clock"
 #define PICTURE SAME " Content-Disposition"
 
-/* Names of headers, separated by blanks; methods 0: any. */
+/* Headers of each route's answers: their names, separated by blanks. methods 0: all methods. */
 static const struct {
     const char *path;
     unsigned methods, status;

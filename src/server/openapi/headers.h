@@ -1,18 +1,20 @@
-/* Headers of answers in openapi.json, except those with a general meaning in HTTP, caches and browsers. */
+/* Headers of answers in openapi.json. Headers with a general meaning in HTTP, for caches or for browsers are left
+ * out. */
 #ifndef KD_SERVER_OPENAPI_HEADERS_H
 #define KD_SERVER_OPENAPI_HEADERS_H
 
 #include "base/json.h"
 #include "server/http/route.h"
 
-/* Writes the member "headers" of a success answer, if it has any. */
+/* Writes the member "headers" of an operation's success answer, if it has any. */
 void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsigned method, unsigned status);
-/* Writes the same for a problem. */
+/* Writes the member "headers" of a problem. */
 void kd_openapi_problem_headers(struct kd_json *json, unsigned status);
-/* Writes the member "headers" of the components, to which both refer. */
+/* Writes the member "headers" of the components. The two functions above refer to it. */
 void kd_openapi_header_components(struct kd_json *json);
 
-/* asked_headers: writes an operation's request headers into its list of parameters. is_asked: whether it has any. */
+/* kd_openapi_asked_headers writes an operation's request headers into its list of parameters.
+ * kd_openapi_is_asked_by_header tells whether it has any. */
 bool kd_openapi_is_asked_by_header(const struct kd_route *route, unsigned method);
 void kd_openapi_asked_headers(struct kd_json *json, const struct kd_route *route, unsigned method);
 

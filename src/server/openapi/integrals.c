@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-/* Request schema of each integral; spectra of disks and of volumes share a request. */
+/* Names of each integral's request schema. Spectra of disks and of volumes share one. */
 static const char *const requests[KD_INTEGRALS] = { "LineRequest", "TransferFunctionRequest", "SpectrumRequest",
                                                     NULL,          "VisibilityRequest",       "CompareRequest" };
 

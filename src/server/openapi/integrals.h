@@ -4,7 +4,8 @@
 
 #include "base/json.h"
 
-/* Write the requestBody of the operation at a path, and the components of all. */
+/* kd_openapi_integral_body writes the requestBody of the operation at a path; kd_openapi_integral_schemas writes the
+ * components of all such operations. */
 void kd_openapi_integral_body(struct kd_json *json, const char *path);
 void kd_openapi_integral_schemas(struct kd_json *json);
 

@@ -14,24 +14,25 @@
 
 #define FRAME "{\"type\":\"integer\",\"minimum\":0,\"maximum\":9999}"
 
-/* The member "output": what a job makes of its frames, a list of names. */
+/* The member "output": what a job makes of its frames. The argument of the format is a list of names. */
 #define OUTPUT "\"output\":{\"enum\":[%s]}"
-/* Excludes exposure and motion blur from outputs that are not pictures, a list of names. */
+/* Excludes exposure and motion blur if the output is not pictures. The argument of the format is a list of the names of
+ * such outputs. */
 #define PICTURES_ALONE \
     "\"not\":{\"anyOf\":[{\"required\":[\"exposure\"]},{\"required\":[\"motion_blur\"]}],\"required\":[\"output\"]," \
     "\"properties\":{\"output\":{\"enum\":[%s]}}},"
-/* Members that require keyframes. */
+/* Excludes members that have a meaning only with keyframes. */
 #define TAKES_KEYFRAMES \
     "\"if\":{\"not\":{\"required\":[\"keyframes\"]}},\"then\":{\"not\":{\"anyOf\":[{\"required\":[\"frames\"]},{" \
     "\"required\":[\"interpolation\"]}," \
     "{\"required\":[\"distances\"]},{\"required\":[\"angles\"]},{\"required\":[\"ease\"]},{\"required\":[\"look_at\"]" \
     "},{\"required\":[\"motion_blur\"]}]}},"
 
-/* Whether pictures whose exposure is "auto" share one exposure. */
+/* The member "exposure": whether pictures whose exposure is "auto" share one exposure. */
 #define EXPOSURE(words) "\"exposure\":{\"enum\":[" words "]}"
 #define ANY_EXPOSURE EXPOSURE("\"one\",\"each\"")
 
-/* Axes: fields with their values; Scene has each field's own schema. */
+/* Axes: fields with their values. The schema Scene has each field's own schema. */
 static const char axes[] =
     "{\"type\":\"object\",\"minProperties\":1,\"maxProperties\":8,\"propertyNames\":{\"allOf\":[" KD_SCHEMA_REF(
         "FieldPath") "],\"not\":{\"const\":\"version\"}},\"additionalProperties\":{\"anyOf\":[{\"type\":\"array\","
@@ -41,13 +42,13 @@ static const char axes[] =
                      "\"pattern\":\"^" KD_OPENAPI_DECIMAL ":" KD_OPENAPI_DECIMAL "(:" KD_OPENAPI_DECIMAL
                      "|/([1-9][0-9]{0,5}))$\",\"description\":\"START:STOP:STEP or START:STOP/HOW MANY\"}]}}";
 
-/* Variants of a request for a job; each is a format string for the outputs that are not pictures and for all outputs.
- * First: a scene with axes. */
+/* Variants of a request for a job. Each is a format string; its arguments are the list of the outputs that are not
+ * pictures, and the list of all outputs. This one: a scene with axes. */
 static const char sweep[] =
     OBJECT PICTURES_ALONE "\"required\":[\"axes\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE
                           ",\"axes\":" KD_SCHEMA_REF("SweepAxes") "," EXPOSURE("\"each\"") "," OUTPUT "}}";
 
-/* A film of a playground. */
+/* Variant of a request for a job: a film of a playground. */
 static const char film[] = OBJECT PICTURES_ALONE
     "\"required\":[\"playground\",\"every\"],\"anyOf\":[{\"required\":[\"frames\"]},{\"required\":[\"keyframes\"]}],"
     "\"properties\":{\"playground\":{\"allOf\":[" KD_SCHEMA_REF(
@@ -83,7 +84,7 @@ static bool any(const struct kd_series *one) { return (void)one, true; }
 static bool of_any_job(const struct kd_series *one) { return !one->swept; }
 static bool of_numbers(const struct kd_series *one) { return !(one->frame->carries & KD_CARRIES_PICTURE); }
 
-/* Names of the series of a kind, such as "pictures","light-curve". */
+/* Names of the series for which `is` is true, such as "pictures","light-curve". */
 struct names { char text[200]; };
 static struct names names_of(is_series *is)
 {

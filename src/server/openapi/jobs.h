@@ -4,7 +4,7 @@
 
 #include "base/json.h"
 
-/* Write the operation's requestBody. */
+/* Both write an operation's requestBody. */
 void kd_openapi_jobs_body(struct kd_json *json);
 void kd_openapi_plan_body(struct kd_json *json);
 /* Writes the schemas of a job's status and of a sweep's axes. */

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Adds a link with its parameters; operations that change an object also need its token. */
+/* Adds a link with its parameters. An operation that changes an object also needs the object's token. */
 static void add_link(struct kd_json *json, const struct kd_route *to, const struct kd_method *method)
 {
     char id[80], parameter[20], value[40];

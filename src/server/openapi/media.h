@@ -25,7 +25,7 @@ static inline void kd_openapi_media(struct kd_json *json, const char *type, cons
     kd_json_end(json);
 }
 
-/* Writes an operationId that is an identifier in most languages, such as "get_sessions_id_frame_png" for GET
+/* Writes an operationId that is an identifier in most languages: "get_sessions_id_frame_png" for GET
  * /v1/sessions/{id}/frame.png. */
 static inline void kd_openapi_operation_id(char *out, size_t size, const char *method, const char *path)
 {
@@ -37,7 +37,7 @@ static inline void kd_openapi_operation_id(char *out, size_t size, const char *m
     out[n] = 0;
 }
 
-/* Write a required requestBody, with media types written in between. */
+/* Both together write a required requestBody. The media types are written between the two calls. */
 static inline void kd_openapi_body_begin(struct kd_json *json)
 {
     kd_json_object(json, "requestBody");

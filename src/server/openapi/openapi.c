@@ -32,7 +32,7 @@
 /* Parameters of the document. */
 struct subject {
     const char *base_path;
-    const cJSON *schema; /* of a scene */
+    const cJSON *schema; /* schema of a scene */
     bool closed;         /* the server has a token file */
 };
 
@@ -112,7 +112,7 @@ static void add_path_parameter(struct kd_json *json, const char *path)
     kd_json_end(json);
 }
 
-#define INT "{\"type\":\"integer\",\"minimum\":0,\"maximum\":999999999999999999}" /* of kd_target_number */
+#define INT "{\"type\":\"integer\",\"minimum\":0,\"maximum\":999999999999999999}" /* range of kd_target_number */
 #define PART "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_LEAST_MIN) ",\"maximum\":1}"
 #define PACE_MS \
     "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_PATIENCE_MS_MIN) ",\"maximum\":" KD_SCHEMA_DIGITS( \
@@ -130,10 +130,10 @@ static void add_path_parameter(struct kd_json *json, const char *path)
 #define ROOM(least, most) \
     "{\"type\":\"integer\",\"minimum\":" KD_SCHEMA_DIGITS(least) ",\"maximum\":" KD_SCHEMA_DIGITS(most) "}"
 
-/* Query parameters besides the fields of a scene; schema NULL: the formats of jobs. */
+/* Query parameters that are not fields of a scene. schema NULL: the names of the formats of jobs. */
 static const struct {
     const char *path, *name, *schema, *help;
-    unsigned methods; /* methods that accept it; 0: all of the route's */
+    unsigned methods; /* methods that accept the parameter; 0: all methods of the route */
     bool required;
 } queries[] = {
     { "/v1/sessions", LEAST },

@@ -13,7 +13,7 @@
 
 #define NUMBERS "[{\"type\":[\"number\",\"null\"]},{\"type\":\"array\",\"items\":{\"type\":[\"number\",\"null\"]}}]"
 
-#define DIGITS "{\"type\":\"integer\",\"minimum\":1,\"maximum\":17}" /* KD_DECIMAL_DIGITS */
+#define DIGITS "{\"type\":\"integer\",\"minimum\":1,\"maximum\":17}" /* the maximum is KD_DECIMAL_DIGITS */
 #define RANGE "^" KD_OPENAPI_DECIMAL ":" KD_OPENAPI_DECIMAL ":([2-9]|[1-9][0-9]{1,4}|100000)$"
 
 static void add_words(struct kd_json *json, const char *text)
@@ -44,8 +44,8 @@ static void add_schema(struct kd_json *json, const struct kd_parameter *p)
         add_words(json, p->words);
     } else {
         kd_json_array(json, "anyOf");
-        /* first, because generators of clients take the first type that fits the default, and "infinity" parses as a
-         * number */
+        /* The word comes first, because generators of clients take the first type that fits the default, and "infinity"
+         * parses as a number. */
         if (p->word)
             kd_schema_word(json, NULL, p->word);
         add_number(json, p);
@@ -57,7 +57,7 @@ static void add_schema(struct kd_json *json, const struct kd_parameter *p)
     }
     char *end;
     double number = strtod(p->initial, &end);
-    if (*end || p->words || !isfinite(number)) /* "infinity" is a word here */
+    if (*end || p->words || !isfinite(number)) /* "infinity" is a word of this schema */
         kd_json_string(json, "default", p->initial);
     else
         kd_json_number(json, "default", number);
@@ -160,7 +160,7 @@ static void add_answer(struct kd_json *json, const struct kd_quantity *quantity)
     kd_json_string(json, "const", quantity->name);
     kd_json_end(json);
     add_asked(json, quantity);
-    kd_schema_text(json, "ranges", KD_SCHEMA_LIST(KD_SCHEMA_TEXT)); /* order in which several ranges are nested */
+    kd_schema_text(json, "ranges", KD_SCHEMA_LIST(KD_SCHEMA_TEXT)); /* the order in which several ranges are nested */
     kd_schema_text(json, "shape", KD_SCHEMA_LIST(KD_SCHEMA_COUNT));
     add_values(json, quantity);
     add_units(json, quantity);

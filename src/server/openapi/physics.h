@@ -1,4 +1,4 @@
-/* /v1/physics/NAME in openapi.json, a path for each quantity. Private to src/server. */
+/* /v1/physics/NAME in openapi.json: one path for each quantity. Private to src/server. */
 #ifndef KD_SERVER_OPENAPI_PHYSICS_H
 #define KD_SERVER_OPENAPI_PHYSICS_H
 

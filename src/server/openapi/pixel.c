@@ -14,9 +14,9 @@
 #define LIST KD_SCHEMA_LIST
 #define REF KD_SCHEMA_REF
 #define PAIR "{\"type\":\"array\",\"minItems\":2,\"maxItems\":2,\"items\":{\"type\":\"number\"}}"
-/* I, Q and U; for volumes also V. */
+/* The Stokes parameters I, Q and U, and for volumes also V. */
 #define STOKES "{\"type\":\"array\",\"minItems\":3,\"maxItems\":4,\"items\":{\"type\":\"number\"}}"
-/* docs/pixel.md describes each member. */
+/* docs/pixel.md describes each member of the schemas below. */
 #define UNITS "lengths and times in M, angles in radians; frequencies over those that the observer measures"
 #define ROWS LIST(LIST("{\"type\":[\"number\",\"null\",\"string\"]}"))
 
@@ -169,7 +169,7 @@ static void add_ends(struct kd_json *json)
     KD_OPENAPI_STRICT(json, "PixelAccuracy", accuracy);
 }
 
-/* Members of each ray of which the pixel is the mean. */
+/* Members of each ray that the pixel is the mean of. */
 #define RAY \
     { "ray_at", PAIR, false }, { "weight", NUMBER, false }, { "constants", REF("RayConstants"), false }, \
         { "radial", REF("RayRadial"), false }, { "polar", REF("RayPolar"), false }, \

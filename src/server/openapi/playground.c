@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* docs/playground.md describes each member. */
+/* docs/playground.md describes each member of the schemas below. */
 #define UNITS \
     "lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the clock"
 #define BODIES(schema) "{\"type\":\"array\",\"maxItems\":4096,\"items\":{\"$ref\":\"#/components/schemas/" schema "\"}}"
@@ -65,7 +65,7 @@ static void add_raw(struct kd_json *json, const char *name, const char *schema)
     kd_json_raw(json, name, schema, strlen(schema));
 }
 
-/* Writes the schema of a body; id: of an existing one, identified by its id. */
+/* Writes the schema of a body. id: the body exists already and is identified by its id. */
 static void add_body(struct kd_json *json, const char *name, bool id)
 {
     kd_json_object(json, name);
@@ -104,7 +104,7 @@ static void add_properties(struct kd_json *json, bool patch)
     kd_json_string(json, "description", "M a second of the clock; a preset has one of its own");
     kd_json_end(json);
     add_raw(json, "paused", "{\"type\":\"boolean\",\"default\":false}");
-    add_raw(json, "scene", KD_SCHEMA_REF("Scene")); /* a merge patch of the scene of its pictures */
+    add_raw(json, "scene", KD_SCHEMA_REF("Scene")); /* a merge patch for the scene of the playground's pictures */
     for (size_t i = 0; i < kd_playground_n_settings; i++)
         add_row(json, &kd_playground_settings[i]);
     if (patch) {
@@ -274,7 +274,7 @@ static void add_series(struct kd_json *json)
     KD_OPENAPI_STRICT(json, "PlaygroundSeries", series);
 }
 
-/* Writes the schema of data in the event stream, to which OpenAPI cannot attach a schema. */
+/* Writes the schema of the data in the event stream. OpenAPI cannot attach a schema to the stream itself. */
 static void add_happened(struct kd_json *json)
 {
     static const struct kd_openapi_member happened[] = {

@@ -12,7 +12,7 @@ static bool always(const struct kd_route *route, unsigned method) { return (void
 static bool never(const struct kd_route *route, unsigned method)
 {
     return (void)route, (void)method, false;
-} /* 405 belongs to no operation: it means that there is none */
+} /* 405 is a problem of no operation: it means that the address has no such operation */
 static bool closed(const struct kd_route *route, unsigned method) { return (void)method, !route->open; }
 static bool has_body(const struct kd_route *route, unsigned method)
 {
@@ -27,7 +27,7 @@ static bool is_one_of(const struct kd_route *route, const char *const *paths)
     return false;
 }
 
-/* 403: wrong role, foreign site, or wrong token of the object. */
+/* Whether the operation may answer 403: for a wrong role, a page of another site, or a wrong token of the object. */
 static bool forbids(const struct kd_route *route, unsigned method)
 {
     return !strncmp(route->path, "/v1/", 4) || (!route->open && !kd_role_may(KD_ROLE_VIEW, route, method));
@@ -71,7 +71,7 @@ static bool checks_what_it_is_given(const struct kd_route *route, unsigned metho
         NULL,
     };
     if (method == KD_DELETE)
-        return !strcmp(route->path, "/v1/sessions/{id}"); /* its query may only hold a token */
+        return !strcmp(route->path, "/v1/sessions/{id}"); /* the query of its operations may only hold a token */
     return has_body(route, method) || route->takes != KD_TAKES_NOTHING || is_one_of(route, strict);
 }
 

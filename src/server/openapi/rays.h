@@ -4,12 +4,12 @@
 
 #include "base/json.h"
 
-/* Appends the parameters that accompany an array to the operation's list. */
+/* Appends to an operation's list the parameters that accompany an NPY array. */
 void kd_openapi_rays_parameters(struct kd_json *json);
-/* Write the operation's requestBody, and the content of its answer. */
+/* kd_openapi_rays_body writes the operation's requestBody, kd_openapi_rays_answer the content of its answer. */
 void kd_openapi_rays_body(struct kd_json *json);
 void kd_openapi_rays_answer(struct kd_json *json);
-/* Writes the components of both. */
+/* Writes the components that body and answer refer to. */
 void kd_openapi_rays_schemas(struct kd_json *json);
 
 #endif

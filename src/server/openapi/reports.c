@@ -165,7 +165,7 @@ static void add_plan(struct kd_json *json)
     KD_OPENAPI_STRICT(json, "SweepPlan", sweep);
 }
 
-/* Writes the schema of accuracy: the errors of a set are keyed by the names of its quantities. */
+/* Writes the schema of accuracy. The errors of a set are members named after its quantities. */
 static void add_accuracy(struct kd_json *json)
 {
     static const struct kd_openapi_member errors[] = { { "median", KD_SCHEMA_NUMBER, true },

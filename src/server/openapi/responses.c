@@ -27,7 +27,7 @@ static void begin_response(struct kd_json *json, const struct kd_route *route, u
     kd_openapi_links(json, route, status);
 }
 
-/* Writes the media types that are listed in a table, each once. */
+/* Writes the media types that a table lists, each of them once. */
 static void add_formats(struct kd_json *json, enum kd_gives gives)
 {
     static const char stars[] = "{\"$ref\":\"#/components/schemas/Stars\"}"; /* the only format that is JSON */
@@ -40,7 +40,7 @@ static void add_formats(struct kd_json *json, enum kd_gives gives)
         kd_openapi_media(json, format.media_type, "", 0);
 }
 
-/* Writes a media type of an answer; for JSON with the schema in the table of answers. */
+/* Writes a media type of an answer. For JSON it adds the schema in the table of answers. */
 static void add_known(struct kd_json *json, const struct kd_route *route, unsigned method, const char *type)
 {
     const char *known = strcmp(type, "application/json") ? NULL : kd_openapi_answer(route->path, method);
@@ -74,7 +74,7 @@ static void add_answer(struct kd_json *json, const struct kd_route *route, unsig
     kd_json_end(json);
 }
 
-/* Writes the redirect of the page from an address with an access token to the one without it. */
+/* Writes the redirect of the page: from an address with an access token to the address without the token. */
 static void add_led_on(struct kd_json *json, const struct kd_route *route, unsigned method)
 {
     if (strcmp(route->path, "/"))

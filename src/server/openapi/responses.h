@@ -1,4 +1,4 @@
-/* Answers in openapi.json: statuses, headers and media types of each route. One thread for a document. */
+/* Answers in openapi.json: statuses, headers and media types of each route. One thread at a time for a document. */
 #ifndef KD_SERVER_OPENAPI_RESPONSES_H
 #define KD_SERVER_OPENAPI_RESPONSES_H
 

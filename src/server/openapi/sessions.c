@@ -8,7 +8,8 @@
 
 #include <string.h>
 
-/* Includes the token for the client that has just created the session. */
+/* Writes the schemas of a session's answers. They include the token, which only the client that has created the session
+ * gets. */
 void kd_openapi_session_schemas(struct kd_json *json)
 {
     static const struct kd_openapi_member emitter[] = {
@@ -49,7 +50,7 @@ void kd_openapi_session_schemas(struct kd_json *json)
     KD_OPENAPI_TOLD(json, "SessionRefining", "times in seconds", progress);
     KD_OPENAPI_TOLD(json, "FallClock", "in M, and in seconds where a name ends in _s", clock);
     KD_OPENAPI_STRICT(json, "Session", session);
-    KD_OPENAPI_STRICT(json, "SessionPatched", patched); /* with Prefer: return=minimal */
+    KD_OPENAPI_STRICT(json, "SessionPatched", patched); /* the answer to PATCH with Prefer: return=minimal */
 }
 
 void kd_openapi_strike_body(struct kd_json *json)

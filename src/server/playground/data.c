@@ -1,4 +1,5 @@
-/* Sends bodies and debris of a playground session in packed form: at once, or when they are newer than the client's. */
+/* Sends bodies and debris of a playground session in packed form: at once, or as soon as they are newer than the
+ * client's. */
 #include "base/clock.h"
 #include "image/npy.h"
 #include "server/http/negotiate.h"
@@ -12,9 +13,9 @@
 
 #define PACKED_TYPE "application/octet-stream"
 
-/* Wait for a tick; owned by its request. */
+/* A request that waits for a tick. The request owns it. */
 struct wait {
-    struct kd_playground_session_watcher watcher; /* first member */
+    struct kd_playground_session_watcher watcher; /* must be the first member */
     bool npy;
 };
 
@@ -66,7 +67,8 @@ static enum kd_status pack_bodies(const struct kd_playground_session_tick *tick,
     return status ? status : kd_buffer_append(out, tick->bodies.data, tick->bodies.size);
 }
 
-/* Packs the debris. If the tick has more pieces than this client has requested, it sends evenly spaced ones. */
+/* Packs the debris. If the tick has more pieces of debris than this client has requested, it packs evenly spaced
+ * ones. */
 static enum kd_status pack_debris(const struct kd_playground_session_tick *tick, uint32_t most, bool npy,
                                   struct kd_buffer *out)
 {

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define USUAL_RATE 50.
-#define STEP_VALUES 16 /* most values in a step's body, which has one field */
+#define STEP_VALUES 16 /* limit of JSON values in the body of a step, which has one field */
 #define STEP_MOST KD_PLAYGROUND_TIME
 
 static const struct kd_playground_setting pace_rows[] = {

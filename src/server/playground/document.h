@@ -7,24 +7,27 @@
 #include "scene/scene.h"
 #include "server/playground/plays.h"
 
-/* Moves "rate" and "paused" out of the tree into *pace; absent ones are unchanged. KD_EINVAL with a pointer. */
+/* Moves "rate" and "paused" out of the tree into *pace. A member of *pace whose entry is absent is unchanged. KD_EINVAL
+ * with a pointer. */
 enum kd_status kd_playground_session_read_pace(cJSON *tree, struct kd_playground_session_pace *pace,
                                                struct kd_error *error);
-/* Merges "scene" (NULL: absent) over *scene, and checks that the playground can be shown in it. KD_EINVAL with a
- * pointer. */
+/* Merges "scene" over *scene, and checks that the playground can be shown in the result. item NULL: "scene" is absent.
+ * KD_EINVAL with a pointer. */
 enum kd_status kd_playground_session_read_scene(const cJSON *item, const struct kd_playground *p,
                                                 const struct kd_assets *assets, struct kd_scene *scene,
                                                 struct kd_error *error);
-/* The rate of the preset that the tree names, or the default. */
+/* Returns the rate of the preset that the tree names, or the default rate. */
 double kd_playground_session_usual_rate(const cJSON *tree);
 /* Parses {"by": M} of a step. */
 enum kd_status kd_playground_session_read_step(const char *text, size_t length, double *by, struct kd_error *error);
 
 struct kd_playground_session_told {
-    const struct kd_scene *scene;                  /* scene of its picture */
-    bool token;                                    /* include the token, for the client that has just opened it */
-    uint32_t before;                               /* list bodies with ids above this as "added"; UINT32_MAX: no list */
-    const struct kd_playground_progress *progress; /* of a step; NULL: this is not the answer to a step */
+    const struct kd_scene *scene; /* scene of the playground's picture */
+    /* whether to include the token, for the client that has just opened the session */
+    bool token;
+    /* bodies with ids above this are listed as "added"; UINT32_MAX: no such list */
+    uint32_t before;
+    const struct kd_playground_progress *progress; /* progress of a step; NULL: this is not the answer to a step */
 };
 enum kd_status kd_playground_session_to_json(const struct kd_playground_session *play,
                                              const struct kd_playground_session_state *state, struct kd_playground *p,

@@ -1,4 +1,4 @@
-/* Event stream of a playground session: each new tick, and each event once, by its number. */
+/* Event stream of a playground session. It has each new tick, and each event once, identified by its number. */
 #include "base/clock.h"
 #include "base/json.h"
 #include "server/http/reply.h"
@@ -15,8 +15,8 @@
 #define UNSENT_BYTES (64 << 10) /* limit of unsent bytes in the kernel: more would delay ticks */
 
 struct stream {
-    struct kd_playground_session_watcher watcher; /* first member */
-    struct kd_buffer text;                        /* being sent ... */
+    struct kd_playground_session_watcher watcher; /* must be the first member */
+    struct kd_buffer text;                        /* text being sent ... */
     size_t at;                                    /* ... up to this position */
     bool over;
 };
@@ -38,7 +38,8 @@ static enum kd_status add_tick(struct stream *s, struct kd_playground_session_ti
     return status;
 }
 
-/* Appends an event, and before it a note of lost ones. before: number of the last event sent. */
+/* Appends an event. If events before it have been lost, a note of that precedes it. before: number of the last event
+ * sent. */
 static enum kd_status add_event(struct stream *s, uint64_t before, const struct kd_playground_event *event)
 {
     const uint64_t now = s->watcher.event, lost = event->number ? now - 1 : now;
@@ -57,7 +58,8 @@ done:
     return status;
 }
 
-/* Writes the next part of the stream into s->text. Returns false if there is none yet, or with *end at the end. */
+/* Writes the next part of the stream into s->text. Returns false if there is no part yet, or if the stream has ended;
+ * then *end is set. */
 static bool fetch(struct stream *s, ssize_t *end)
 {
     struct kd_playground_session_tick *tick = NULL;
@@ -73,7 +75,7 @@ static bool fetch(struct stream *s, ssize_t *end)
         s->over = true;
         status = kd_buffer_printf(&s->text, "event: end\ndata: {\"why\":\"%s\"}\n\n", why);
         break;
-    case KD_PLAY_LATE: /* a heartbeat, which also detects clients that have vanished */
+    case KD_PLAY_LATE: /* time for a heartbeat, which also detects clients that have vanished */
         s->watcher.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         status = kd_buffer_printf(&s->text, ":\n\n");
         break;
@@ -151,6 +153,7 @@ enum MHD_Result kd_handle_play_events(struct kd_request *request)
     MHD_add_response_header(response, "Content-Type", TYPE);
     MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* disables buffering in proxies */
     const enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
-    kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0); /* no deadline */
+    /* a stream has no deadline */
+    kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0);
     return result;
 }

@@ -1,18 +1,18 @@
-/* Pictures of playground sessions. A session (server/session) renders it; the first request for a frame opens that.
- * When the bodies have changed and a viewer waits, it gets a new crowd (run.c). Lock order: all->lock, then the
- * sessions' lock. */
+/* Pictures of playground sessions. Each is rendered by a session of server/session, which the first request for a frame
+ * opens. If the bodies have changed and a viewer waits, that session gets the new bodies (run.c). Lock order: first
+ * all->lock, then the lock of server/session. */
 #include "base/clock.h"
 #include "playground/show.h"
 #include "server/playground/internal.h"
 #include "server/render/queue.h"
 
-/* Memory of a picture: up to three crowds at once, waiting, shown and being made. */
+/* Memory of a picture: up to three sets of bodies at once. One waits, one is shown, and one is being made. */
 #define CROWD_BYTES \
     (3 * \
      ((size_t)KD_SHOW_NODES * KD_CROWD_NODE * sizeof(float) + KD_PLAYGROUND_BODIES_MAX * sizeof(struct kd_seen_body)))
-#define ASKED_MS 1000. /* after a request for a frame, the next one is expected within this time */
+#define ASKED_MS 1000. /* a viewer that has requested a frame is expected to request the next within this time */
 
-/* Functions from here on are called with the lock. */
+/* The functions from here on are called with the lock. */
 
 bool kd_playground_session_looked_at(const struct kd_playground_session *play)
 {
@@ -51,7 +51,7 @@ static enum kd_status take_bytes(struct kd_playground_session *play, bool *quota
     return KD_OK;
 }
 
-/* Functions from here on take the lock. */
+/* The functions from here on take the lock. */
 
 void kd_playground_session_scene(struct kd_playground_session *play, struct kd_scene *out)
 {
@@ -68,7 +68,7 @@ static enum kd_status make_plan(struct kd_playground_sessions *all, const struct
     return kd_plan_make(scene, &capacity, out, error);
 }
 
-/* The same, checked against the limits of sessions. */
+/* Makes the scene in which the playground is shown, and checks it against the limits of sessions. */
 static enum kd_status make_shown(struct kd_playground_sessions *all, const struct kd_scene *scene, struct kd_plan *out,
                                  struct kd_error *error)
 {
@@ -120,7 +120,8 @@ enum kd_status kd_playground_session_picture(struct kd_playground_session *play,
     *quota = false;
     pthread_mutex_lock(&play->all->lock);
     const bool there = play->picture && !kd_session_over(play->picture);
-    pthread_mutex_unlock(&play->all->lock); /* only the HTTP thread opens a picture */
+    /* the lock may be released here, because only the HTTP thread opens a picture */
+    pthread_mutex_unlock(&play->all->lock);
     if (!there)
         status = open_picture(play, quota, &fresh, error);
     if (status)
@@ -129,7 +130,7 @@ enum kd_status kd_playground_session_picture(struct kd_playground_session *play,
     if (fresh && !play->crowd_bytes)
         status = take_bytes(play, quota, error);
     if (fresh && !status) {
-        const size_t held = play->crowd_bytes; /* now reserved for the new one */
+        const size_t held = play->crowd_bytes; /* reserved for the new picture from now on */
         if (play->picture)
             kd_session_go_on_from(fresh, play->picture);
         play->crowd_bytes = 0;

@@ -8,8 +8,9 @@
 #include <string.h>
 
 #define COUNTS_MS 20.   /* how long a reader of counts waits for the lock */
-#define SLOWED_MS 1000. /* how long skipped time is reported */
-/* Memory of a session by its debris capacity: the debris twice, because changes work on a copy, and twice the rest. */
+#define SLOWED_MS 1000. /* for how long clients are told that time was skipped */
+/* Memory of a session with a given debris capacity. The debris counts twice, because changes work on a copy; so does
+ * all else. */
 #define BASE_BYTES ((size_t)6 << 20)
 #define BYTES(capacity) (BASE_BYTES + 2 * (size_t)(capacity) * sizeof(struct kd_debris_piece))
 
@@ -45,7 +46,7 @@ void kd_playground_sessions_destroy(struct kd_playground_sessions *all)
     free(all);
 }
 
-/* Functions from here on are called with the lock. */
+/* The functions from here on are called with the lock. */
 
 struct kd_playground_session *kd_playground_session_unref(struct kd_playground_session *play)
 {
@@ -70,7 +71,7 @@ void kd_playground_session_unlist(struct kd_playground_session *play, const char
     while (*link != play)
         link = &(*link)->next;
     *link = play->next;
-    kd_scheduler_wake(play->all->turns, &play->turns); /* so that it runs its last turn */
+    kd_scheduler_wake(play->all->turns, &play->turns); /* so that it runs its last slice */
     play->listed = false;
     play->why = why;
     kd_playground_session_hide(play);
@@ -91,7 +92,7 @@ static unsigned watchers_of(const struct kd_playground_session *play)
     return n + kd_playground_session_viewers(play);
 }
 
-/* Functions from here on take the lock. */
+/* The functions from here on take the lock. */
 
 void kd_playground_session_destroy(struct kd_playground_session *play)
 {
@@ -116,7 +117,7 @@ static struct kd_playground_session *make(struct kd_playground_sessions *all,
     play->turns = (struct kd_scheduler_job) { .turn = kd_playground_session_turn, .done = done };
     snprintf(play->turns.client, sizeof play->turns.client, "%s", client);
     play->all = all;
-    play->references = 2; /* for the job and the caller */
+    play->references = 2; /* one for the job, one for the caller */
     play->pace = *pace;
     play->used_ms = kd_clock_ms();
     play->generation = 1;
@@ -125,7 +126,7 @@ static struct kd_playground_session *make(struct kd_playground_sessions *all,
     return play;
 }
 
-/* Called with the lock. */
+/* Whether the limits of sessions and memory admit another session. Called with the lock. */
 static enum kd_status admit(struct kd_playground_sessions *all, const char *client, size_t bytes, bool *quota,
                             struct kd_error *error)
 {

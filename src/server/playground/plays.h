@@ -1,12 +1,12 @@
-/* Playground sessions: a playground on the server that runs at a given rate, in M a second, and that its owner changes
- * meanwhile.
+/* Playground sessions: a playground that the server runs at a given rate, in M a second, and that its owner can change
+ * while it runs.
  *
- * It runs while a client watches or sends requests, and pauses KD_PLAY_REST_MS after the last one. After params.idle_ms
- * without any client it ends. Each is one task of the scheduler (http/turns.h), with slices of some 10 ms. A sub-step
- * is never divided, and takes tens of milliseconds with 4096 bodies or a million pieces of debris. If the processor
- * cannot keep up, simulated time slows down, which is reported.
+ * It runs while a client watches or sends requests, and pauses KD_PLAY_REST_MS after the last request. After
+ * params.idle_ms without any client it ends. Each session is one job of the scheduler (http/task_scheduler.h), with
+ * slices of some 10 ms. A sub-step is never divided. It takes tens of milliseconds with 4096 bodies or a million pieces
+ * of debris. If the processor cannot keep up, simulated time slows down, and clients are told so.
  *
- * A playground belongs to one thread at a time: the one that has taken it, which is always a worker. The HTTP thread
+ * A playground belongs to one thread at a time: the thread that has taken it, which is always a worker. The HTTP thread
  * reads the snapshot that the workers publish after each tick. Any thread; functions on watchers belong to the HTTP
  * thread. */
 #ifndef KD_SERVER_PLAYGROUND_PLAYS_H
@@ -21,8 +21,8 @@
 #include <stdatomic.h>
 
 #define KD_PLAY_REST_MS 5000.
-#define KD_PLAY_RATE_MAX 1e9  /* M a second */
-#define KD_PLAY_DEBRIS 20000u /* default number of debris pieces in an answer */
+#define KD_PLAY_RATE_MAX 1e9  /* unit: M for each second of the clock */
+#define KD_PLAY_DEBRIS 20000u /* pieces of debris in an answer, unless the client requests another number */
 
 struct kd_playground_sessions;
 struct kd_playground_session;
@@ -34,24 +34,25 @@ struct kd_sessions;
 struct kd_playground_sessions_params {
     struct kd_sessions *sessions; /* sessions that render their pictures */
     struct kd_render_queue *renders;
-    unsigned limit, client_limit; /* sessions in all; of one client */
+    unsigned limit, client_limit; /* limits of sessions: of all clients, and of one */
     unsigned idle_ms;
-    size_t bytes, client_bytes; /* memory of all; of one client */
+    size_t bytes, client_bytes; /* limits of memory: of all sessions, and of those of one client */
 };
 enum kd_status kd_playground_sessions_create(const struct kd_playground_sessions_params *params,
                                              struct kd_playground_sessions **out, struct kd_error *error);
-/* Call it after kd_playground_sessions_close, when kd_playground_sessions_unfinished is 0 and there are no references.
+/* Call it after kd_playground_sessions_close, when kd_playground_sessions_unfinished is 0 and no references are left.
  * Accepts NULL. */
 void kd_playground_sessions_destroy(struct kd_playground_sessions *all);
 
 /* Session state that is not part of the simulation. */
 struct kd_playground_session_pace {
-    double rate; /* M a second, 0 to KD_PLAY_RATE_MAX */
+    double rate; /* M for each second of the clock, 0 to KD_PLAY_RATE_MAX */
     bool paused;
 };
 
-/* Opens a session. It takes over *p and sets it to NULL. The caller gets a reference, and has taken the playground.
- * Returns KD_EBUSY at a limit of sessions or bytes; *quota: it is that of one client. */
+/* Opens a session. It takes over *p and sets it to NULL. The caller gets a reference to the session, and counts as
+ * having taken the playground. Returns KD_EBUSY at a limit of sessions or bytes; *quota is true if that is the limit of
+ * one client. */
 enum kd_status kd_playground_sessions_open(struct kd_playground_sessions *all, struct kd_playground **p,
                                            const struct kd_playground_session_pace *pace, const struct kd_scene *scene,
                                            const char *client, bool *quota, struct kd_playground_session **out,
@@ -59,21 +60,23 @@ enum kd_status kd_playground_sessions_open(struct kd_playground_sessions *all, s
 /* Returns a reference to the session of this id, or NULL. The session's idle time starts again. */
 struct kd_playground_session *kd_playground_sessions_find(struct kd_playground_sessions *all, const char *id);
 void kd_playground_session_release(struct kd_playground_session *play); /* accepts NULL */
-/* Idempotency-Key of a session: store it, find a session by it. "" finds none. */
+/* Idempotency-Key of a session: kd_playground_session_promise stores it, kd_playground_sessions_find_once finds a
+ * session by it. "" finds none. */
 void kd_playground_session_promise(struct kd_playground_session *play, const struct kd_once *once);
 struct kd_playground_session *kd_playground_sessions_find_once(struct kd_playground_sessions *all, const char *key);
 const struct kd_once *kd_playground_session_once(
-    const struct kd_playground_session *play); /* of a session found by its key; HTTP thread only */
+    const struct kd_playground_session *play); /* for a session that was found by its key; HTTP thread only */
 const char *kd_playground_session_id(const struct kd_playground_session *play);
 const char *kd_playground_session_token(const struct kd_playground_session *play);
 bool kd_playground_session_owned(const struct kd_playground_session *play,
                                  const char *token); /* compares in constant time; token may be NULL */
-/* Ends the session and notifies its watchers. why: a word for them. */
+/* Ends the session and notifies its watchers. why: the word that they get as the reason. */
 void kd_playground_session_end(struct kd_playground_session *play, const char *why);
 
-/* Takes the playground. The caller owns it until kd_playground_session_give returns it, or another one in its place.
- * NULL: it is taken; the waiter's job must end its turn with KD_SLICE_AWAY and is woken when it is returned. A turn
- * that has taken it may be suspended (base/pause.h), since no thread blocks for it. Workers. */
+/* Takes the playground. The caller owns it until it calls kd_playground_session_give with it, or with another
+ * playground in its place. Returns NULL if another job has taken it. Then the waiter's job must end its slice with
+ * KD_SLICE_AWAY; it is woken when the playground is returned. A slice that has taken the playground may be suspended
+ * (base/pause.h), because no thread blocks for it. For workers. */
 struct kd_playground_session_waiter {
     struct kd_scheduler *turns;
     struct kd_scheduler_job *job;
@@ -84,40 +87,41 @@ struct kd_playground_session_waiter {
 struct kd_playground *kd_playground_session_take(struct kd_playground_session *play,
                                                  struct kd_playground_session_waiter *waiter);
 void kd_playground_session_give(struct kd_playground_session *play, struct kd_playground *p);
-/* For the owner of the playground. log: copies new events into the session's log. moved: the playground has changed.
- * pieces: sub-steps to compute between two checks of the clock. */
+/* For the job that has taken the playground. kd_playground_session_log copies new events into the session's log.
+ * kd_playground_session_moved tells that the playground has changed. kd_playground_session_pieces returns the number of
+ * sub-steps to compute between two checks of the clock. */
 void kd_playground_session_log(struct kd_playground_session *play, const struct kd_playground *p);
 void kd_playground_session_moved(struct kd_playground_session *play);
 uint32_t kd_playground_session_pieces(const struct kd_playground *p);
-/* Reserves the bytes of a new debris capacity in place of the present one. Returns KD_EBUSY, and changes nothing, at a
- * limit. */
+/* Reserves the memory for a new debris capacity instead of the present one. At a limit it returns KD_EBUSY and changes
+ * nothing. */
 enum kd_status kd_playground_session_room(struct kd_playground_session *play, uint32_t capacity, bool *quota,
                                           struct kd_error *error);
 
 struct kd_playground_session_state {
     struct kd_playground_session_pace pace;
-    double reached; /* achieved rate, M a second */
+    double reached; /* achieved rate in M a second */
     bool slowed, resting, stepping, over;
     unsigned watchers;
     uint64_t generation;
 };
 struct kd_playground_session_state kd_playground_session_state(struct kd_playground_session *play);
 void kd_playground_session_set_pace(struct kd_playground_session *play, const struct kd_playground_session_pace *pace);
-/* Fails if a frame of the scene would take too long or cannot be made. */
+/* Fails if a frame of the scene would take too long, or cannot be made. */
 enum kd_status kd_playground_sessions_takes(struct kd_playground_sessions *all, const struct kd_scene *scene,
                                             struct kd_error *error);
-/* Scene of its picture. A session (server/session) renders it, with the bodies and debris, once a client requests
- * frames. */
+/* Gets the scene of the playground's picture. A session of server/session renders it, with the bodies and debris, once
+ * a client requests frames. */
 void kd_playground_session_scene(struct kd_playground_session *play, struct kd_scene *out);
-/* The scene must be resolved and valid. */
+/* Replaces the scene of the playground's picture. The scene must be resolved and valid. */
 enum kd_status kd_playground_session_set_scene(struct kd_playground_session *play, const struct kd_scene *scene,
                                                struct kd_error *error);
-/* Returns the session that renders it, a reference; opens one if needed. KD_EBUSY at a limit; *quota: it is that of one
- * client. HTTP thread. */
+/* Returns a reference to the session that renders the picture, and opens one if there is none. KD_EBUSY at a limit;
+ * *quota is true if that is the limit of one client. HTTP thread. */
 enum kd_status kd_playground_session_picture(struct kd_playground_session *play, bool *quota, struct kd_session **out,
                                              struct kd_error *error);
-/* Begins steps by hand. Returns false unless it is paused and not being stepped. Nothing else changes it until
- * kd_playground_session_stepped. */
+/* Begins a step that a client has requested. Returns false unless the session is paused and no other step is under way.
+ * Nothing else changes the playground until kd_playground_session_stepped. */
 bool kd_playground_session_step(struct kd_playground_session *play);
 void kd_playground_session_stepped(struct kd_playground_session *play);
 
@@ -127,37 +131,38 @@ struct kd_playground_session_tick {
     uint64_t generation;
     double t;
     struct kd_buffer event;          /* JSON on one line */
-    struct kd_buffer bodies, debris; /* rows: KD_PLAY_BODY_WORDS and KD_PLAY_DEBRIS_WORDS words each */
+    struct kd_buffer bodies, debris; /* packed rows of KD_PLAY_BODY_WORDS and KD_PLAY_DEBRIS_WORDS words */
     size_t n_bodies, n_debris, all_debris;
     bool has_debris;
-    uint32_t most; /* capacity of `debris` in pieces */
+    uint32_t most; /* capacity of `debris` in pieces of debris */
 };
 enum { KD_PLAY_HEAD_WORDS = 8, KD_PLAY_BODY_WORDS = 10, KD_PLAY_DEBRIS_WORDS = 4 };
 void kd_playground_session_tick_release(struct kd_playground_session_tick *tick); /* accepts NULL */
 
 /* A watcher: a request that waits for one tick, or a stream of all ticks and events. */
 struct kd_playground_session_watcher {
-    struct kd_playground_session *play; /* a reference */
+    struct kd_playground_session *play; /* a counted reference */
     struct MHD_Connection *mhd;
     int socket;
     bool stream;
-    uint64_t least;     /* smallest generation of the tick that it waits for */
-    uint32_t debris;    /* pieces that the tick must have room for; 0: none */
+    uint64_t least;     /* it waits for a tick of this generation or a later one */
+    uint32_t debris;    /* number of pieces of debris that the tick must have room for; 0: none */
     uint64_t event;     /* number of the last event sent */
-    double deadline_ms; /* end of waiting on kd_clock_ms */
-    bool waiting;       /* suspended */
+    double deadline_ms; /* when waiting ends, on kd_clock_ms */
+    bool waiting;       /* its connection is suspended */
     struct kd_playground_session_watcher *previous, *next;
 };
-/* Takes over the reference in watcher->play. after: generation that the client has; NULL: none. */
+/* Takes over the reference in watcher->play. after: generation of the client's newest tick; NULL: it has none. */
 void kd_playground_session_watch(struct kd_playground_session_watcher *watcher, const uint64_t *after);
 void kd_playground_session_unwatch(struct kd_playground_session_watcher *watcher);
 enum kd_playground_session_news {
-    KD_PLAY_TICK,  /* *tick is a reference */
-    KD_PLAY_EVENT, /* *event is set; if event->number is not the next one, the events between have been discarded */
-    KD_PLAY_OVER,  /* *why is a word */
+    KD_PLAY_TICK, /* there is a tick; *tick is a counted reference to it */
+    /* there is an event in *event; if its number is not the next one, the events between have been discarded */
+    KD_PLAY_EVENT,
+    KD_PLAY_OVER,  /* the session has ended; *why is a word */
     KD_PLAY_GONE,  /* the client has disconnected */
     KD_PLAY_LATE,  /* the deadline has passed; the caller may set another */
-    KD_PLAY_LATER, /* the connection is suspended, and will be resumed for one of the others */
+    KD_PLAY_LATER, /* the connection is suspended, and will be resumed for one of the other results */
 };
 enum kd_playground_session_news kd_playground_session_await(struct kd_playground_session_watcher *watcher,
                                                             struct kd_playground_session_tick **tick,
@@ -165,10 +170,11 @@ enum kd_playground_session_news kd_playground_session_await(struct kd_playground
 
 /* Handles deadlines, disconnected clients and idle sessions. One thread calls it ten times a second. */
 void kd_playground_sessions_sweep(struct kd_playground_sessions *all);
-/* Accepts no more sessions and ends all. */
+/* Accepts no more sessions and ends all sessions. */
 void kd_playground_sessions_close(struct kd_playground_sessions *all);
-unsigned kd_playground_sessions_unfinished(struct kd_playground_sessions *all); /* sessions that workers still use */
-/* Reads the counts. Returns false if the lock is not free soon. */
+/* number of sessions that workers still use */
+unsigned kd_playground_sessions_unfinished(struct kd_playground_sessions *all);
+/* Reads the counts. Returns false if the lock does not become free soon. */
 bool kd_playground_sessions_counts(struct kd_playground_sessions *all, struct kd_playground_sessions_counts *out);
 
 #endif

@@ -1,5 +1,5 @@
 /* Handlers of playground sessions: open, read, change, step, end, and downloads. Work on the playground itself is a
- * task of the workers. */
+ * task that workers run. */
 #include "server/playground/routes.h"
 
 #include "base/clock.h"
@@ -22,10 +22,10 @@
 enum what { OPEN, AGAIN, STATE, CHANGE, STEP, SNAPSHOT, SERIES, FALLBACK };
 
 struct play_task {
-    struct kd_task task; /* first member */
+    struct kd_task task; /* must be the first member */
     enum what what;
     const char *type;                   /* media type of the answer */
-    struct kd_playground_session *play; /* a reference; for OPEN the opened session */
+    struct kd_playground_session *play; /* a counted reference; for OPEN, the session that was opened */
     struct kd_playground_session_waiter waiter;
     struct kd_buffer out;
     bool conflict, steps, begun, told; /* steps: this task steps the session; told: the client has received the token */
@@ -60,7 +60,7 @@ static void finish(struct kd_task *task)
     kd_buffer_finish(&t->out);
 }
 
-/* Functions from here on run on a worker. */
+/* The functions from here on run on a worker. */
 
 static const char *body_of(const struct kd_task *task)
 {
@@ -111,13 +111,13 @@ done:
     return status;
 }
 
-/* Reserves the memory of a patch's debris capacity. */
+/* Reserves the memory for the debris capacity that a patch requests. */
 static enum kd_status make_room(struct play_task *t, const struct kd_playground *p, const cJSON *tree,
                                 struct kd_error *error)
 {
     const cJSON *capacity = cJSON_GetObjectItemCaseSensitive(tree, "debris_capacity");
     if (!cJSON_IsNumber(capacity) || !(capacity->valuedouble >= 0 && capacity->valuedouble <= KD_PLAYGROUND_DEBRIS_MAX))
-        return KD_OK; /* refused when the settings are parsed */
+        return KD_OK; /* the capacity is not valid, and is refused when the settings are parsed */
     return capacity->valuedouble > p->params.debris_capacity
                ? kd_playground_session_room(t->play, (uint32_t)capacity->valuedouble, &t->task.quota, error)
                : KD_OK;
@@ -141,7 +141,7 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
     KD_TRY(kd_playground_session_read_scene(look, *p, kd_asset_store_assets(server->assets), &scene, error));
     struct kd_scene old;
     kd_playground_session_scene(t->play, &old);
-    if (look) { /* first, because it can fail, and can be reverted */
+    if (look) { /* this comes before all other changes, because it can fail and can be reverted */
         KD_TRY(kd_playground_session_set_scene(t->play, &scene, error));
         kd_playground_session_moved(t->play);
     }
@@ -152,7 +152,7 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
             kd_playground_session_set_scene(t->play, &old, &(struct kd_error) { 0 });
         kd_playground_session_room(
             t->play, (*p)->params.debris_capacity, &quota,
-            &(struct kd_error) { 0 }); /* reserve the capacity that resulted; the rest is released */
+            &(struct kd_error) { 0 }); /* reserves the memory for the capacity that resulted; the rest is released */
         KD_TRY(status);
         kd_playground_session_moved(t->play);
     }
@@ -250,7 +250,7 @@ static enum kd_slice_result work(struct kd_task *task, double until_ms)
     return end;
 }
 
-/* Functions from here on run on the HTTP thread. */
+/* The functions from here on run on the HTTP thread. */
 
 static enum MHD_Result refuse(struct kd_request *request, const struct play_task *t)
 {
@@ -286,7 +286,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     return result;
 }
 
-/* Takes over the reference `play`. */
+/* Starts the task. Takes over the reference `play`. */
 static enum MHD_Result begin(struct kd_request *request, struct kd_playground_session *play, enum what what,
                              const char *type)
 {
@@ -341,7 +341,7 @@ static enum MHD_Result end(struct kd_request *request, struct kd_playground_sess
     return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
 }
 
-/* The same for requests of the session's owner only. */
+/* Like begin, for requests that only the session's owner may send. */
 static enum MHD_Result begin_owned(struct kd_request *request, enum what what)
 {
     enum MHD_Result refused;

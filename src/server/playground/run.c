@@ -1,8 +1,9 @@
 /* Runs a playground session in slices.
  *
- * Its goal time advances with the clock, at the requested rate, and the bodies follow in sub-steps until they have
- * passed it. They may lag by LAG_S times the rate, which a busy machine catches up later; a larger lag is dropped. A
- * beat, a thirtieth of a second, permits as many sub-steps as the setting `budget`. */
+ * Its goal time advances with the clock, at the requested rate. The bodies follow in sub-steps until they have passed
+ * the goal. They may lag behind it by LAG_S times the rate, which a busy machine makes up for later; a larger lag is
+ * dropped. In each beat, a thirtieth of a second, at most as many sub-steps are computed as the setting `budget`
+ * says. */
 #include "base/clock.h"
 #include "playground/show.h"
 #include "server/playground/internal.h"
@@ -10,8 +11,8 @@
 #include <math.h>
 
 #define TURN_MS 10.
-#define TICK_MS 33. /* interval of ticks */
-#define LEAST_MS 8. /* shortest interval of slices */
+#define TICK_MS 33. /* interval between ticks */
+#define LEAST_MS 8. /* shortest interval between slices */
 #define MOST_MS 100.
 #define LAG_S 0.1
 #define BEATS 30.    /* beats in a second */
@@ -23,11 +24,11 @@
 struct order {
     bool over, goes, anew, awaited;
     double rate;
-    uint32_t debris;          /* debris pieces requested */
-    struct kd_session *shown; /* its picture if it has viewers, a reference; NULL: none */
+    uint32_t debris;          /* number of pieces of debris requested */
+    struct kd_session *shown; /* the playground's picture if it has viewers, a counted reference; NULL: none */
 };
 
-/* Largest number of debris pieces awaited, or requested lately. Called with the lock. */
+/* The largest number of pieces of debris that a client waits for, or has requested lately. Called with the lock. */
 static uint32_t wanted_debris(const struct kd_playground_session *play, double now)
 {
     uint32_t most = now - play->debris_ms < KD_PLAY_REST_MS ? play->debris : 0;
@@ -60,7 +61,8 @@ static struct order look(struct kd_playground_session *play, double now)
 void kd_playground_session_log(struct kd_playground_session *play, const struct kd_playground *p)
 {
     struct kd_playground_events *log = &play->log;
-    if (p->events.last == log->last) /* only the owner of the playground changes either */
+    /* no lock is needed, because only the job that has taken the playground changes these two */
+    if (p->events.last == log->last)
         return;
     pthread_mutex_lock(&play->all->lock);
     play->all->events += p->events.last - log->last;
@@ -136,8 +138,8 @@ static bool has_debris(const struct kd_playground_session_tick *tick, uint32_t w
     return !wanted || (tick->has_debris && tick->most >= wanted);
 }
 
-/* Publishes a tick if a client waits for one and it is due. Returns when it must be called again at the latest; 0: no
- * need. */
+/* Publishes a tick if a client waits for one and it is due. Returns the latest time at which it must be called again;
+ * 0: it need not be. */
 static double publish(struct kd_playground_session *play, const struct order *order, double now)
 {
     const struct kd_playground_session_state state = kd_playground_session_state(play);
@@ -162,7 +164,7 @@ static double publish(struct kd_playground_session *play, const struct order *or
     return 0;
 }
 
-/* Gives the picture its new bodies. Returns as publish. */
+/* Passes the new bodies to the picture. Returns what publish returns. */
 static double show(struct kd_playground_session *play, const struct order *order, double now)
 {
     struct kd_dynamic_bodies *crowd = NULL;
@@ -172,7 +174,7 @@ static double show(struct kd_playground_session *play, const struct order *order
     if (order->goes && play->shown && now - play->shown_ms < TICK_MS)
         return play->shown_ms + TICK_MS;
     if (play->shown && !kd_session_hungry(order->shown))
-        return now + TICK_MS; /* one crowd for each frame; more would never be seen */
+        return now + TICK_MS; /* one set of bodies for each frame is enough: more would never be seen */
     if (kd_playground_show(play->p, &crowd, NULL))
         return now + MOST_MS; /* out of memory: try again later */
     play->shown = generation;
@@ -187,8 +189,8 @@ enum kd_slice_result kd_playground_session_turn(struct kd_scheduler_job *job)
 {
     struct kd_playground_session *play = (struct kd_playground_session *)job;
     bool behind = false;
-    if (!kd_playground_session_take(play,
-                                    &play->waiter)) /* first, because the present owner may change what is to be done */
+    /* taken first, because the job that has it now may change what is to be done */
+    if (!kd_playground_session_take(play, &play->waiter))
         return KD_SLICE_AWAY;
     double now = kd_clock_ms();
     const struct order order = look(play, now);

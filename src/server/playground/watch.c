@@ -1,4 +1,4 @@
-/* Watchers of playground sessions, and the periodic sweep. */
+/* Watchers of playground sessions, and the regular check of all sessions. */
 #include "base/clock.h"
 #include "base/log.h"
 #include "server/http/connections.h"
@@ -8,7 +8,7 @@
 
 #define LOOK_MS 1000. /* interval of checks for disconnected clients */
 
-/* Functions from here on are called with the lock. */
+/* The functions from here on are called with the lock. */
 
 static bool has_tick(const struct kd_playground_session_watcher *w)
 {
@@ -25,8 +25,7 @@ static enum kd_playground_session_news news(const struct kd_playground_session_w
         return KD_PLAY_OVER;
     if (has_tick(w))
         return KD_PLAY_TICK;
-    const bool comes =
-        !w->stream && play->generation >= w->least; /* its tick is being made and comes soon, whatever the deadline */
+    const bool comes = !w->stream && play->generation >= w->least; /* its tick is being made and comes soon */
     return now > w->deadline_ms && !comes ? KD_PLAY_LATE : KD_PLAY_LATER;
 }
 
@@ -51,7 +50,8 @@ bool kd_playground_session_awaited(const struct kd_playground_session *play)
     return false;
 }
 
-/* Takes the next event after the last one sent. Discarded events are skipped; the number in *event shows how many. */
+/* Takes the first event that is still in the log after the last one sent. The number in *event shows how many were
+ * discarded. */
 static void take_event(struct kd_playground_session_watcher *w, struct kd_playground_event *event)
 {
     const struct kd_playground_event *found = NULL;
@@ -60,14 +60,15 @@ static void take_event(struct kd_playground_session_watcher *w, struct kd_playgr
     *event = found ? *found : (struct kd_playground_event) { .number = 0 };
 }
 
-/* Functions from here on take the lock. */
+/* The functions from here on take the lock. */
 
 void kd_playground_session_watch(struct kd_playground_session_watcher *w, const uint64_t *after)
 {
     struct kd_playground_session *play = w->play;
     pthread_mutex_lock(&play->all->lock);
     w->least = after && *after <= play->generation ? *after + 1 : play->generation;
-    if (w->event > play->log.last || w->event < play->log_begin) /* a number that no event has had counts as none */
+    /* no event has had this number, so it counts as none */
+    if (w->event > play->log.last || w->event < play->log_begin)
         w->event = play->log_begin;
     if (w->debris) {
         const double now = kd_clock_ms();
@@ -122,7 +123,7 @@ enum kd_playground_session_news kd_playground_session_await(struct kd_playground
         what = KD_PLAY_GONE;
     } else if (what == KD_PLAY_LATER) {
         w->waiting = true;
-        MHD_suspend_connection(w->mhd); /* before a wake-up can happen, which needs the lock */
+        MHD_suspend_connection(w->mhd); /* suspended before the connection can be resumed, which needs the lock */
         kd_playground_session_call(play);
     }
     pthread_mutex_unlock(&play->all->lock);
@@ -143,7 +144,7 @@ void kd_playground_sessions_sweep(struct kd_playground_sessions *all)
         kd_playground_session_wake(play, now);
         for (struct kd_playground_session_watcher *w = look ? play->watchers : NULL; w; w = w->next)
             if (w->waiting && kd_socket_abandoned(w->socket))
-                resume(w); /* kd_playground_session_await reports it */
+                resume(w); /* kd_playground_session_await then reports that the client has disconnected */
         if (now - play->used_ms > all->params.idle_ms) {
             kd_log(KD_LOG_INFO, "playground %.4s... ends: nobody watches", play->id);
             kd_playground_session_unlist(play, "idle");

@@ -1,6 +1,6 @@
-/* Compiles kernels while others use the device. The scheduler looks for a job's missing kernels as soon as it waits; a
- * thread compiles them; the scheduler hands them to the renderer. So the renderer's kernels are touched only by the
- * owner of the device, or under the lock while there is none. */
+/* Compiles kernels while others use the device. As soon as a job waits, the scheduler looks for kernels that it lacks.
+ * A thread compiles them, and the scheduler passes them to the renderer. So the renderer's kernels are touched only by
+ * the owner of the device, or under the lock while the device has no owner. */
 #include "base/clock.h"
 #include "base/nice.h"
 #include "server/render/internal.h"
@@ -8,12 +8,13 @@
 #include <stddef.h>
 #include <string.h>
 
-#define COMPILE_MS 2000.0 /* first estimate: some kernels on lavapipe */
-#define NICE 3 /* half the weight of live frames, so that compilations get a share of the processor and no more */
+#define COMPILE_MS 2000.0 /* estimate before the first compilation: the time of some kernels on lavapipe */
+#define NICE 3 /* half the weight of live frames, so that compilations get a share of the processor, but not more */
 
-#define BEGINS_ANEW 8 /* times that a job starts again for missing kernels; then they are compiled in its turn */
+/* limit of how often a job starts again for missing kernels; after that they are compiled while it owns the device */
+#define BEGINS_ANEW 8
 
-/* Makes the job wait for the compilation. NULL: it has all kernels. */
+/* Makes the job wait for the compilation. compilation NULL: the job lacks no kernel. */
 static void put_off(struct kd_render_queue *queue, struct kd_render_job *job, struct kd_compilation *compilation)
 {
     job->compilation = compilation;
@@ -83,7 +84,7 @@ bool kd_render_lacks(void *user, struct kd_compilation *compilation, bool aside)
     } else if (aside) {
         put_off(queue, job, compilation);
         kd_render_give_way(queue, job);
-        kd_render_forget_kernels(queue, job); /* resumed for another reason */
+        kd_render_forget_kernels(queue, job); /* the job was resumed for another reason */
         go_on = !queue->failed;
     } else {
         job->lacks++;
@@ -137,7 +138,8 @@ static bool is_any(const struct kd_claim *claim, void *user)
     return !atomic_load(&job_of((struct kd_claim *)claim)->drop);
 }
 
-/* Adds the wait to kernels_ms. It does not count in queue_ms, the time in which others owned the device. */
+/* Adds the time that the job has waited to kernels_ms. It does not count towards queue_ms, the time in which others
+ * owned the device. */
 static void end_waiting(struct kd_render_job *job)
 {
     const double now = kd_clock_ms();
@@ -146,8 +148,8 @@ static void end_waiting(struct kd_render_job *job)
     job->away_ms = now;
 }
 
-/* The job for which they were compiled is ready. The kernels of all other waiting jobs are checked again, since they
- * may have needed the same. */
+/* Marks the job that the kernels were compiled for as ready. All other waiting jobs are checked again, because they may
+ * have lacked the same kernels. */
 static void share_out(struct kd_render_queue *queue, const struct kd_compilation *done, double ms)
 {
     for (struct kd_render_job *job = queue->jobs.first; job; job = job->next) {
@@ -177,7 +179,7 @@ static bool is_wanted(void *user, double fraction)
 
 static void learn(struct kd_render_queue *queue, double ms)
 {
-    const double share = 0.3; /* weight of the latest compilation in the running mean */
+    const double share = 0.3; /* weight of the latest compilation in the running mean of their times */
     queue->compile_ms += queue->compile_ms > 0 ? share * (ms - queue->compile_ms) : ms;
 }
 
@@ -196,7 +198,7 @@ double kd_render_queue_kernels_ms(struct kd_render_queue *queue, const struct kd
     return ms;
 }
 
-/* Called with the lock; unlocks while it works. */
+/* Compiles the kernels of a job. Called with the lock, which it releases while it works. */
 static void compile(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     struct kd_compilation *c = queue->compiling = job->compilation;
@@ -230,7 +232,7 @@ void *kd_render_compile_main(void *user)
     pthread_mutex_lock(&queue->lock);
     while (!queue->closing) {
         const bool waits = queue->failed || queue->lost || queue->reopening || queue->compiled ||
-                           queue->holder == &queue->rest; /* the device may be closed */
+                           queue->holder == &queue->rest; /* the device may be closed while this runs */
         struct kd_render_job *job = waits ? NULL : job_of(kd_shares_next(&queue->missing, is_any, NULL));
         if (job)
             compile(queue, job);

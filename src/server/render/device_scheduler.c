@@ -2,14 +2,14 @@
 #include "base/clock.h"
 #include "server/render/internal.h"
 
-/* limit of frames that are rendered and not yet encoded; one frame may exceed it */
+/* limit of the bytes of frames that are rendered and not yet encoded; a single frame may exceed it */
 #define FRAME_BYTES ((size_t)256 << 20)
-#define SHORT_BYTES ((size_t)64 << 20) /* additional room for frames that are encoded soon */
-#define BRIEF_MS 3000.0                /* limit of brief pictures, for which the last lanes are reserved, ... */
-#define BRIEF_LANES 2                  /* ... this many; a client may have as many of them */
-#define LARGE 32                       /* fraction of the memory below which a picture is too small to count */
+#define SHORT_BYTES ((size_t)64 << 20) /* room beyond FRAME_BYTES for frames that are encoded soon */
+#define BRIEF_MS 3000.0                /* estimated time of a picture that counts as brief */
+#define BRIEF_LANES 2                  /* number of lanes reserved for brief pictures; one client may have that many */
+#define LARGE 32                       /* a picture that needs less than one LARGE-th of the memory is not counted */
 
-/* Functions access the queue's members and are called with the lock unless a comment says otherwise. */
+/* The functions below access the queue's members. They are called with the lock unless a comment says otherwise. */
 
 static bool is_large(const struct kd_render_queue *queue, const struct kd_render_job *job)
 {
@@ -18,8 +18,8 @@ static bool is_large(const struct kd_render_queue *queue, const struct kd_render
     return job->plan.device_bytes > c.memory_bytes / LARGE;
 }
 
-/* Whether the picture fits in memory beside the large pictures in lanes. One that needs nearly all memory starts only
- * when no other large one runs. */
+/* Whether the picture fits in memory beside the large pictures in lanes. A picture that needs nearly all memory starts
+ * only when no other large one runs. */
 static bool fits(const struct kd_render_queue *queue, const struct kd_render_job *job)
 {
     struct kd_capacity c;
@@ -30,8 +30,8 @@ static bool fits(const struct kd_render_queue *queue, const struct kd_render_job
 
 static bool is_brief(const struct kd_render_job *job) { return job->plan.estimate_ms <= BRIEF_MS; }
 
-/* Finds a lane for a long picture. A client has at most one for each class, apart from brief pictures. NULL: none
- * yet. */
+/* Finds a lane for a long picture; NULL: none yet. A client has at most one lane for each class, not counting brief
+ * pictures. */
 static struct kd_lane *lane_for(struct kd_render_queue *queue, const struct kd_render_job *job)
 {
     struct kd_lane *found = NULL;
@@ -57,10 +57,10 @@ static bool frame_fits(const struct kd_render_queue *queue, const struct kd_rend
     return !bytes || queue->frame_bytes <= FRAME_BYTES + (bytes > KD_LONG_FRAME ? 0 : SHORT_BYTES);
 }
 
-/* Whether the client's device time permits the work. Work that clients wait for was checked when it came, and frames of
- * jobs when they were pushed (kd_render_queue_may_push). Other work begins when its client can afford it;
- * kd_render_queue_sweep checks again ten times a second. Work that has begun continues, because others wait for its
- * lane and memory. */
+/* Whether the client has enough device time left for the work. Work that a client waits for was checked when it
+ * arrived, and frames of jobs when they were pushed (kd_render_queue_may_push). Other work begins when its client has
+ * enough; kd_render_queue_sweep checks that ten times a second. Work that has begun continues, because others wait for
+ * its lane and memory. */
 static bool may_be_paid(const struct kd_render_queue *queue, const struct kd_claim *claim)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
@@ -80,7 +80,7 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
     struct kd_render_queue *queue = user;
-    if (queue->failed) /* only jobs inside run, to leave the renderer */
+    if (queue->failed) /* after a failure only jobs that are inside the renderer run, to leave it */
         return job->inside;
     if (job == &queue->rest && (queue->compiling || queue->inside)) /* freeing memory may close the device */
         return false;
@@ -91,7 +91,7 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
             (job->stage != KD_RENDER_WAITS_FOR_LANE || lane_for(queue, job)));
 }
 
-/* Finds a cancelled job. It runs first, since ending it takes no time, and needs no lane. */
+/* Finds a cancelled job. It goes first, because ending it takes no time and needs no lane. */
 static struct kd_render_job *first_dropped(const struct kd_render_queue *queue)
 {
     struct kd_render_job *job = queue->jobs.first;
@@ -137,7 +137,7 @@ void kd_render_next(struct kd_render_queue *queue)
     pthread_cond_broadcast(&queue->changed);
 }
 
-/* Charges the time of the present turn so far. */
+/* Charges the job for the time that its present turn has taken so far. */
 static void charge(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     double now = kd_clock_ms();
@@ -156,7 +156,7 @@ void kd_render_give_way(struct kd_render_queue *queue, struct kd_render_job *job
         pthread_cond_wait(&queue->changed, &queue->lock);
 }
 
-/* Between two slices: releases the device if another job comes first. */
+/* Called between two slices. Releases the device if another job goes first. */
 static bool between_slices(void *user, double fraction)
 {
     struct kd_render_job *job = user;
@@ -167,7 +167,7 @@ static bool between_slices(void *user, double fraction)
     if (choose(queue) != job)
         kd_render_give_way(queue, job);
     kd_pulse_beat(&queue->pulse);
-    const bool failed = queue->failed; /* while others owned it */
+    const bool failed = queue->failed; /* the device failed while others owned it */
     pthread_mutex_unlock(&queue->lock);
     if (failed)
         return false;
@@ -188,8 +188,8 @@ static bool go_on(void *user, double fraction)
     return !kd_render_unwanted(job->queue, job);
 }
 
-/* Only the owner of the device may call the renderer, and the speeds that it reports change as it measures itself.
- * Called without the lock. */
+/* Describes the device anew, because the renderer measures its speeds and they change. Only the owner of the device may
+ * call the renderer. Called without the lock. */
 enum kd_status kd_render_describe_device(struct kd_render_queue *queue)
 {
     struct kd_buffer json = { 0 }, old = { 0 };
@@ -206,7 +206,7 @@ enum kd_status kd_render_describe_device(struct kd_render_queue *queue)
     return KD_OK;
 }
 
-/* Called without the lock. */
+/* Renders the job's picture. Called without the lock. */
 static void render(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     job->more = false;
@@ -251,7 +251,7 @@ static void leave_lane(struct kd_render_queue *queue, struct kd_render_job *job)
     }
 }
 
-/* Runs one turn of the job, which owns the device. Unlocks meanwhile. */
+/* Runs one turn of the job, which owns the device. Releases the lock while it works. */
 static void take_turn(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     job->inside = true;
@@ -267,7 +267,7 @@ static void take_turn(struct kd_render_queue *queue, struct kd_render_job *job)
     const bool again = kd_render_begins_with_kernels(queue, job) || kd_render_once_more(queue, job),
                more = again || (!job->status && job->more), encode = !more && !job->status && !job->run;
     if (!again)
-        job->repeated = false; /* it has made progress */
+        job->repeated = false; /* the job has made progress */
     if (more)
         job->away_ms = job->turn_ms;
     else {

@@ -1,8 +1,8 @@
-/* Encoder threads: turn rendered frames into files. */
+/* Encoder threads. They turn rendered frames into files. */
 #include "base/clock.h"
 #include "server/render/internal.h"
 
-/* Whether a frame encodes slowly. Only one encoder at a time takes such frames, so that others do not wait. */
+/* Whether a frame takes long to encode. Only one encoder at a time takes such frames, so that others do not wait. */
 static bool is_long(const struct kd_render_job *job)
 {
     return job->claim.class == KD_CLASS_JOB || kd_render_frame_bytes(job) > KD_LONG_FRAME;
@@ -54,7 +54,7 @@ void *kd_render_encode_main(void *user)
         pthread_mutex_lock(&queue->lock);
         queue->frame_bytes -= bytes;
         queue->encoding_long &= !takes_long;
-        kd_render_next(queue); /* jobs that waited for memory of frames */
+        kd_render_next(queue); /* some jobs may have waited for the memory of frames */
         pthread_mutex_unlock(&queue->lock);
         kd_render_finish(queue, job);
         pthread_mutex_lock(&queue->lock);

@@ -9,15 +9,15 @@
 
 #include <pthread.h>
 
-#define KD_LONG_FRAME ((size_t)16 << 20) /* frames larger than this take an encoder some tenths of a second */
+#define KD_LONG_FRAME ((size_t)16 << 20) /* larger frames, in bytes, occupy an encoder for some tenths of a second */
 
 struct kd_render_list { struct kd_render_job *first, **end; };
 
 /* Lane: a thread that renders long pictures, one at a time. */
 struct kd_lane {
     struct kd_render_queue *queue;
-    struct kd_render_job *job; /* NULL: free */
-    uint64_t bytes;            /* device memory of the job by its plan; 0: too small to count */
+    struct kd_render_job *job; /* the job that it renders; NULL: the lane is free */
+    uint64_t bytes;            /* device memory that the job needs by its plan; 0: too little to count */
     pthread_t thread;
 };
 
@@ -33,11 +33,11 @@ struct kd_render_queue {
     bool opened, closing;
     struct kd_shares shares;
     struct kd_allowance allowance;
-    struct kd_render_list jobs;   /* waiting for the device or using it, in order of arrival */
-    struct kd_render_job *holder; /* owner of the device; NULL: none */
+    struct kd_render_list jobs;   /* jobs that wait for the device or use it, in order of arrival */
+    struct kd_render_job *holder; /* job that owns the device; NULL: none */
     struct kd_lane lanes[KD_BACKGROUND_RENDERS];
-    unsigned n_lanes;    /* lanes whose threads run */
-    uint64_t lane_bytes; /* sum over lanes */
+    unsigned n_lanes;    /* number of lanes whose threads run */
+    uint64_t lane_bytes; /* sum of `bytes` over all lanes */
 
     struct kd_render_list encoding;
     size_t frame_bytes; /* bytes of frames that are rendered and not yet encoded */
@@ -46,26 +46,26 @@ struct kd_render_queue {
     bool lost;
     struct kd_error lost_error;
     bool hangs; /* a call into the driver hangs, so threads cannot be joined */
-    /* failed: the device has failed and is reopened once `inside` is 0; reopening: in progress */
+    /* failed: the device has failed, and is reopened once `inside` is 0; reopening: it is being reopened */
     bool failed, reopening;
-    struct kd_error failure;       /* why it failed */
-    unsigned inside;               /* jobs that are using the renderer */
-    unsigned reopenings, reopened; /* limit of reopenings in KD_REOPENINGS_S; count since the start */
-    unsigned spent;                /* reopenings within the present period, ... */
-    double spent_from_ms;          /* ... which began then */
+    struct kd_error failure;       /* why the device failed */
+    unsigned inside;               /* number of jobs that are using the renderer */
+    unsigned reopenings, reopened; /* reopenings: limit within KD_REOPENINGS_S; reopened: number since the start */
+    unsigned spent;                /* number of reopenings in the present period, ... */
+    double spent_from_ms;          /* ... which began at this time */
     bool compiles;                 /* the compiler thread runs */
     struct kd_shares missing;      /* fair queueing of compilations */
-    /* compiling: runs now; compiled: done, not yet handed to the renderer */
+    /* compiling: kernels being compiled; compiled: kernels that are compiled but not yet passed to the renderer */
     struct kd_compilation *compiling, *compiled;
-    _Atomic bool uncompiled;               /* the compilation under way is not needed any more */
-    double compile_ms;                     /* time of a compilation, a running mean; 0: none yet */
+    _Atomic bool uncompiled;               /* the kernels being compiled are not needed any more */
+    double compile_ms;                     /* running mean of the time of a compilation; 0: none yet */
     struct kd_pulse pulse, compiler_pulse; /* watchdogs of the device's owner and of the compiler */
     _Atomic bool cancel;
     struct kd_render_measures measures;
     struct kd_render_job rest; /* job that frees memory after rest_ms without requests */
-    /* worked_ms: last request or end of work; trimmed_ms: when the heap was last trimmed */
+    /* worked_ms: when the last request arrived or work last ended; trimmed_ms: when the heap was last trimmed */
     double rest_ms, worked_ms, trimmed_ms;
-    bool rested; /* memory was freed since worked_ms */
+    bool rested; /* memory has been freed since worked_ms */
 
     pthread_t render_thread, compiler, encoders[KD_ENCODERS];
     unsigned n_encoders;
@@ -82,7 +82,7 @@ static inline size_t kd_render_frame_bytes(const struct kd_render_job *job)
 
 static inline bool kd_render_has_begun(const struct kd_render_job *job) { return job->stage >= KD_RENDER_WORKS; }
 
-/* Whether a client waits for the job and may be refused it. */
+/* Whether a client waits for the job, so that the job may be refused. */
 static inline bool kd_render_is_awaited(const struct kd_render_job *job)
 {
     return job->claim.class == KD_CLASS_PICTURE || job->claim.class == KD_CLASS_PIXEL ||
@@ -93,7 +93,7 @@ bool kd_render_unwanted(struct kd_render_queue *queue, struct kd_render_job *job
 /* Puts a job back in its initial waiting stage. */
 void kd_render_stand_in_line(struct kd_render_job *job);
 
-/* kd_render_queue_push for a job that renders no scene. Called with the lock. */
+/* Like kd_render_queue_push, for a job that renders no scene. Called with the lock. */
 void kd_render_queue_push_locked(struct kd_render_queue *queue, struct kd_render_job *job);
 
 /* rest.c: frees the renderer's unneeded memory when there is no work. Called with the lock. */
@@ -101,46 +101,54 @@ void kd_render_rest_if_idle(struct kd_render_queue *queue);
 /* rest.c: trims the heap at most once in rest_ms, while there is work. Called without the lock. */
 void kd_render_trim_if_due(struct kd_render_queue *queue);
 
-/* compile.c; called with the lock. The first two only while no other thread owns the device. ask: looks for missing
- * kernels of waiting jobs. take: hands finished compilations to the renderer. has: whether a job has all its kernels.
- * tell: records the time it waited for kernels in its frame. */
+/* compile.c; called with the lock. The first two are called only while no other thread owns the device.
+ * kd_render_ask_kernels looks for kernels that waiting jobs lack. kd_render_take_kernels passes compiled kernels to the
+ * renderer. kd_render_has_kernels: whether a job lacks no kernel. kd_render_tell_kernels records in the job's frame how
+ * long it waited for kernels. */
 void kd_render_ask_kernels(struct kd_render_queue *queue);
 void kd_render_take_kernels(struct kd_render_queue *queue);
 bool kd_render_has_kernels(const struct kd_render_queue *queue, const struct kd_render_job *job);
 void kd_render_tell_kernels(struct kd_render_job *job);
-/* struct kd_renderer_params.lacks with the queue as user. Called without the lock by the owner of the device. */
+/* The callback lacks of struct kd_renderer_params; its user is the queue. The owner of the device calls it, without the
+ * lock. */
 bool kd_render_lacks(void *queue, struct kd_compilation *compilation, bool aside);
-/* After a job's turn: whether it starts again because kernels were missing. If so its outcome is cleared. */
+/* Called after a job's turn. Returns whether the job starts again because kernels were missing. If so its result is
+ * cleared. */
 bool kd_render_begins_with_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
-void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_job *job); /* the job leaves the queue */
-/* The compiler thread, with the queue as argument. Ends when the queue is closing. */
+/* called when the job leaves the queue */
+void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
+/* Main function of the compiler thread; the argument is the queue. Returns when the queue is closing. */
 void *kd_render_compile_main(void *queue);
 
-/* reopen.c; called with the lock, except the first. */
-/* the device has failed; called without the lock */
+/* reopen.c. All functions but the first are called with the lock. */
+/* Records that the device has failed. Called without the lock. */
 void kd_render_failed(struct kd_render_queue *queue, const struct kd_error *error);
-/* After a job's turn: whether it starts again because the device failed. If so its outcome is cleared. */
+/* Called after a job's turn. Returns whether the job starts again because the device failed. If so its result is
+ * cleared. */
 bool kd_render_once_more(struct kd_render_queue *queue, struct kd_render_job *job);
-void kd_render_hung(struct kd_render_queue *queue, const struct kd_error *error); /* a device that cannot be closed */
-/* Reopens a failed device if no job is inside; otherwise does nothing. Unlocks meanwhile. */
+/* records that the device hangs and cannot be closed */
+void kd_render_hung(struct kd_render_queue *queue, const struct kd_error *error);
+/* Reopens a failed device if no job is inside the renderer; otherwise does nothing. Releases the lock while it
+ * works. */
 void kd_render_reopen(struct kd_render_queue *queue);
-/* Removes a job from those that want the device. Called with the lock. */
+/* Removes a job from the list of those that want the device. Called with the lock. */
 void kd_render_take_out(struct kd_render_queue *queue, struct kd_render_job *job);
-/* Calls done(). The job may be freed when that returns; until `unfinished` decreases, its connection must stay open. */
+/* Calls done(), after which the job may be freed. Its connection must stay open until `unfinished` has decreased. */
 void kd_render_finish(struct kd_render_queue *queue, struct kd_render_job *job);
 
-/* turns.c: if nobody owns the device, chooses the next owner. Called with the lock. */
+/* device_scheduler.c: if nobody owns the device, chooses the next owner. Called with the lock. */
 void kd_render_next(struct kd_render_queue *queue);
 /* The owner of the device releases it until its next turn. Called with the lock. */
 void kd_render_give_way(struct kd_render_queue *queue, struct kd_render_job *job);
 /* Updates device_json. Called without the lock by the owner of the device. */
 enum kd_status kd_render_describe_device(struct kd_render_queue *queue);
-/* Threads: kd_render_short_main runs short work, with the queue as argument; kd_render_lane_main a lane. They end when
- * the queue is closing and empty. */
+/* Main functions of threads: kd_render_short_main runs short work, its argument is the queue; kd_render_lane_main is
+ * that of a lane. They return when the queue is closing and empty. */
 void *kd_render_short_main(void *queue);
 void *kd_render_lane_main(void *lane);
 
-/* encode.c: an encoder thread, with the queue as argument. Ends when the queue is closing and nothing is unfinished. */
+/* encode.c: main function of an encoder thread; the argument is the queue. Returns when the queue is closing and
+ * nothing is unfinished. */
 void *kd_render_encode_main(void *queue);
 /* Queues a rendered frame for encoding. Called with the lock. */
 void kd_render_encode(struct kd_render_queue *queue, struct kd_render_job *job);

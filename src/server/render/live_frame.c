@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Refinement factor along each side of the pixels at the critical curve. */
+/* Ratio of rays along the side of a pixel at the critical curve to those along the side of any other pixel. */
 static unsigned critical_side(const struct kd_plan *plan)
 {
     return plan->critical ? (unsigned)lround(sqrt(plan->critical)) / plan->side : 1;

@@ -6,7 +6,8 @@
 #include "server/http/histogram.h"
 #include "server/http/shares.h"
 
-/* Timings of frames besides the passes of render/plan/pass.h: other steps, encoding, and "other" for unknown names. */
+/* Timings of frames besides the passes of render/plan/pass.h: further steps, encoding, and "other" for unknown
+ * names. */
 #define KD_MEASURED_ALSO(M) M("kernels") M("upload") M("fill") M("total") M("encode") M("other")
 #define KD_MEASURED_ONE(name) +1
 enum { KD_MEASURED_PASSES = KD_PASS_COUNT KD_MEASURED_ALSO(KD_MEASURED_ONE) };
@@ -15,8 +16,7 @@ struct kd_render_measures { /* initialise to 0 */
     struct kd_histogram passes[KD_MEASURED_PASSES], waits[KD_N_CLASSES];
 };
 
-/* Record a rendered picture, an encoding, and the time that a finished piece of work has waited while others used the
- * device. */
+/* Record a rendered picture, an encoding, and how long finished work has waited while others used the device. */
 void kd_render_measures_frame(struct kd_render_measures *measures, const struct kd_frame *frame);
 void kd_render_measures_encoded(struct kd_render_measures *measures, double ms);
 void kd_render_measures_waited(struct kd_render_measures *measures, enum kd_class class, double ms);

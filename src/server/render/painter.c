@@ -19,8 +19,8 @@
 #include <string.h>
 #include <time.h>
 
-#define NICE 10   /* a tenth of the weight of live frames */
-#define IDLE_S 10 /* closes its device after this time without requests */
+#define NICE 10   /* a tenth of the weight that live frames have */
+#define IDLE_S 10 /* time without requests after which the painter closes its device */
 #define FILE_MAX_BYTES ((size_t)1 << 20)
 
 struct kd_painter {
@@ -30,15 +30,15 @@ struct kd_painter {
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t changed;
-    struct kd_painting *first, **end; /* waiting */
+    struct kd_painting *first, **end; /* pictures that wait */
     bool ending;
     _Atomic bool cancelled;
-    struct kd_renderer *renderer; /* used by its thread only; NULL: not open */
+    struct kd_renderer *renderer; /* used by the painter's thread only; NULL: not open */
     _Atomic bool hangs;           /* the device hangs: it can be neither closed nor reopened */
     struct kd_pulse pulse;        /* watchdog of the present picture */
 };
 
-/* Header of a cached file, before the picture. */
+/* Header of a cached file. The picture follows it. */
 struct head {
     char magic[8];
     uint64_t bytes, hash;
@@ -122,7 +122,7 @@ static enum kd_status paint_once(struct kd_painter *painter, struct kd_painting 
     struct kd_frame frame = { 0 };
     struct kd_error *error = &work->error;
     enum kd_status status;
-    kd_buffer_finish(&work->png); /* from a failed attempt */
+    kd_buffer_finish(&work->png); /* bytes of a failed attempt */
     KD_TRY(open_device(painter, error));
     kd_renderer_capacity(painter->renderer, &capacity);
     KD_TRY(kd_format_plan(kd_formats[0], &work->scene, &capacity, &plan, error));
@@ -165,7 +165,7 @@ static void serve(struct kd_painter *painter, struct kd_painting *work)
     work->done(work);
 }
 
-/* Waits for the next picture. Returns NULL after a while without one, or at the end. Called with the lock. */
+/* Waits for the next picture. Returns NULL if none is requested for IDLE_S, or at the end. Called with the lock. */
 static struct kd_painting *await(struct kd_painter *painter)
 {
     struct timespec until;

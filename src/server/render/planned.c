@@ -8,8 +8,8 @@
 
 #include <stdlib.h>
 
-#define SMALL (64u << 10) /* bytes that are parsed in 2 ms or less */
-/* pictures that are planned in 2 ms or less: the critical curve is followed across the pixels */
+#define SMALL (64u << 10) /* a body of this size is parsed in 2 ms or less */
+/* A picture of so many pixels is planned in 2 ms or less. Planning follows the critical curve from pixel to pixel. */
 #define FEW_PIXELS (4u << 20)
 
 /* Copies the texts into the task, because the problem outlives the call. */
@@ -78,7 +78,7 @@ struct kd_planned *kd_planned_of(struct kd_request *request, enum MHD_Result *re
     if (!(p = kd_task_create(request, request->server->turns, &kind, result)))
         return NULL;
     if (request->body.size <= SMALL) {
-        /* Checks the limits first: a scene that is too large is refused without a worker. */
+        /* Checks the limits here, so that a scene that is too large is refused without a worker. */
         if (!read_scene(p) || !make_plan(p, !few_pixels(&p->scene)) || few_pixels(&p->scene))
             return outcome(request, p, result);
     }

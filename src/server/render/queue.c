@@ -90,7 +90,7 @@ static enum kd_status start(struct kd_render_queue *queue, struct kd_error *erro
     return KD_OK;
 }
 
-/* Jobs that waited for the sky may now own the device. */
+/* Called when a sky is decoded: jobs that waited for it may now own the device. */
 static void sky_made(void *user)
 {
     struct kd_render_queue *queue = user;
@@ -254,7 +254,7 @@ enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *
         n += waits;
         own += waits && !strcmp(job->claim.client, client);
     }
-    unsigned next = !queue->holder; /* one job is about to start on an idle device and does not count as waiting */
+    unsigned next = !queue->holder; /* if the device is idle, one job is about to start and does not count as waiting */
     pthread_mutex_unlock(&queue->lock);
     if (n >= queue->limit + next)
         return kd_error_set(error, KD_EBUSY, "too many waiting renders (limit %u)", n);
@@ -266,8 +266,8 @@ enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *
     return kd_error_set(error, KD_EBUSY, "you have too many waiting renders (limit %u for one client)", own);
 }
 
-/* Whether a job runs in slices. A job's picture always does, because nobody waits for it. A live frame never does: its
- * governor predicts its time better than its plan, since the lens map may be cached. */
+/* Whether a job runs in slices. The picture of a job always does, because nobody waits for it. A live frame never does:
+ * its governor predicts its time better than the plan, because the lens map may be cached. */
 static bool wants_lane(const struct kd_render_job *job)
 {
     switch (job->claim.class) {
@@ -334,11 +334,12 @@ void kd_render_queue_sky_ahead(struct kd_render_queue *queue, const char *hash, 
 {
     struct kd_capacity c;
     kd_render_queue_capacity(queue, &c);
-    if (18ull * width * height <= c.memory_bytes / 4) /* six bytes of the file and twelve of radiance for each pixel */
+    /* each pixel takes six bytes of the file and twelve of radiance */
+    if (18ull * width * height <= c.memory_bytes / 4)
         kd_renderer_sky_ahead(queue->renderer, hash);
 }
 
-/* Cancels jobs that have not begun; those that have begun end at their next turn. */
+/* Cancels jobs that have not begun. Jobs that have begun end at their next turn. */
 void kd_render_queue_sweep(struct kd_render_queue *queue)
 {
     struct kd_render_list gone = { .end = &gone.first };

@@ -1,28 +1,30 @@
-/* Render queue: all work for the device passes through it. It has the bounded queue before the device, the scheduler of
- * the device, and the encoders behind it.
+/* Render queue: all work for the device passes through it. It consists of the bounded queue before the device, the
+ * scheduler of the device, and the encoders.
  *
- * waiting (bounded) -> the device, by turns -> encoders (bounded by the bytes of their frames) -> done()
+ *     waiting (bounded) -> the device, by turns -> encoders (bounded by the bytes of their frames) -> done()
  *
- * http/shares.h schedules by client, then by class. Short work owns the device until it is done. A picture that is
- * estimated to take longer than KD_MOMENT_MS, or that nobody waits for, runs in a lane: a thread with its own buffers.
- * It releases the device between slices of some 40 ms. A list of rays is divided by its submitter (`more`). So a client
- * waits at most for one slice, or one short piece of work, of each client that has used the device less.
+ * http/shares.h chooses the next work, first by client, then by class. Short work owns the device until it is done. A
+ * picture that is estimated to take longer than KD_MOMENT_MS, or that nobody waits for, runs in a lane: a thread with
+ * its own buffers. It releases the device between slices of some 40 ms. A list of rays is divided by the code that
+ * submits it (`more`). So a client waits for at most one slice, or one short work, of each client that has used the
+ * device less.
  *
- * Each client has one lane for each class, and two more for pictures that take a few seconds at most, so that no client
- * can occupy all lanes. A long picture starts only when there is memory for its buffers beside those of the others.
+ * Each client has one lane for each class, and two more for pictures that take a few seconds at most. So no client can
+ * occupy all lanes. A long picture starts only when there is memory for its buffers beside those of the others.
  *
  * A device that has failed is reopened (KD_EDEVICE; kd_renderer_reopen). All work that had begun starts again, except
- * work that owned the device in two failures: it ends with the error. If reopening fails, or has happened too often,
- * the device is lost, and all waiting work ends with the error.
+ * work that owned the device in two failures: that work ends with the error. If reopening fails, or has happened too
+ * often, the device is lost, and all waiting work ends with the error.
  *
- * Work whose kernels are missing waits while a thread compiles them, one job after another in fair order; other work
- * uses the device meanwhile (compile.c). A picture that needs another kernel after it has begun waits in its lane, or
+ * Work that lacks kernels waits while a thread compiles them, for one job after another in fair order. Other work uses
+ * the device meanwhile (compile.c). If a picture finds a kernel missing after it has begun, it waits in its lane or
  * starts again.
  *
- * A picture whose sky must be decoded first waits for that, which takes up to a second and no device.
+ * If the sky of a picture must be decoded first, the picture waits for that. Decoding takes up to a second and does not
+ * use the device.
  *
  * One thread submits pictures, so that the answer of kd_render_queue_admit holds until kd_render_queue_push. Other
- * threads may submit other work and exceed the limit by one each. */
+ * threads may submit other work; each may exceed the limit by one. */
 #ifndef KD_SERVER_RENDER_QUEUE_H
 #define KD_SERVER_RENDER_QUEUE_H
 
@@ -40,13 +42,13 @@
 
 struct kd_render_queue;
 
-#define KD_ENCODERS 2      /* one of them is reserved for frames that encode quickly */
-#define KD_MOMENT_MS 100.0 /* device time for which others may be made to wait */
+#define KD_ENCODERS 2      /* one of them takes only frames that encode quickly */
+#define KD_MOMENT_MS 100.0 /* work that takes the device no longer than this may make others wait */
 
-/* Stage of a job. Those in the last two have begun. */
+/* Stage of a job. A job in one of the last two stages has begun. */
 enum kd_render_stage {
-    KD_RENDER_WAITS,          /* for its first turn */
-    KD_RENDER_WAITS_FOR_LANE, /* for its first turn; a long picture */
+    KD_RENDER_WAITS,          /* it waits for its first turn */
+    KD_RENDER_WAITS_FOR_LANE, /* a long picture that waits for its first turn */
     KD_RENDER_WORKS,
     KD_RENDER_WORKS_IN_LANE,
 };
@@ -60,45 +62,48 @@ struct kd_render_job {
     struct kd_plan plan;
     const struct kd_format *format; /* format of the picture's file */
     enum kd_effort effort;
-    struct kd_blur blur;    /* samples 0, the default: no motion blur */
-    unsigned number, lossy; /* as in struct kd_picture */
-    char hash[65];          /* as in struct kd_picture */
-    bool keeps;             /* keep the frame's layers after it has been encoded */
-    /* NULL: render and encode a picture. Otherwise this runs instead, owning the device; if it sets `more`, it runs
-     * again at the next turn. */
+    struct kd_blur blur;    /* samples 0, which is the default: no motion blur */
+    unsigned number, lossy; /* see struct kd_picture */
+    char hash[65];          /* see struct kd_picture */
+    bool keeps;             /* keeps the frame's layers after it has been encoded */
+    /* NULL: the queue renders and encodes a picture. Otherwise it calls this function instead, when the job owns the
+     * device. If the function sets `more`, it is called again at the job's next turn. */
     enum kd_status (*run)(struct kd_render_job *job, struct kd_renderer *renderer, kd_progress_fn progress,
                           void *progress_user);
-    kd_kernels_ask_fn ask; /* asks for the kernels of `run`, with the job as user; NULL: none that take long */
+    /* requests the kernels of `run`; its user is the job. NULL: `run` has none that take long to compile */
+    kd_kernels_ask_fn ask;
     bool more;
-    void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; the caller owns the device */
-    /* preview of a picture in slices; may be NULL; its user is the job; the caller owns the device */
+    void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; called by the owner of the device */
+    /* Preview of a picture that is rendered in slices; may be NULL. Its user is the job. Called by the owner of the
+     * device. */
     const struct kd_preview_hook *preview;
-    _Atomic bool drop; /* set by others to cancel the job: KD_ECANCELLED */
-    int socket;        /* socket of the client, whose disconnection cancels the job; -1: none */
-    void (*rendered)(struct kd_render_job *job); /* may be NULL; the caller owns the device; before encoding */
-    void (*done)(struct kd_render_job *job);     /* on a thread of the queue; may free the job */
+    _Atomic bool drop; /* set by other threads to cancel the job, which then ends with KD_ECANCELLED */
+    int socket;        /* socket of the client; when the client disconnects the job is cancelled; -1: none */
+    void (*rendered)(struct kd_render_job *job); /* may be NULL; called before encoding, by the owner of the device */
+    void (*done)(struct kd_render_job *job);     /* called on a thread of the queue; may free the job */
     void *user;
-    /* results; status is KD_ECANCELLED if dropped */
+    /* Results. status is KD_ECANCELLED if the job was cancelled. */
     enum kd_status status;
     struct kd_error error;
     struct kd_buffer file;
-    struct kd_frame frame; /* without its layers unless `keeps` */
-    /* queue_ms: time in which others owned the device, before it began and between its slices */
+    struct kd_frame frame; /* it has its layers only if `keeps` is set */
+    /* queue_ms: time in which others owned the device, before the job began and between its slices */
     double queue_ms, encode_ms;
     /* private to the queue */
     struct kd_render_job *next;
     struct kd_render_queue *queue;
     enum kd_render_stage stage;
     enum kd_render_kernels kernels;
-    struct kd_compilation *compilation; /* missing kernels; being compiled, or waiting to be */
-    /* kernels found missing after it has begun; it starts again when they are compiled */
+    struct kd_compilation *compilation; /* kernels that the job lacks; they are being compiled, or wait to be */
+    /* Kernels that the job found missing after it had begun. It starts again when they are compiled. */
     struct kd_compilation *lacked;
-    unsigned lacks;                        /* how often that has happened */
-    struct kd_claim missing;               /* its place among compilations while kernels are missing */
-    double kernels_ms, missing_ms;         /* kernels_ms: time waited for kernels; missing_ms: start of that */
-    bool sky;                              /* its sky was not decoded when it was submitted */
-    bool inside;                           /* uses the renderer, or waits between two slices */
-    bool repeated;                         /* the device has failed once while it was the owner */
+    unsigned lacks;          /* how often the job has found kernels missing */
+    struct kd_claim missing; /* its claim in the fair queueing of compilations, while it lacks kernels */
+    /* kernels_ms: how long the job has waited for kernels; missing_ms: when it began to wait */
+    double kernels_ms, missing_ms;
+    bool sky;                              /* its sky was not decoded yet when the job was submitted */
+    bool inside;                           /* it uses the renderer, or waits between two slices */
+    bool repeated;                         /* the device has failed once while this job owned it */
     double submitted_ms, turn_ms, away_ms; /* turn_ms: start of its turn; away_ms: end of its last turn */
 };
 
@@ -106,54 +111,55 @@ struct kd_render_job {
 #define KD_REOPENINGS_S 600.0 /* ... within this many seconds */
 #define KD_REOPENINGS_NONE UINT_MAX
 
-/* Returns when the device is open, or with the error. client_limit: waiting jobs of one client. client_s: seconds of
- * device time that a client may use in a minute; 0: no limit. reopenings: how often the device may be reopened within
- * KD_REOPENINGS_S; 0: KD_REOPENINGS; KD_REOPENINGS_NONE: never. */
+/* Returns when the device is open, or with the error. client_limit: limit of waiting jobs of one client. client_s:
+ * seconds of device time that a client may use in a minute; 0: no limit. reopenings: how often the device may be
+ * reopened within KD_REOPENINGS_S; 0: KD_REOPENINGS; KD_REOPENINGS_NONE: never. */
 enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit,
                                       unsigned client_s, unsigned reopenings, struct kd_render_queue **out,
                                       struct kd_error *error);
-/* Cancels what is left and calls its done(). A lost device is not closed. Accepts NULL. */
+/* Cancels the remaining jobs and calls their done(). A lost device is not closed. Accepts NULL. */
 void kd_render_queue_destroy(struct kd_render_queue *queue);
 
 /* Sets the time without requests after which memory is freed (render/device/rest.h); default: a minute. Any thread. */
 void kd_render_queue_rest_after(struct kd_render_queue *queue, unsigned ms);
-/* Any thread. */
+/* Gets what the device of the queue can do (kd_renderer_capacity). Any thread. */
 void kd_render_queue_capacity(struct kd_render_queue *queue, struct kd_capacity *out);
 const char *kd_render_queue_device_name(const struct kd_render_queue *queue);
-/* kd_renderer_cache_file of its renderer. */
+/* Calls kd_renderer_cache_file of the queue's renderer. */
 char *kd_render_queue_cache_file(const struct kd_render_queue *queue, const char *suffix);
-/* Appends the description of the device made after the latest render. */
+/* Appends the description of the device, as it was after the latest render. */
 enum kd_status kd_render_queue_device_json(struct kd_render_queue *queue, struct kd_buffer *out);
-/* Appends the record of accuracy on disk; errors as kd_renderer_accuracy_json. */
+/* Appends the record of accuracy that is on disk. Errors are those of kd_renderer_accuracy_json. */
 enum kd_status kd_render_queue_accuracy_json(const struct kd_render_queue *queue, struct kd_buffer *out,
                                              struct kd_error *error);
 /* Starts to decode an asset that may become a sky, if its pixels fit in a quarter of the free memory. Any thread. */
 void kd_render_queue_sky_ahead(struct kd_render_queue *queue, const char *hash, uint32_t width, uint32_t height);
-/* Writes its metrics and those of the device in Prometheus's format. */
+/* Writes the metrics of the queue and of the device in Prometheus's format. */
 enum kd_status kd_render_queue_metrics(struct kd_render_queue *queue, struct kd_buffer *out);
 bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error);
-/* Whether a job of this client may submit its next frame: jobs leave half of the client's device time to interactive
+/* Whether a job of this client may submit its next frame. Jobs leave half of the client's device time to interactive
  * requests. */
 bool kd_render_queue_may_push(struct kd_render_queue *queue, const char *client);
-/* Declares the device lost if its owner has not made progress for too long (pulse.h), such as in a driver call that
- * does not return; or if `another` device hangs. Returns whether the device hangs; waiting jobs may then never end. */
+/* Declares the device lost if its owner has not made progress for too long (pulse.h), for example in a driver call that
+ * does not return. `another`: another device hangs, which has the same effect. Returns whether the device hangs;
+ * waiting jobs may then never end. */
 bool kd_render_queue_hangs(struct kd_render_queue *queue, bool another);
-unsigned kd_render_queue_reopened(struct kd_render_queue *queue); /* times since the start */
+unsigned kd_render_queue_reopened(struct kd_render_queue *queue); /* number of reopenings since the start */
 unsigned kd_render_queue_unfinished(struct kd_render_queue *queue);
-/* Estimates the compile time of the kernels that a picture lacks, from earlier compilations. 0: none are missing, or
- * unknown because the device is in use. Any thread. */
+/* Estimates, from earlier compilations, how long the kernels that a picture lacks take to compile. 0: none are missing,
+ * or it is not known because the device is in use. Any thread. */
 double kd_render_queue_kernels_ms(struct kd_render_queue *queue, const struct kd_scene *scene,
                                   const struct kd_plan *plan);
 /* Estimated time of all work that clients wait for, without frames of sessions and jobs. */
 double kd_render_queue_backlog_ms(struct kd_render_queue *queue);
 
-/* Whether this client may begin new work. Returns KD_EBUSY, with the time to wait in the error, if its work has used,
- * or is estimated to use, all its device time (http/allowance.h). Any thread. */
+/* Whether this client may begin new work. Returns KD_EBUSY if its work has used, or is estimated to use, all its device
+ * time (http/allowance.h). The error then has the time to wait. Any thread. */
 enum kd_status kd_render_queue_afford(struct kd_render_queue *queue, const char *client, struct kd_error *error);
 /* The client's quota, if there is a limit. Any thread. */
 struct kd_quota kd_render_queue_quota(struct kd_render_queue *queue, const char *client);
 /* Tests whether the client may submit another job: KD_OK, KD_EBUSY or KD_EDEVICE. *quota: the limit is the client's
- * own, of waiting jobs or of device time. The submitting thread. */
+ * own, of waiting jobs or of device time. Called by the thread that submits pictures. */
 enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *client, bool *quota,
                                      struct kd_error *error);
 void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *job);

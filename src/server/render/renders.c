@@ -69,7 +69,7 @@ static const char *caching(const struct kd_request *request)
     return shared ? "public, max-age=86400" : "private, no-cache";
 }
 
-/* Adds the headers that 200, 304 and HEAD have in common. */
+/* Adds the headers that answers with 200, with 304 and to HEAD have in common. */
 static struct MHD_Response *describe(struct kd_request *request, struct MHD_Response *response,
                                      const struct kd_scene *scene, const struct kd_plan *plan)
 {
@@ -173,7 +173,7 @@ static void wake(struct kd_render_job *job)
     MHD_resume_connection(request->mhd);
 }
 
-/* Seconds until the work accepted so far should be done. */
+/* Estimated seconds until the work that is accepted already is done. */
 static unsigned retry_after(struct kd_server *server)
 {
     double s = ceil(kd_render_queue_backlog_ms(server->renders) * 1e-3);
@@ -232,7 +232,7 @@ static enum MHD_Result submit(struct kd_request *request, const struct kd_planne
     job->done = wake;
     job->user = request;
     request->job = job;
-    /* Suspend first, because the job may be done before push returns. A suspended request and its socket outlive the
+    /* Suspended first, because the job may be done before push returns. A suspended request and its socket outlive the
      * job. */
     MHD_suspend_connection(request->mhd);
     kd_render_queue_push(request->server->renders, job);
@@ -253,7 +253,7 @@ static enum kd_status tag(struct kd_request *request, struct kd_planned *planned
     return status;
 }
 
-/* Selects the pixel in the query for the plan. */
+/* Tells the plan which pixel the query names. */
 static enum kd_status name_pixel(const struct kd_request *request, struct kd_plan *plan, struct kd_error *error)
 {
     const char *at = kd_target_value(&request->target, "at"), *trace = kd_target_value(&request->target, "trace");

@@ -4,10 +4,10 @@
 
 #include <time.h>
 
-#define TRIES 4      /* attempts, because a driver that resets its device needs a moment */
-#define TRY_MS 100.0 /* pause after the first attempt, doubled after each */
+#define TRIES 4      /* number of attempts, because a driver that resets its device needs a moment */
+#define TRY_MS 100.0 /* pause after the first attempt; each further pause is twice as long */
 
-/* Called with the lock. */
+/* Declares the device lost. Called with the lock. */
 static void lose(struct kd_render_queue *queue, const struct kd_error *error)
 {
     if (queue->lost)
@@ -72,7 +72,7 @@ void kd_render_failed(struct kd_render_queue *queue, const struct kd_error *erro
     pthread_mutex_unlock(&queue->lock);
 }
 
-/* A job that was only interrupted by another job's failure has ended with KD_ECANCELLED; it does not count as having
+/* A job that was only interrupted by another job's failure has ended with KD_ECANCELLED. It does not count as having
  * failed. */
 bool kd_render_once_more(struct kd_render_queue *queue, struct kd_render_job *job)
 {
@@ -97,7 +97,7 @@ static bool may_reopen(struct kd_render_queue *queue)
     return queue->spent++ < queue->reopenings;
 }
 
-/* Called without the lock. */
+/* Reopens the device; tries several times. Called without the lock. */
 static enum kd_status reopen(struct kd_render_queue *queue, struct kd_error *error)
 {
     enum kd_status status = KD_EDEVICE;

@@ -1,4 +1,4 @@
-/* Frees the renderer's cached memory after a time without requests, and trims the heap also under load. */
+/* Frees the renderer's cached memory after some time without requests, and trims the heap, even under load. */
 #include "render/device/rest.h"
 
 #include "base/allocator.h"
@@ -20,7 +20,7 @@ void kd_render_queue_rest_after(struct kd_render_queue *queue, unsigned ms)
     pthread_mutex_unlock(&queue->lock);
 }
 
-/* If much memory is cached, a sixtieth of the time is enough. */
+/* Whether the pause was long enough to free memory. If much memory is cached, a sixtieth of rest_ms is enough. */
 static bool is_long_enough(const struct kd_render_queue *queue, double pause_ms)
 {
     const double soon_ms = queue->rest_ms / 60.;
@@ -38,7 +38,7 @@ void kd_render_rest_if_idle(struct kd_render_queue *queue)
     kd_render_queue_push_locked(queue, &queue->rest);
 }
 
-/* Under load the renderer's caches stay, but drivers free much of the memory that they use to compile a kernel: a sixth
+/* Under load the renderer keeps its caches. But drivers free much of the memory in which they compile kernels: a sixth
  * of the resident memory after ten minutes (bench/soak.py). */
 void kd_render_trim_if_due(struct kd_render_queue *queue)
 {

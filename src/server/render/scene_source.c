@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* JSON pointer of a parameter: "camera.r" becomes /camera/r. ~ and / are escaped, since names can be anything. */
+/* JSON pointer of a parameter: "camera.r" becomes /camera/r. ~ and / are escaped, because a client may send any
+ * name. */
 static void pointer_of(const char *name, char *out, size_t size)
 {
     size_t n = 0;
@@ -62,7 +63,7 @@ static enum kd_status apply_preset(const struct kd_target *target, struct kd_sce
     return KD_OK;
 }
 
-/* Applies the style first, because the order of a query's parameters must not matter. */
+/* Applies the style before all other fields, because the order of a query's parameters must not matter. */
 static enum kd_status apply_fields(const struct kd_target *target, const char *const own[2], struct kd_scene *scene,
                                    struct kd_error *error)
 {
@@ -108,7 +109,8 @@ bool kd_scene_of_request(const struct kd_request *request, struct kd_scene *scen
         KD_TRY(apply_preset(&request->target, scene, error));
         status = kd_scene_from_json(scene, request->body.data ? (const char *)request->body.data : "",
                                     request->body.size, error);
-        malformed = status == KD_EINVAL && !*error->pointer; /* an error without a position in the document */
+        /* an error without a pointer means that the text is not JSON */
+        malformed = status == KD_EINVAL && !*error->pointer;
         KD_TRY(status);
     } else {
         KD_TRY(kd_scene_of_query(&request->target, own, scene, error));

@@ -6,7 +6,7 @@
 #include "server/http/problem.h"
 #include "server/http/request.h"
 
-/* Size of the picture for other sites, as Open Graph asks for; a narrower one has the same aspect ratio. */
+/* Size of the picture for other sites, as Open Graph recommends. A narrower picture has the same aspect ratio. */
 enum { KD_SHARED_WIDTH = 1200, KD_SHARED_HEIGHT = 630, KD_SHARED_NARROWEST = 64 };
 #define KD_SHARED_WIDTH_NAME "width"
 static inline int32_t kd_shared_height(int32_t width)
@@ -14,8 +14,8 @@ static inline int32_t kd_shared_height(int32_t width)
     return (width * KD_SHARED_HEIGHT + KD_SHARED_WIDTH / 2) / KD_SHARED_WIDTH;
 }
 
-/* Decodes and validates a scene. Returns false with *problem filled, its texts in *error: 404 for a malformed code, 422
- * for a scene that is not valid or uses an asset. */
+/* Decodes and validates a scene. Returns false with *problem filled; its texts are in *error. 404: the code is
+ * malformed; 422: the scene is not valid or uses an asset. */
 bool kd_shared_read(const char *code, struct kd_scene *scene, struct kd_problem *problem, struct kd_error *error);
 
 /* Builds the scene of a preview picture from the request's path and the width in its query. */

@@ -109,8 +109,8 @@ bool kd_task_admit(struct kd_request *request, struct kd_scheduler *queue, const
 
 enum MHD_Result kd_task_submit(struct kd_task *task)
 {
-    /* Suspend first, because the task may be done before push returns. A suspended request and its socket outlive
-     * it. */
+    /* Suspended first, because the task may be done before push returns. A suspended request and its socket outlive the
+     * task. */
     MHD_suspend_connection(task->request->mhd);
     kd_scheduler_push(task->queue, &task->turns);
     return MHD_YES;

@@ -1,11 +1,12 @@
-/* Task: a request that the workers answer (http/turns.h). The request is suspended meanwhile. The task is cancelled
- * when the client disconnects, the server stops at once, or its deadline has passed. The request owns it. Embed it in a
- * struct.
+/* Task: work that the workers do for a request (http/task_scheduler.h). Meanwhile the request is suspended. The task is
+ * cancelled when the client disconnects, the server stops at once, or the task's deadline has passed. The request owns
+ * the task, which is embedded in a struct of the caller.
  *
  *     static const struct kd_task_kind KIND = { "quantities", sizeof(struct mine), work, finish };
  *     struct mine *mine = kd_task_begin(request, queue, &KIND, &refused);
  *     return mine ? kd_task_submit(&mine->task) : refused;
- *     the handler is called again when `work` has returned KD_SLICE_LAST */
+ *
+ * The handler is called again when `work` has returned KD_SLICE_LAST. */
 #ifndef KD_SERVER_RENDER_TASK_H
 #define KD_SERVER_RENDER_TASK_H
 
@@ -16,48 +17,48 @@ struct kd_task;
 struct kd_task_kind {
     const char *what; /* plural noun for messages: "the server ... takes no new <what>" */
     size_t size;      /* size of the struct whose first member is the task */
-    enum kd_slice_result (*work)(struct kd_task *task, double until_ms); /* runs one piece on a worker */
-    void (*finish)(struct kd_task *task);                                /* frees its members; may be NULL */
-    void (*last)(struct kd_task *task); /* runs on a worker after the last piece; may be NULL */
-    /* on the HTTP thread; for handlers with several kinds of tasks, else NULL */
+    enum kd_slice_result (*work)(struct kd_task *task, double until_ms); /* runs one slice on a worker */
+    void (*finish)(struct kd_task *task);                                /* frees members of the struct; may be NULL */
+    void (*last)(struct kd_task *task); /* runs on a worker after the last slice; may be NULL */
+    /* Runs on the HTTP thread. For handlers with several kinds of tasks, else NULL. */
     enum MHD_Result (*answer)(struct kd_request *request);
 };
 
 struct kd_task {
-    struct kd_scheduler_job turns; /* first member */
+    struct kd_scheduler_job turns; /* must be the first member */
     const struct kd_task_kind *kind;
     struct kd_scheduler *queue;
     struct kd_request *request;
-    size_t held; /* bytes reserved by kd_task_hold, released with the task */
-    bool quota;  /* KD_EBUSY is due to the client's share */
+    size_t held; /* bytes reserved by kd_task_hold; they are released with the task */
+    bool quota;  /* the limit that caused KD_EBUSY is the client's share */
     double submitted_ms, begun_ms, done_ms, deadline_ms;
-    _Atomic enum kd_status status; /* KD_ECANCELLED: kd_reply_cancelled */
+    _Atomic enum kd_status status; /* KD_ECANCELLED: the handler answers with kd_reply_cancelled */
     struct kd_error error;
 };
 
-/* Makes a task if the queue admits one. Returns NULL with *refused if it does not. Members behind the task are zero.
- * HTTP thread. */
+/* Makes a task if the queue admits one. Returns NULL with *refused if it does not. Members of the struct behind the
+ * task are zero. HTTP thread. */
 void *kd_task_begin(struct kd_request *request, struct kd_scheduler *queue, const struct kd_task_kind *kind,
                     enum MHD_Result *refused);
-/* Makes a task without admission; a long one calls kd_task_admit later. HTTP thread. */
+/* Makes a task that is not admitted yet. If it turns out to take long, it calls kd_task_admit later. HTTP thread. */
 void *kd_task_create(struct kd_request *request, struct kd_scheduler *queue, const struct kd_task_kind *kind,
                      enum MHD_Result *refused);
 void kd_task_destroy(struct kd_task *task); /* accepts NULL */
 
-/* Records an error; only the first counts, and KD_OK is ignored. Any thread. */
+/* Records an error of the task. Only the first error counts; KD_OK is ignored. Any thread. */
 void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_error *error);
 
-/* Whether the queue admits another task; else *refused is the answer. what: as in kd_task_kind. HTTP thread. */
+/* Whether the queue admits another task. If not, *refused is the answer. what: see kd_task_kind. HTTP thread. */
 bool kd_task_admit(struct kd_request *request, struct kd_scheduler *queue, const char *what, enum MHD_Result *refused);
 /* Starts an admitted task. HTTP thread. */
 enum MHD_Result kd_task_submit(struct kd_task *task);
 
-/* Whether a task must end: returns the reason if the client is `gone`, the server stops, or the deadline has passed;
- * else KD_OK. Any thread. */
+/* Whether a task must end. Returns the reason if the client is `gone`, the server is stopping, or the deadline has
+ * passed; else KD_OK. Any thread. */
 enum kd_status kd_task_over(struct kd_server *server, struct kd_scheduler *queue, bool gone, double deadline_ms,
                             struct kd_error *error);
-/* Reserves bytes of an answer in server->replies; the owner releases *held. Returns KD_EBUSY at a limit; *quota: that
- * of the client. Any thread. */
+/* Reserves bytes of an answer in server->replies. The owner of *held releases them. Returns KD_EBUSY at a limit; *quota
+ * is true if that is the client's share. Any thread. */
 enum kd_status kd_task_hold(struct kd_server *server, const char *client, size_t bytes, size_t *held, bool *quota,
                             struct kd_error *error);
 /* Frees the request's body. Safe on a worker, because a suspended request has no other user. */

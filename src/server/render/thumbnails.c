@@ -14,10 +14,10 @@
 #define SAMPLES 3 /* rays along each side of a pixel: small pictures need smooth edges */
 
 struct thumbnail {
-    struct kd_painting painting; /* first member; png is immutable once `there` is set */
+    struct kd_painting painting; /* must be the first member; png is immutable once `there` is set */
     char etag[120];
-    struct kd_error error;      /* of the latest attempt */
-    bool there, busy;           /* busy: owned by the painter, not to be read by others */
+    struct kd_error error;      /* error of the latest attempt */
+    bool there, busy;           /* busy: the painter owns it, and no other thread may read it */
     struct kd_request *waiting; /* suspended requests, the newest first */
     struct kd_thumbnails *of;
 };
@@ -28,7 +28,7 @@ struct kd_thumbnails {
     pthread_mutex_t lock;
     unsigned rendered;
     size_t n;
-    struct thumbnail *all; /* in the order of the presets */
+    struct thumbnail *all; /* one for each preset, in the order of the presets */
 };
 
 static void done(struct kd_painting *painting);
@@ -98,7 +98,7 @@ unsigned kd_thumbnails_rendered(struct kd_thumbnails *s)
     return n;
 }
 
-/* Takes the list of waiting requests, which are to be resumed without the lock. */
+/* Takes the list of waiting requests from the thumbnail. The caller resumes them without the lock. */
 static struct kd_request *take(struct thumbnail *t)
 {
     struct kd_request *waiting = t->waiting;
@@ -128,7 +128,7 @@ void kd_thumbnails_cancel(struct kd_thumbnails *s)
     }
 }
 
-/* On the painter's thread. */
+/* Called when a thumbnail is rendered or has failed; on the painter's thread. */
 static void done(struct kd_painting *painting)
 {
     struct thumbnail *t = (struct thumbnail *)painting;
@@ -172,7 +172,8 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
     return kd_reply_error(request, error);
 }
 
-/* Suspends the request until the thumbnail is there; answers at once if it is, or if rendering has just failed. */
+/* If the thumbnail is there or rendering has just failed, answers at once. Otherwise suspends the request until it is
+ * there. */
 static enum MHD_Result give(struct kd_request *request, struct kd_thumbnails *s, struct thumbnail *t)
 {
     pthread_mutex_lock(&s->lock);
@@ -207,7 +208,7 @@ enum MHD_Result kd_handle_thumbnail(struct kd_request *request)
     if (!t) {
         struct kd_scene scene;
         struct kd_error error = { 0 };
-        kd_scene_preset(&scene, request->rest, &error); /* for its message, which lists the presets */
+        kd_scene_preset(&scene, request->rest, &error); /* fails; its message lists the presets */
         return kd_reply_problem(request,
                                 &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
     }

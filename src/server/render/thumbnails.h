@@ -1,5 +1,5 @@
-/* Thumbnails of presets. Each is rendered at the first request (painter.h), then kept in memory, and on disk for later
- * runs. Requests that arrive meanwhile wait for the same rendering. */
+/* Thumbnails of presets. Each is rendered when it is first requested (painter.h). Then it is kept in memory, and on
+ * disk for later runs. Requests that arrive while it is being rendered wait for the same rendering. */
 #ifndef KD_SERVER_RENDER_THUMBNAILS_H
 #define KD_SERVER_RENDER_THUMBNAILS_H
 
@@ -11,16 +11,17 @@ enum { KD_THUMBNAIL_WIDTH = 192, KD_THUMBNAIL_HEIGHT = 120 };
 
 struct kd_thumbnails;
 
-/* The server outlives them; its queue and its etag_tail exist already. renderer: parameters of the queue's device. */
+/* The server outlives the thumbnails; its queue and its etag_tail must exist already. renderer: parameters of the
+ * queue's device. */
 enum kd_status kd_thumbnails_create(struct kd_server *server, const struct kd_renderer_params *renderer,
                                     struct kd_thumbnails **out, struct kd_error *error);
-/* For shutdown: stops rendering, and resumes waiting requests, which are refused. Any thread. */
+/* For shutdown: stops rendering, and resumes waiting requests, which are then refused. Any thread. */
 void kd_thumbnails_cancel(struct kd_thumbnails *thumbnails);
-/* As kd_painter_hangs. Any thread. */
+/* Like kd_painter_hangs. Any thread. */
 bool kd_thumbnails_hang(struct kd_thumbnails *thumbnails);
 /* Accepts NULL. */
 void kd_thumbnails_destroy(struct kd_thumbnails *thumbnails);
-/* Number rendered, not read from files. Any thread. */
+/* Number of thumbnails that were rendered and not read from files. Any thread. */
 unsigned kd_thumbnails_rendered(struct kd_thumbnails *thumbnails);
 
 #endif

@@ -3,23 +3,25 @@
  * steady clock.
  *
  * Shares and demands are milliseconds of the device for each millisecond of the clock, 0 to 1. A session's demand is
- * what it would use alone: the device time of a frame, divided by the sum of that and the pause from its end to the
- * request for the next. Time spent waiting for others is in neither term, so that waiting changes no demand. The demand
- * uses the mean of the last eight frame costs and the smallest of the last eight pauses. So a single slow frame or late
- * request changes little, and a user who drags again has a demand from the second frame on.
+ * the share that it would use if it were alone: the device time of a frame, divided by the sum of that time and the
+ * pause after the frame. The pause lasts until the next frame is requested. Time spent waiting for others is in neither
+ * term, so that waiting changes no demand. The demand uses the mean cost of the last eight frames and the smallest of
+ * the last eight pauses. So a single slow frame or late request changes little, and when a user drags again, the demand
+ * is known from the second frame on.
  *
- * A session without a request for its hold time demands nothing. The hold time is 400 ms. After a longer pause it
- * becomes twice that pause, at most 2 s, so that the share of a hand that rests within a drag is not lent and taken
- * back at each stroke. Sessions that are only watched or refined demand nothing.
+ * A session that has not requested a frame for its hold time demands nothing. The hold time is 400 ms. After a longer
+ * pause it becomes twice that pause, at most 2 s. Otherwise, whenever a user's hand rests within a drag, the session's
+ * share would be lent to others and taken back. Sessions that are only watched or refined demand nothing.
  *
- * The time is divided as in shares.h, by client and then by session, max-min fair (Bertsekas & Gallager, Data Networks,
- * 1992, 6.5.2): all get the same part, except that those with a smaller demand get only that, and the others divide the
- * rest. A session's own share is computed as if it demanded everything: one that is alone has 1.
+ * The time is divided as in shares.h, first among clients, then among the sessions of each. The division is max-min
+ * fair (Bertsekas & Gallager, Data Networks, 1992, 6.5.2): those with a small demand get their demand, and the others
+ * get equal parts of the rest. A session's own share is computed as if it demanded everything, so a session that is
+ * alone has 1.
  *
  *     kd_budget_enter(&budget, &entry);
- *     kd_budget_ask(&entry, now);              a frame of a moving session is queued
- *     kd_budget_end(&entry, now, ms);          it has used the device for ms
- *     kd_budget_share(&budget, &entry, now);   before the next frame
+ *     kd_budget_ask(&entry, now);             a frame of a moving session is queued
+ *     kd_budget_end(&entry, now, ms);         it has used the device for ms
+ *     kd_budget_share(&budget, &entry, now);  before the next frame
  *     kd_budget_leave(&budget, &entry); */
 #ifndef KD_SERVER_SESSION_BUDGET_H
 #define KD_SERVER_SESSION_BUDGET_H
@@ -30,15 +32,16 @@
 
 enum { KD_BUDGET_FRAMES = 8 };
 
-/* One session's part of the budget, embedded in the session. Set client; initialise the rest to 0. */
+/* One session's entry in the budget, embedded in the session. Set client, and initialise the other members to 0. */
 struct kd_budget_entry {
-    char client[KD_CLIENT]; /* the same as in the claims of its frames */
+    char client[KD_CLIENT]; /* the client in the claims of its frames */
     /* private to the budget */
     double costs[KD_BUDGET_FRAMES], pauses[KD_BUDGET_FRAMES];
     unsigned n_costs, n_pauses;
-    double ended_ms, hold_ms; /* end of the latest frame on the device; hold time */
-    bool asks;                /* a frame is queued or runs */
-    /* computed in each call; of_client: sum over a client's sessions, stored in the client's first entry, else 0 */
+    double ended_ms, hold_ms; /* ended_ms: when the latest frame left the device; hold_ms: hold time */
+    bool asks;                /* a frame is queued or being rendered */
+    /* Computed in each call. of_client: sum of demands over all sessions of a client, in the client's first entry; 0 in
+     * its other entries. */
     double demand, of_client;
     struct kd_budget_entry *next;
 };
@@ -50,12 +53,13 @@ void kd_budget_enter(struct kd_budget *budget, struct kd_budget_entry *entry);
 void kd_budget_leave(struct kd_budget *budget, struct kd_budget_entry *entry);
 
 void kd_budget_ask(struct kd_budget_entry *entry, double now);
-/* The frame has left the device. ms: device time used; 0: it was abandoned, and is not a measurement. */
+/* Tells that the frame has left the device. ms: device time that it used; 0: the frame was abandoned, and is no
+ * measurement. */
 void kd_budget_end(struct kd_budget_entry *entry, double now, double ms);
 
 /* Estimates the session's demand, 0 to 1. It is 0 until the second frame is requested. */
 double kd_budget_demand(const struct kd_budget_entry *entry, double now);
-/* The share of the device that the session can rely on: above 0, at most 1. */
+/* Returns the share of the device that the session can rely on: above 0, at most 1. */
 double kd_budget_share(struct kd_budget *budget, const struct kd_budget_entry *entry, double now);
 
 #endif

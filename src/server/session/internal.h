@@ -9,40 +9,41 @@
 
 #include <pthread.h>
 
-struct kd_session_frame; /* one in the render queue */
-/* Progress of the frame being made. run.c */
+struct kd_session_frame; /* a frame in the render queue */
+/* Progress of the frame that is being made; in run.c. */
 struct kd_session_progress kd_session_progress_of(const struct kd_session *session, double now);
 
 struct kd_session {
     struct kd_sessions *all;
     unsigned references;
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
-    struct kd_once once;             /* hashes of the request that created it */
-    struct kd_scene scene;           /* the scene at the time since_ms */
-    struct kd_timeline path;         /* path that it has followed since then, if it has keyframes */
+    struct kd_once once;             /* hashes of the request that created the session */
+    struct kd_scene scene;           /* the session's scene at the time since_ms */
+    struct kd_timeline path;         /* path that the session has followed since since_ms; without keyframes: no path */
     struct kd_scene on_path;         /* latest valid scene on the path */
-    struct kd_dynamic_bodies *crowd; /* bodies of a playground shown in the scene; NULL: none, or none yet */
-    /* crowded: it shows a crowd; crowd_moved: the crowd differs from that of the latest frame */
+    struct kd_dynamic_bodies *crowd; /* bodies of a playground that are shown in the scene; NULL: none, or none yet */
+    /* crowded: the session shows such bodies; crowd_moved: they differ from those in the latest frame */
     bool crowded, crowd_moved;
     double since_ms, used_ms;
-    char lens_key[65]; /* of the full scene, before quality is reduced */
+    char lens_key[65]; /* key of the full scene, before quality is reduced */
     struct kd_governor governor;
-    struct kd_budget_entry demand; /* in the budget while the session is listed */
-    unsigned revision;             /* of the scene */
-    double patched_ms;             /* last change by a patch, or creation */
-    uint64_t order;                /* of the latest patch that had an order */
+    struct kd_budget_entry demand; /* the session's entry in the budget, while the session is listed */
+    unsigned revision;             /* revision of the scene */
+    double patched_ms;             /* time of the last patch, or of creation */
+    uint64_t order;                /* order of the latest patch that had one */
     uint64_t begun;                /* number of frames begun */
-    bool moved;                    /* the scene of the latest frame was moving by itself */
-    bool flew;                     /* and so was its camera */
+    bool moved;                    /* in the latest frame the scene moved by itself */
+    bool flew;                     /* in the latest frame the camera moved by itself as well */
     bool listed;
-    struct kd_session_frame *rendering; /* frame not yet rendered */
+    struct kd_session_frame *rendering; /* frame that is not rendered yet */
     unsigned encoding;
-    bool adding; /* encoding a further file of the latest frame */
+    bool adding; /* the latest frame is being encoded in a further format */
     struct kd_live_frame *latest;
-    double exposed_ms, exposure;  /* when the latest frame was rendered, and its exposure in stops */
-    unsigned exposed_revision;    /* revision of that frame; 0: none */
-    double shown_ms, interval_ms; /* when the latest frame was published; smoothed interval between frames */
-    enum kd_status failed;        /* status of the latest render, with `error`; a patch clears it */
+    double exposed_ms, exposure; /* when the latest frame was rendered, and its exposure in stops */
+    unsigned exposed_revision;   /* revision of the scene in that frame; 0: there is no such frame */
+    /* shown_ms: when the latest frame was published; interval_ms: smoothed interval between frames */
+    double shown_ms, interval_ms;
+    enum kd_status failed; /* status of the latest render, with `error`; a patch clears it */
     struct kd_error error;
     struct kd_viewer *viewers;
     struct kd_session *next;
@@ -52,41 +53,43 @@ struct kd_sessions {
     struct kd_sessions_params params;
     pthread_mutex_t lock;
     struct kd_session *first;
-    struct kd_budget budget; /* shares of the device's time among moving sessions */
+    struct kd_budget budget; /* shares of the device's time that moving sessions can rely on */
     unsigned count;
-    uint64_t frames, bytes; /* published */
+    uint64_t frames, bytes; /* totals of published frames */
     bool closed;
     double looked_ms;
 };
 
-/* Callers hold all->lock unless a comment says otherwise. */
+/* Callers of the functions below hold all->lock unless a comment says otherwise. */
 
 void kd_session_unref(struct kd_session *session); /* drops a reference */
 void kd_session_unlist(struct kd_session *session);
-/* Computes the scene at a time, with its own motion or its path. Fails where the path's scene is not valid. */
+/* Computes the scene at a time, with its own motion or on its path. Fails if the scene there is not valid. */
 enum kd_status kd_session_scene(const struct kd_session *session, double now, struct kd_scene *out,
                                 struct kd_error *error);
-bool kd_session_on_its_way(const struct kd_session *session, double now); /* follows a path that has not ended */
+/* whether it follows a path that has not ended */
+bool kd_session_on_its_way(const struct kd_session *session, double now);
 
-/* Begins a frame if a viewer waits, the picture would differ, and the queue has room. run.c */
+/* Begins a frame if a viewer waits, the picture would differ, and the queue has room. In run.c. */
 void kd_session_pump(struct kd_session *session);
-/* Sets the expected cost of frames from the plan, until a frame has been measured. */
+/* Sets the expected cost of frames to that of the plan, until a frame has been measured. */
 void kd_session_expect(struct kd_session *session, const struct kd_plan *plan);
-/* Cancels the frame being rendered if it is a refinement, which takes long and is obsolete. */
+/* Cancels the frame that is being rendered if it is a refinement: it would take long and is obsolete. */
 void kd_session_drop_refinement(struct kd_session *session);
-void kd_session_drop(struct kd_session *session); /* cancels any frame */
+void kd_session_drop(struct kd_session *session); /* cancels the frame that is being rendered, if any */
 
-/* Whether a viewer waits. True before the first frame, which is made in advance. watch.c */
+/* Whether a viewer waits. Also true before the first frame, which is made in advance. In watch.c. */
 bool kd_session_awaited(const struct kd_session *session);
 void kd_session_wake(struct kd_session *session); /* resumes viewers that have news */
 
-/* Encodings of a frame; kinds.c. Sets the first encoding, by the waiting viewers. */
+/* The functions below are in kinds.c and deal with encodings of a frame. This one sets the encoding in which the frame
+ * is encoded first, by the viewers that wait. */
 void kd_session_choose_kind(const struct kd_session *session, bool last, struct kd_render_job *job);
-/* The file of the frame in the viewer's encoding; NULL: not encoded yet. */
+/* Returns the frame's file in the encoding that the viewer wants; NULL: it is not encoded yet. */
 const struct kd_live_file *kd_session_file(const struct kd_viewer *viewer, const struct kd_live_frame *frame);
-/* Frees the pixels of a frame that nobody has requested in another encoding lately. */
+/* Frees the pixels of the latest frame if nobody has requested another encoding of it lately. */
 void kd_session_forget_pixels(struct kd_session *session, double now);
-/* Starts encodings of the latest frame that waiting viewers lack. */
+/* Starts encodings of the latest frame that are missing and that viewers wait for. */
 void kd_session_add_kinds(struct kd_session *session);
 
 #endif

@@ -1,18 +1,18 @@
-/* Encodings of live frames. A frame is encoded only as viewers request it: first by the renderer's encoder, later in
- * other encodings when a viewer waits for them. */
+/* Encodings of live frames. A frame is encoded only as viewers request it. The renderer's encoder makes the first
+ * encoding; others are made later, when a viewer waits for them. */
 #include "server/session/internal.h"
 
 #include <stdlib.h>
 
-#define PIXELS_MS 1000.0 /* after which the latest frame's pixels are freed; later requests get the next frame */
+#define PIXELS_MS 1000.0 /* time after which the latest frame's pixels are freed; later requests get the next frame */
 
 struct added {
-    struct kd_render_job job; /* first member: the queue stores a pointer to it */
+    struct kd_render_job job; /* must be the first member: the queue stores a pointer to it */
     struct kd_session *session;
     struct kd_live_frame *frame;
 };
 
-/* All functions but `done` are called with the lock. */
+/* All functions below except `done` are called with the lock. */
 
 static unsigned kind_of(const struct kd_viewer *viewer, bool last) { return last ? 0 : viewer->lossy; }
 
@@ -41,8 +41,8 @@ static const struct kd_live_file *file_of(const struct kd_live_frame *frame, uns
         if (lossy && file->lossy && (!near || abs((int)(file->lossy - lossy)) < abs((int)(near->lossy - lossy))))
             near = file;
     }
-    /* The last slot is reserved for the lossless encoding. When the others are used, the nearest quality is sent, and
-     * the answer names it. */
+    /* The last slot is reserved for the lossless encoding. When the others are in use, the nearest quality is sent; the
+     * answer says which. */
     unsigned lossy_ones = 0;
     for (unsigned i = 0; i < frame->n_files; i++)
         lossy_ones += frame->files[i].lossy > 0;
@@ -60,8 +60,8 @@ void kd_session_forget_pixels(struct kd_session *s, double now)
         kd_frame_finish(&s->latest->picture);
 }
 
-/* A newer frame has been published meanwhile. Viewers that waited for this one in this encoding still get it: where
- * encoding takes longer than a frame, they would otherwise never get any. */
+/* Sends a frame although a newer one has been published since it was requested. Viewers that waited for it in this
+ * encoding still get it. If encoding takes longer than a frame, they would otherwise never get any. */
 static void hand_out(struct kd_session *s, struct kd_live_frame *frame, unsigned lossy)
 {
     for (struct kd_viewer *v = s->viewers; v; v = v->next)
@@ -109,7 +109,7 @@ static void add(struct kd_session *s, unsigned lossy)
     added->job = (struct kd_render_job) {
         .claim.class = KD_CLASS_LIVE, .socket = -1, .effort = KD_EFFORT_LIVE, .keeps = true, .done = done
     };
-    added->job.frame = s->latest->picture; /* the pixels stay owned by the frame */
+    added->job.frame = s->latest->picture; /* the frame still owns the pixels */
     added->job.plan.host_bytes = (uint64_t)3 * added->job.frame.width * added->job.frame.height;
     set_kind(&added->job, lossy);
     s->adding = true;
@@ -124,6 +124,6 @@ void kd_session_add_kinds(struct kd_session *s)
     for (const struct kd_viewer *v = s->viewers; v; v = v->next)
         if (v->waiting && !v->any && s->latest->number > v->seen && !kd_session_file(v, s->latest)) {
             add(s, v->lossy);
-            return; /* further encodings follow when this one is done */
+            return; /* the next encoding is started when this one is done */
         }
 }

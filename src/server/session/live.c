@@ -47,7 +47,7 @@ static void describe(struct MHD_Response *response, const struct kd_live_frame *
         MHD_add_response_header(response, "Kerrd-Approximations", (const char *)frame->approximations.data);
 }
 
-/* Adds headers that describe this encoding of the frame. */
+/* Adds headers about this encoding of the frame. */
 static void describe_file(struct MHD_Response *response, const struct kd_live_frame *frame,
                           const struct kd_live_file *file)
 {
@@ -60,8 +60,8 @@ static void describe_file(struct MHD_Response *response, const struct kd_live_fr
     MHD_add_response_header(response, "Content-Type", file->format->media_type);
 }
 
-/* Adds headers about the request: how long it waited here, so that the client can compute the network's delay, and the
- * revision that it made. */
+/* Adds headers about the request: the revision that it made, and how long it waited in the server, from which the
+ * client can compute the network's delay. */
 static void tell_request(struct MHD_Response *response, const struct kd_viewer *viewer)
 {
     char number[24];
@@ -181,9 +181,9 @@ void kd_live_abandon(struct kd_request *request)
     request->viewer = NULL;
 }
 
-/* A frame in a stream: some bytes before the picture, the picture, some bytes after it. */
+/* A stream of frames. Each consists of some bytes before the picture, the picture, and some bytes after it. */
 struct stream {
-    struct kd_viewer viewer; /* first member */
+    struct kd_viewer viewer; /* must be the first member */
     enum { MULTIPART, BINARY, EVENTS } form;
     struct kd_live_frame *frame; /* the frame being sent */
     char before[64], next[96];
@@ -233,7 +233,7 @@ static void frame_parts(struct stream *s, struct kd_live_frame *frame)
     }
 }
 
-/* Copies from the rest of the present frame. Returns 0 when it is complete. */
+/* Copies bytes of the present frame that are not sent yet. Returns 0 when the frame is complete. */
 static size_t take(struct stream *s, char *to, size_t size)
 {
     size_t n = 0;
@@ -266,7 +266,7 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
     case KD_VIEWER_FRAME: frame_parts(s, frame); return (ssize_t)take(s, to, size);
     case KD_VIEWER_OVER: return MHD_CONTENT_READER_END_OF_STREAM;
     case KD_VIEWER_GONE: return MHD_CONTENT_READER_END_WITH_ERROR;
-    case KD_VIEWER_LATE: /* a heartbeat, which also detects clients that have vanished */
+    case KD_VIEWER_LATE: /* time for a heartbeat, which also detects clients that have vanished */
         s->viewer.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         memcpy(to, ":\n\n", 3);
         return 3;
@@ -296,12 +296,12 @@ static enum MHD_Result start_stream(struct kd_request *request, struct stream *s
     MHD_add_response_header(response, "Content-Type", type);
     MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* disables buffering in proxies */
     enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
-    /* A stream has no deadline; libmicrohttpd's timeout ends readers that stall. */
+    /* A stream has no deadline. libmicrohttpd's timeout ends connections whose client stops reading. */
     kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0);
     return result;
 }
 
-/* The number in Last-Event-ID, which an EventSource sends when it reconnects; 0 if no frame has had it. */
+/* The number in Last-Event-ID, which an EventSource sends when it reconnects; 0 if no frame has had that number. */
 static uint64_t last_event(struct kd_request *request, struct kd_session *session)
 {
     const char *id = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Last-Event-ID");
@@ -335,8 +335,8 @@ static enum MHD_Result open_stream(struct kd_request *request, kd_session_find_f
                                      .seen = form == EVENTS ? last_event(request, session) : 0,
                                      .deadline_ms = form == EVENTS ? kd_clock_ms() + HEARTBEAT_MS : INFINITY };
     s->part = form == MULTIPART ? 0 : 3;
-    /* Browsers show a part only when the header of the next one arrives. So that header is sent right after each frame,
-     * and the first header before all frames. */
+    /* Browsers show a part of a multipart answer only when the header of the next part arrives. So that header is sent
+     * right after each frame, and the first header before all frames. */
     snprintf(s->next, sizeof s->next, "\r\n--kerrd\r\nContent-Type: %s\r\n\r\n", kd_format_live()->media_type);
     if (form == MULTIPART)
         set_part(s, 0, s->next + 2, strlen(s->next + 2));

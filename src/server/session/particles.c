@@ -1,5 +1,5 @@
-/* GET /v1/sessions/ID/particles: positions of a session's particles as numbers. They are listed in slices, between
- * which others use the device. */
+/* GET /v1/sessions/ID/particles: positions of a session's particles as numbers. They are listed in slices; between two
+ * slices others may use the device. */
 #include "scene/number.h"
 #include "base/clock.h"
 #include "server/http/reply.h"
@@ -13,11 +13,11 @@
 #include <string.h>
 
 #define TYPE "application/octet-stream"
-#define BYTES_MAX ((size_t)128 << 20) /* of one answer; 10 000 000 positions are 114 MiB */
+#define BYTES_MAX ((size_t)128 << 20) /* limit of one answer; 10 000 000 positions are 114 MiB */
 
-/* Owned by its request. */
+/* A list of particles that is being made. Its request owns it. */
 struct kd_particles_job {
-    struct kd_render_job device; /* first member */
+    struct kd_render_job device; /* must be the first member */
     struct kd_request *request;
     struct kd_particle_list list;
     size_t done;
@@ -41,7 +41,7 @@ static size_t slice_of(const struct kd_particles_job *job)
     return left < KD_PARTICLE_LIST_SLICE ? left : KD_PARTICLE_LIST_SLICE;
 }
 
-/* Lists one slice, on the thread that owns the device. */
+/* Lists the particles of one slice, on the thread that owns the device. */
 static enum kd_status list_slice(struct kd_render_job *device, struct kd_renderer *renderer, kd_progress_fn progress,
                                  void *user)
 {
@@ -161,7 +161,7 @@ static enum MHD_Result submit(struct kd_request *request)
     };
     memcpy(job->device.claim.client, request->client, sizeof request->client);
     job->device.plan.estimate_ms = (double)job->list.n * capacity.ns[KD_NS_PARTICLE] * 1e-6;
-    /* Suspend first, because the job may be done before push returns. A suspended request and its socket outlive the
+    /* Suspended first, because the job may be done before push returns. A suspended request and its socket outlive the
      * job. */
     MHD_suspend_connection(request->mhd);
     kd_render_queue_push(server->renders, &job->device);

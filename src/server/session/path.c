@@ -13,14 +13,15 @@
 #include <string.h>
 
 #define PATH_VALUES 50000
-#define PATH_LOOKS 30 /* positions checked, each in up to a quarter of a millisecond */
+/* number of positions on the path that are checked; each takes up to a quarter of a millisecond */
+#define PATH_LOOKS 30
 
 struct path_task {
-    struct kd_task task;  /* first member */
-    struct kd_scene from; /* the scene when the path was requested */
+    struct kd_task task;  /* must be the first member */
+    struct kd_scene from; /* the scene at the time of the request */
     struct kd_timeline path;
     bool read;
-    int look; /* next position to check */
+    int look; /* index of the position to check next */
 };
 
 static void finish(struct kd_task *task)
@@ -30,7 +31,7 @@ static void finish(struct kd_task *task)
 }
 
 /* Parses {"keyframes": [{"at": seconds, "scene", "proper_time", "ease", "look_at"}, ...], "interpolation", "distances",
- * "angles", "ease", "look_at"}. It begins at the present scene. */
+ * "angles", "ease", "look_at"}. The path begins at the present scene. */
 static enum kd_status read_path(const struct kd_request *request, const struct kd_scene *now, struct kd_timeline *out,
                                 struct kd_error *error)
 {
@@ -87,8 +88,8 @@ static enum kd_status read_whole(struct path_task *p, struct kd_error *error)
     return status;
 }
 
-/* Checks the scene at one position of the path. Frames are planned anew, so a failure between the positions shows up
- * later. */
+/* Checks the scene at one position of the path. Each frame is planned again, so a scene that is not valid between two
+ * positions is found later. */
 static enum kd_status look(struct path_task *p, struct kd_error *error)
 {
     struct kd_capacity capacity;

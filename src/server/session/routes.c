@@ -20,7 +20,7 @@
 #include <strings.h>
 
 #define JSON_TYPE "application/json"
-#define STRIKE_VALUES 16 /* most values in a ringdown's body, which has one field */
+#define STRIKE_VALUES 16 /* limit of JSON values in the body of a ringdown, which has one field */
 
 struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused)
 {
@@ -46,7 +46,7 @@ const char *kd_session_varies_word(size_t index)
     return index < sizeof varying / sizeof *varying ? varying[index].word : NULL;
 }
 
-/* Writes ["moves_with_time", ...]: which changes of time or azimuth change the picture. */
+/* Writes the list of what changes the picture, such as ["moves_with_time"]: a change of time, a change of azimuth. */
 static enum kd_status add_varies(const struct kd_scene *scene, struct kd_buffer *out)
 {
     const unsigned varies = kd_emit_varies(scene);
@@ -61,9 +61,9 @@ done:
     return status;
 }
 
-/* Writes {"id", "revision", "frame", "viewers", ["order",] "scene", "varies", "emitters"}. Optional members: "path" on
- * a path; "rendering" or "refining" while a frame is being made; "clock" in free fall; the token for the client that
- * has just created the session. */
+/* Writes {"id", "revision", "frame", "viewers", ["order",] "scene", "varies", "emitters"}. Optional members: "path" if
+ * there is a path; "rendering" or "refining" while a frame is being made; "clock" in free fall; the token for the
+ * client that has just created the session. */
 static enum kd_status to_json(const struct kd_session *session, const struct kd_session_state *state, bool token,
                               struct kd_buffer *out)
 {
@@ -132,7 +132,7 @@ static enum MHD_Result answer_created(struct kd_request *request, const struct k
     return kd_reply_send(request, MHD_HTTP_CREATED, response);
 }
 
-/* Parses a query parameter as a number between the bounds. *value is unchanged if it is absent. */
+/* Parses a query parameter as a number between the bounds. If it is absent *value is unchanged. */
 static enum kd_status read_number(const struct kd_request *request, const char *name, double low, double high,
                                   double *value, struct kd_error *error)
 {
@@ -149,7 +149,7 @@ static enum kd_status read_number(const struct kd_request *request, const char *
     return KD_OK;
 }
 
-/* Parses the query's limits of quality reduction. *said: at least one is given. */
+/* Parses the limits of quality reduction in the query. *said: whether it has at least one. */
 static enum kd_status read_pace(const struct kd_request *request, struct kd_session_pace *pace, bool *said,
                                 struct kd_error *error)
 {
@@ -165,7 +165,8 @@ done:
     return status;
 }
 
-/* Handles Idempotency-Key: true if *result answers the request, by the earlier session or a refusal. */
+/* Handles Idempotency-Key. Returns true if the request is answered in *result, with the earlier session or a
+ * refusal. */
 static bool made_before(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_session_state state;
@@ -215,7 +216,7 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     kd_session_promise(session, &request->once);
     kd_session_state(session, &state);
     result = answer_created(request, session, &state);
-    /* the client does not know it and cannot ask again */
+    /* The client does not know the session, and without a key cannot request it again. */
     if (request->status != MHD_HTTP_CREATED && !*request->once.key)
         kd_session_end(session);
     kd_session_release(session);
@@ -230,7 +231,7 @@ static enum MHD_Result refuse_patch(struct kd_request *request, const struct kd_
     return kd_reply_problem(request, &problem);
 }
 
-/* Parses the order of a patch among concurrent ones. */
+/* Parses the order of a patch among patches that are sent at the same time. */
 static enum kd_status read_order(const struct kd_request *request, uint64_t *order, struct kd_error *error)
 {
     const char *text = kd_target_value(&request->target, "order");
@@ -241,7 +242,7 @@ static enum kd_status read_order(const struct kd_request *request, uint64_t *ord
     return KD_OK;
 }
 
-/* With "Prefer: return=minimal" (RFC 7240) the client does not need the scene. */
+/* Whether the request has "Prefer: return=minimal" (RFC 7240), so that the client does not need the scene. */
 static bool prefers_little(struct kd_request *request)
 {
     struct kd_buffer prefer = kd_reply_header_list(request, "Prefer");
@@ -339,8 +340,8 @@ enum MHD_Result kd_handle_session(struct kd_request *request)
     return result;
 }
 
-/* Parses {"amplitude": x}, {} or an empty body; *amplitude is unchanged if absent. Returns KD_EINVAL without a pointer
- * if it is no JSON object. */
+/* Parses {"amplitude": x}, {} or an empty body. If the member is absent *amplitude is unchanged. Returns KD_EINVAL
+ * without a pointer if the body is no JSON object. */
 static enum kd_status read_strike(const struct kd_buffer *body, double *amplitude, struct kd_error *error)
 {
     cJSON *tree = NULL;

@@ -8,25 +8,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define EXPOSURE_MS 2000.0 /* time constant of auto exposure: it follows 63 % of a change in this time */
-#define IDLE_MS 5e3        /* after the latest change by hand, other work of the client takes precedence */
-#define SURE 0.02          /* part of a picture after which the remaining time is estimated */
-/* frames of a session that are rendered and not encoded, so that one is traced while another is encoded */
+#define EXPOSURE_MS 2000.0 /* time constant of auto exposure: within this time it follows 63 % of a change */
+#define IDLE_MS 5e3        /* when the user has changed nothing for this long, other work of the client goes first */
+#define SURE 0.02          /* fraction of a picture that must be done before the remaining time is estimated */
+/* Limit of a session's frames that are rendered but not encoded. One can be traced while another is encoded. */
 #define ENCODING_MAX 2
 
 struct kd_session_frame {
-    struct kd_render_job job; /* first member: the queue stores a pointer to it */
+    struct kd_render_job job; /* must be the first member: the queue stores a pointer to it */
     struct kd_session *session;
     uint64_t number;
     unsigned revision;
     double begun_ms;
     struct kd_frame_decision decision;
-    struct kd_dynamic_bodies *crowd; /* the crowd in its scene; a reference */
-    double fraction;                 /* part that is done */
-    bool rendered, last;             /* last: no refinement and no other frame follows */
+    struct kd_dynamic_bodies *crowd; /* bodies of a playground in its scene; a counted reference */
+    double fraction;                 /* fraction of the frame that is done */
+    bool rendered, last;             /* last: neither a refinement nor another frame follows */
 };
 
-/* Functions are called with the lock unless a comment says otherwise. */
+/* The functions below are called with the lock unless a comment says otherwise. */
 
 static void progress(struct kd_render_job *job, double fraction);
 static void rendered(struct kd_render_job *job);
@@ -39,15 +39,15 @@ static void fail(struct kd_session *s, const struct kd_error *error)
     kd_session_wake(s);
 }
 
-/* Slows auto exposure while only time advances. It depends on the few brightest pixels, which show different particles
- * from frame to frame, so the picture would flicker. */
+/* Slows auto exposure while only time advances. Auto exposure depends on the few brightest pixels, which show different
+ * particles in each frame. Unslowed it would make the picture flicker. */
 static void follow_exposure(const struct kd_session *s, double now, struct kd_plan *plan)
 {
     plan->exposure_from = s->exposure;
     plan->exposure_share = -expm1(-fmax(now - s->exposed_ms, 1) / EXPOSURE_MS);
 }
 
-/* Makes the frame for the queue. NULL: *error says why it cannot. */
+/* Makes a frame for the render queue. NULL: it cannot be made; *error says why. */
 static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd_scene *scene,
                                            const struct kd_frame_decision *decision, double now, struct kd_error *error)
 {
@@ -108,12 +108,12 @@ void kd_session_pump(struct kd_session *s)
     }
     s->on_path = scene;
     const bool flies = kd_session_on_its_way(s, now) || kd_scene_falls(&scene), moves = flies || kd_emit_moves(&scene);
-    /* a scene that has come to rest since the latest frame differs from that frame too */
+    /* If the scene moved in the latest frame and is at rest now, the next frame differs as well. */
     if (moves || s->moved || s->crowd_moved)
         kd_governor_changed(&s->governor, now, &scene, flies || s->flew);
     const struct kd_frame_decision decision = kd_governor_decide(&s->governor, now);
     if (decision.wait_ms > 0)
-        return; /* the sweep calls again */
+        return; /* the regular check of sessions calls this again */
     struct kd_session_frame *live = make_frame(s, &scene, &decision, now, &error);
     if (!live) {
         fail(s, &error);
@@ -158,7 +158,7 @@ static void add_cost(struct kd_frame_cost *cost, const char *pass, double ms)
         cost->total_ms = ms;
 }
 
-/* Cost of a frame without its encoding, which overlaps with the next frame and takes a tenth of the time or less
+/* Cost of a frame without its encoding. Encoding overlaps with the next frame, and takes a tenth of the time or less
  * (bench/live.py). */
 static struct kd_frame_cost cost_of(const struct kd_render_job *job)
 {
@@ -191,7 +191,7 @@ void kd_session_expect(struct kd_session *s, const struct kd_plan *plan)
     kd_governor_expect(&s->governor, &reused);
 }
 
-/* On the render thread, without the lock. */
+/* Stores the progress of a frame. Called on the render thread, without the lock. */
 static void progress(struct kd_render_job *job, double fraction)
 {
     struct kd_session_frame *live = (struct kd_session_frame *)job;
@@ -213,7 +213,7 @@ struct kd_session_progress kd_session_progress_of(const struct kd_session *s, do
     };
 }
 
-/* On the render thread, without the lock. The next frame may be traced while this one is encoded. */
+/* Called on the render thread, without the lock. The next frame may be traced while this one is encoded. */
 static void rendered(struct kd_render_job *job)
 {
     struct kd_session_frame *live = (struct kd_session_frame *)job;
@@ -251,7 +251,7 @@ static void publish(struct kd_session *s, struct kd_session_frame *live)
                                        s->interval_ms > 0 ? 1e3 / s->interval_ms : 0 };
     struct kd_live_frame *frame = kd_live_frame_make(&live->job, &note);
     if (!frame)
-        return; /* out of memory: the next frame is tried */
+        return; /* out of memory: only this frame is lost */
     kd_live_frame_release(s->latest);
     s->latest = frame;
     s->all->frames++;
@@ -260,7 +260,8 @@ static void publish(struct kd_session *s, struct kd_session_frame *live)
     kd_session_add_kinds(s);
 }
 
-/* On a thread of the queue, without the lock. */
+/* Publishes a finished frame, or records its failure; then begins the next frame. Called on a thread of the queue,
+ * without the lock. */
 static void done(struct kd_render_job *job)
 {
     struct kd_session_frame *live = (struct kd_session_frame *)job;
@@ -279,7 +280,7 @@ static void done(struct kd_render_job *job)
         publish(s, live);
     else if (job->status != KD_ECANCELLED &&
              (job->status != KD_EDEVICE ||
-              kd_render_queue_lost(all->params.renders, NULL))) /* after a reopened device the next frame may succeed */
+              kd_render_queue_lost(all->params.renders, NULL))) /* after a reopening the next frame may succeed */
         fail(s, &job->error);
     kd_session_pump(s);
     kd_session_unref(s);

@@ -8,7 +8,7 @@
 
 #define COUNTS_MS 20. /* how long a reader of counts waits for the lock */
 
-#define TARGET_MS 33.0 /* target duration of a frame while the scene changes */
+#define TARGET_MS 33.0 /* intended time of a frame while the scene changes */
 
 enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struct kd_sessions **out,
                                   struct kd_error *error)
@@ -22,7 +22,7 @@ enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struc
     return KD_OK;
 }
 
-/* Functions from here on are called with the lock. */
+/* The functions from here on are called with the lock. */
 
 void kd_session_unref(struct kd_session *s)
 {
@@ -69,7 +69,7 @@ enum kd_status kd_session_scene(const struct kd_session *s, double now, struct k
     return status;
 }
 
-/* The present scene; where the path's scene is not valid, the latest valid one. */
+/* Returns the present scene; if the path's scene is not valid now, the latest valid one. */
 static struct kd_scene scene_now(const struct kd_session *s, double now)
 {
     struct kd_scene scene;
@@ -77,7 +77,7 @@ static struct kd_scene scene_now(const struct kd_session *s, double now)
     return kd_session_scene(s, now, &scene, &error) ? s->on_path : scene;
 }
 
-/* Functions from here on take the lock. */
+/* The functions from here on take the lock. */
 
 enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error)
 {
@@ -119,7 +119,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
         return kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a session");
     }
     s->all = all;
-    s->references = 2; /* for the list and the caller */
+    s->references = 2; /* one for the list, one for the caller */
     s->crowded = crowded;
     snprintf(s->demand.client, sizeof s->demand.client, "%s", client);
     s->scene = *scene;
@@ -254,13 +254,14 @@ enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t l
 {
     struct kd_plan plan;
     double now = kd_clock_ms();
-    if (order && order <= s->order) { /* only the HTTP thread writes s->order */
+    if (order && order <= s->order) { /* no lock is needed, because only the HTTP thread writes s->order */
         kd_session_state(s, out);
         return KD_OK;
     }
     pthread_mutex_lock(&s->all->lock);
     struct kd_scene scene = scene_now(s, now);
-    pthread_mutex_unlock(&s->all->lock); /* the scene cannot change meanwhile: only the HTTP thread patches */
+    /* the scene cannot change meanwhile, because only the HTTP thread patches it */
+    pthread_mutex_unlock(&s->all->lock);
     enum kd_status status;
     KD_TRY(kd_scene_patch(&scene, text, length, error));
     KD_TRY(kd_scene_resolve(&scene, s->all->params.assets, error));
@@ -371,7 +372,8 @@ enum kd_status kd_session_stop(struct kd_session *s, struct kd_error *error)
     pthread_mutex_lock(&s->all->lock);
     const bool goes = s->path.n_keys;
     const struct kd_scene scene = scene_now(s, now);
-    pthread_mutex_unlock(&s->all->lock); /* the scene cannot change meanwhile: only the HTTP thread changes it */
+    /* the scene cannot change meanwhile, because only the HTTP thread changes it */
+    pthread_mutex_unlock(&s->all->lock);
     enum kd_status status = KD_OK;
     if (!goes)
         return status;

@@ -1,4 +1,4 @@
-/* Viewers of sessions, and the periodic sweep. */
+/* Viewers of sessions, and the regular check of all sessions. */
 #include "base/log.h"
 #include "base/clock.h"
 #include "server/session/internal.h"
@@ -9,7 +9,7 @@
 
 #define LOOK_MS 1000.0 /* interval of checks for disconnected clients */
 
-/* Called with the lock. */
+/* Resumes the viewer's connection. Called with the lock. */
 static void wake(struct kd_viewer *viewer)
 {
     if (!viewer->waiting)
@@ -75,7 +75,7 @@ static void give(struct kd_viewer *viewer, struct kd_live_frame *frame, struct k
     *out = frame;
 }
 
-/* Called with the lock. */
+/* What viewers' calls of kd_viewer_next return. Called with the lock. */
 static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame **frame, struct kd_error *error)
 {
     struct kd_session *s = viewer->session;
@@ -96,12 +96,12 @@ static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame *
         give(viewer, owed, frame);
         return KD_VIEWER_FRAME;
     }
-    if (viewer->late && !newer) { /* otherwise the frame comes as soon as its encoding is done */
+    if (viewer->late && !newer) { /* if there is a newer frame, it comes as soon as its encoding is done */
         viewer->late = false;
         return KD_VIEWER_LATE;
     }
     viewer->waiting = true;
-    MHD_suspend_connection(viewer->mhd); /* before a wake-up can happen, which needs the lock */
+    MHD_suspend_connection(viewer->mhd); /* suspended before the connection can be resumed, which needs the lock */
     kd_session_add_kinds(s);
     kd_session_pump(s);
     return KD_VIEWER_LATER;

@@ -1,0 +1,6716 @@
+// The requests and answers of a kerrd server as types. This file is generated: change src/server/openapi, then run
+// clients/javascript/generate.py.
+
+/** A body that is not JSON. */
+export type Binary = Blob | ArrayBuffer | Uint8Array | string;
+
+/** A merge patch (RFC 7396): null takes a field to its default; of a list, single elements by their index. */
+export type Patch<T> = T extends readonly (infer E)[]
+  ? T | { [index: number]: Patch<E> | null }
+  : T extends object
+    ? { [K in keyof T]?: Patch<T[K]> | null }
+    : T;
+
+/** The name of a preset. */
+export type PresetName =
+  | 'smooth' | 'schwarzschild' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on' | 'face-on' | 'photon-rings'
+  | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk' | 'star-behind' | 'companions'
+  | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4'
+  | 'gold-5' | 'riaf' | 'torus';
+
+export interface Scene {
+  /** version of this document format. */
+  version?: 1;
+  /** the hole. */
+  spacetime?: {
+    /**
+     * spin parameter a; a < 0 is a disk retrograde to its hole; in M; -0.999999999999 to 0.999999999999; default
+     * 0.7.
+     */
+    spin?: number;
+    /**
+     * mass of the hole; sets the temperature when disk.colour is "accretion"; in solar masses; 0.001 to 1e+12;
+     * default 100000000.
+     */
+    mass_msun?: number;
+    /**
+     * (angular diameter) distance of the hole: with its mass it says how wide a picture is on the sky, for a beam
+     * and a scale; in pc; 0.001 to 100000000000; default 260000.
+     */
+    distance_pc?: number;
+  };
+  /** where the observer is and what it looks at. */
+  camera?: {
+    /** Boyer-Lindquist radius of the observer; in M; 0.01 to 10000000; default "infinity". */
+    r?: 'infinity' | number;
+    /**
+     * polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
+     * default 82.
+     */
+    inclination_deg?: number;
+    /**
+     * Boyer-Lindquist azimuth of the observer; of one that falls, ingoing Kerr-Schild azimuth, the same far away;
+     * in degrees; -360 to 360; default 0.
+     */
+    azimuth_deg?: number;
+    /**
+     * state of motion at a finite radius; static: at rest with respect to infinity; zamo: with zero angular
+     * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
+     * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
+     * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
+     * momentum; default "static".
+     */
+    observer?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+    /** velocity outwards, past one of zero angular momentum (observer: velocity); in c; -1 to 1; default 0. */
+    velocity_r?: number;
+    /** velocity away from the north pole, likewise (observer: velocity); in c; -1 to 1; default 0. */
+    velocity_theta?: number;
+    /** velocity along the disk's rotation, likewise (observer: velocity); in c; -1 to 1; default 0. */
+    velocity_phi?: number;
+    /**
+     * radius from which the observer falls, at rest there but for its angular momentum (observer: infall); in M; 1
+     * to 10000000; default "infinity".
+     */
+    infall_from?: 'infinity' | number;
+    /**
+     * energy per mass of the falling observer; rest: as infall_from has it (observer: infall); -100 to 1000;
+     * default "rest".
+     */
+    infall_energy?: 'rest' | number;
+    /**
+     * angular momentum per mass of the falling observer, which moves in r and azimuth, not in latitude (observer:
+     * infall); in M; -10000 to 10000; default 0.
+     */
+    infall_momentum?: number;
+    /**
+     * plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: angle round
+     * the critical curve against the logarithm of the distance to it, at infinity only; equirectangular: all
+     * directions from a finite radius, longitude across and latitude upwards; fulldome: the angle from the middle
+     * as the distance from it, 90 degrees at the nearer edges, from a finite radius; auto: plane or pinhole,
+     * whichever fits camera.r; default "auto".
+     */
+    projection?: 'auto' | 'plane' | 'pinhole' | 'ring' | 'equirectangular' | 'fulldome';
+    /** width of the image plane (plane projection); in M; 1e-06 to 10000000; default 46. */
+    field_m?: number;
+    /**
+     * the same width on the sky, at spacetime.mass_msun and spacetime.distance_pc: camera.field_m is what it comes
+     * to; none: camera.field_m says it; in microarcseconds; 1e-12 to 1e+12; default "none".
+     */
+    field_uas?: 'none' | number;
+    /** horizontal field of view (pinhole projection); in degrees; 1e-06 to 179; default 50. */
+    fov_deg?: number;
+    /** image-plane alpha at the middle of the picture (plane); in M; -10000000 to 10000000; default 0. */
+    centre_alpha?: number;
+    /** image-plane beta at the middle of the picture (plane); in M; -10000000 to 10000000; default 0. */
+    centre_beta?: number;
+    /** look to the right of the hole (from a finite radius); in degrees; -180 to 180; default 0. */
+    yaw_deg?: number;
+    /** look above the hole (from a finite radius); in degrees; -90 to 90; default 0. */
+    pitch_deg?: number;
+    /**
+     * turn the camera clockwise about its axis; ring: the angle in the middle of the picture, 0 at alpha > 0,
+     * rising to the right; in degrees; -360 to 360; default 0.
+     */
+    roll_deg?: number;
+    /**
+     * pair: two pictures side by side, the left eye's on the left, each image.width wide and in pinhole projection;
+     * none: one eye; default "none".
+     */
+    stereo?: 'none' | 'pair';
+    /**
+     * distance of the eyes, across the way the camera looks (stereo: pair); in M; 1e-06 to 1000000; default 0.5.
+     */
+    eye_distance?: number;
+    /**
+     * log10 of the distance to the critical curve, over its radius, at the upper and lower edge (ring); in decades;
+     * -12 to 0; default 0.
+     */
+    ring_decades_max?: number;
+    /**
+     * the same at the middle line, above which rays pass outside the curve and below which inside (ring); in
+     * decades; -13 to -1; default -10.
+     */
+    ring_decades_min?: number;
+  };
+  /** the accretion disk in the equatorial plane, turning towards +phi. */
+  disk?: {
+    /**
+     * radial flux: none, the exact Page-Thorne integral, or the Newtonian thin disk cut at the ISCO; particles: the
+     * exact one, made of orbiting particles; default "novikov-thorne".
+     */
+    model?: 'none' | 'novikov-thorne' | 'shakura-sunyaev' | 'particles';
+    /** inner edge; never inside the ISCO; in M; 1 to 1000000; default "isco". */
+    inner?: 'isco' | number;
+    /** outer edge; larger than the inner one; in M; 1 to 1000000; default 22. */
+    outer?: number;
+    /** the outer fraction of the radius over which the disk fades out; 0 cuts it sharply; 0 to 1; default 0.7. */
+    taper?: number;
+    /** opacity of one crossing; 1 is optically thick; 0 to 1; default 1. */
+    opacity?: number;
+    /**
+     * optical depth along the normal where the disk is brightest, elsewhere as its flux: a crossing takes 1 -
+     * exp(-depth/cos) of disk.opacity, by the angle of emission in the gas's frame; 0: opacity is the same
+     * everywhere; 0 to 1000000; default 10.
+     */
+    emission_opacity?: number;
+    /**
+     * height of the gas over its distance from the axis, at 10 M: where its density has fallen to exp(-1/2); it has
+     * the thin disk's optical depth from top to bottom; 0: a thin disk; 0 to 0.5; default 0.
+     */
+    height?: number;
+    /** power of the distance from the axis that the ratio grows as; -0.5 to 0.5; default 0. */
+    flare?: number;
+    /**
+     * temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd; default "peak".
+     */
+    colour?: 'peak' | 'accretion';
+    /**
+     * largest effective temperature of the disk, in its own frame (colour: peak); in K; 300 to 1000000000; default
+     * 3600.
+     */
+    peak_temperature_k?: number;
+    /**
+     * accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin; in Eddington
+     * rates; 1e-12 to 1000; default 0.1.
+     */
+    mdot_edd?: number;
+    /** colour temperature over effective temperature; 1 to 3; default 1. */
+    hardening?: number;
+    /**
+     * brightness: bolometric, g^4 F; or visible, the luminance of the Planck spectrum as the eye weighs it; default
+     * "bolometric".
+     */
+    band?: 'bolometric' | 'visible';
+    /** the Doppler shift and beaming of the orbiting gas; default true. */
+    doppler?: boolean;
+    /** gravitational redshift and time dilation of the orbiting gas; default true. */
+    redshift?: boolean;
+    /** number of particles (model: particles); 1000 to 10000000; default 300000. */
+    particles?: number;
+    /** another number, other particles (model: particles); 0 to 2147483647; default 1. */
+    seed?: number;
+    /**
+     * particles per area fall as r to this power; 2 puts as many into each octave of r (model: particles); 0 to 4;
+     * default 2.
+     */
+    density_index?: number;
+    /**
+     * share of the particles that fall from the ISCO on its energy and angular momentum; none do where disk.inner
+     * is not "isco" (model: particles); 0 to 0.5; default 0.02.
+     */
+    plunging?: number;
+    /**
+     * temperature of the plunging gas over the disk's largest; 0: it is not seen (model: particles); 0 to 1;
+     * default 0.7.
+     */
+    plunging_temperature?: number;
+    /**
+     * largest oscillations in latitude, radians, and in r over r, the latter times (kappa/Omega)^2, which vanishes
+     * at the ISCO (model: particles); 0 to 0.2; default 0.02.
+     */
+    epicycles?: number;
+    /**
+     * each ray shows particles, gas and spots where they were when its light left them, instead of all at one
+     * coordinate time; default false.
+     */
+    slow_light?: boolean;
+    /** turbulence in the gas of the smooth disk models. */
+    gas?: {
+      /**
+       * turbulence: standard deviation of the logarithm of the flux, and of the optical depth; 0: a smooth disk; 0 to
+       * 3; default 0.8.
+       */
+      amplitude?: number;
+      /** scales of the turbulence, each about half the one before; 1 to 8; default 6. */
+      octaves?: number;
+      /** size of the largest eddies, over r, before they are drawn out; 0.02 to 2; default 0.4. */
+      scale?: number;
+      /**
+       * azimuth by which streaks trail, radians for each unit of ln r; they are 1 + shear^2 times as long as wide;
+       * below 0 they lead; -20 to 20; default 5.
+       */
+      shear?: number;
+      /** another number, other gas; 0 to 2147483647; default 1. */
+      seed?: number;
+    };
+  };
+  /** hot spots: Gaussians in the equatorial plane that go round with the gas; up to 16; default []. */
+  spots?: {
+    /**
+     * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+     * such spot; 0 to 1000000; default 0.
+     */
+    brightness?: number;
+    /**
+     * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+     * default 9.
+     */
+    r?: number;
+    /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+    phase_deg?: number;
+    /**
+     * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+     */
+    size?: number;
+    /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+    index?: number;
+    /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+    temperature_k?: number;
+  }[];
+  /** bodies: spheres that shine, before the hole, behind it and in the disk; up to 8; default []. */
+  bodies?: {
+    /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+    radius?: number;
+    /**
+     * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+     * default 15.
+     */
+    r?: number;
+    /**
+     * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
+     * default 90.
+     */
+    inclination_deg?: number;
+    /**
+     * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
+     * default 0.
+     */
+    phase_deg?: number;
+    /**
+     * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
+     * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
+     * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
+     * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
+     * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
+     * momentum; default "keplerian".
+     */
+    motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+    /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+    velocity_r?: number;
+    /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+    velocity_theta?: number;
+    /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+    velocity_phi?: number;
+    /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+    temperature_k?: number;
+    /**
+     * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+     * 1000000000; default 1.
+     */
+    brightness?: number;
+    /**
+     * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
+     * to 1; default 0.6.
+     */
+    limb_darkening?: number;
+  }[];
+  /** matter all along the rays. */
+  volume?: {
+    /**
+     * matter all along the rays: none; uniform, a shell that is the same everywhere and does not move: what light
+     * and opacity along bent rays come to; at one radio frequency gold, the analytic model of Gold et al. 2020,
+     * riaf, a hot, thin flow whose density, temperature and magnetic field are powers of r, torus, a thick one in
+     * equilibrium, and grid, numbers from a file; default "none".
+     */
+    model?: 'none' | 'uniform' | 'gold' | 'riaf' | 'torus' | 'grid';
+    /**
+     * inner edge; horizon: as near to it as it may be, a hundredth outside it, or a two-thousandth for what is seen
+     * at a radio frequency; of a torus half of the radius of its largest pressure; in M; 1 to 30000; default
+     * "horizon".
+     */
+    inner?: 'horizon' | number;
+    /** outer edge; larger than the inner one; in M; 1 to 30000; default 20. */
+    outer?: number;
+    /**
+     * light of a length of M, in its own frame, in units of the disk's brightest (model: uniform); in 1/M; 0 to
+     * 1e+30; default 0.02.
+     */
+    emissivity?: number;
+    /** optical depth of a length of M, in its own frame (model: uniform); in 1/M; 0 to 1e+30; default 0.02. */
+    opacity?: number;
+    /**
+     * colour: that of a black body of this temperature, shifted by g (model: uniform); in K; 300 to 1000000000;
+     * default 6500.
+     */
+    temperature_k?: number;
+    /** the frequency shift of the matter (model: uniform); default true. */
+    redshift?: boolean;
+    /** frequency that is observed (models: gold, riaf, torus, grid); in GHz; 1e-06 to 1e+12; default 230. */
+    frequency_ghz?: number;
+    /**
+     * density, temperature, velocity and magnetic field of electrons on a grid of r, theta and phi, an NPZ file
+     * (model: grid); without one there is no matter; default null.
+     */
+    grid?: null | string;
+    /**
+     * factor on the density of the file; its magnetic field is multiplied by the square root of this (model: grid);
+     * 0 to 1e+30; default 1.
+     */
+    grid_scale?: number;
+    /**
+     * C n0: emissivity at 230 GHz where the density is largest (model: gold); in erg/(s cm^3 Hz sr); 0 to 1e+30;
+     * default 3e-18.
+     */
+    gold_emission?: number;
+    /**
+     * alpha: emissivity goes as nu^-alpha, absorptivity as nu^-(2.5 + alpha) (model: gold); -10 to 10; default 0.
+     */
+    gold_index?: number;
+    /** h: density goes as exp(-(h cos(theta))^2/2); 0: round (model: gold); 0 to 10000; default 0. */
+    gold_flattening?: number;
+    /**
+     * l0: angular momentum, l0 R^(3/2)/(1 + R) an energy of 1, R = r sin(theta); 0: zero angular momentum (model:
+     * gold); -1 to 1; default 0.
+     */
+    gold_momentum?: number;
+    /**
+     * A: absorptivity in 1/cm over emissivity in erg/(s cm^3 Hz sr), at 230 GHz (model: gold); 0 to 1e+30; default
+     * 0.
+     */
+    gold_absorption?: number;
+    /**
+     * electrons at 1 M in the plane, as their power law has it (model: riaf), or where there are most of them
+     * (model: torus); in 1/cm^3; 0 to 1e+30; default 30000000.
+     */
+    density_cm3?: number;
+    /** density goes as r^-p, p being this number (model: riaf); -10 to 10; default 1.1. */
+    density_index?: number;
+    /** temperature of the electrons at 1 M (model: riaf); in K; 1 to 1e+30; default 300000000000. */
+    electron_temperature_k?: number;
+    /** temperature goes as r^-p, p being this number (model: riaf); -10 to 10; default 0.84. */
+    temperature_index?: number;
+    /**
+     * height over the distance from the axis at which the density has fallen to exp(-1/2); 0: it is the same at all
+     * heights (model: riaf); 0 to 10; default 0.1.
+     */
+    height?: number;
+    /**
+     * magnetic pressure over the rest energy of a proton for each electron, at 1 M (model: riaf); 0 to 1e+12;
+     * default 0.016666666666666666.
+     */
+    magnetisation?: number;
+    /** magnetisation goes as r^-p, p being this number (model: riaf); -10 to 10; default 1. */
+    magnetisation_index?: number;
+    /**
+     * magnetic field: round the axis, along it, or along the radius, made perpendicular to the motion (models:
+     * riaf, torus); default "toroidal".
+     */
+    field?: 'toroidal' | 'vertical' | 'radial';
+    /**
+     * motion: with the circular orbit's angular velocity at each r, and falling in from the ISCO; or at rest for
+     * observers of zero angular momentum (model: riaf); default "orbits".
+     */
+    flow?: 'orbits' | 'rest';
+    /**
+     * energies of the electrons (models: riaf, torus, grid); kappa: thermal ones with a tail of a power law;
+     * default "thermal".
+     */
+    electrons?: 'thermal' | 'power-law' | 'kappa';
+    /** p: electrons of energy gamma go as gamma to minus this (electrons: power-law); 1.1 to 10; default 3.5. */
+    electrons_index?: number;
+    /**
+     * kappa: electrons of high energy gamma go as gamma to 1 minus this (electrons: kappa); 3.1 to 7.5; default 4.
+     */
+    kappa?: number;
+    /**
+     * where the pressure is largest; the inner edge is volume.inner (model: torus); in M; 1 to 1000; default 12.
+     */
+    torus_radius?: number;
+    /** of the gas (model: torus); 1.1 to 2; default 1.4444444444444444. */
+    adiabatic_index?: number;
+    /** temperature of the ions over that of the electrons (model: torus); 0 to 1000000; default 3. */
+    temperature_ratio?: number;
+    /** pressure of the gas over that of the magnetic field (model: torus); 1e-06 to 1e+12; default 10. */
+    beta?: number;
+    /** least energy of the electrons over that at rest (electrons: power-law); 1 to 1000000000; default 30. */
+    gamma_min?: number;
+    /** largest energy of the electrons, more than the least (electrons: power-law); 1 to 1e+12; default 100000. */
+    gamma_max?: number;
+    /**
+     * flux that the picture shall have: the density (of gold the emissivity, of a grid its factor) is multiplied by
+     * what it takes, which kerrd finds by small pictures and answers tell; 0: left as it is (models: gold, riaf,
+     * torus, grid); in Jy; 0 to 1e+12; default 0.
+     */
+    normalise_to_jy?: number;
+    /**
+     * frequency of that flux; observed: the one that the picture shows; in GHz; 1e-06 to 1e+12; default "observed".
+     */
+    normalise_ghz?: 'observed' | number;
+  };
+  /** stylised jets along the spin axis. */
+  jets?: {
+    /**
+     * light of a length of M in its own frame, carried back to the inner edge, where it begins smoothly, in units
+     * of the disk's brightest; 0: there are none; in 1/M; 0 to 1000000000; default 0.
+     */
+    brightness?: number;
+    /** half of the angle of the cone; in degrees; 1 to 60; default 8. */
+    opening_deg?: number;
+    /** Lorentz factor: how fast the light's source flies outwards; 1 to 100; default 2. */
+    lorentz?: number;
+    /** where the light begins, at least a twentieth outside the horizon; in M; 1 to 1000000; default 4. */
+    inner?: number;
+    /** where it ends; larger than the inner edge; in M; 1 to 1000000; default 60. */
+    outer?: number;
+    /** light along the jet goes as r to minus this; -10 to 10; default 1.5. */
+    falloff?: number;
+    /** from a bright spine, 0, to bright edges, 1; 0 to 1; default 0.5. */
+    sheath?: number;
+    /** brightness goes as the frequency shift to 2 plus this; -10 to 10; default 0.7. */
+    spectral_index?: number;
+    /** colour: that of a black body of this temperature, not shifted; in K; 300 to 1000000000; default 14000. */
+    temperature_k?: number;
+    /** the jet below the disk, too; default true. */
+    counterjet?: boolean;
+  };
+  /**
+   * how light is polarised: what layers and ticks show of it; of light from the disk's plane no picture does.
+   */
+  polarization?: {
+    /**
+     * of light from the disk's plane: none; synchrotron, across polarization.field and the light, in the gas's
+     * frame; or scattering, of a deep atmosphere of free electrons, across the normal and the light; transfer: of a
+     * volume at a radio frequency, Stokes I, Q, U and V all along the rays; default "none".
+     */
+    model?: 'none' | 'synchrotron' | 'scattering' | 'transfer';
+    /**
+     * direction of the magnetic field in the plane: round the axis, outwards, or along the normal (model:
+     * synchrotron); default "toroidal".
+     */
+    field?: 'toroidal' | 'radial' | 'vertical';
+    /**
+     * electrons have energies E as E to minus this power p, and the light of a field in order is polarised by (p +
+     * 1)/(p + 7/3) (model: synchrotron); 1 to 10; default 3.
+     */
+    electron_index?: number;
+    /** part of that polarisation which disorder within a pixel leaves; 0 to 1; default 1. */
+    order?: number;
+    /**
+     * electrons turn the direction of light that passes (Faraday rotation), and make linear of circular
+     * polarisation and back (model: transfer); default true.
+     */
+    faraday?: boolean;
+    /**
+     * fit of the Faraday rotation by thermal electrons: of Shcherbakov 2008, or of Dexter 2016, as Huang and
+     * Shcherbakov 2011 have it (model: transfer); default "shcherbakov".
+     */
+    rotation?: 'shcherbakov' | 'dexter';
+  };
+  /** what lies at infinity. */
+  sky?: {
+    /**
+     * what lies at infinity: nothing; a celestial grid that shows the lensing; stars and a Milky Way that are made
+     * up; the stars of the Hipparcos catalogue over that Milky Way; or sky.image without stars; default "none".
+     */
+    model?: 'none' | 'grid' | 'stars' | 'catalogue' | 'image';
+    /**
+     * brightness of the sky in units of the disk's brightest surface brightness at g = 1: of the grid; of 21
+     * magnitudes a square arcsecond, by which stars and the Milky Way keep their true ratio; auto: 0.2, or 0.01 of
+     * stars and the Milky Way where something shines before them; 0 to 100; default "auto".
+     */
+    brightness?: 'auto' | number;
+    /** spacing of the celestial grid; in degrees; 1 to 90; default 15. */
+    grid_deg?: number;
+    /** brightness of the Milky Way, or of sky.image, over its own; 0: stars alone; 0 to 100; default 1. */
+    milky_way?: number;
+    /**
+     * picture of the whole sky in the place of the Milky Way that is made up (model: stars, catalogue, image):
+     * twice as wide as high, galactic longitude across, growing to the left from 0 in the middle, latitude upwards;
+     * its white is 21 magnitudes a square arcsecond; default null.
+     */
+    image?: null | string;
+    /** stars fainter than this are left out; in magnitudes; -2 to 14; default 14. */
+    limit_mag?: number;
+    /** another number, another sky that is made up; 0 to 2147483647; default 1. */
+    seed?: number;
+    /**
+     * galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra,
+     * m87: from azimuth 0 the hole stands before that one, as seen from the Earth, with the galactic or the
+     * celestial pole above; default "galactic".
+     */
+    orientation?: 'galactic' | 'equatorial' | 'sgra' | 'm87';
+    /**
+     * the sky is turned about the hole's axis by so much, as by camera.azimuth_deg; in degrees; -360 to 360;
+     * default 0.
+     */
+    turn_deg?: number;
+    /**
+     * and, after that, about the horizontal axis of the picture from azimuth 0; in degrees; -180 to 180; default 0.
+     */
+    tilt_deg?: number;
+  };
+  /** the size of the picture. */
+  image?: {
+    /** width of the picture; in pixels; 1 to 32768; default 1280. */
+    width?: number;
+    /** height of the picture; in pixels; 1 to 32768; default 720. */
+    height?: number;
+    /**
+     * rays along each side of a pixel: n gives n x n rays, averaged; auto: one, and 16 where the picture shows that
+     * one was not enough; 1 to 8; default 1.
+     */
+    samples?: 'auto' | number;
+    /**
+     * by how much of white a pixel of one ray may seem to be off before it is given more (samples: auto); 0.001 to
+     * 0.5; default 0.003.
+     */
+    pixel_error?: number;
+    /**
+     * so many times as many along each side of the pixels that the critical curve passes, where the photon ring is
+     * thinner than they are; at most 16 in all; 1 to 16; default 4.
+     */
+    critical_factor?: number;
+    /** bits a channel: 8 or 16; in bits; 8 to 16; default 8. */
+    bit_depth?: number;
+    /**
+     * what the file holds: the picture, or maps of the rays (docs/layers.md); of the first crossing on the disk, or
+     * behind _N of image order N; a PNG shows one in false colour, FITS, EXR, NPZ and NPY hold several as numbers;
+     * up to 16; default ["rgb"].
+     */
+    layers?: string[];
+    /**
+     * number at the lower end of the colours of a layer; auto: what docs/layers.md says of each; -1e+12 to 1e+12;
+     * default "auto".
+     */
+    layer_min?: 'auto' | number;
+    /** the same at their upper end; -1e+12 to 1e+12; default "auto". */
+    layer_max?: 'auto' | number;
+    /** a colour bar in the lower left corner of a layer in false colour; default true. */
+    legend?: boolean;
+    /** a part of the picture, made by itself, the same to the byte as there. */
+    tile?: {
+      /** columns of the picture to its left; in pixels; 0 to 32767; default 0. */
+      left?: number;
+      /** rows of the picture above it; in pixels; 0 to 32767; default 0. */
+      top?: number;
+      /** its width; 0: the whole picture is made, and no tile; in pixels; 0 to 32768; default 0. */
+      width?: number;
+      /** its height, likewise; in pixels; 0 to 32768; default 0. */
+      height?: number;
+    };
+  };
+  /** from brightness to the colours of the file. */
+  style?: {
+    /**
+     * a preset of what makes the look, which a document sets by naming it, but for the fields that it sets itself;
+     * none: nothing; default "film".
+     */
+    name?: 'none' | 'film' | 'raw' | 'dngr' | 'eht' | 'starless';
+    /**
+     * brightness as a power of two over the disk's brightest surface brightness at g = 1; auto: by what shines, and
+     * stars alone no further than that space is black; in stops; -40 to 40; default "auto".
+     */
+    exposure?: 'auto' | number;
+    /**
+     * aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours and compresses what is
+     * near white; default "aces".
+     */
+    tone_map?: 'aces' | 'srgb' | 'neutral';
+    /**
+     * share of bright light that a lens spreads round its place: all of what is over 0.6 of white, by an even knee
+     * from 0.2 on; 0: none; 0 to 1; default 0.4.
+     */
+    bloom?: number;
+    /**
+     * full width at half maximum of the round Gaussian beam of a telescope that sees the picture from
+     * spacetime.distance_pc; 0: none; in microarcseconds; 0 to 1e+12; default 0.
+     */
+    beam_uas?: number;
+    /**
+     * colour: that of light; heat: brightness in false colour, black, red, orange, white, by a lightness that is
+     * proportional to it; default "colour".
+     */
+    palette?: 'colour' | 'heat';
+    /**
+     * a bar of brightness (palette: heat; tone_map: srgb) in the lower left corner, a scale of the sky and the beam
+     * in the upper right one; default false.
+     */
+    colour_bar?: boolean;
+    /** half a step of ordered noise before rounding, against banding; default true. */
+    dither?: boolean;
+    /**
+     * a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * e^(-t/tau)
+     * cos(w t), the quasi-normal mode l = m = 2, n = 0 of the hole; 0: none; 0 to 1; default 0.
+     */
+    ringdown?: number;
+    /** time at which it was struck; before that nothing rings; in M; -1e+12 to 1e+12; default 0. */
+    ringdown_time?: number;
+  };
+  /** the source on the sky that the hole stands for: FITS files tell it, and no pixel depends on it. */
+  source?: {
+    /** the source on the sky that the hole stands for; default "none". */
+    name?: 'none' | 'm87' | 'sgra';
+    /** right ascension of the hole (ICRS); in degrees; 0 to 360; default 0. */
+    ra_deg?: number;
+    /** declination of the hole (ICRS); in degrees; -90 to 90; default 0. */
+    dec_deg?: number;
+    /** date of the picture, as a modified Julian date; in days; 0 to 1000000; default "none". */
+    mjd?: 'none' | number;
+  };
+  /** what goes on by itself in a live session; a still picture knows none of it. */
+  motion?: {
+    /** the observer goes round the axis; in degrees per second; -360 to 360; default 0. */
+    azimuth_rate_deg?: number;
+    /** coordinate time goes on; in M per second; -1000000 to 1000000; default 0. */
+    time_rate?: number;
+    /**
+     * the observer goes on by its own clock: it falls, to where a camera can be at last, or goes round, and
+     * coordinate time goes on as it does on its way; in M per second; 0 to 1000000; default 0.
+     */
+    proper_time_rate?: number;
+  };
+  /** how closely the rays are followed. */
+  accuracy?: {
+    /** how closely rays are followed, coarse to fine; reference is double precision; default "balanced". */
+    profile?: 'draft' | 'interactive' | 'balanced' | 'high' | 'reference';
+    /**
+     * relative error of the crossing radii to be held, by the accuracy table of the device, instead of the profile;
+     * 1e-18 to 0.1; default "profile".
+     */
+    tolerance?: 'profile' | number;
+    /** what traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6; default "auto". */
+    engine?: 'auto' | 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
+    /** of the arithmetic; auto: what the profile means; default "auto". */
+    precision?: 'auto' | 'f32' | 'f64';
+    /** steps of the integrator a half turn, a multiple of 4; 0: what the profile means; 0 to 2048; default 0. */
+    steps?: number;
+    /** equatorial crossings kept a ray: image orders 0 to n - 1; 1 to 8; default 3. */
+    orders?: number;
+  };
+  /** coordinate time of the picture; in M; -1e+12 to 1e+12; default 0. */
+  time?: number;
+}
+
+export type FieldPath =
+  | 'version' | 'spacetime.spin' | 'spacetime.mass_msun' | 'spacetime.distance_pc' | 'camera.r'
+  | 'camera.inclination_deg' | 'camera.azimuth_deg' | 'camera.observer' | 'camera.velocity_r' | 'camera.velocity_theta'
+  | 'camera.velocity_phi' | 'camera.infall_from' | 'camera.infall_energy' | 'camera.infall_momentum'
+  | 'camera.projection' | 'camera.field_m' | 'camera.field_uas' | 'camera.fov_deg' | 'camera.centre_alpha'
+  | 'camera.centre_beta' | 'camera.yaw_deg' | 'camera.pitch_deg' | 'camera.roll_deg' | 'camera.stereo'
+  | 'camera.eye_distance' | 'camera.ring_decades_max' | 'camera.ring_decades_min' | 'disk.model' | 'disk.inner'
+  | 'disk.outer' | 'disk.taper' | 'disk.opacity' | 'disk.emission_opacity' | 'disk.height' | 'disk.flare'
+  | 'disk.colour' | 'disk.peak_temperature_k' | 'disk.mdot_edd' | 'disk.hardening' | 'disk.band' | 'disk.doppler'
+  | 'disk.redshift' | 'disk.particles' | 'disk.seed' | 'disk.density_index' | 'disk.plunging'
+  | 'disk.plunging_temperature' | 'disk.epicycles' | 'disk.slow_light' | 'disk.gas.amplitude' | 'disk.gas.octaves'
+  | 'disk.gas.scale' | 'disk.gas.shear' | 'disk.gas.seed' | 'spots.0.brightness' | 'spots.0.r' | 'spots.0.phase_deg'
+  | 'spots.0.size' | 'spots.0.index' | 'spots.0.temperature_k' | 'spots.1.brightness' | 'spots.1.r'
+  | 'spots.1.phase_deg' | 'spots.1.size' | 'spots.1.index' | 'spots.1.temperature_k' | 'spots.2.brightness'
+  | 'spots.2.r' | 'spots.2.phase_deg' | 'spots.2.size' | 'spots.2.index' | 'spots.2.temperature_k'
+  | 'spots.3.brightness' | 'spots.3.r' | 'spots.3.phase_deg' | 'spots.3.size' | 'spots.3.index'
+  | 'spots.3.temperature_k' | 'spots.4.brightness' | 'spots.4.r' | 'spots.4.phase_deg' | 'spots.4.size'
+  | 'spots.4.index' | 'spots.4.temperature_k' | 'spots.5.brightness' | 'spots.5.r' | 'spots.5.phase_deg'
+  | 'spots.5.size' | 'spots.5.index' | 'spots.5.temperature_k' | 'spots.6.brightness' | 'spots.6.r'
+  | 'spots.6.phase_deg' | 'spots.6.size' | 'spots.6.index' | 'spots.6.temperature_k' | 'spots.7.brightness'
+  | 'spots.7.r' | 'spots.7.phase_deg' | 'spots.7.size' | 'spots.7.index' | 'spots.7.temperature_k'
+  | 'spots.8.brightness' | 'spots.8.r' | 'spots.8.phase_deg' | 'spots.8.size' | 'spots.8.index'
+  | 'spots.8.temperature_k' | 'spots.9.brightness' | 'spots.9.r' | 'spots.9.phase_deg' | 'spots.9.size'
+  | 'spots.9.index' | 'spots.9.temperature_k' | 'spots.10.brightness' | 'spots.10.r' | 'spots.10.phase_deg'
+  | 'spots.10.size' | 'spots.10.index' | 'spots.10.temperature_k' | 'spots.11.brightness' | 'spots.11.r'
+  | 'spots.11.phase_deg' | 'spots.11.size' | 'spots.11.index' | 'spots.11.temperature_k' | 'spots.12.brightness'
+  | 'spots.12.r' | 'spots.12.phase_deg' | 'spots.12.size' | 'spots.12.index' | 'spots.12.temperature_k'
+  | 'spots.13.brightness' | 'spots.13.r' | 'spots.13.phase_deg' | 'spots.13.size' | 'spots.13.index'
+  | 'spots.13.temperature_k' | 'spots.14.brightness' | 'spots.14.r' | 'spots.14.phase_deg' | 'spots.14.size'
+  | 'spots.14.index' | 'spots.14.temperature_k' | 'spots.15.brightness' | 'spots.15.r' | 'spots.15.phase_deg'
+  | 'spots.15.size' | 'spots.15.index' | 'spots.15.temperature_k' | 'bodies.0.radius' | 'bodies.0.r'
+  | 'bodies.0.inclination_deg' | 'bodies.0.phase_deg' | 'bodies.0.motion' | 'bodies.0.velocity_r'
+  | 'bodies.0.velocity_theta' | 'bodies.0.velocity_phi' | 'bodies.0.temperature_k' | 'bodies.0.brightness'
+  | 'bodies.0.limb_darkening' | 'bodies.1.radius' | 'bodies.1.r' | 'bodies.1.inclination_deg' | 'bodies.1.phase_deg'
+  | 'bodies.1.motion' | 'bodies.1.velocity_r' | 'bodies.1.velocity_theta' | 'bodies.1.velocity_phi'
+  | 'bodies.1.temperature_k' | 'bodies.1.brightness' | 'bodies.1.limb_darkening' | 'bodies.2.radius' | 'bodies.2.r'
+  | 'bodies.2.inclination_deg' | 'bodies.2.phase_deg' | 'bodies.2.motion' | 'bodies.2.velocity_r'
+  | 'bodies.2.velocity_theta' | 'bodies.2.velocity_phi' | 'bodies.2.temperature_k' | 'bodies.2.brightness'
+  | 'bodies.2.limb_darkening' | 'bodies.3.radius' | 'bodies.3.r' | 'bodies.3.inclination_deg' | 'bodies.3.phase_deg'
+  | 'bodies.3.motion' | 'bodies.3.velocity_r' | 'bodies.3.velocity_theta' | 'bodies.3.velocity_phi'
+  | 'bodies.3.temperature_k' | 'bodies.3.brightness' | 'bodies.3.limb_darkening' | 'bodies.4.radius' | 'bodies.4.r'
+  | 'bodies.4.inclination_deg' | 'bodies.4.phase_deg' | 'bodies.4.motion' | 'bodies.4.velocity_r'
+  | 'bodies.4.velocity_theta' | 'bodies.4.velocity_phi' | 'bodies.4.temperature_k' | 'bodies.4.brightness'
+  | 'bodies.4.limb_darkening' | 'bodies.5.radius' | 'bodies.5.r' | 'bodies.5.inclination_deg' | 'bodies.5.phase_deg'
+  | 'bodies.5.motion' | 'bodies.5.velocity_r' | 'bodies.5.velocity_theta' | 'bodies.5.velocity_phi'
+  | 'bodies.5.temperature_k' | 'bodies.5.brightness' | 'bodies.5.limb_darkening' | 'bodies.6.radius' | 'bodies.6.r'
+  | 'bodies.6.inclination_deg' | 'bodies.6.phase_deg' | 'bodies.6.motion' | 'bodies.6.velocity_r'
+  | 'bodies.6.velocity_theta' | 'bodies.6.velocity_phi' | 'bodies.6.temperature_k' | 'bodies.6.brightness'
+  | 'bodies.6.limb_darkening' | 'bodies.7.radius' | 'bodies.7.r' | 'bodies.7.inclination_deg' | 'bodies.7.phase_deg'
+  | 'bodies.7.motion' | 'bodies.7.velocity_r' | 'bodies.7.velocity_theta' | 'bodies.7.velocity_phi'
+  | 'bodies.7.temperature_k' | 'bodies.7.brightness' | 'bodies.7.limb_darkening' | 'volume.model' | 'volume.inner'
+  | 'volume.outer' | 'volume.emissivity' | 'volume.opacity' | 'volume.temperature_k' | 'volume.redshift'
+  | 'volume.frequency_ghz' | 'volume.grid' | 'volume.grid_scale' | 'volume.gold_emission' | 'volume.gold_index'
+  | 'volume.gold_flattening' | 'volume.gold_momentum' | 'volume.gold_absorption' | 'volume.density_cm3'
+  | 'volume.density_index' | 'volume.electron_temperature_k' | 'volume.temperature_index' | 'volume.height'
+  | 'volume.magnetisation' | 'volume.magnetisation_index' | 'volume.field' | 'volume.flow' | 'volume.electrons'
+  | 'volume.electrons_index' | 'volume.kappa' | 'volume.torus_radius' | 'volume.adiabatic_index'
+  | 'volume.temperature_ratio' | 'volume.beta' | 'volume.gamma_min' | 'volume.gamma_max' | 'volume.normalise_to_jy'
+  | 'volume.normalise_ghz' | 'jets.brightness' | 'jets.opening_deg' | 'jets.lorentz' | 'jets.inner' | 'jets.outer'
+  | 'jets.falloff' | 'jets.sheath' | 'jets.spectral_index' | 'jets.temperature_k' | 'jets.counterjet'
+  | 'polarization.model' | 'polarization.field' | 'polarization.electron_index' | 'polarization.order'
+  | 'polarization.faraday' | 'polarization.rotation' | 'sky.model' | 'sky.brightness' | 'sky.grid_deg' | 'sky.milky_way'
+  | 'sky.image' | 'sky.limit_mag' | 'sky.seed' | 'sky.orientation' | 'sky.turn_deg' | 'sky.tilt_deg' | 'image.width'
+  | 'image.height' | 'image.samples' | 'image.pixel_error' | 'image.critical_factor' | 'image.bit_depth'
+  | 'image.layers' | 'image.layer_min' | 'image.layer_max' | 'image.legend' | 'image.tile.left' | 'image.tile.top'
+  | 'image.tile.width' | 'image.tile.height' | 'style.name' | 'style.exposure' | 'style.tone_map' | 'style.bloom'
+  | 'style.beam_uas' | 'style.palette' | 'style.colour_bar' | 'style.dither' | 'style.ringdown' | 'style.ringdown_time'
+  | 'source.name' | 'source.ra_deg' | 'source.dec_deg' | 'source.mjd' | 'motion.azimuth_rate_deg' | 'motion.time_rate'
+  | 'motion.proper_time_rate' | 'accuracy.profile' | 'accuracy.tolerance' | 'accuracy.engine' | 'accuracy.precision'
+  | 'accuracy.steps' | 'accuracy.orders' | 'time';
+
+export interface RaysRequest {
+  /** of the hole, a/M; -1 to 1. */
+  spin?: number;
+  /** crossings of the equatorial plane that are wanted; 1 to 16. */
+  orders?: number;
+  observer?: {
+    /** from which the rays are followed back, M: outside the horizon; 1 to 10000000. */
+    r?: 'infinity' | number;
+    /** from the hole's axis; 0 to 180. */
+    inclination_deg?: number;
+    /**
+     * as camera.observer of a scene, at a finite r: rays are then directions in the observer's frame, [yaw, pitch]
+     * in degrees.
+     */
+    motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+    /** motion velocity: as camera.velocity_r; -1 to 1. */
+    velocity_r?: number;
+    /** motion velocity: as camera.velocity_theta; -1 to 1. */
+    velocity_theta?: number;
+    /** motion velocity: as camera.velocity_phi; -1 to 1. */
+    velocity_phi?: number;
+    /** motion infall: as camera.infall_from, M; 1 to 10000000. */
+    infall_from?: 'infinity' | number;
+    /** motion infall: as camera.infall_energy; -100 to 1000. */
+    infall_energy?: 'rest' | number;
+    /** motion infall: as camera.infall_momentum, M; -10000 to 10000. */
+    infall_momentum?: number;
+  };
+  accuracy?: {
+    /** as in a scene; without it, and without an engine, the closed form. */
+    profile?: 'draft' | 'interactive' | 'balanced' | 'high' | 'reference';
+    /** relative error of the crossing radii to be held, instead of the profile; 0 to 1. */
+    tolerance?: 'profile' | number;
+    /** auto: by profile or tolerance. */
+    engine?: 'auto' | 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
+    /** of the arithmetic; the closed form has f64 alone. */
+    precision?: 'auto' | 'f32' | 'f64';
+    /** a half period of the radial motion; some engines take fewer; 0 to 2048. */
+    steps?: number;
+  };
+  /** pairs [alpha, beta], in M; with observer.motion [yaw, pitch], in degrees; up to 1000000. */
+  rays: number[][];
+}
+
+export interface RaysObserver {
+  /** from which the rays are followed back, M: outside the horizon; 1 to 10000000. */
+  r: 'infinity' | number;
+  /** from the hole's axis; 0 to 180. */
+  inclination_deg: number;
+  /**
+   * as camera.observer of a scene, at a finite r: rays are then directions in the observer's frame, [yaw, pitch]
+   * in degrees.
+   */
+  motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+  /** motion velocity: as camera.velocity_r; -1 to 1. */
+  velocity_r?: number;
+  /** motion velocity: as camera.velocity_theta; -1 to 1. */
+  velocity_theta?: number;
+  /** motion velocity: as camera.velocity_phi; -1 to 1. */
+  velocity_phi?: number;
+  /** motion infall: as camera.infall_from, M; 1 to 10000000. */
+  infall_from?: 'infinity' | number;
+  /** motion infall: as camera.infall_energy; -100 to 1000. */
+  infall_energy?: 'rest' | number;
+  /** motion infall: as camera.infall_momentum, M; -10000 to 10000. */
+  infall_momentum?: number;
+}
+
+export interface RaysAccuracy {
+  engine: 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
+  precision: 'f32' | 'f64';
+  /** at least 0. */
+  steps: number;
+  /** at least 0. */
+  rays: number;
+  /** at least 0. */
+  undecided: number;
+  tolerance?: number;
+  /** at least 0. */
+  followed_again?: number;
+  /** at least 0. */
+  beyond?: number;
+  holds?: number;
+  worst_error?: number;
+  median_error?: number;
+}
+
+/** lengths and times in M, angles in radians. */
+export interface RayCrossing {
+  /** at least 0. */
+  order: number;
+  r?: number;
+  phi?: number;
+  delay?: number;
+  g?: number;
+}
+
+/** lengths and times in M, angles in radians. */
+export interface RaySky {
+  theta: number;
+  phi?: number;
+}
+
+/** lengths and times in M, angles in radians. */
+export interface Ray {
+  fate: 'captured' | 'escaped' | 'undecided';
+  crossings: RayCrossing[];
+  sky?: RaySky;
+  energy?: number;
+  error?: number;
+}
+
+export interface RaysAnswer {
+  spin: number;
+  observer: RaysObserver;
+  /** at least 0. */
+  orders: number;
+  accuracy: RaysAccuracy;
+  approximations: string[];
+  rays: Ray[];
+}
+
+export interface OrbitByShape {
+  /** of the hole, a/M; -1 to 1. */
+  spin?: number;
+  /** a bound orbit between the radii p/(1+e) and p/(1-e) [M]; 1 to 1e+20. */
+  p: number;
+  /** its eccentricity; 0 to 1. */
+  e: number;
+  /** its inclination; above 90 is retrograde [deg]; 0 to 180. */
+  inclination_deg?: number;
+}
+
+export interface OrbitByConstants {
+  /** of the hole, a/M; -1 to 1. */
+  spin?: number;
+  /** per rest mass; -1000000 to 1000000. */
+  energy: number;
+  /** about the axis, per rest mass [M]; -1e+20 to 1e+20. */
+  angular_momentum: number;
+  /** Carter's constant, per rest mass [M^2]; 0 in the equatorial plane; 0 to 1e+30. */
+  carter?: number;
+  /** a radius on its way [M]; 1 to 1e+20. */
+  r?: number;
+  /** whether it moves outwards there. */
+  outward?: boolean;
+}
+
+export interface OrbitByState {
+  /** of the hole, a/M; -1 to 1. */
+  spin?: number;
+  position: {
+    /** radius [M]; 1 to 1e+20. */
+    r: number;
+    /** polar angle [deg]; 0 to 180. */
+    theta_deg?: number;
+    /** azimuth [deg]; -360 to 360. */
+    phi_deg?: number;
+  };
+  velocity?: {
+    /** whose velocity it is. */
+    frame?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall';
+    /** component along r [c]; -1 to 1. */
+    v_r?: number;
+    /** component along theta [c]; -1 to 1. */
+    v_theta?: number;
+    /** component along phi [c]; -1 to 1. */
+    v_phi?: number;
+  };
+}
+
+export interface OrbitByCase {
+  /** of the hole, a/M; -1 to 1. */
+  spin?: number;
+  /** an orbit that is known by name. */
+  case: 'mercury' | 'zoom-whirl' | 'plunge' | 'isco' | 'spherical';
+}
+
+export type Orbit = OrbitByShape | OrbitByConstants | OrbitByState | OrbitByCase;
+
+export interface OrbitsRequest {
+  /** of the hole, a/M; -1 to 1. */
+  spin?: number;
+  /** of the path, both ends counted; 0 for none; of an orbit that is seen at most 20000; 0 to 200000. */
+  samples?: number;
+  /** significant digits of the series as text; 1 to 17. */
+  digits?: number;
+  /** in a radial period, instead of a tolerance; 0: by that; 0 to 100000000. */
+  steps?: number;
+  /** relative error after a period, which chooses the step; 1e-14 to 0.001. */
+  tolerance?: number;
+  /** how it is followed. */
+  method?: 'yoshida6' | 'rkn6' | 'closed';
+  /** where what escapes is let go [M]; 2 to 1000000. */
+  r_max?: number;
+  /** of the hole [solar masses]: frequencies in Hz, the advance per century; 1e-20 to 1e+20. */
+  mass_msun?: number;
+  /** of a list: the samples of each, too. */
+  series?: boolean;
+  duration?: {
+    /** radial periods, turns where r is constant; 0 to 1000000000. */
+    periods?: number;
+    /** coordinate time [M]; 0 to 1e+30. */
+    time?: number;
+    /** what plunges or escapes, and has no periods, is followed to its end instead. */
+    or_end?: boolean;
+  };
+  seen?: {
+    /** of who sees it [M]; without it infinity; 1 to 10000000. */
+    observer_r?: number;
+    /** of who sees it, off the axis [deg]; 0 to 180. */
+    observer_inclination_deg?: number;
+    /** of who sees it [deg]; -1000000 to 1000000. */
+    observer_azimuth_deg?: number;
+    /** how who sees it moves. */
+    observer?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall';
+  };
+  orbit?: Orbit;
+  /** up to 10000. */
+  orbits?: Orbit[];
+}
+
+/** per rest mass; lengths and times in M, angles in radians unless a name ends in _deg. */
+export interface OrbitConstants {
+  energy: number;
+  binding: number;
+  angular_momentum: number;
+  carter: number;
+  binet_c?: number | null;
+}
+
+/** per rest mass; lengths and times in M, angles in radians unless a name ends in _deg. */
+export interface OrbitTurningPoints {
+  r_min: number | null;
+  r_max: number | null;
+  theta_min_deg: number;
+  theta_max_deg: number | null;
+}
+
+/** per rest mass; lengths and times in M, angles in radians unless a name ends in _deg. */
+export interface OrbitShape {
+  p: number;
+  e: number;
+  inclination_deg: number;
+}
+
+/** per rest mass; lengths and times in M, angles in radians unless a name ends in _deg. */
+export interface OrbitAdvance {
+  periastron: number | null;
+  weak_field: number | null;
+  node: number | null;
+  periastron_arcsec_per_century?: number | null;
+}
+
+/** radians per Mino time, per M, or as the member says Hz. */
+export interface OrbitMinoFrequencies {
+  r: number | null;
+  theta: number | null;
+  phi: number | null;
+  t: number | null;
+  tau_proper: number | null;
+}
+
+/** radians per Mino time, per M, or as the member says Hz. */
+export interface OrbitThreeFrequencies {
+  r: number | null;
+  theta: number | null;
+  phi: number | null;
+}
+
+export interface OrbitFrequencies {
+  mino: OrbitMinoFrequencies;
+  coordinate: OrbitThreeFrequencies;
+  proper: OrbitThreeFrequencies;
+  hz?: OrbitThreeFrequencies;
+}
+
+export interface OrbitSeries {
+  columns: (
+      | 'mino' | 'tau_proper' | 't' | 'r' | 'theta' | 'phi' | 'x' | 'y' | 'z' | 'energy_error' | 'alpha' | 'beta'
+      | 'right' | 'up' | 'inwards' | 'delay' | 'off'
+    )[];
+  rows: ((number | null)[])[];
+}
+
+export interface OrbitDrift {
+  energy: number | null;
+  angular_momentum: number;
+  carter: number | null;
+  mass: number | null;
+  binet_c?: number | null;
+}
+
+/** per rest mass; lengths and times in M, angles in radians unless a name ends in _deg. */
+export interface OrbitDifference {
+  tau_proper: number | null;
+  t: number | null;
+  r: number | null;
+  theta: number | null;
+  phi: number | null;
+}
+
+/** per rest mass; lengths and times in M, angles in radians unless a name ends in _deg. */
+export interface OrbitResult {
+  method: 'yoshida6' | 'rkn6' | 'closed';
+  end: 'duration' | 'horizon' | 'r_max';
+  mino_end: number | null;
+  /** at least 0. */
+  steps?: number;
+  mino_step?: number | null;
+  error_estimate?: number | null;
+  drift?: OrbitDrift;
+  /** at least 0. */
+  periastra?: number;
+  periastron_advance_measured?: number | null;
+  closed_form_difference?: OrbitDifference;
+  approximations: string[];
+}
+
+/** per rest mass; lengths and times in M, angles in radians unless a name ends in _deg. */
+export interface OrbitPath {
+  spin: number;
+  fate: 'bound' | 'plunge' | 'escape';
+  circular: boolean;
+  constants: OrbitConstants;
+  turning_points: OrbitTurningPoints;
+  shape?: OrbitShape;
+  frequencies?: OrbitFrequencies;
+  advance?: OrbitAdvance;
+  series?: OrbitSeries;
+  result: OrbitResult;
+}
+
+export interface OrbitPaths {
+  orbits: OrbitPath[];
+}
+
+export interface LineRequest {
+  /** spin of the hole, below 0 for a disk that turns against it [M]; -1 to 1. */
+  spin?: number;
+  /** of the observer, who is at infinity, off the axis; not 87 to 93 [deg]; 0 to 87; 93 to 180. */
+  inclination_deg?: number;
+  /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
+  inner?: 'isco' | number;
+  /** outer edge of the disk [M]; 1 to 1000000. */
+  outer?: number;
+  /** how the line's light falls off with radius. */
+  emissivity?: 'power' | 'broken' | 'lamppost';
+  /** power and broken: the light per area across it goes as r^-index; -10 to 20. */
+  index?: number;
+  /** broken: the index beyond break_r; -10 to 20. */
+  outer_index?: number;
+  /** broken: where the index changes [M]; 1 to 1000000. */
+  break_r?: number;
+  /** lamppost: height of the source on the axis [M]; 1 to 10000. */
+  height?: number;
+  /** lamppost: photon index of the source's power law; 0 to 10. */
+  photon_index?: number;
+  /** light by the angle off the disk's normal: even, 1 + 2.06 mu, or ln(1 + 1/mu). */
+  limb?: 'isotropic' | 'laor' | 'haardt';
+  /**
+   * error of the cumulative share that will do: sums are made closer until it is reached, or as close as there
+   * is; 0: as close as there is; 0 to 0.1.
+   */
+  tolerance?: number;
+  /** what a bin counts. */
+  counts?: 'photons' | 'energy';
+  /** energy of the line where the gas is at rest, in any unit: edges are in the same; 1e-09 to 1000000000. */
+  rest_energy?: number;
+  /** first edge of bins of equal width; 0 to 1000000000. */
+  energy_min?: number;
+  /** last edge; auto: 1.7 times rest_energy; 0 to 1000000000. */
+  energy_max?: 'auto' | number;
+  /** number of bins of equal width; 1 to 20000. */
+  bins?: number;
+  /** edges of the bins, instead of energy_min, energy_max and bins; each above the one before; up to 20001. */
+  edges?: number[];
+}
+
+export interface LineProfile {
+  integral: 'line';
+  parameters: {
+    spin: number;
+    inclination_deg: number;
+    inner: number;
+    outer: number;
+    emissivity: string;
+    index: number;
+    outer_index: number;
+    break_r: number;
+    height: number;
+    photon_index: number;
+    limb: string;
+    tolerance: number;
+    counts: string;
+    rest_energy: number;
+    energy_min: number;
+    energy_max: number;
+    bins: number;
+  };
+  values: {
+    /** innermost stable circular orbit. */
+    isco: number | null;
+    /** all photons, or energies: the integral of g^3 epsilon f, or g^4, over the image plane. */
+    total: number | null;
+    /** share of them between the first and the last edge. */
+    inside: number | null;
+    /** estimated, of the cumulative share at any edge. */
+    error: number | null;
+  };
+  columns: {
+    /** edge of the bin. */
+    energy_low: (number | null)[];
+    /** edge of the bin. */
+    energy_high: (number | null)[];
+    /** of all photons, or energies, of the line that arrive in the bin. */
+    share: (number | null)[];
+    /** share up to energy_high from the first edge. */
+    cumulative: (number | null)[];
+  };
+  units: Record<string, string>;
+  sources: string[];
+  approximations: string[];
+}
+
+export interface TransferFunctionRequest {
+  /** spin of the hole, below 0 for a disk that turns against it [M]; -1 to 1. */
+  spin?: number;
+  /** of the observer, who is at infinity, off the axis; not 87 to 93 [deg]; 0.1 to 87; 93 to 179.9. */
+  inclination_deg?: number;
+  /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
+  inner?: 'isco' | number;
+  /** outer edge of the disk [M]; 1 to 1000000. */
+  outer?: number;
+  /** number of radii, from inner to outer at equal ratios; 1 to 1000. */
+  rings?: number;
+  /** radii, instead of rings; between inner and outer [M]; up to 20001. */
+  radii?: number[];
+  /** number of g* at each radius, the middles of as many equal parts of 0 to 1; 1 to 1000. */
+  g_stars?: number;
+  /** numbers between 0, the reddest light of the ring, and 1, the bluest, instead of g_stars; up to 20001. */
+  g_star?: number[];
+}
+
+export interface TransferFunction {
+  integral: 'transfer-function';
+  parameters: {
+    spin: number;
+    inclination_deg: number;
+    inner: number;
+    outer: number;
+    rings: number;
+    g_stars: number;
+  };
+  values: {
+    /** innermost stable circular orbit. */
+    isco: number | null;
+  };
+  columns: {
+    /** radius of the ring. */
+    r: (number | null)[];
+    /** (g - g_min)/(g_max - g_min). */
+    g_star: (number | null)[];
+    /** energy at infinity over that for the gas. */
+    g: (number | null)[];
+    /** f of the side that is nearer to the observer. */
+    f_near: (number | null)[];
+    /** f of the far side. */
+    f_far: (number | null)[];
+    /** cosine off the disk's normal at which the light leaves the gas there. */
+    mu_near: (number | null)[];
+    /** the same of the far side. */
+    mu_far: (number | null)[];
+    /** of the ring. */
+    g_min: (number | null)[];
+    /** of the ring. */
+    g_max: (number | null)[];
+  };
+  units: Record<string, string>;
+  sources: string[];
+  approximations: string[];
+}
+
+export interface SpectrumRequest {
+  /** preset that the scene begins with. */
+  preset?:
+    | 'smooth' | 'schwarzschild' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on' | 'face-on' | 'photon-rings'
+    | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk' | 'star-behind' | 'companions'
+    | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4'
+    | 'gold-5' | 'riaf' | 'torus';
+  scene?: Scene;
+  /** spin of the hole, below 0 for a disk that turns against it [M]; -1 to 1. */
+  spin?: number;
+  /** of the observer, who is at infinity, off the axis; not 87 to 93 [deg]; 0 to 87; 93 to 180. */
+  inclination_deg?: number;
+  /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
+  inner?: 'isco' | number;
+  /** outer edge of the disk [M]; 1 to 1000000. */
+  outer?: number;
+  /** light by the angle off the disk's normal: even, 1 + 2.06 mu, or ln(1 + 1/mu). */
+  limb?: 'isotropic' | 'laor' | 'haardt';
+  /** mass of the hole [solar masses]; 1e-05 to 1e+12. */
+  mass_msun?: number;
+  /** how far away it is [pc]; 0.001 to 1e+12. */
+  distance_pc?: number;
+  /**
+   * accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin [Eddington rates];
+   * 1e-12 to 1000.
+   */
+  mdot_edd?: number;
+  /** colour temperature over effective temperature; 1 to 10. */
+  colour_correction?: number;
+  /**
+   * first frequency; auto: 0.001 k/h times the hottest ring's colour temperature; of a volume a thirtieth of
+   * volume.frequency_ghz [Hz]; 0.001 to 1e+25.
+   */
+  frequency_min_hz?: 'auto' | number;
+  /**
+   * last frequency; auto: 30 k/h times the same; of a volume 30 times volume.frequency_ghz [Hz]; 0.001 to 1e+25.
+   */
+  frequency_max_hz?: 'auto' | number;
+  /** number of frequencies, at equal ratios: 200; of a volume 13, and 200 at most; 2 to 1000. */
+  frequencies?: number;
+  /** frequencies, instead of the three before [Hz]; up to 20001. */
+  frequencies_hz?: number[];
+  /**
+   * pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility and of a comparison; 16 to
+   * 2048.
+   */
+  pixels?: number;
+  /** what tells the error: the same picture with half as many pixels more along each side, or nothing. */
+  check?: 'finer' | 'none';
+}
+
+export interface DiskSpectrum {
+  integral: 'spectrum';
+  parameters: {
+    spin: number;
+    inclination_deg: number;
+    inner: number;
+    outer: number;
+    limb: string;
+    mass_msun: number;
+    distance_pc: number;
+    mdot_edd: number;
+    colour_correction: number;
+    frequency_min_hz: number;
+    frequency_max_hz: number;
+    frequencies: number;
+  };
+  values: {
+    /** innermost stable circular orbit. */
+    isco: number | null;
+    /** effective temperature of the hottest ring. */
+    t_max_k: number | null;
+    /** efficiency times Mdot c^2. */
+    luminosity_w: number | null;
+    /** estimated, relative, of the flux where it is above a millionth of its maximum. */
+    error: number | null;
+  };
+  columns: {
+    /** at the observer. */
+    frequency_hz: (number | null)[];
+    /** F_nu. */
+    flux_w_m2_hz: (number | null)[];
+    /** F_nu. */
+    flux_jy: (number | null)[];
+    /** 4 pi D^2 nu F_nu, as if it shone evenly. */
+    nu_l_nu_w: (number | null)[];
+  };
+  units: Record<string, string>;
+  sources: string[];
+  approximations: string[];
+}
+
+export interface VolumeSpectrum {
+  integral: 'spectrum';
+  parameters: {
+    frequency_min_hz: number;
+    frequency_max_hz: number;
+    frequencies: number;
+    pixels: number;
+    check: string;
+  };
+  values: {
+    /** of each picture. */
+    width: number | null;
+    /** of each picture. */
+    height: number | null;
+    /** largest of the column error. */
+    error: number | null;
+  };
+  columns: {
+    /** at the observer. */
+    frequency_hz: (number | null)[];
+    /** F_nu. */
+    flux_w_m2_hz: (number | null)[];
+    /** F_nu. */
+    flux_jy: (number | null)[];
+    /** 4 pi D^2 nu F_nu, as if it shone evenly. */
+    nu_l_nu_w: (number | null)[];
+    /** estimated, relative, of the flux: by that of a picture 1.5 times as fine; 1: of its own size or more. */
+    error: (number | null)[];
+  };
+  units: Record<string, string>;
+  sources: string[];
+  approximations: string[];
+  scene: Scene;
+}
+
+export interface VisibilityRequest {
+  /** preset that the scene begins with. */
+  preset?:
+    | 'smooth' | 'schwarzschild' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on' | 'face-on' | 'photon-rings'
+    | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk' | 'star-behind' | 'companions'
+    | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4'
+    | 'gold-5' | 'riaf' | 'torus';
+  scene?: Scene;
+  /** baselines to the east, in units of 1e9 wavelengths; as many as v [Gl]; up to 20001. */
+  u?: number[];
+  /** baselines to the north [Gl]; up to 20001. */
+  v?: number[];
+  /** lengths of baselines, instead of u and v; each with each of angles_deg [Gl]; up to 20001. */
+  lengths?: number[];
+  /**
+   * baselines from 0 to this length, instead of lengths; auto: half of the longest that the map's pixels tell
+   * [Gl]; 1e-09 to 1e+15.
+   */
+  length_max?: 'auto' | number;
+  /** number of lengths from 0 to length_max; 2 to 20000. */
+  baselines?: number;
+  /** position angles of baselines with lengths, from the north to the east; 0 and 90 [deg]; up to 20001. */
+  angles_deg?: number[];
+  /** number of image orders, from 0 on, whose light is told apart too; 0 to 8. */
+  orders?: number;
+  /**
+   * pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility and of a comparison; 16 to
+   * 2048.
+   */
+  pixels?: number;
+  /** what tells the error: the same picture with half as many pixels more along each side, or nothing. */
+  check?: 'finer' | 'none';
+}
+
+export interface Visibilities {
+  integral: 'visibility';
+  parameters: {
+    length_max: number | null;
+    baselines: number;
+    orders: number;
+    pixels: number;
+    check: string;
+  };
+  values: {
+    /** of the whole map; null where its light is of no frequency. */
+    flux_jy: number | null;
+    /** from a pixel to the next. */
+    pixel_uas: number | null;
+    /** of the map. */
+    width_uas: number | null;
+    /** of the map. */
+    height_uas: number | null;
+    /** longest baseline that pixels so wide tell. */
+    nyquist_gl: number | null;
+    /** what a sky as bright as the map's border would send over all of the map, of what the map sends. */
+    edge_share: number | null;
+    /** whose light was no number, and counts as none. */
+    undefined: number | null;
+    /** largest of the column error. */
+    error: number | null;
+  };
+  columns: {
+    /** baseline to the east, in units of 1e9 wavelengths. */
+    u_gl: (number | null)[];
+    /** to the north. */
+    v_gl: (number | null)[];
+    /** of the baseline. */
+    length_gl: (number | null)[];
+    /** -1: all light; n: light of image order n alone. */
+    order: (number | null)[];
+    /** real part. */
+    re: (number | null)[];
+    /** imaginary part. */
+    im: (number | null)[];
+    /** of all light in Jy, or as a share of its flux. */
+    amplitude: (number | null)[];
+    /** about where the hole is, from -180 to 180. */
+    phase_deg: (number | null)[];
+    /** estimated, of re and im: by a map 1.5 times as fine. */
+    error: (number | null)[];
+  };
+  units: Record<string, string>;
+  sources: string[];
+  approximations: string[];
+  scene: Scene;
+}
+
+export interface CompareRequest {
+  /** preset that the scene begins with. */
+  preset?:
+    | 'smooth' | 'schwarzschild' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on' | 'face-on' | 'photon-rings'
+    | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk' | 'star-behind' | 'companions'
+    | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4'
+    | 'gold-5' | 'riaf' | 'torus';
+  scene?: Scene;
+  /** SHA-256 of an asset of the server: uvfits, or the EHT's CSV. */
+  observation: string;
+  /** what is compared. */
+  products?: ('amplitude' | 'closure_phase' | 'log_closure_amplitude')[];
+  /**
+   * visibilities are averaged in bins of so many seconds, counted from 1960-01-01; 0: they are not [s]; 0 to
+   * 86400.
+   */
+  average_s?: number;
+  /**
+   * baselines shorter than this are left out, in units of 1e9 wavelengths: those within one site, which see light
+   * that the map has not [Gl]; 0 to 1000000.
+   */
+  uv_min_gl?: number;
+  /** amplitudes and closures of less signal over noise are left out; 0 to 1000000. */
+  snr_cut?: number;
+  systematic?: {
+    /** share of each visibility's amplitude that is added to its error in quadrature, before all else; 0 to 1. */
+    visibility?: number;
+    /** share of each station, sqrt(2) of which is added to an amplitude's error in quadrature; 0 to 1. */
+    amplitude?: number;
+    /** added to the error of a closure phase in quadrature [deg]; 0 to 180. */
+    closure_phase_deg?: number;
+  };
+  /** yes: amplitudes are sqrt(|V|^2 - sigma^2), and closures are made of such; no: as they are measured. */
+  debias?: 'yes' | 'no';
+  /**
+   * minimal: triangles and quadrangles that others do not follow from, about the first station; maximal: all.
+   */
+  closures?: 'minimal' | 'maximal';
+  /** what light a pixel of the map stands for. */
+  pulse?: 'triangle' | 'rectangle' | 'point';
+  /**
+   * of the whole map, which is made brighter or darker; auto: as the scene is, or, where its light is of no
+   * frequency, as amplitudes fit best [Jy]; 1e-12 to 1e+12.
+   */
+  flux_jy?: 'auto' | number;
+  /** what is chosen so that chi^2 of the amplitudes is least. */
+  solve?: 'flux'[];
+  /**
+   * pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility and of a comparison; 16 to
+   * 2048.
+   */
+  pixels?: number;
+  /** what tells the error: the same picture with half as many pixels more along each side, or nothing. */
+  check?: 'finer' | 'none';
+}
+
+export interface Comparison {
+  integral: 'compare';
+  parameters: {
+    products: string[];
+    average_s: number;
+    uv_min_gl: number;
+    snr_cut: number;
+    systematic: {
+      visibility: number;
+      amplitude: number;
+      closure_phase_deg: number;
+    };
+    debias: string;
+    closures: string;
+    pulse: string;
+    flux_jy: number | null;
+    solve: string[];
+    pixels: number;
+    check: string;
+  };
+  values: {
+    /** of the whole map as it is compared; null: nothing tells it. */
+    flux_jy: number | null;
+    /** from a pixel to the next. */
+    pixel_uas: number | null;
+    /** of the map. */
+    width_uas: number | null;
+    /** of the map. */
+    height_uas: number | null;
+    /** longest baseline that pixels so wide tell. */
+    nyquist_gl: number | null;
+    /** what a sky as bright as the map's border would send over all of the map, of what the map sends. */
+    edge_share: number | null;
+    /** whose light was no number, and counts as none. */
+    undefined: number | null;
+    /** estimated, the largest of the models of amplitudes: by a map 1.5 times as fine. */
+    model_error: number | null;
+  };
+  columns: {
+    /** amplitude, closure_phase or log_closure_amplitude. */
+    product: (string | null)[];
+    /** UTC, from the observation's mjd on. */
+    hour: (number | null)[];
+    /** of the baseline, triangle or quadrangle. */
+    station_1: (string | null)[];
+    /** the same. */
+    station_2: (string | null)[];
+    /** of a triangle or quadrangle. */
+    station_3: (string | null)[];
+    /** of a quadrangle, of 12 34 / 14 23. */
+    station_4: (string | null)[];
+    /** of an amplitude's baseline, in units of 1e9 wavelengths. */
+    u_gl: (number | null)[];
+    /** the same. */
+    v_gl: (number | null)[];
+    /** of an amplitude, a closure phase, a log closure amplitude. */
+    data: (number | null)[];
+    /** of the datum, with what is systematic. */
+    error: (number | null)[];
+    /** of the scene. */
+    model: (number | null)[];
+    /** data less model, over the error. */
+    residual: (number | null)[];
+  };
+  units: Record<string, string>;
+  sources: string[];
+  approximations: string[];
+  scene: Scene;
+  /** chi^2 over the number of data; null of a product that has none. */
+  chi2: {
+    amplitude: number | null;
+    closure_phase: number | null;
+    log_closure_amplitude: number | null;
+  };
+  /** the same of a map 1.5 times as fine; null with check none. */
+  chi2_finer: {
+    amplitude: number | null;
+    closure_phase: number | null;
+    log_closure_amplitude: number | null;
+  };
+  /** number of data. */
+  n: {
+    /** at least 0. */
+    amplitude: number;
+    /** at least 0. */
+    closure_phase: number;
+    /** at least 0. */
+    log_closure_amplitude: number;
+  };
+  observation: {
+    source: string;
+    mjd: number;
+    frequency_ghz: number;
+    stations: string[];
+    /** at least 0. */
+    visibilities: number;
+    /** at least 0. */
+    flagged: number;
+    /** at least 0. */
+    duplicates: number;
+    /** at least 0. */
+    averaged: number;
+    /** at least 0. */
+    too_short: number;
+  };
+}
+
+export interface PlaygroundBody {
+  name?: string;
+  /** in masses of the hole, at least 1e-30; 0: it pulls nothing; 0 to 1e+12. */
+  mass?: number;
+  /** in M, at least 1e-30; 0: a point, which touches nothing and has no tides; 0 to 1000000. */
+  radius?: number;
+  /** of its surface; 0: it is dark; 0 to 10000000000. */
+  temperature_k?: number;
+  /** x, y, z in M; the hole is at the origin, its axis along z; up to 3. */
+  position: number[];
+  /** in c, and in all no faster; up to 3. */
+  velocity?: number[];
+}
+
+export interface PlaygroundBodyChange {
+  /** 1 to 4294967295. */
+  id: number;
+  name?: string;
+  /** in masses of the hole, at least 1e-30; 0: it pulls nothing; 0 to 1e+12. */
+  mass?: number;
+  /** in M, at least 1e-30; 0: a point, which touches nothing and has no tides; 0 to 1000000. */
+  radius?: number;
+  /** of its surface; 0: it is dark; 0 to 10000000000. */
+  temperature_k?: number;
+  /** x, y, z in M; the hole is at the origin, its axis along z; up to 3. */
+  position?: number[];
+  /** in c, and in all no faster; up to 3. */
+  velocity?: number[];
+}
+
+export interface Playground {
+  /** M a second of the clock; a preset has one of its own; 0 to 1000000000. */
+  rate?: number;
+  /** default false. */
+  paused?: boolean;
+  scene?: Scene;
+  /**
+   * the pull of the hole: a potential, in which bodies also pull one another; or exact geodesics of test bodies.
+   */
+  gravity?: 'paczynski-wiita' | 'kerr';
+  /** spin of the hole, which gravity "kerr" knows and the potential does not; -0.999 to 0.999. */
+  spin?: number;
+  /** length in M within which the pull of bodies on one another is softened; 0.0001 to 1000. */
+  softening?: number;
+  /** longest sub-step in M; debris moves on so often; 1e-06 to 1000000. */
+  h_max?: number;
+  /** C of the sub-step's bound C (r - 2), and of the same for two bodies; 0.0001 to 0.2. */
+  safety?: number;
+  /**
+   * most sub-steps of one advance; when they are spent, less time has gone by than was asked for; 1 to 100000000.
+   */
+  budget?: number;
+  /** bodies that touch become one. */
+  mergers?: boolean;
+  /** the hole's tide sheds a star's mass, and tears it apart. */
+  tides?: boolean;
+  /** bodies lose energy to gravitational waves. */
+  waves?: boolean;
+  /** by how much that loss is exaggerated; 1 is the real one; 0 to 1000000000. */
+  amplification?: number;
+  /** debris that has come back is counted and leaves, as part of the disk; else it goes on. */
+  feeds?: boolean;
+  /** pieces of debris there may be; a new one takes the place of the oldest; 0 to 1000000. */
+  debris_capacity?: number;
+  /** pieces that a body falls into when it is torn apart; 16 to 1000000. */
+  debris_per_body?: number;
+  /** temperature in K of the black body that debris shines as in pictures; 300 to 1000000000. */
+  debris_temperature_k?: number;
+  /** optical depth in pictures of the debris of one body, spread over 1000 M^2; 0 to 1000000. */
+  debris_depth?: number;
+  /** share of the disk's light that bodies throw back in pictures; 0: that is not looked for; 0 to 1. */
+  albedo?: number;
+  /** of the directions that debris takes; 0 to 4294967295. */
+  seed?: number;
+  preset?: 'disruption' | 'white-dwarf' | 'system' | 'binary' | 'emri' | 'swarm' | 'figure-eight';
+  /** up to 4096. */
+  bodies?: PlaygroundBody[];
+  /**
+   * of a snapshot: all that the motion depends on besides. To be given back as it came: it differs between
+   * versions.
+   */
+  state?: Record<string, unknown>;
+}
+
+export interface PlaygroundChange {
+  /** M a second of the clock; a preset has one of its own; 0 to 1000000000. */
+  rate?: number;
+  /** default false. */
+  paused?: boolean;
+  scene?: Scene;
+  /**
+   * the pull of the hole: a potential, in which bodies also pull one another; or exact geodesics of test bodies.
+   */
+  gravity?: 'paczynski-wiita' | 'kerr';
+  /** spin of the hole, which gravity "kerr" knows and the potential does not; -0.999 to 0.999. */
+  spin?: number;
+  /** length in M within which the pull of bodies on one another is softened; 0.0001 to 1000. */
+  softening?: number;
+  /** longest sub-step in M; debris moves on so often; 1e-06 to 1000000. */
+  h_max?: number;
+  /** C of the sub-step's bound C (r - 2), and of the same for two bodies; 0.0001 to 0.2. */
+  safety?: number;
+  /**
+   * most sub-steps of one advance; when they are spent, less time has gone by than was asked for; 1 to 100000000.
+   */
+  budget?: number;
+  /** bodies that touch become one. */
+  mergers?: boolean;
+  /** the hole's tide sheds a star's mass, and tears it apart. */
+  tides?: boolean;
+  /** bodies lose energy to gravitational waves. */
+  waves?: boolean;
+  /** by how much that loss is exaggerated; 1 is the real one; 0 to 1000000000. */
+  amplification?: number;
+  /** debris that has come back is counted and leaves, as part of the disk; else it goes on. */
+  feeds?: boolean;
+  /** pieces of debris there may be; a new one takes the place of the oldest; 0 to 1000000. */
+  debris_capacity?: number;
+  /** pieces that a body falls into when it is torn apart; 16 to 1000000. */
+  debris_per_body?: number;
+  /** temperature in K of the black body that debris shines as in pictures; 300 to 1000000000. */
+  debris_temperature_k?: number;
+  /** optical depth in pictures of the debris of one body, spread over 1000 M^2; 0 to 1000000. */
+  debris_depth?: number;
+  /** share of the disk's light that bodies throw back in pictures; 0: that is not looked for; 0 to 1. */
+  albedo?: number;
+  /** of the directions that debris takes; 0 to 4294967295. */
+  seed?: number;
+  /** up to 4096. */
+  add?: PlaygroundBody[];
+  /** up to 4096. */
+  change?: PlaygroundBodyChange[];
+  /** up to 4096. */
+  remove?: number[];
+}
+
+export interface PlaygroundSettings {
+  gravity: string;
+  spin: number;
+  softening: number;
+  h_max: number;
+  safety: number;
+  /** at least 0. */
+  budget: number;
+  mergers: boolean;
+  tides: boolean;
+  waves: boolean;
+  amplification: number;
+  feeds: boolean;
+  /** at least 0. */
+  debris_capacity: number;
+  /** at least 0. */
+  debris_per_body: number;
+  debris_temperature_k: number;
+  debris_depth: number;
+  albedo: number;
+  /** at least 0. */
+  seed: number;
+}
+
+/**
+ * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
+ * clock.
+ */
+export interface PlaygroundBodyState {
+  /** at least 1. */
+  id: number;
+  name: string;
+  /** up to 3. */
+  position: number[];
+  /** up to 3. */
+  velocity: number[];
+  mass: number;
+  radius: number;
+  temperature_k: number;
+}
+
+/**
+ * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
+ * clock.
+ */
+export interface PlaygroundTotals {
+  mass: number;
+  energy: number | null;
+  /** up to 3. */
+  momentum: number[];
+  /** up to 3. */
+  angular_momentum: number[];
+  separation: number | null;
+  wave_frequency: number | null;
+}
+
+/**
+ * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
+ * clock.
+ */
+export interface PlaygroundSpent {
+  captured_mass: number;
+  captured_energy: number;
+  /** up to 3. */
+  captured_angular_momentum: number[];
+  merged_energy: number;
+  capped_energy: number;
+  /** up to 3. */
+  capped_momentum: number[];
+  radiated_energy: number;
+  torn_mass: number;
+  torn_energy: number;
+}
+
+/**
+ * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
+ * clock.
+ */
+export interface PlaygroundSource {
+  /** at least 0. */
+  number: number;
+  name: string;
+  t: number;
+  piece_mass: number;
+  energy_spread: number;
+  /** at least 0. */
+  pieces: number;
+  /** at least 0. */
+  back: number;
+  /** at least 0. */
+  captured: number;
+  /** at least 0. */
+  lost: number;
+}
+
+/**
+ * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
+ * clock.
+ */
+export interface PlaygroundDebris {
+  t: number;
+  /** at least 0. */
+  pieces: number;
+  sources: PlaygroundSource[];
+}
+
+/**
+ * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
+ * clock.
+ */
+export interface PlaygroundStatus {
+  id: string;
+  token?: string;
+  rate: number;
+  rate_reached: number | null;
+  paused: boolean;
+  slowed: boolean;
+  resting: boolean;
+  /** at least 0. */
+  watchers: number;
+  /** at least 0. */
+  generation: number;
+  asked?: number;
+  done?: number;
+  added?: number[];
+  t: number;
+  /** at least 0. */
+  steps: number;
+  settings: PlaygroundSettings;
+  /** up to 4096. */
+  bodies: PlaygroundBodyState[];
+  totals: PlaygroundTotals;
+  spent: PlaygroundSpent;
+  debris: PlaygroundDebris;
+  /** at least 0. */
+  events: number;
+  approximations: string[];
+  scene: Scene;
+}
+
+export interface PlaygroundPresetTold {
+  name: string;
+  title: string;
+  rate: number;
+  /** up to 3. */
+  centre: number[];
+  reach: number;
+}
+
+export interface PlaygroundRow {
+  name: string;
+  type: 'number' | 'integer' | 'boolean' | 'string';
+  default: number | boolean | string;
+  least?: number;
+  most?: number;
+  words?: string[];
+  fixed?: boolean;
+  help: string;
+}
+
+export interface PlaygroundCatalogue {
+  presets: PlaygroundPresetTold[];
+  settings: PlaygroundRow[];
+  pace: PlaygroundRow[];
+  body: PlaygroundRow[];
+}
+
+/**
+ * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
+ * clock.
+ */
+export interface PlaygroundColumns {
+  t: (number | null)[];
+  bodies: (number | null)[];
+  energy: (number | null)[];
+  energy_balance: (number | null)[];
+  angular_momentum_x: (number | null)[];
+  angular_momentum_y: (number | null)[];
+  angular_momentum_z: (number | null)[];
+  radiated: (number | null)[];
+  separation: (number | null)[];
+  wave_frequency: (number | null)[];
+  h_plus: (number | null)[];
+  h_cross: (number | null)[];
+  debris: (number | null)[];
+  debris_back: (number | null)[];
+}
+
+export interface PlaygroundSeries {
+  columns: PlaygroundColumns;
+}
+
+/**
+ * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
+ * clock.
+ */
+export interface PlaygroundHappened {
+  /** at least 0. */
+  number: number;
+  t: number;
+  kind: 'merger' | 'shedding' | 'disruption' | 'capture' | 'inspiral' | 'escape';
+  /** at least 0. */
+  body: number;
+  name: string;
+  mass: number;
+  /** at least 0. */
+  other?: number;
+  other_name?: string;
+  other_mass?: number;
+  mass_left?: number;
+  r: number;
+  energy: number | null;
+  tidal_radius?: number;
+  energy_spread?: number;
+}
+
+/**
+ * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
+ * clock.
+ */
+export interface PlaygroundTick {
+  /** at least 0. */
+  generation: number;
+  rate: number;
+  rate_reached: number | null;
+  paused: boolean;
+  slowed: boolean;
+  resting: boolean;
+  /** at least 0. */
+  watchers: number;
+  /** at least 0. */
+  debris_lost: number;
+  fallback_rate: number | null;
+  /** at least 0. */
+  event: number;
+  /** up to 3. */
+  angular_momentum: number[];
+  t: number | null;
+  bodies: number | null;
+  energy: number | null;
+  energy_balance: number | null;
+  radiated: number | null;
+  separation: number | null;
+  wave_frequency: number | null;
+  h_plus: number | null;
+  h_cross: number | null;
+  debris: number | null;
+  debris_back: number | null;
+}
+
+export interface Asset {
+  /** of the bytes; what a scene names. */
+  sha256: string;
+  /** deletes it. */
+  token?: string;
+  type: 'image/png' | 'application/x-npz' | 'application/x-uvfits' | 'text/csv';
+  /** at least 0. */
+  width?: number;
+  /** at least 0. */
+  height?: number;
+  /** at least 0. */
+  bit_depth?: number;
+  /** at least 0. */
+  channels?: number;
+  /** at least 0. */
+  bytes: number;
+  /** seconds since 1970. */
+  created: number;
+  /** in r, theta and phi; up to 3. */
+  nodes?: number[];
+  /** of the hole that it is made for. */
+  spin?: number;
+  /** at least 0. */
+  visibilities?: number;
+  /** at least 0. */
+  stations?: number;
+}
+
+export interface AssetLimits {
+  /** at least 0. */
+  assets: number;
+  /** at least 0. */
+  bytes: number;
+  /** at least 0. */
+  asset_bytes: number;
+  /** at least 0. */
+  asset_pixels: number;
+}
+
+export interface Assets {
+  /** at least 0. */
+  assets: number;
+  /** at least 0. */
+  bytes: number;
+  limits: AssetLimits;
+  types: string[];
+}
+
+export type Precision = 'f32' | 'f64';
+
+export interface DeviceSelftest {
+  result: 'passed' | 'failed' | 'not run';
+  /** at least 0. */
+  checks?: number;
+  /** at least 0. */
+  failed?: number;
+  seconds?: number;
+  now?: boolean;
+  first_failure?: string;
+}
+
+export interface DeviceLimits {
+  /** at least 0. */
+  heap_bytes: number;
+  /** at least 0. */
+  memory_bytes: number;
+  memory_by: string;
+  /** at least 0. */
+  binding_bytes: number;
+  /** at least 0. */
+  allocation_bytes: number;
+  /** at least 0. */
+  workgroups: number;
+  /** at least 0. */
+  subgroup_size: number;
+}
+
+export interface DeviceFigures {
+  basis: 'measured' | 'guess';
+  ray_radius: number;
+  ray_full: number;
+  sample_transfer: number;
+  pixel_post: number;
+  ray_march: number;
+  ray_refined: number;
+  ray_stars: number;
+  sample_stars: number;
+  particle: number;
+}
+
+export interface Device {
+  kerrd: string;
+  name: string;
+  type: 'other device' | 'CPU' | 'virtual GPU' | 'integrated GPU' | 'discrete GPU';
+  driver: string;
+  driver_info: string;
+  vulkan: string;
+  /** at least 0. */
+  index: number;
+  choice: string;
+  precision: Precision[];
+  float64_hardware: boolean;
+  timestamps: boolean;
+  selftest: DeviceSelftest;
+  limits: DeviceLimits;
+  ns_per_item: DeviceFigures;
+}
+
+export interface Approximation {
+  name: string;
+  of: string;
+  sentence: string;
+}
+
+export interface Approximations {
+  approximations: Approximation[];
+}
+
+export interface PresetTold {
+  name: string;
+  label: string;
+  title: string;
+}
+
+export interface Presets {
+  presets: PresetTold[];
+}
+
+export interface QuantityParameter {
+  name: string;
+  unit?: string;
+  default: string;
+  allowed: string;
+  help: string;
+}
+
+export interface QuantityOutput {
+  name: string;
+  unit: string;
+  help: string;
+}
+
+export interface QuantityTold {
+  name: string;
+  summary: string;
+  parameters: QuantityParameter[];
+  outputs: QuantityOutput[];
+  sources: string[];
+  approximations: string[];
+}
+
+export interface Quantities {
+  quantities: QuantityTold[];
+}
+
+export interface PlanPass {
+  name:
+    | 'trace' | 'interpolate' | 'footprint' | 'audit' | 'particles' | 'stars' | 'transfer' | 'march' | 'march_error'
+    | 'refine' | 'layers' | 'light' | 'beam' | 'expose' | 'bloom' | 'post' | 'readback';
+  kernel?: string;
+  /** at least 0. */
+  invocations: number;
+  estimate_ms: number;
+}
+
+export interface PlanConstants {
+  /** at least 0. */
+  orders: number;
+  /** at least 0. */
+  steps: number;
+  /** at least 0. */
+  samples: number;
+  radius_only: boolean;
+  phi: boolean;
+  sky: boolean;
+}
+
+export interface PlanAccuracy {
+  engine: 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
+  precision: 'f32' | 'f64';
+  /** at least 0. */
+  steps: number;
+  holds?: number;
+  table: 'measured' | 'built-in';
+}
+
+export interface PlanBytes {
+  /** at least 0. */
+  lens_map: number;
+  /** at least 0. */
+  device: number;
+  /** at least 0. */
+  host: number;
+}
+
+export interface Plan {
+  /** at least 0. */
+  rays: number;
+  /** at least 0. */
+  critical_pixels: number;
+  /** at least 0. */
+  critical_rays: number;
+  /** at least 0. */
+  width: number;
+  /** at least 0. */
+  height: number;
+  /** at least 0. */
+  eyes?: number;
+  /** at least 0. */
+  strips?: number;
+  passes: PlanPass[];
+  specialisation: PlanConstants;
+  accuracy: PlanAccuracy;
+  bytes: PlanBytes;
+  /** at least 0. */
+  bands: number;
+  lens_map_cacheable: boolean;
+  lens_map_key: string;
+  kernels_ms?: number;
+  estimate_ms: number;
+  estimate_basis: 'measured' | 'guess';
+  approximations: string[];
+}
+
+export interface SweepBytes {
+  /** at least 0. */
+  device: number;
+  /** at least 0. */
+  host: number;
+  /** at least 0. */
+  files?: number;
+}
+
+export interface SweepPlan {
+  /** at least 0. */
+  scenes: number;
+  /** at least 0. */
+  lens_maps: number;
+  /** at least 0. */
+  rays: number;
+  bytes: SweepBytes;
+  estimate_ms: number;
+  shared_ms: number;
+  estimate_basis: 'measured' | 'guess';
+  axes: Record<string, (number | string | boolean | string[])[]>;
+}
+
+export interface AccuracyErrors {
+  median?: number;
+  p99?: number;
+  worst?: number;
+}
+
+export interface AccuracyEntry {
+  rays_per_s?: number;
+  rays_per_s_per_core?: number;
+  /** at least 0. */
+  rays: number;
+  /** at least 0. */
+  crossings: number;
+  /** at least 0. */
+  differ: number;
+}
+
+export interface AccuracyRow {
+  engine: 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
+  precision: 'f32' | 'f64';
+  /** at least 0. */
+  steps: number;
+  holds?: number;
+  sets: Record<string, AccuracyEntry>;
+}
+
+export interface AccuracyTable {
+  /** at least 0. */
+  format: number;
+  kerrd: string;
+  date: string;
+  command: string;
+  machine: string;
+  device: string;
+  /** at least 0. */
+  cores: number;
+  clock: 'device' | 'host';
+  quick: boolean;
+  seconds?: number;
+  skipped: string;
+  reference: string;
+  /** at least 0. */
+  orders: number;
+  quantile: number;
+  sets: Record<string, string>;
+  rows: AccuracyRow[];
+}
+
+/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+export interface RayConstants {
+  alpha: number;
+  beta: number;
+  lambda: number;
+  eta: number;
+  E: number;
+  L: number;
+  Q: number;
+  outward: boolean;
+}
+
+/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+export interface RayRadial {
+  case: 'I' | 'II' | 'III' | 'IV';
+  /** at least 0. */
+  real_roots: number;
+  roots: number[][];
+  horizon_r: number;
+  turning_r: number | null;
+}
+
+/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+export interface RayPolar {
+  case: 'ordinary' | 'vortical' | 'fixed';
+  roots: number[];
+  theta: number[];
+}
+
+export interface PixelGlow {
+  name:
+    | 'disk' | 'particles' | 'plunge' | 'spots' | 'ringdown' | 'sky' | 'gas' | 'volume' | 'jets' | 'thick' | 'bodies'
+    | 'debris' | 'polarization' | 'plasma' | 'stokes';
+  /** up to 3. */
+  light: number[];
+  /** up to 3. */
+  seen: number[];
+  luminance: number;
+  luminance_seen: number;
+  opacity?: number;
+  points?: boolean;
+}
+
+/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+export interface PixelPictured {
+  r: number;
+  g: number;
+  footprint?: number;
+}
+
+/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+export interface PixelCrossing {
+  /** at least 0. */
+  order: number;
+  r: number | null;
+  phi: number | null;
+  azimuth: number | null;
+  delay: number | null;
+  g: number | null;
+  seen: boolean;
+  temperature?: number;
+  emission_angle?: number;
+  evpa?: number | null;
+  polarization_fraction?: number | null;
+  picture?: PixelPictured;
+  through?: number;
+  emitters?: PixelGlow[];
+  optical_depth?: number | null;
+}
+
+export interface PixelVolume {
+  name:
+    | 'disk' | 'particles' | 'plunge' | 'spots' | 'ringdown' | 'sky' | 'gas' | 'volume' | 'jets' | 'thick' | 'bodies'
+    | 'debris' | 'polarization' | 'plasma' | 'stokes';
+  /** up to 3. */
+  seen: number[];
+  luminance_seen: number;
+  optical_depth: number | null;
+}
+
+/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+export interface PixelStretch {
+  /** at least 0. */
+  order: number;
+  from_r: number | null;
+  from_theta: number;
+  from_delay: number | null;
+  to_r: number | null;
+  to_theta: number;
+  to_delay: number | null;
+  /** up to 3. */
+  seen: number[];
+  through: number;
+  optical_depth: number | null;
+}
+
+/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+export interface PixelAlong {
+  names: string[];
+  /** at least 0. */
+  steps: number;
+  /** at least 0. */
+  samples: number;
+  /** up to 3. */
+  seen: number[];
+  luminance_seen: number;
+  optical_depth: number | null;
+  delay: number | null;
+  volumes: PixelVolume[];
+  stretches?: PixelStretch[];
+}
+
+/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+export interface PixelMet {
+  name:
+    | 'disk' | 'particles' | 'plunge' | 'spots' | 'ringdown' | 'sky' | 'gas' | 'volume' | 'jets' | 'thick' | 'bodies'
+    | 'debris' | 'polarization' | 'plasma' | 'stokes';
+  /** at least 0. */
+  index: number;
+  /** at least 0. */
+  order: number;
+  r: number;
+  theta: number;
+  phi: number;
+  azimuth: number | null;
+  g: number;
+  emission_angle: number;
+  /** up to 3. */
+  light: number[];
+  /** up to 3. */
+  seen: number[];
+  luminance_seen: number;
+  through: number;
+}
+
+/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+export interface PixelPolarization {
+  /** up to 4. */
+  stokes: number[];
+  evpa: number | null;
+  polarization_fraction: number | null;
+}
+
+/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+export interface PixelEnd {
+  fate: 'captured' | 'escaped' | 'undecided';
+  why: string;
+  through: number;
+  optical_depth: number | null;
+  theta?: number | null;
+  phi?: number | null;
+  azimuth?: number | null;
+  g?: number;
+  emitters: PixelGlow[];
+}
+
+/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+export interface PixelPath {
+  /** at least 0. */
+  steps: number;
+  least_r: number;
+  coordinates: 'ingoing' | 'Boyer-Lindquist';
+  whole: boolean;
+  columns: string[];
+  points: ((number | null)[])[];
+}
+
+export interface PixelTrace {
+  none?: string;
+  engine?: 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
+  precision?: 'f32' | 'f64';
+  /** at least 0. */
+  steps_a_half_period?: number;
+  fate?: 'captured' | 'escaped' | 'undecided';
+  /** at least 0. */
+  crossings?: number;
+  /** at least 0. */
+  not_shown?: number;
+  same_without_trace?: boolean;
+  columns?: string[];
+  steps?: ((number | null | string)[])[];
+}
+
+export interface PixelAccuracy {
+  engine: 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
+  precision: 'f32' | 'f64';
+  /** at least 0. */
+  steps: number;
+  closed_form: number | null;
+  picture: number | null;
+  path: number | null;
+  first_integrals: number | null;
+  sum: number | null;
+}
+
+export interface PixelColour {
+  /** up to 3. */
+  shown: number[];
+  /** up to 3. */
+  pixel: number[];
+  /** up to 3. */
+  ray: number[];
+  exposure: number;
+}
+
+/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+export interface PixelRay {
+  /** up to 2. */
+  ray_at: number[];
+  weight: number;
+  constants: RayConstants;
+  radial: RayRadial;
+  polar: RayPolar;
+  crossings: PixelCrossing[];
+  along?: PixelAlong;
+  met?: PixelMet;
+  end: PixelEnd;
+  polarization?: PixelPolarization;
+  /** at least 0. */
+  lost: number;
+  /** up to 3. */
+  light: number[];
+  luminance: number;
+  closed_form: number | null;
+  picture: number | null;
+}
+
+/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+export interface Pixel {
+  /** up to 2. */
+  ray_at: number[];
+  weight: number;
+  constants: RayConstants;
+  radial: RayRadial;
+  polar: RayPolar;
+  crossings: PixelCrossing[];
+  along?: PixelAlong;
+  met?: PixelMet;
+  end: PixelEnd;
+  polarization?: PixelPolarization;
+  /** at least 0. */
+  lost: number;
+  /** up to 2. */
+  pixel: number[];
+  eye?: 'left' | 'right';
+  /** at least 0. */
+  rays: number;
+  colour: PixelColour;
+  path: PixelPath;
+  pixel_polarization?: PixelPolarization;
+  trace?: PixelTrace;
+  accuracy: PixelAccuracy;
+  each_ray: PixelRay[];
+  approximations: string[];
+}
+
+export interface StarImage {
+  name: string;
+  designation: string;
+  magnitude: number;
+  x: number;
+  y: number;
+  x_by_azimuth: number;
+  y_by_azimuth: number;
+  magnification: number;
+  g: number;
+  through: number;
+  seen_magnitude: number | null;
+  mirrored: boolean;
+}
+
+export interface Stars {
+  /** at least 0. */
+  width: number;
+  /** at least 0. */
+  height: number;
+  azimuth_deg: number;
+  /** at least 0. */
+  found: number;
+  images: StarImage[];
+}
+
+export interface Share {
+  url: string;
+  embed?: string;
+  code: string;
+  title: string;
+  about: string;
+}
+
+export interface OEmbed {
+  version: '1.0';
+  type: 'photo';
+  title: string;
+  provider_name: string;
+  provider_url: string;
+  url: string;
+  /** at least 0. */
+  width: number;
+  /** at least 0. */
+  height: number;
+}
+
+export type SessionVaries = 'moves_with_time' | 'dims_with_time' | 'moves_with_azimuth';
+
+export interface EmitterTold {
+  name: string;
+  title: string;
+  at: string;
+  apart: boolean;
+  sentence?: string;
+}
+
+/** times in seconds. */
+export interface SessionPath {
+  at: number;
+  end: number;
+}
+
+/** times in seconds. */
+export interface SessionRendering {
+  fraction: number;
+  remaining_s: number | null;
+}
+
+/** times in seconds. */
+export interface SessionRefining {
+  fraction: number;
+  remaining_s: number | null;
+}
+
+/** in M, and in seconds where a name ends in _s. */
+export interface FallClock {
+  proper_time_to_horizon: number | null;
+  proper_time_to_end: number;
+  proper_time_to_horizon_s: number | null;
+  proper_time_to_end_s: number;
+}
+
+export interface Session {
+  id: string;
+  token?: string;
+  /** at least 0. */
+  revision: number;
+  /** at least 0. */
+  frame: number;
+  /** at least 0. */
+  viewers: number;
+  scene: Scene;
+  varies: SessionVaries[];
+  emitters: EmitterTold[];
+  path?: SessionPath;
+  rendering?: SessionRendering;
+  refining?: SessionRefining;
+  clock?: FallClock;
+  /** at least 0. */
+  order?: number;
+}
+
+export interface SessionPatched {
+  /** at least 0. */
+  revision: number;
+  /** at least 0. */
+  order?: number;
+}
+
+export type SweepAxes = Record<string, (number | string | boolean | string[])[] | string>;
+
+/** created and ended are seconds since 1970. */
+export interface Job {
+  id: string;
+  token?: string;
+  state: 'waiting' | 'running' | 'done' | 'failed' | 'deleted';
+  output: 'pictures' | 'layers' | 'npy' | 'npz' | 'fits' | 'exr' | 'cube' | 'light-curve';
+  /** at least 0. */
+  place: number;
+  /** at least 0. */
+  frames: number;
+  /** at least 0. */
+  finished: number;
+  fraction: number;
+  remaining_s: number | null;
+  /** at least 0. */
+  bytes: number;
+  /** at least 0. */
+  lens_maps_traced: number;
+  exposure?: number;
+  axes?: Record<string, number>;
+  created: number;
+  ended: number | null;
+  delayed?: string;
+  error?: string;
+}
+
+export interface Problem {
+  type:
+    | 'urn:kerrd:problem:bad-request' | 'urn:kerrd:problem:malformed-json' | 'urn:kerrd:problem:unauthorized'
+    | 'urn:kerrd:problem:role' | 'urn:kerrd:problem:cross-site' | 'urn:kerrd:problem:forbidden'
+    | 'urn:kerrd:problem:not-found' | 'urn:kerrd:problem:method-not-allowed' | 'urn:kerrd:problem:not-acceptable'
+    | 'urn:kerrd:problem:not-ready' | 'urn:kerrd:problem:conflict' | 'urn:kerrd:problem:timeout'
+    | 'urn:kerrd:problem:precondition-failed' | 'urn:kerrd:problem:body-too-large' | 'urn:kerrd:problem:uri-too-long'
+    | 'urn:kerrd:problem:unsupported-media-type' | 'urn:kerrd:problem:misdirected'
+    | 'urn:kerrd:problem:range-not-satisfiable' | 'urn:kerrd:problem:invalid-scene' | 'urn:kerrd:problem:invalid-rays'
+    | 'urn:kerrd:problem:invalid-parameters' | 'urn:kerrd:problem:invalid-orbit' | 'urn:kerrd:problem:invalid-job'
+    | 'urn:kerrd:problem:invalid-playground' | 'urn:kerrd:problem:invalid-asset' | 'urn:kerrd:problem:too-large'
+    | 'urn:kerrd:problem:idempotency-key-reused' | 'urn:kerrd:problem:quota' | 'urn:kerrd:problem:wrong-tokens'
+    | 'urn:kerrd:problem:header-too-large' | 'urn:kerrd:problem:internal' | 'urn:kerrd:problem:device-lost'
+    | 'urn:kerrd:problem:not-installed' | 'urn:kerrd:problem:out-of-memory' | 'urn:kerrd:problem:queue-full'
+    | 'urn:kerrd:problem:too-many-connections' | 'urn:kerrd:problem:stopping' | 'urn:kerrd:problem:disk-full'
+    | 'urn:kerrd:problem:assets-full' | 'urn:kerrd:problem:http-version';
+  title: string;
+  /** 400 to 599. */
+  status: number;
+  detail: string;
+  /** into the request (RFC 6901). */
+  pointer?: string;
+  /** media types that would do. */
+  offered?: string;
+  /** as in the header X-Request-Id. */
+  request_id?: string;
+}
+
+/** A scene in a query, by dotted paths. */
+export interface SceneQuery {
+  /** version of this document format. */
+  version?: 1;
+  /**
+   * spin parameter a; a < 0 is a disk retrograde to its hole; in M; -0.999999999999 to 0.999999999999; default
+   * 0.7.
+   */
+  'spacetime.spin'?: number;
+  /**
+   * mass of the hole; sets the temperature when disk.colour is "accretion"; in solar masses; 0.001 to 1e+12;
+   * default 100000000.
+   */
+  'spacetime.mass_msun'?: number;
+  /**
+   * (angular diameter) distance of the hole: with its mass it says how wide a picture is on the sky, for a beam
+   * and a scale; in pc; 0.001 to 100000000000; default 260000.
+   */
+  'spacetime.distance_pc'?: number;
+  /** Boyer-Lindquist radius of the observer; in M; 0.01 to 10000000; default "infinity". */
+  'camera.r'?: 'infinity' | number;
+  /**
+   * polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
+   * default 82.
+   */
+  'camera.inclination_deg'?: number;
+  /**
+   * Boyer-Lindquist azimuth of the observer; of one that falls, ingoing Kerr-Schild azimuth, the same far away;
+   * in degrees; -360 to 360; default 0.
+   */
+  'camera.azimuth_deg'?: number;
+  /**
+   * state of motion at a finite radius; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
+   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
+   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
+   * momentum; default "static".
+   */
+  'camera.observer'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+  /** velocity outwards, past one of zero angular momentum (observer: velocity); in c; -1 to 1; default 0. */
+  'camera.velocity_r'?: number;
+  /** velocity away from the north pole, likewise (observer: velocity); in c; -1 to 1; default 0. */
+  'camera.velocity_theta'?: number;
+  /** velocity along the disk's rotation, likewise (observer: velocity); in c; -1 to 1; default 0. */
+  'camera.velocity_phi'?: number;
+  /**
+   * radius from which the observer falls, at rest there but for its angular momentum (observer: infall); in M; 1
+   * to 10000000; default "infinity".
+   */
+  'camera.infall_from'?: 'infinity' | number;
+  /**
+   * energy per mass of the falling observer; rest: as infall_from has it (observer: infall); -100 to 1000;
+   * default "rest".
+   */
+  'camera.infall_energy'?: 'rest' | number;
+  /**
+   * angular momentum per mass of the falling observer, which moves in r and azimuth, not in latitude (observer:
+   * infall); in M; -10000 to 10000; default 0.
+   */
+  'camera.infall_momentum'?: number;
+  /**
+   * plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: angle round
+   * the critical curve against the logarithm of the distance to it, at infinity only; equirectangular: all
+   * directions from a finite radius, longitude across and latitude upwards; fulldome: the angle from the middle
+   * as the distance from it, 90 degrees at the nearer edges, from a finite radius; auto: plane or pinhole,
+   * whichever fits camera.r; default "auto".
+   */
+  'camera.projection'?: 'auto' | 'plane' | 'pinhole' | 'ring' | 'equirectangular' | 'fulldome';
+  /** width of the image plane (plane projection); in M; 1e-06 to 10000000; default 46. */
+  'camera.field_m'?: number;
+  /**
+   * the same width on the sky, at spacetime.mass_msun and spacetime.distance_pc: camera.field_m is what it comes
+   * to; none: camera.field_m says it; in microarcseconds; 1e-12 to 1e+12; default "none".
+   */
+  'camera.field_uas'?: 'none' | number;
+  /** horizontal field of view (pinhole projection); in degrees; 1e-06 to 179; default 50. */
+  'camera.fov_deg'?: number;
+  /** image-plane alpha at the middle of the picture (plane); in M; -10000000 to 10000000; default 0. */
+  'camera.centre_alpha'?: number;
+  /** image-plane beta at the middle of the picture (plane); in M; -10000000 to 10000000; default 0. */
+  'camera.centre_beta'?: number;
+  /** look to the right of the hole (from a finite radius); in degrees; -180 to 180; default 0. */
+  'camera.yaw_deg'?: number;
+  /** look above the hole (from a finite radius); in degrees; -90 to 90; default 0. */
+  'camera.pitch_deg'?: number;
+  /**
+   * turn the camera clockwise about its axis; ring: the angle in the middle of the picture, 0 at alpha > 0,
+   * rising to the right; in degrees; -360 to 360; default 0.
+   */
+  'camera.roll_deg'?: number;
+  /**
+   * pair: two pictures side by side, the left eye's on the left, each image.width wide and in pinhole projection;
+   * none: one eye; default "none".
+   */
+  'camera.stereo'?: 'none' | 'pair';
+  /**
+   * distance of the eyes, across the way the camera looks (stereo: pair); in M; 1e-06 to 1000000; default 0.5.
+   */
+  'camera.eye_distance'?: number;
+  /**
+   * log10 of the distance to the critical curve, over its radius, at the upper and lower edge (ring); in decades;
+   * -12 to 0; default 0.
+   */
+  'camera.ring_decades_max'?: number;
+  /**
+   * the same at the middle line, above which rays pass outside the curve and below which inside (ring); in
+   * decades; -13 to -1; default -10.
+   */
+  'camera.ring_decades_min'?: number;
+  /**
+   * radial flux: none, the exact Page-Thorne integral, or the Newtonian thin disk cut at the ISCO; particles: the
+   * exact one, made of orbiting particles; default "novikov-thorne".
+   */
+  'disk.model'?: 'none' | 'novikov-thorne' | 'shakura-sunyaev' | 'particles';
+  /** inner edge; never inside the ISCO; in M; 1 to 1000000; default "isco". */
+  'disk.inner'?: 'isco' | number;
+  /** outer edge; larger than the inner one; in M; 1 to 1000000; default 22. */
+  'disk.outer'?: number;
+  /** the outer fraction of the radius over which the disk fades out; 0 cuts it sharply; 0 to 1; default 0.7. */
+  'disk.taper'?: number;
+  /** opacity of one crossing; 1 is optically thick; 0 to 1; default 1. */
+  'disk.opacity'?: number;
+  /**
+   * optical depth along the normal where the disk is brightest, elsewhere as its flux: a crossing takes 1 -
+   * exp(-depth/cos) of disk.opacity, by the angle of emission in the gas's frame; 0: opacity is the same
+   * everywhere; 0 to 1000000; default 10.
+   */
+  'disk.emission_opacity'?: number;
+  /**
+   * height of the gas over its distance from the axis, at 10 M: where its density has fallen to exp(-1/2); it has
+   * the thin disk's optical depth from top to bottom; 0: a thin disk; 0 to 0.5; default 0.
+   */
+  'disk.height'?: number;
+  /** power of the distance from the axis that the ratio grows as; -0.5 to 0.5; default 0. */
+  'disk.flare'?: number;
+  /**
+   * temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd; default "peak".
+   */
+  'disk.colour'?: 'peak' | 'accretion';
+  /**
+   * largest effective temperature of the disk, in its own frame (colour: peak); in K; 300 to 1000000000; default
+   * 3600.
+   */
+  'disk.peak_temperature_k'?: number;
+  /**
+   * accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin; in Eddington
+   * rates; 1e-12 to 1000; default 0.1.
+   */
+  'disk.mdot_edd'?: number;
+  /** colour temperature over effective temperature; 1 to 3; default 1. */
+  'disk.hardening'?: number;
+  /**
+   * brightness: bolometric, g^4 F; or visible, the luminance of the Planck spectrum as the eye weighs it; default
+   * "bolometric".
+   */
+  'disk.band'?: 'bolometric' | 'visible';
+  /** the Doppler shift and beaming of the orbiting gas; default true. */
+  'disk.doppler'?: boolean;
+  /** gravitational redshift and time dilation of the orbiting gas; default true. */
+  'disk.redshift'?: boolean;
+  /** number of particles (model: particles); 1000 to 10000000; default 300000. */
+  'disk.particles'?: number;
+  /** another number, other particles (model: particles); 0 to 2147483647; default 1. */
+  'disk.seed'?: number;
+  /**
+   * particles per area fall as r to this power; 2 puts as many into each octave of r (model: particles); 0 to 4;
+   * default 2.
+   */
+  'disk.density_index'?: number;
+  /**
+   * share of the particles that fall from the ISCO on its energy and angular momentum; none do where disk.inner
+   * is not "isco" (model: particles); 0 to 0.5; default 0.02.
+   */
+  'disk.plunging'?: number;
+  /**
+   * temperature of the plunging gas over the disk's largest; 0: it is not seen (model: particles); 0 to 1;
+   * default 0.7.
+   */
+  'disk.plunging_temperature'?: number;
+  /**
+   * largest oscillations in latitude, radians, and in r over r, the latter times (kappa/Omega)^2, which vanishes
+   * at the ISCO (model: particles); 0 to 0.2; default 0.02.
+   */
+  'disk.epicycles'?: number;
+  /**
+   * each ray shows particles, gas and spots where they were when its light left them, instead of all at one
+   * coordinate time; default false.
+   */
+  'disk.slow_light'?: boolean;
+  /**
+   * turbulence: standard deviation of the logarithm of the flux, and of the optical depth; 0: a smooth disk; 0 to
+   * 3; default 0.8.
+   */
+  'disk.gas.amplitude'?: number;
+  /** scales of the turbulence, each about half the one before; 1 to 8; default 6. */
+  'disk.gas.octaves'?: number;
+  /** size of the largest eddies, over r, before they are drawn out; 0.02 to 2; default 0.4. */
+  'disk.gas.scale'?: number;
+  /**
+   * azimuth by which streaks trail, radians for each unit of ln r; they are 1 + shear^2 times as long as wide;
+   * below 0 they lead; -20 to 20; default 5.
+   */
+  'disk.gas.shear'?: number;
+  /** another number, other gas; 0 to 2147483647; default 1. */
+  'disk.gas.seed'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.0.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.0.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.0.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.0.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.0.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.0.temperature_k'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.1.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.1.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.1.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.1.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.1.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.1.temperature_k'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.2.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.2.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.2.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.2.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.2.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.2.temperature_k'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.3.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.3.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.3.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.3.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.3.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.3.temperature_k'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.4.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.4.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.4.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.4.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.4.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.4.temperature_k'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.5.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.5.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.5.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.5.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.5.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.5.temperature_k'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.6.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.6.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.6.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.6.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.6.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.6.temperature_k'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.7.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.7.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.7.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.7.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.7.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.7.temperature_k'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.8.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.8.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.8.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.8.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.8.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.8.temperature_k'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.9.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.9.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.9.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.9.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.9.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.9.temperature_k'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.10.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.10.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.10.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.10.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.10.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.10.temperature_k'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.11.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.11.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.11.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.11.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.11.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.11.temperature_k'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.12.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.12.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.12.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.12.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.12.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.12.temperature_k'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.13.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.13.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.13.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.13.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.13.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.13.temperature_k'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.14.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.14.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.14.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.14.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.14.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.14.temperature_k'?: number;
+  /**
+   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
+   * such spot; 0 to 1000000; default 0.
+   */
+  'spots.15.brightness'?: number;
+  /**
+   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
+   * default 9.
+   */
+  'spots.15.r'?: number;
+  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  'spots.15.phase_deg'?: number;
+  /**
+   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   */
+  'spots.15.size'?: number;
+  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  'spots.15.index'?: number;
+  /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+  'spots.15.temperature_k'?: number;
+  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  'bodies.0.radius'?: number;
+  /**
+   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * default 15.
+   */
+  'bodies.0.r'?: number;
+  /**
+   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
+   * default 90.
+   */
+  'bodies.0.inclination_deg'?: number;
+  /**
+   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
+   * default 0.
+   */
+  'bodies.0.phase_deg'?: number;
+  /**
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
+   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
+   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
+   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
+   * momentum; default "keplerian".
+   */
+  'bodies.0.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.0.velocity_r'?: number;
+  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.0.velocity_theta'?: number;
+  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.0.velocity_phi'?: number;
+  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  'bodies.0.temperature_k'?: number;
+  /**
+   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * 1000000000; default 1.
+   */
+  'bodies.0.brightness'?: number;
+  /**
+   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
+   * to 1; default 0.6.
+   */
+  'bodies.0.limb_darkening'?: number;
+  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  'bodies.1.radius'?: number;
+  /**
+   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * default 15.
+   */
+  'bodies.1.r'?: number;
+  /**
+   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
+   * default 90.
+   */
+  'bodies.1.inclination_deg'?: number;
+  /**
+   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
+   * default 0.
+   */
+  'bodies.1.phase_deg'?: number;
+  /**
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
+   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
+   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
+   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
+   * momentum; default "keplerian".
+   */
+  'bodies.1.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.1.velocity_r'?: number;
+  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.1.velocity_theta'?: number;
+  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.1.velocity_phi'?: number;
+  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  'bodies.1.temperature_k'?: number;
+  /**
+   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * 1000000000; default 1.
+   */
+  'bodies.1.brightness'?: number;
+  /**
+   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
+   * to 1; default 0.6.
+   */
+  'bodies.1.limb_darkening'?: number;
+  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  'bodies.2.radius'?: number;
+  /**
+   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * default 15.
+   */
+  'bodies.2.r'?: number;
+  /**
+   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
+   * default 90.
+   */
+  'bodies.2.inclination_deg'?: number;
+  /**
+   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
+   * default 0.
+   */
+  'bodies.2.phase_deg'?: number;
+  /**
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
+   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
+   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
+   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
+   * momentum; default "keplerian".
+   */
+  'bodies.2.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.2.velocity_r'?: number;
+  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.2.velocity_theta'?: number;
+  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.2.velocity_phi'?: number;
+  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  'bodies.2.temperature_k'?: number;
+  /**
+   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * 1000000000; default 1.
+   */
+  'bodies.2.brightness'?: number;
+  /**
+   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
+   * to 1; default 0.6.
+   */
+  'bodies.2.limb_darkening'?: number;
+  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  'bodies.3.radius'?: number;
+  /**
+   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * default 15.
+   */
+  'bodies.3.r'?: number;
+  /**
+   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
+   * default 90.
+   */
+  'bodies.3.inclination_deg'?: number;
+  /**
+   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
+   * default 0.
+   */
+  'bodies.3.phase_deg'?: number;
+  /**
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
+   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
+   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
+   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
+   * momentum; default "keplerian".
+   */
+  'bodies.3.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.3.velocity_r'?: number;
+  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.3.velocity_theta'?: number;
+  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.3.velocity_phi'?: number;
+  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  'bodies.3.temperature_k'?: number;
+  /**
+   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * 1000000000; default 1.
+   */
+  'bodies.3.brightness'?: number;
+  /**
+   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
+   * to 1; default 0.6.
+   */
+  'bodies.3.limb_darkening'?: number;
+  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  'bodies.4.radius'?: number;
+  /**
+   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * default 15.
+   */
+  'bodies.4.r'?: number;
+  /**
+   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
+   * default 90.
+   */
+  'bodies.4.inclination_deg'?: number;
+  /**
+   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
+   * default 0.
+   */
+  'bodies.4.phase_deg'?: number;
+  /**
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
+   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
+   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
+   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
+   * momentum; default "keplerian".
+   */
+  'bodies.4.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.4.velocity_r'?: number;
+  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.4.velocity_theta'?: number;
+  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.4.velocity_phi'?: number;
+  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  'bodies.4.temperature_k'?: number;
+  /**
+   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * 1000000000; default 1.
+   */
+  'bodies.4.brightness'?: number;
+  /**
+   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
+   * to 1; default 0.6.
+   */
+  'bodies.4.limb_darkening'?: number;
+  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  'bodies.5.radius'?: number;
+  /**
+   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * default 15.
+   */
+  'bodies.5.r'?: number;
+  /**
+   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
+   * default 90.
+   */
+  'bodies.5.inclination_deg'?: number;
+  /**
+   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
+   * default 0.
+   */
+  'bodies.5.phase_deg'?: number;
+  /**
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
+   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
+   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
+   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
+   * momentum; default "keplerian".
+   */
+  'bodies.5.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.5.velocity_r'?: number;
+  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.5.velocity_theta'?: number;
+  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.5.velocity_phi'?: number;
+  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  'bodies.5.temperature_k'?: number;
+  /**
+   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * 1000000000; default 1.
+   */
+  'bodies.5.brightness'?: number;
+  /**
+   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
+   * to 1; default 0.6.
+   */
+  'bodies.5.limb_darkening'?: number;
+  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  'bodies.6.radius'?: number;
+  /**
+   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * default 15.
+   */
+  'bodies.6.r'?: number;
+  /**
+   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
+   * default 90.
+   */
+  'bodies.6.inclination_deg'?: number;
+  /**
+   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
+   * default 0.
+   */
+  'bodies.6.phase_deg'?: number;
+  /**
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
+   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
+   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
+   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
+   * momentum; default "keplerian".
+   */
+  'bodies.6.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.6.velocity_r'?: number;
+  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.6.velocity_theta'?: number;
+  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.6.velocity_phi'?: number;
+  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  'bodies.6.temperature_k'?: number;
+  /**
+   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * 1000000000; default 1.
+   */
+  'bodies.6.brightness'?: number;
+  /**
+   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
+   * to 1; default 0.6.
+   */
+  'bodies.6.limb_darkening'?: number;
+  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  'bodies.7.radius'?: number;
+  /**
+   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * default 15.
+   */
+  'bodies.7.r'?: number;
+  /**
+   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
+   * default 90.
+   */
+  'bodies.7.inclination_deg'?: number;
+  /**
+   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
+   * default 0.
+   */
+  'bodies.7.phase_deg'?: number;
+  /**
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
+   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
+   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
+   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
+   * momentum; default "keplerian".
+   */
+  'bodies.7.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.7.velocity_r'?: number;
+  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.7.velocity_theta'?: number;
+  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  'bodies.7.velocity_phi'?: number;
+  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  'bodies.7.temperature_k'?: number;
+  /**
+   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * 1000000000; default 1.
+   */
+  'bodies.7.brightness'?: number;
+  /**
+   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
+   * to 1; default 0.6.
+   */
+  'bodies.7.limb_darkening'?: number;
+  /**
+   * matter all along the rays: none; uniform, a shell that is the same everywhere and does not move: what light
+   * and opacity along bent rays come to; at one radio frequency gold, the analytic model of Gold et al. 2020,
+   * riaf, a hot, thin flow whose density, temperature and magnetic field are powers of r, torus, a thick one in
+   * equilibrium, and grid, numbers from a file; default "none".
+   */
+  'volume.model'?: 'none' | 'uniform' | 'gold' | 'riaf' | 'torus' | 'grid';
+  /**
+   * inner edge; horizon: as near to it as it may be, a hundredth outside it, or a two-thousandth for what is seen
+   * at a radio frequency; of a torus half of the radius of its largest pressure; in M; 1 to 30000; default
+   * "horizon".
+   */
+  'volume.inner'?: 'horizon' | number;
+  /** outer edge; larger than the inner one; in M; 1 to 30000; default 20. */
+  'volume.outer'?: number;
+  /**
+   * light of a length of M, in its own frame, in units of the disk's brightest (model: uniform); in 1/M; 0 to
+   * 1e+30; default 0.02.
+   */
+  'volume.emissivity'?: number;
+  /** optical depth of a length of M, in its own frame (model: uniform); in 1/M; 0 to 1e+30; default 0.02. */
+  'volume.opacity'?: number;
+  /**
+   * colour: that of a black body of this temperature, shifted by g (model: uniform); in K; 300 to 1000000000;
+   * default 6500.
+   */
+  'volume.temperature_k'?: number;
+  /** the frequency shift of the matter (model: uniform); default true. */
+  'volume.redshift'?: boolean;
+  /** frequency that is observed (models: gold, riaf, torus, grid); in GHz; 1e-06 to 1e+12; default 230. */
+  'volume.frequency_ghz'?: number;
+  /**
+   * density, temperature, velocity and magnetic field of electrons on a grid of r, theta and phi, an NPZ file
+   * (model: grid); without one there is no matter; default null.
+   */
+  'volume.grid'?: null | string;
+  /**
+   * factor on the density of the file; its magnetic field is multiplied by the square root of this (model: grid);
+   * 0 to 1e+30; default 1.
+   */
+  'volume.grid_scale'?: number;
+  /**
+   * C n0: emissivity at 230 GHz where the density is largest (model: gold); in erg/(s cm^3 Hz sr); 0 to 1e+30;
+   * default 3e-18.
+   */
+  'volume.gold_emission'?: number;
+  /**
+   * alpha: emissivity goes as nu^-alpha, absorptivity as nu^-(2.5 + alpha) (model: gold); -10 to 10; default 0.
+   */
+  'volume.gold_index'?: number;
+  /** h: density goes as exp(-(h cos(theta))^2/2); 0: round (model: gold); 0 to 10000; default 0. */
+  'volume.gold_flattening'?: number;
+  /**
+   * l0: angular momentum, l0 R^(3/2)/(1 + R) an energy of 1, R = r sin(theta); 0: zero angular momentum (model:
+   * gold); -1 to 1; default 0.
+   */
+  'volume.gold_momentum'?: number;
+  /**
+   * A: absorptivity in 1/cm over emissivity in erg/(s cm^3 Hz sr), at 230 GHz (model: gold); 0 to 1e+30; default
+   * 0.
+   */
+  'volume.gold_absorption'?: number;
+  /**
+   * electrons at 1 M in the plane, as their power law has it (model: riaf), or where there are most of them
+   * (model: torus); in 1/cm^3; 0 to 1e+30; default 30000000.
+   */
+  'volume.density_cm3'?: number;
+  /** density goes as r^-p, p being this number (model: riaf); -10 to 10; default 1.1. */
+  'volume.density_index'?: number;
+  /** temperature of the electrons at 1 M (model: riaf); in K; 1 to 1e+30; default 300000000000. */
+  'volume.electron_temperature_k'?: number;
+  /** temperature goes as r^-p, p being this number (model: riaf); -10 to 10; default 0.84. */
+  'volume.temperature_index'?: number;
+  /**
+   * height over the distance from the axis at which the density has fallen to exp(-1/2); 0: it is the same at all
+   * heights (model: riaf); 0 to 10; default 0.1.
+   */
+  'volume.height'?: number;
+  /**
+   * magnetic pressure over the rest energy of a proton for each electron, at 1 M (model: riaf); 0 to 1e+12;
+   * default 0.016666666666666666.
+   */
+  'volume.magnetisation'?: number;
+  /** magnetisation goes as r^-p, p being this number (model: riaf); -10 to 10; default 1. */
+  'volume.magnetisation_index'?: number;
+  /**
+   * magnetic field: round the axis, along it, or along the radius, made perpendicular to the motion (models:
+   * riaf, torus); default "toroidal".
+   */
+  'volume.field'?: 'toroidal' | 'vertical' | 'radial';
+  /**
+   * motion: with the circular orbit's angular velocity at each r, and falling in from the ISCO; or at rest for
+   * observers of zero angular momentum (model: riaf); default "orbits".
+   */
+  'volume.flow'?: 'orbits' | 'rest';
+  /**
+   * energies of the electrons (models: riaf, torus, grid); kappa: thermal ones with a tail of a power law;
+   * default "thermal".
+   */
+  'volume.electrons'?: 'thermal' | 'power-law' | 'kappa';
+  /** p: electrons of energy gamma go as gamma to minus this (electrons: power-law); 1.1 to 10; default 3.5. */
+  'volume.electrons_index'?: number;
+  /**
+   * kappa: electrons of high energy gamma go as gamma to 1 minus this (electrons: kappa); 3.1 to 7.5; default 4.
+   */
+  'volume.kappa'?: number;
+  /**
+   * where the pressure is largest; the inner edge is volume.inner (model: torus); in M; 1 to 1000; default 12.
+   */
+  'volume.torus_radius'?: number;
+  /** of the gas (model: torus); 1.1 to 2; default 1.4444444444444444. */
+  'volume.adiabatic_index'?: number;
+  /** temperature of the ions over that of the electrons (model: torus); 0 to 1000000; default 3. */
+  'volume.temperature_ratio'?: number;
+  /** pressure of the gas over that of the magnetic field (model: torus); 1e-06 to 1e+12; default 10. */
+  'volume.beta'?: number;
+  /** least energy of the electrons over that at rest (electrons: power-law); 1 to 1000000000; default 30. */
+  'volume.gamma_min'?: number;
+  /** largest energy of the electrons, more than the least (electrons: power-law); 1 to 1e+12; default 100000. */
+  'volume.gamma_max'?: number;
+  /**
+   * flux that the picture shall have: the density (of gold the emissivity, of a grid its factor) is multiplied by
+   * what it takes, which kerrd finds by small pictures and answers tell; 0: left as it is (models: gold, riaf,
+   * torus, grid); in Jy; 0 to 1e+12; default 0.
+   */
+  'volume.normalise_to_jy'?: number;
+  /**
+   * frequency of that flux; observed: the one that the picture shows; in GHz; 1e-06 to 1e+12; default "observed".
+   */
+  'volume.normalise_ghz'?: 'observed' | number;
+  /**
+   * light of a length of M in its own frame, carried back to the inner edge, where it begins smoothly, in units
+   * of the disk's brightest; 0: there are none; in 1/M; 0 to 1000000000; default 0.
+   */
+  'jets.brightness'?: number;
+  /** half of the angle of the cone; in degrees; 1 to 60; default 8. */
+  'jets.opening_deg'?: number;
+  /** Lorentz factor: how fast the light's source flies outwards; 1 to 100; default 2. */
+  'jets.lorentz'?: number;
+  /** where the light begins, at least a twentieth outside the horizon; in M; 1 to 1000000; default 4. */
+  'jets.inner'?: number;
+  /** where it ends; larger than the inner edge; in M; 1 to 1000000; default 60. */
+  'jets.outer'?: number;
+  /** light along the jet goes as r to minus this; -10 to 10; default 1.5. */
+  'jets.falloff'?: number;
+  /** from a bright spine, 0, to bright edges, 1; 0 to 1; default 0.5. */
+  'jets.sheath'?: number;
+  /** brightness goes as the frequency shift to 2 plus this; -10 to 10; default 0.7. */
+  'jets.spectral_index'?: number;
+  /** colour: that of a black body of this temperature, not shifted; in K; 300 to 1000000000; default 14000. */
+  'jets.temperature_k'?: number;
+  /** the jet below the disk, too; default true. */
+  'jets.counterjet'?: boolean;
+  /**
+   * of light from the disk's plane: none; synchrotron, across polarization.field and the light, in the gas's
+   * frame; or scattering, of a deep atmosphere of free electrons, across the normal and the light; transfer: of a
+   * volume at a radio frequency, Stokes I, Q, U and V all along the rays; default "none".
+   */
+  'polarization.model'?: 'none' | 'synchrotron' | 'scattering' | 'transfer';
+  /**
+   * direction of the magnetic field in the plane: round the axis, outwards, or along the normal (model:
+   * synchrotron); default "toroidal".
+   */
+  'polarization.field'?: 'toroidal' | 'radial' | 'vertical';
+  /**
+   * electrons have energies E as E to minus this power p, and the light of a field in order is polarised by (p +
+   * 1)/(p + 7/3) (model: synchrotron); 1 to 10; default 3.
+   */
+  'polarization.electron_index'?: number;
+  /** part of that polarisation which disorder within a pixel leaves; 0 to 1; default 1. */
+  'polarization.order'?: number;
+  /**
+   * electrons turn the direction of light that passes (Faraday rotation), and make linear of circular
+   * polarisation and back (model: transfer); default true.
+   */
+  'polarization.faraday'?: boolean;
+  /**
+   * fit of the Faraday rotation by thermal electrons: of Shcherbakov 2008, or of Dexter 2016, as Huang and
+   * Shcherbakov 2011 have it (model: transfer); default "shcherbakov".
+   */
+  'polarization.rotation'?: 'shcherbakov' | 'dexter';
+  /**
+   * what lies at infinity: nothing; a celestial grid that shows the lensing; stars and a Milky Way that are made
+   * up; the stars of the Hipparcos catalogue over that Milky Way; or sky.image without stars; default "none".
+   */
+  'sky.model'?: 'none' | 'grid' | 'stars' | 'catalogue' | 'image';
+  /**
+   * brightness of the sky in units of the disk's brightest surface brightness at g = 1: of the grid; of 21
+   * magnitudes a square arcsecond, by which stars and the Milky Way keep their true ratio; auto: 0.2, or 0.01 of
+   * stars and the Milky Way where something shines before them; 0 to 100; default "auto".
+   */
+  'sky.brightness'?: 'auto' | number;
+  /** spacing of the celestial grid; in degrees; 1 to 90; default 15. */
+  'sky.grid_deg'?: number;
+  /** brightness of the Milky Way, or of sky.image, over its own; 0: stars alone; 0 to 100; default 1. */
+  'sky.milky_way'?: number;
+  /**
+   * picture of the whole sky in the place of the Milky Way that is made up (model: stars, catalogue, image):
+   * twice as wide as high, galactic longitude across, growing to the left from 0 in the middle, latitude upwards;
+   * its white is 21 magnitudes a square arcsecond; default null.
+   */
+  'sky.image'?: null | string;
+  /** stars fainter than this are left out; in magnitudes; -2 to 14; default 14. */
+  'sky.limit_mag'?: number;
+  /** another number, another sky that is made up; 0 to 2147483647; default 1. */
+  'sky.seed'?: number;
+  /**
+   * galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra,
+   * m87: from azimuth 0 the hole stands before that one, as seen from the Earth, with the galactic or the
+   * celestial pole above; default "galactic".
+   */
+  'sky.orientation'?: 'galactic' | 'equatorial' | 'sgra' | 'm87';
+  /**
+   * the sky is turned about the hole's axis by so much, as by camera.azimuth_deg; in degrees; -360 to 360;
+   * default 0.
+   */
+  'sky.turn_deg'?: number;
+  /**
+   * and, after that, about the horizontal axis of the picture from azimuth 0; in degrees; -180 to 180; default 0.
+   */
+  'sky.tilt_deg'?: number;
+  /** width of the picture; in pixels; 1 to 32768; default 1280. */
+  'image.width'?: number;
+  /** height of the picture; in pixels; 1 to 32768; default 720. */
+  'image.height'?: number;
+  /**
+   * rays along each side of a pixel: n gives n x n rays, averaged; auto: one, and 16 where the picture shows that
+   * one was not enough; 1 to 8; default 1.
+   */
+  'image.samples'?: 'auto' | number;
+  /**
+   * by how much of white a pixel of one ray may seem to be off before it is given more (samples: auto); 0.001 to
+   * 0.5; default 0.003.
+   */
+  'image.pixel_error'?: number;
+  /**
+   * so many times as many along each side of the pixels that the critical curve passes, where the photon ring is
+   * thinner than they are; at most 16 in all; 1 to 16; default 4.
+   */
+  'image.critical_factor'?: number;
+  /** bits a channel: 8 or 16; in bits; 8 to 16; default 8. */
+  'image.bit_depth'?: number;
+  /**
+   * what the file holds: the picture, or maps of the rays (docs/layers.md); of the first crossing on the disk, or
+   * behind _N of image order N; a PNG shows one in false colour, FITS, EXR, NPZ and NPY hold several as numbers;
+   * up to 16; default ["rgb"].
+   */
+  'image.layers'?: string[];
+  /**
+   * number at the lower end of the colours of a layer; auto: what docs/layers.md says of each; -1e+12 to 1e+12;
+   * default "auto".
+   */
+  'image.layer_min'?: 'auto' | number;
+  /** the same at their upper end; -1e+12 to 1e+12; default "auto". */
+  'image.layer_max'?: 'auto' | number;
+  /** a colour bar in the lower left corner of a layer in false colour; default true. */
+  'image.legend'?: boolean;
+  /** columns of the picture to its left; in pixels; 0 to 32767; default 0. */
+  'image.tile.left'?: number;
+  /** rows of the picture above it; in pixels; 0 to 32767; default 0. */
+  'image.tile.top'?: number;
+  /** its width; 0: the whole picture is made, and no tile; in pixels; 0 to 32768; default 0. */
+  'image.tile.width'?: number;
+  /** its height, likewise; in pixels; 0 to 32768; default 0. */
+  'image.tile.height'?: number;
+  /**
+   * a preset of what makes the look, which a document sets by naming it, but for the fields that it sets itself;
+   * none: nothing; default "film".
+   */
+  'style.name'?: 'none' | 'film' | 'raw' | 'dngr' | 'eht' | 'starless';
+  /**
+   * brightness as a power of two over the disk's brightest surface brightness at g = 1; auto: by what shines, and
+   * stars alone no further than that space is black; in stops; -40 to 40; default "auto".
+   */
+  'style.exposure'?: 'auto' | number;
+  /**
+   * aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours and compresses what is
+   * near white; default "aces".
+   */
+  'style.tone_map'?: 'aces' | 'srgb' | 'neutral';
+  /**
+   * share of bright light that a lens spreads round its place: all of what is over 0.6 of white, by an even knee
+   * from 0.2 on; 0: none; 0 to 1; default 0.4.
+   */
+  'style.bloom'?: number;
+  /**
+   * full width at half maximum of the round Gaussian beam of a telescope that sees the picture from
+   * spacetime.distance_pc; 0: none; in microarcseconds; 0 to 1e+12; default 0.
+   */
+  'style.beam_uas'?: number;
+  /**
+   * colour: that of light; heat: brightness in false colour, black, red, orange, white, by a lightness that is
+   * proportional to it; default "colour".
+   */
+  'style.palette'?: 'colour' | 'heat';
+  /**
+   * a bar of brightness (palette: heat; tone_map: srgb) in the lower left corner, a scale of the sky and the beam
+   * in the upper right one; default false.
+   */
+  'style.colour_bar'?: boolean;
+  /** half a step of ordered noise before rounding, against banding; default true. */
+  'style.dither'?: boolean;
+  /**
+   * a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * e^(-t/tau)
+   * cos(w t), the quasi-normal mode l = m = 2, n = 0 of the hole; 0: none; 0 to 1; default 0.
+   */
+  'style.ringdown'?: number;
+  /** time at which it was struck; before that nothing rings; in M; -1e+12 to 1e+12; default 0. */
+  'style.ringdown_time'?: number;
+  /** the source on the sky that the hole stands for; default "none". */
+  'source.name'?: 'none' | 'm87' | 'sgra';
+  /** right ascension of the hole (ICRS); in degrees; 0 to 360; default 0. */
+  'source.ra_deg'?: number;
+  /** declination of the hole (ICRS); in degrees; -90 to 90; default 0. */
+  'source.dec_deg'?: number;
+  /** date of the picture, as a modified Julian date; in days; 0 to 1000000; default "none". */
+  'source.mjd'?: 'none' | number;
+  /** the observer goes round the axis; in degrees per second; -360 to 360; default 0. */
+  'motion.azimuth_rate_deg'?: number;
+  /** coordinate time goes on; in M per second; -1000000 to 1000000; default 0. */
+  'motion.time_rate'?: number;
+  /**
+   * the observer goes on by its own clock: it falls, to where a camera can be at last, or goes round, and
+   * coordinate time goes on as it does on its way; in M per second; 0 to 1000000; default 0.
+   */
+  'motion.proper_time_rate'?: number;
+  /** how closely rays are followed, coarse to fine; reference is double precision; default "balanced". */
+  'accuracy.profile'?: 'draft' | 'interactive' | 'balanced' | 'high' | 'reference';
+  /**
+   * relative error of the crossing radii to be held, by the accuracy table of the device, instead of the profile;
+   * 1e-18 to 0.1; default "profile".
+   */
+  'accuracy.tolerance'?: 'profile' | number;
+  /** what traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6; default "auto". */
+  'accuracy.engine'?: 'auto' | 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
+  /** of the arithmetic; auto: what the profile means; default "auto". */
+  'accuracy.precision'?: 'auto' | 'f32' | 'f64';
+  /** steps of the integrator a half turn, a multiple of 4; 0: what the profile means; 0 to 2048; default 0. */
+  'accuracy.steps'?: number;
+  /** equatorial crossings kept a ray: image orders 0 to n - 1; 1 to 8; default 3. */
+  'accuracy.orders'?: number;
+  /** coordinate time of the picture; in M; -1e+12 to 1e+12; default 0. */
+  time?: number;
+}
+
+/**
+ * Operations by method and path. takes: parameters of the path and the query, and the body with its media type; gives:
+ * what an answer holds by its media type, undefined where there is none. Left out are the page's files, and answers
+ * that are streams without an end.
+ */
+export interface Operations {
+  /** 200 while the process lives. */
+  'GET /healthz': {
+    takes: {};
+    gives: {
+      'application/json': {
+        status: 'alive';
+      };
+    };
+  };
+  /** 200 while renders are taken, 503 on the way down. */
+  'GET /readyz': {
+    takes: {};
+    gives: {
+      'application/json': {
+        status: 'ready';
+      };
+    };
+  };
+  /** Counters and gauges for Prometheus. */
+  'GET /metrics': {
+    takes: {};
+    gives: {
+      'text/plain': string;
+    };
+  };
+  /** Device, driver, precision, memory, versions. */
+  'GET /v1/device': {
+    takes: {};
+    gives: {
+      'application/json': Device;
+    };
+  };
+  /** Measured speed and error of the engines on this device; made by `kerrd bench accuracy`. */
+  'GET /v1/accuracy': {
+    takes: {};
+    gives: {
+      'application/json': AccuracyTable;
+    };
+  };
+  /** Names and titles of the presets. */
+  'GET /v1/presets': {
+    takes: {};
+    gives: {
+      'application/json': Presets;
+    };
+  };
+  /** The scene of a preset. */
+  'GET /v1/presets/{name}': {
+    takes: {
+      path: {
+        name: PresetName;
+      };
+    };
+    gives: {
+      'application/json': Scene;
+    };
+  };
+  /** A small picture of a preset, 192 by 120 pixels, rendered when it is first asked for and then kept. */
+  'GET /v1/presets/{name}/thumbnail.png': {
+    takes: {
+      path: {
+        name: PresetName;
+      };
+    };
+    gives: {
+      'image/png': Uint8Array;
+    };
+  };
+  /** JSON Schema of a scene. */
+  'GET /v1/schema': {
+    takes: {};
+    gives: {
+      'application/schema+json': unknown;
+    };
+  };
+  /** Names of all approximations, as Kerrd-Approximations lists them, and the sentence of each. */
+  'GET /v1/approximations': {
+    takes: {};
+    gives: {
+      'application/json': Approximations;
+    };
+  };
+  /**
+   * What a scene requires: passes, rays, bytes, estimated time, approximations; or, with axes, what all scenes of
+   * a sweep take together.
+   */
+  'POST /v1/plan': {
+    takes: {
+      query?: {
+        preset?: PresetName;
+      };
+      body: Scene | {
+        scene?: Scene;
+        axes: SweepAxes;
+        exposure?: 'each';
+        output?: 'pictures' | 'layers' | 'npy' | 'npz' | 'fits' | 'exr' | 'cube' | 'light-curve';
+      };
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': Plan | SweepPlan;
+    };
+  };
+  /** End points of listed rays: equatorial crossings, redshift, delay, direction of escape, error. */
+  'POST /v1/rays': {
+    takes: {
+      query?: {
+        /** of the hole, a/M; -1 to 1. */
+        spin?: number;
+        /** from which the rays are followed back, M: outside the horizon; 1 to 10000000. */
+        r?: 'infinity' | number;
+        /** from the hole's axis; 0 to 180. */
+        inclination_deg?: number;
+        /**
+         * as camera.observer of a scene, at a finite r: rays are then directions in the observer's frame, [yaw, pitch]
+         * in degrees.
+         */
+        motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /** motion velocity: as camera.velocity_r; -1 to 1. */
+        velocity_r?: number;
+        /** motion velocity: as camera.velocity_theta; -1 to 1. */
+        velocity_theta?: number;
+        /** motion velocity: as camera.velocity_phi; -1 to 1. */
+        velocity_phi?: number;
+        /** motion infall: as camera.infall_from, M; 1 to 10000000. */
+        infall_from?: 'infinity' | number;
+        /** motion infall: as camera.infall_energy; -100 to 1000. */
+        infall_energy?: 'rest' | number;
+        /** motion infall: as camera.infall_momentum, M; -10000 to 10000. */
+        infall_momentum?: number;
+        /** crossings of the equatorial plane that are wanted; 1 to 16. */
+        orders?: number;
+        /** as in a scene; without it, and without an engine, the closed form. */
+        profile?: 'draft' | 'interactive' | 'balanced' | 'high' | 'reference';
+        /** relative error of the crossing radii to be held, instead of the profile; 0 to 1. */
+        tolerance?: 'profile' | number;
+        /** auto: by profile or tolerance. */
+        engine?: 'auto' | 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
+        /** of the arithmetic; the closed form has f64 alone. */
+        precision?: 'auto' | 'f32' | 'f64';
+        /** a half period of the radial motion; some engines take fewer; 0 to 2048. */
+        steps?: number;
+      };
+      body: RaysRequest;
+      type?: 'application/json';
+    } | {
+      query?: {
+        /** of the hole, a/M; -1 to 1. */
+        spin?: number;
+        /** from which the rays are followed back, M: outside the horizon; 1 to 10000000. */
+        r?: 'infinity' | number;
+        /** from the hole's axis; 0 to 180. */
+        inclination_deg?: number;
+        /**
+         * as camera.observer of a scene, at a finite r: rays are then directions in the observer's frame, [yaw, pitch]
+         * in degrees.
+         */
+        motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /** motion velocity: as camera.velocity_r; -1 to 1. */
+        velocity_r?: number;
+        /** motion velocity: as camera.velocity_theta; -1 to 1. */
+        velocity_theta?: number;
+        /** motion velocity: as camera.velocity_phi; -1 to 1. */
+        velocity_phi?: number;
+        /** motion infall: as camera.infall_from, M; 1 to 10000000. */
+        infall_from?: 'infinity' | number;
+        /** motion infall: as camera.infall_energy; -100 to 1000. */
+        infall_energy?: 'rest' | number;
+        /** motion infall: as camera.infall_momentum, M; -10000 to 10000. */
+        infall_momentum?: number;
+        /** crossings of the equatorial plane that are wanted; 1 to 16. */
+        orders?: number;
+        /** as in a scene; without it, and without an engine, the closed form. */
+        profile?: 'draft' | 'interactive' | 'balanced' | 'high' | 'reference';
+        /** relative error of the crossing radii to be held, instead of the profile; 0 to 1. */
+        tolerance?: 'profile' | number;
+        /** auto: by profile or tolerance. */
+        engine?: 'auto' | 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
+        /** of the arithmetic; the closed form has f64 alone. */
+        precision?: 'auto' | 'f32' | 'f64';
+        /** a half period of the radial motion; some engines take fewer; 0 to 2048. */
+        steps?: number;
+      };
+      body: Binary;
+      type: 'application/x-npy';
+    };
+    gives: {
+      'application/json': RaysAnswer;
+      'application/x-npy': Uint8Array;
+    };
+  };
+  /** The quantities that /v1/physics/NAME gives. */
+  'GET /v1/physics': {
+    takes: {};
+    gives: {
+      'application/json': Quantities;
+    };
+  };
+  /** radii, ISCO and frequencies of circular orbits of a Kerr hole. */
+  'GET /v1/physics/kerr': {
+    takes: {
+      query?: {
+        /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
+        spin?: number | string;
+        /** polar angle at which the ergosphere is given [degrees]; 0 to 180; default 90. */
+        theta_deg?: number | string;
+        /** radius of the circular orbit whose frequencies are given [M]; 1 to 1000000000; default 10. */
+        r?: 'isco' | number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'kerr';
+        parameters: {
+          spin: number | number[];
+          theta_deg: number | number[];
+          r: 'isco' | number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** outer horizon r+. */
+          horizon: number | null | (number | null)[];
+          /** inner horizon r-. */
+          inner_horizon: number | null | (number | null)[];
+          /** angular velocity of the horizon, a/(2 r+). */
+          horizon_omega: number | null | (number | null)[];
+          /** static limit r_E at theta_deg. */
+          ergosphere: number | null | (number | null)[];
+          /** circular photon orbit that turns towards +phi. */
+          photon_prograde: number | null | (number | null)[];
+          /** circular photon orbit that turns towards -phi. */
+          photon_retrograde: number | null | (number | null)[];
+          /** circular orbit with E = 1, towards +phi. */
+          marginally_bound: number | null | (number | null)[];
+          /** the same towards -phi. */
+          marginally_bound_retrograde: number | null | (number | null)[];
+          /** innermost stable circular orbit, towards +phi. */
+          isco: number | null | (number | null)[];
+          /** the same towards -phi. */
+          isco_retrograde: number | null | (number | null)[];
+          /** specific energy E at the ISCO. */
+          isco_energy: number | null | (number | null)[];
+          /** specific angular momentum L at the ISCO. */
+          isco_momentum: number | null | (number | null)[];
+          /** angular velocity Omega at the ISCO. */
+          isco_omega: number | null | (number | null)[];
+          /** 1 - E at the ISCO. */
+          efficiency: number | null | (number | null)[];
+          /** specific energy E at r; null at and inside the photon orbit. */
+          energy: number | null | (number | null)[];
+          /** specific angular momentum L at r; likewise. */
+          momentum: number | null | (number | null)[];
+          /** orbital frequency Omega_phi at r, angular, of coordinate time; likewise. */
+          omega_phi: number | null | (number | null)[];
+          /** radial epicyclic frequency at r; null inside the ISCO too. */
+          kappa: number | null | (number | null)[];
+          /** vertical epicyclic frequency at r; null at and inside the photon orbit. */
+          omega_theta: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          theta_deg: string;
+          r: string;
+          horizon: string;
+          inner_horizon: string;
+          horizon_omega: string;
+          ergosphere: string;
+          photon_prograde: string;
+          photon_retrograde: string;
+          marginally_bound: string;
+          marginally_bound_retrograde: string;
+          isco: string;
+          isco_retrograde: string;
+          isco_energy: string;
+          isco_momentum: string;
+          isco_omega: string;
+          efficiency: string;
+          energy: string;
+          momentum: string;
+          omega_phi: string;
+          kappa: string;
+          omega_theta: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** the critical curve, edge of the shadow, for any observer, with its size and shape. */
+  'GET /v1/physics/shadow': {
+    takes: {
+      query?: {
+        /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
+        spin?: number | string;
+        /** polar angle of the observer [degrees]; 0 to 180; default 60. */
+        inclination_deg?: number | string;
+        /** radius of the observer [M]; 0.01 to 10000000; default "infinity". */
+        observer_r?: 'infinity' | number | string;
+        /**
+         * state of motion at a finite radius; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
+         * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; i; default
+         * "static".
+         */
+        observer?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /** outwards, past one of zero angular momentum (observer velocity) [c]; -1 to 1; default 0. */
+        velocity_r?: number | string;
+        /** away from the north pole, likewise [c]; -1 to 1; default 0. */
+        velocity_theta?: number | string;
+        /** towards +phi, likewise [c]; -1 to 1; default 0. */
+        velocity_phi?: number | string;
+        /**
+         * radius from which the observer falls, at rest there but for its angular momentum (observer infall) [M]; 1 to
+         * 10000000; default "infinity".
+         */
+        infall_from?: 'infinity' | number | string;
+        /** its energy per mass; rest: as infall_from has it; -100 to 1000; default "rest". */
+        infall_energy?: 'rest' | number | string;
+        /** its angular momentum per mass [M]; -10000 to 10000; default 0. */
+        infall_momentum?: number | string;
+        /**
+         * where on the curve: about its centre, from the right over the top [degrees]; -360 to 720; default "0:355:72".
+         */
+        angle_deg?: number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'shadow';
+        parameters: {
+          spin: number | number[];
+          inclination_deg: number | number[];
+          observer_r: 'infinity' | number | number[];
+          observer: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+          velocity_r: number | number[];
+          velocity_theta: number | number[];
+          velocity_phi: number | number[];
+          infall_from: 'infinity' | number | number[];
+          infall_energy: 'rest' | number | number[];
+          infall_momentum: number | number[];
+          angle_deg: number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** the curve on the image plane, to the right; at any distance it labels the constants of motion. */
+          alpha: number | null | (number | null)[];
+          /** the curve on the image plane, along the projected spin; likewise. */
+          beta: number | null | (number | null)[];
+          /** distance from the centre: in M for an observer at infinity, else an angle on the sky. */
+          rho: number | null | (number | null)[];
+          /** direction in which it is seen at a finite radius, a unit vector: towards +phi; null at infinity. */
+          right: number | null | (number | null)[];
+          /** its component up, towards -theta. */
+          up: number | null | (number | null)[];
+          /** its component inwards, towards -r. */
+          inwards: number | null | (number | null)[];
+          /** radius of the photon orbit that is seen there. */
+          orbit_r: number | null | (number | null)[];
+          /** gamma of that orbit: images of order n lie closer by e^-gamma each half turn. */
+          lyapunov: number | null | (number | null)[];
+          /** of the shadow: in M^2, or the solid angle. */
+          area: number | null | (number | null)[];
+          /** mean of rho about the middle of the two ends. */
+          mean_radius: number | null | (number | null)[];
+          /** of that middle from the hole's centre, to the right. */
+          displacement: number | null | (number | null)[];
+          /** twice the root mean square of rho less its mean. */
+          asymmetry: number | null | (number | null)[];
+          /** from left to right end. */
+          width: number | null | (number | null)[];
+          /** from bottom to top. */
+          height: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          inclination_deg: string;
+          observer_r: string;
+          velocity_r: string;
+          velocity_theta: string;
+          velocity_phi: string;
+          infall_from: string;
+          infall_energy: string;
+          infall_momentum: string;
+          angle_deg: string;
+          alpha: string;
+          beta: string;
+          rho: string;
+          right: string;
+          up: string;
+          inwards: string;
+          orbit_r: string;
+          lyapunov: string;
+          area: string;
+          mean_radius: string;
+          displacement: string;
+          asymmetry: string;
+          width: string;
+          height: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** bending of light in the equatorial plane, exact and in its limits. */
+  'GET /v1/physics/deflection': {
+    takes: {
+      query?: {
+        /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
+        spin?: number | string;
+        /** impact parameter of light in the equatorial plane, |L|/E [M]; 1 to 1e+12; default 10. */
+        b?: number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'deflection';
+        parameters: {
+          spin: number | number[];
+          b: number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** total bending towards +phi, whole turns included; null if captured, b < b_critical. */
+          angle: number | null | (number | null)[];
+          /** the same of light that turns towards -phi. */
+          angle_retrograde: number | null | (number | null)[];
+          /** weak field, 4/b. */
+          weak: number | null | (number | null)[];
+          /** with the next order, 4/b + (15 pi/4 - 4a)/b^2. */
+          weak_second: number | null | (number | null)[];
+          /** the same towards -phi. */
+          weak_second_retrograde: number | null | (number | null)[];
+          /** limit next to b_critical, -rate ln(b/b_critical - 1) + offset; null if captured. */
+          strong: number | null | (number | null)[];
+          /** the same towards -phi. */
+          strong_retrograde: number | null | (number | null)[];
+          /** closest approach r of the light towards +phi; null if captured. */
+          closest: number | null | (number | null)[];
+          /** the same towards -phi. */
+          closest_retrograde: number | null | (number | null)[];
+          /**
+           * how far light towards +phi gets that is sent out within the photon orbit, before it falls back; null if it
+           * leaves, or if no light there has so little energy for its L.
+           */
+          farthest: number | null | (number | null)[];
+          /** the same towards -phi. */
+          farthest_retrograde: number | null | (number | null)[];
+          /** impact parameter of the circular photon orbit towards +phi. */
+          b_critical: number | null | (number | null)[];
+          /** the same towards -phi. */
+          b_critical_retrograde: number | null | (number | null)[];
+          /** rate of the strong limit, 1 at spin 0. */
+          strong_rate: number | null | (number | null)[];
+          /** its offset. */
+          strong_offset: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          b: string;
+          angle: string;
+          angle_retrograde: string;
+          weak: string;
+          weak_second: string;
+          weak_second_retrograde: string;
+          strong: string;
+          strong_retrograde: string;
+          closest: string;
+          closest_retrograde: string;
+          farthest: string;
+          farthest_retrograde: string;
+          b_critical: string;
+          b_critical_retrograde: string;
+          strong_rate: string;
+          strong_offset: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** effective potential of light and of matter in the equatorial plane, with its extrema. */
+  'GET /v1/physics/potential': {
+    takes: {
+      query?: {
+        /** spin parameter a [M]; -1 to 1; default 0. */
+        spin?: number | string;
+        /**
+         * angular momentum, positive towards +phi: a unit of mass of matter; of the photon that V_light is for [M];
+         * -1000000 to 1000000; default 4.
+         */
+        l?: number | string;
+        /** radius [M]; 1 to 1000000000; default "2:30:281". */
+        r?: number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'potential';
+        parameters: {
+          spin: number | number[];
+          l: number | number[];
+          r: number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** least specific energy of matter with L at r. */
+          v_matter: number | null | (number | null)[];
+          /** least energy of light with L at r. */
+          v_light: number | null | (number | null)[];
+          /** 1 - 1/r + L^2/(2 r^2), Newton's beside v_matter. */
+          newton: number | null | (number | null)[];
+          /** unstable circular orbit of matter with L; null if none. */
+          r_max_matter: number | null | (number | null)[];
+          /** v_matter there. */
+          v_max_matter: number | null | (number | null)[];
+          /** stable circular orbit of matter with L; null if none. */
+          r_min_matter: number | null | (number | null)[];
+          /** v_matter there. */
+          v_min_matter: number | null | (number | null)[];
+          /** circular photon orbit of the sign of L; null for L = 0. */
+          r_max_light: number | null | (number | null)[];
+          /** v_light there, |L|/b_c. */
+          v_max_light: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          l: string;
+          r: string;
+          v_matter: string;
+          v_light: string;
+          newton: string;
+          r_max_matter: string;
+          v_max_matter: string;
+          r_min_matter: string;
+          v_min_matter: string;
+          r_max_light: string;
+          v_max_light: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** redshift g and g^4 round a ring of gas, with its lensed images. */
+  'GET /v1/physics/redshift': {
+    takes: {
+      query?: {
+        /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
+        spin?: number | string;
+        /** polar angle of the observer, at infinity; not within 0.1 of 90 [degrees]; 0 to 180; default 60. */
+        inclination_deg?: number | string;
+        /** radius of the ring [M]; 1 to 10000; default 6. */
+        r?: 'isco' | number | string;
+        /**
+         * azimuth on the ring, less the observer's: 0 is the near side, 90 recedes [degrees]; -360 to 720; default
+         * "0:355:72".
+         */
+        phi_deg?: number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'redshift';
+        parameters: {
+          spin: number | number[];
+          inclination_deg: number | number[];
+          r: 'isco' | number | number[];
+          phi_deg: number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** redshift factor nu_observed/nu_emitted of the direct image. */
+          g: number | null | (number | null)[];
+          /** g^4: its bolometric intensity over the emitted one. */
+          g4: number | null | (number | null)[];
+          /** where it is seen: to the right. */
+          alpha: number | null | (number | null)[];
+          /** where it is seen: along the projected spin. */
+          beta: number | null | (number | null)[];
+          /** time of flight, less r_o + 2 ln r_o of the observer. */
+          delay: number | null | (number | null)[];
+          /**
+           * direct images: 1, but 3 or more beyond a caustic, next to edge-on; the first from +alpha towards +beta is
+           * given.
+           */
+          images: number | null | (number | null)[];
+          /** g of the image of order 1, seen past the other side of the hole. */
+          g_1: number | null | (number | null)[];
+          /** its g^4. */
+          g4_1: number | null | (number | null)[];
+          /** where it is seen. */
+          alpha_1: number | null | (number | null)[];
+          /** where it is seen. */
+          beta_1: number | null | (number | null)[];
+          /** time of flight, likewise. */
+          delay_1: number | null | (number | null)[];
+          /** images of order 1, likewise. */
+          images_1: number | null | (number | null)[];
+          /** sqrt(1 - 3/r)/(1 - v.n), v = sqrt(1/(r - 2)), without lensing or spin; null for r <= 3. */
+          g_flat: number | null | (number | null)[];
+          /** its fourth power. */
+          g4_flat: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          inclination_deg: string;
+          r: string;
+          phi_deg: string;
+          g: string;
+          g4: string;
+          alpha: string;
+          beta: string;
+          delay: string;
+          images: string;
+          g_1: string;
+          g4_1: string;
+          alpha_1: string;
+          beta_1: string;
+          delay_1: string;
+          images_1: string;
+          g_flat: string;
+          g4_flat: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** a ring in the equatorial plane as it is seen, direct or past the hole, from any distance. */
+  'GET /v1/physics/ring-image': {
+    takes: {
+      query?: {
+        /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
+        spin?: number | string;
+        /** polar angle of the observer; not within 0.1 of 90 [degrees]; 0 to 180; default 60. */
+        inclination_deg?: number | string;
+        /** radius of the observer [M]; 0.01 to 10000000; default "infinity". */
+        observer_r?: 'infinity' | number | string;
+        /**
+         * state of motion at a finite radius; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
+         * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; i; default
+         * "static".
+         */
+        observer?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /** outwards, past one of zero angular momentum (observer velocity) [c]; -1 to 1; default 0. */
+        velocity_r?: number | string;
+        /** away from the north pole, likewise [c]; -1 to 1; default 0. */
+        velocity_theta?: number | string;
+        /** towards +phi, likewise [c]; -1 to 1; default 0. */
+        velocity_phi?: number | string;
+        /**
+         * radius from which the observer falls, at rest there but for its angular momentum (observer infall) [M]; 1 to
+         * 10000000; default "infinity".
+         */
+        infall_from?: 'infinity' | number | string;
+        /** its energy per mass; rest: as infall_from has it; -100 to 1000; default "rest". */
+        infall_energy?: 'rest' | number | string;
+        /** its angular momentum per mass [M]; -10000 to 10000; default 0. */
+        infall_momentum?: number | string;
+        /** radius of the ring [M]; 1 to 10000; default 6. */
+        r?: 'isco' | number | string;
+        /** of the image: 0 direct, 1 past the other side of the hole; 0 to 1; default 0. */
+        order?: number | string;
+        /**
+         * direction of the image plane from its origin, as (cos, cos i sin) of it: even round a ring seen unlensed; at
+         * a finite radius of the sky about -r, so in the frame of one that falls from rest at infinity [degrees]; -360
+         * to 720; default "0:355:72".
+         */
+        angle_deg?: number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'ring-image';
+        parameters: {
+          spin: number | number[];
+          inclination_deg: number | number[];
+          observer_r: 'infinity' | number | number[];
+          observer: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+          velocity_r: number | number[];
+          velocity_theta: number | number[];
+          velocity_phi: number | number[];
+          infall_from: 'infinity' | number | number[];
+          infall_energy: 'rest' | number | number[];
+          infall_momentum: number | number[];
+          r: 'isco' | number | number[];
+          order: number | number[];
+          angle_deg: number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /**
+           * the image on the image plane, to the right; at any distance it labels the constants of motion; null where
+           * light has no energy at infinity.
+           */
+          alpha: number | null | (number | null)[];
+          /** the image on the image plane, along the projected spin; likewise. */
+          beta: number | null | (number | null)[];
+          /** direction in which it is seen at a finite radius, a unit vector: towards +phi; null at infinity. */
+          right: number | null | (number | null)[];
+          /** its component up, towards -theta. */
+          up: number | null | (number | null)[];
+          /** its component inwards, towards -r. */
+          inwards: number | null | (number | null)[];
+          /**
+           * which point of the ring is seen there: its azimuth less the observer's, not reduced to a turn; null for an
+           * observer within the horizon, and for light whose energy at infinity is not above 0.
+           */
+          phi_deg: number | null | (number | null)[];
+          /** time of flight; of an observer at infinity less r_o + 2 ln r_o; null where phi_deg is. */
+          delay: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          inclination_deg: string;
+          observer_r: string;
+          velocity_r: string;
+          velocity_theta: string;
+          velocity_phi: string;
+          infall_from: string;
+          infall_energy: string;
+          infall_momentum: string;
+          r: string;
+          order: string;
+          angle_deg: string;
+          alpha: string;
+          beta: string;
+          right: string;
+          up: string;
+          inwards: string;
+          phi_deg: string;
+          delay: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /**
+   * the rings of light that has gone round the hole: their edges beside the critical curve, and how much thinner
+   * each is.
+   */
+  'GET /v1/physics/photon-rings': {
+    takes: {
+      query?: {
+        /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
+        spin?: number | string;
+        /**
+         * polar angle of the observer, who is at infinity; at 90 the plane is a line [degrees]; 0 to 180; default 60.
+         */
+        inclination_deg?: number | string;
+        /**
+         * where on the critical curve: about its centre, from the right over the top [degrees]; -360 to 720; default 0.
+         */
+        angle_deg?: number | string;
+        /** radius in the equatorial plane from which on light is sent [M]; 1 to 1000000000; default "horizon". */
+        inner?: 'horizon' | number | string;
+        /** radius up to which it is [M]; 1 to 1000000000; default "infinity". */
+        outer?: 'infinity' | number | string;
+        /** of the ring: how many half turns round the hole its light has made; 1 to 12; default "1:6:6". */
+        order?: number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'photon-rings';
+        parameters: {
+          spin: number | number[];
+          inclination_deg: number | number[];
+          angle_deg: number | number[];
+          inner: 'horizon' | number | number[];
+          outer: 'infinity' | number | number[];
+          order: number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /**
+           * distance from the critical curve along the radius about its centre, over that radius, where inner is seen;
+           * below 0 inside; null if nowhere.
+           */
+          inner_edge: number | null | (number | null)[];
+          /** the same of outer. */
+          outer_edge: number | null | (number | null)[];
+          /** of the ring there, from edge to edge. */
+          width: number | null | (number | null)[];
+          /** width of order 1 times e^(-gamma (order - 1)), which the widths tend to but for a factor. */
+          ladder: number | null | (number | null)[];
+          /** Lyapunov exponent of the photon orbit that is seen there, for each half turn; pi for a = 0. */
+          gamma: number | null | (number | null)[];
+          /** radius of that orbit. */
+          orbit_r: number | null | (number | null)[];
+          /** radius of the critical curve about its centre there. */
+          rho: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          inclination_deg: string;
+          angle_deg: string;
+          inner: string;
+          outer: string;
+          order: string;
+          inner_edge: string;
+          outer_edge: string;
+          width: string;
+          ladder: string;
+          gamma: string;
+          orbit_r: string;
+          rho: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** flux, temperature and luminosity of a thin accretion disk. */
+  'GET /v1/physics/disk-flux': {
+    takes: {
+      query?: {
+        /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
+        spin?: number | string;
+        /** mass of the hole [solar masses]; 0.001 to 1e+12; default 100000000. */
+        mass_msun?: number | string;
+        /**
+         * accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin [Eddington rates];
+         * 1e-12 to 1000; default 0.1.
+         */
+        mdot_edd?: number | string;
+        /** radius in the disk [M]; 1 to 1000000000; default 20. */
+        r?: number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'disk-flux';
+        parameters: {
+          spin: number | number[];
+          mass_msun: number | number[];
+          mdot_edd: number | number[];
+          r: number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** F/Mdot of one face; zero at and inside the ISCO. */
+          page_thorne: number | null | (number | null)[];
+          /** the same in Newton's gravity, cut at the ISCO. */
+          shakura_sunyaev: number | null | (number | null)[];
+          /** F. */
+          page_thorne_w_m2: number | null | (number | null)[];
+          /** F in Newton's gravity, of the same accretion rate. */
+          shakura_sunyaev_w_m2: number | null | (number | null)[];
+          /** effective temperature, Page-Thorne. */
+          t_eff_k: number | null | (number | null)[];
+          /** effective temperature, Shakura-Sunyaev. */
+          t_eff_newton_k: number | null | (number | null)[];
+          /** inner edge, the ISCO. */
+          inner: number | null | (number | null)[];
+          /** radius of the largest Page-Thorne flux. */
+          r_peak: number | null | (number | null)[];
+          /** effective temperature there. */
+          t_peak_k: number | null | (number | null)[];
+          /** luminosity over Mdot c^2, 1 - E at the ISCO. */
+          efficiency: number | null | (number | null)[];
+          /** the same of the Newtonian disk, 1/(2 r_isco). */
+          efficiency_newton: number | null | (number | null)[];
+          /** accretion rate. */
+          mdot_kg_s: number | null | (number | null)[];
+          /** accretion rate. */
+          mdot_msun_yr: number | null | (number | null)[];
+          /** efficiency times Mdot c^2. */
+          luminosity_w: number | null | (number | null)[];
+          /** efficiency times Mdot c^2. */
+          luminosity_lsun: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          mass_msun: string;
+          mdot_edd: string;
+          r: string;
+          page_thorne: string;
+          shakura_sunyaev: string;
+          page_thorne_w_m2: string;
+          shakura_sunyaev_w_m2: string;
+          t_eff_k: string;
+          t_eff_newton_k: string;
+          inner: string;
+          r_peak: string;
+          t_peak_k: string;
+          efficiency: string;
+          efficiency_newton: string;
+          mdot_kg_s: string;
+          mdot_msun_yr: string;
+          luminosity_w: string;
+          luminosity_lsun: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** colour of a black body: chromaticity, sRGB, peak. */
+  'GET /v1/physics/blackbody': {
+    takes: {
+      query?: {
+        /** temperature [K]; 100 to 1000000000; default 5772. */
+        temperature_k?: number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'blackbody';
+        parameters: {
+          temperature_k: number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** CIE 1931 chromaticity x. */
+          x: number | null | (number | null)[];
+          /** CIE 1931 chromaticity y. */
+          y: number | null | (number | null)[];
+          /** linear sRGB of luminance 1, not clipped: negative outside the gamut. */
+          linear_r: number | null | (number | null)[];
+          /** linear sRGB, green. */
+          linear_g: number | null | (number | null)[];
+          /** linear sRGB, blue. */
+          linear_b: number | null | (number | null)[];
+          /** encoded sRGB, 0 to 1: brightest component 1, moved to the edge of the gamut. */
+          srgb_r: number | null | (number | null)[];
+          /** encoded sRGB, green. */
+          srgb_g: number | null | (number | null)[];
+          /** encoded sRGB, blue. */
+          srgb_b: number | null | (number | null)[];
+          /** wavelength of the largest radiance a unit of wavelength (Wien). */
+          peak_nm: number | null | (number | null)[];
+          /** frequency of the largest radiance a unit of frequency. */
+          peak_hz: number | null | (number | null)[];
+          /** sigma T^4/pi. */
+          radiance: number | null | (number | null)[];
+          /** of the radiance that the eye weighs: Y over radiance. */
+          luminous_fraction: number | null | (number | null)[];
+        };
+        units: {
+          temperature_k: string;
+          x: string;
+          y: string;
+          linear_r: string;
+          linear_g: string;
+          linear_b: string;
+          srgb_r: string;
+          srgb_g: string;
+          srgb_b: string;
+          peak_nm: string;
+          peak_hz: string;
+          radiance: string;
+          luminous_fraction: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** quasi-normal modes of a Kerr hole, and its ringdown. */
+  'GET /v1/physics/qnm': {
+    takes: {
+      query?: {
+        /** multipole; 2 to 4; default 2. */
+        l?: number | string;
+        /** azimuthal number, -l to l; m > 0 turns with a hole of positive spin; -4 to 4; default 2. */
+        m?: number | string;
+        /** overtone, counted at spin 0; 0 decays slowest; 0 to 3; default 0. */
+        n?: number | string;
+        /**
+         * spin parameter a; nearer to 1 damped and undamped modes crowd and l, n stop being names for them [M]; -0.9999
+         * to 0.9999; default 0.7.
+         */
+        spin?: number | string;
+        /** mass of the hole, with any redshift: m (1 + z) [solar masses]; 0.001 to 1e+12; default 60. */
+        mass_msun?: number | string;
+        /** time of the sample `wave` [M]; 0 to 1000000; default 0. */
+        t?: number | string;
+        /** octaves by which the sound is higher than the ringing, and faster; -40 to 40; default 0. */
+        shift_octaves?: number | string;
+        /**
+         * how many times as slowly as the ringing the sound then fades, at the same pitch; 1 to 1000000; default 1.
+         */
+        stretch?: number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv' | 'wav';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'qnm';
+        parameters: {
+          l: number | number[];
+          m: number | number[];
+          n: number | number[];
+          spin: number | number[];
+          mass_msun: number | number[];
+          t: number | number[];
+          shift_octaves: number | number[];
+          stretch: number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** angular frequency. */
+          omega_re: number | null | (number | null)[];
+          /** minus the damping rate. */
+          omega_im: number | null | (number | null)[];
+          /** separation constant A_lm(a omega), l(l+1) - 2 at spin 0. */
+          separation_re: number | null | (number | null)[];
+          /** its imaginary part. */
+          separation_im: number | null | (number | null)[];
+          /** Q = omega_re/(-2 omega_im). */
+          quality: number | null | (number | null)[];
+          /** 2.1 + 11.3 a^3, which circulates for l = m = 2, n = 0; null else. */
+          quality_cubic: number | null | (number | null)[];
+          /** how far it is off, relative. */
+          quality_cubic_error: number | null | (number | null)[];
+          /** fit of Berti et al. 2006 for l = m = 2, n = 0 to 2; null else. */
+          fit_omega_re: number | null | (number | null)[];
+          /** their Q. */
+          fit_quality: number | null | (number | null)[];
+          /** how far it is off, relative. */
+          fit_omega_re_error: number | null | (number | null)[];
+          /** how far it is off, relative. */
+          fit_quality_error: number | null | (number | null)[];
+          /** omega_re/(2 pi) for mass_msun. */
+          frequency_hz: number | null | (number | null)[];
+          /** time in which the amplitude falls by e. */
+          damping_s: number | null | (number | null)[];
+          /** t for mass_msun. */
+          t_s: number | null | (number | null)[];
+          /** e^(omega_im t) cos(omega_re t). */
+          wave: number | null | (number | null)[];
+          /** frequency_hz shifted by shift_octaves: that of the WAV file. */
+          sound_hz: number | null | (number | null)[];
+          /** damping_s likewise, times stretch. */
+          sound_damping_s: number | null | (number | null)[];
+        };
+        units: {
+          l: string;
+          m: string;
+          n: string;
+          spin: string;
+          mass_msun: string;
+          t: string;
+          shift_octaves: string;
+          stretch: string;
+          omega_re: string;
+          omega_im: string;
+          separation_re: string;
+          separation_im: string;
+          quality: string;
+          quality_cubic: string;
+          quality_cubic_error: string;
+          fit_omega_re: string;
+          fit_quality: string;
+          fit_omega_re_error: string;
+          fit_quality_error: string;
+          frequency_hz: string;
+          damping_s: string;
+          t_s: string;
+          wave: string;
+          sound_hz: string;
+          sound_damping_s: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+      'audio/wav': Uint8Array;
+    };
+  };
+  /** the equatorial plane embedded in flat space: Flamm's paraboloid, and Kerr's. */
+  'GET /v1/physics/flamm': {
+    takes: {
+      query?: {
+        /** spin parameter a [M]; -1 to 1; default 0. */
+        spin?: number | string;
+        /** Boyer-Lindquist radius, at or outside the horizon [M]; 1 to 1000000000; default "2:20:73". */
+        r?: number | string;
+        /** azimuth: a range of it and one of r make a mesh [degrees]; -360 to 360; default 0. */
+        phi_deg?: number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'flamm';
+        parameters: {
+          spin: number | number[];
+          r: number | number[];
+          phi_deg: number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** of the embedded surface: radius cos(phi). */
+          x: number | null | (number | null)[];
+          /** of the embedded surface: radius sin(phi). */
+          y: number | null | (number | null)[];
+          /** height over the horizon's circle. */
+          z: number | null | (number | null)[];
+          /** circumference over 2 pi, sqrt(r^2 + a^2 + 2a^2/r). */
+          radius: number | null | (number | null)[];
+          /** from the horizon along r. */
+          proper_distance: number | null | (number | null)[];
+          /** sqrt(8 (r - 2)), z for a = 0; null for r < 2. */
+          flamm: number | null | (number | null)[];
+          /** where the surface begins. */
+          horizon: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          r: string;
+          phi_deg: string;
+          x: string;
+          y: string;
+          z: string;
+          radius: string;
+          proper_distance: string;
+          flamm: string;
+          horizon: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** angular velocity of the dragged frame, and its far field. */
+  'GET /v1/physics/frame-dragging': {
+    takes: {
+      query?: {
+        /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
+        spin?: number | string;
+        /** polar angle [degrees]; 0 to 180; default 90. */
+        theta_deg?: number | string;
+        /** radius [M]; 1 to 1000000000; default 10. */
+        r?: number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'frame-dragging';
+        parameters: {
+          spin: number | number[];
+          theta_deg: number | number[];
+          r: number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** angular velocity of what has no angular momentum, -g_tphi/g_phiphi. */
+          omega: number | null | (number | null)[];
+          /** 2J/r^3 with J = aM. */
+          far_field: number | null | (number | null)[];
+          /** least angular velocity of anything at r; positive inside the ergosphere. */
+          omega_least: number | null | (number | null)[];
+          /** largest angular velocity of anything at r; null on the axis, as the least. */
+          omega_most: number | null | (number | null)[];
+          /** angular velocity of the horizon, a/(2 r+). */
+          horizon_omega: number | null | (number | null)[];
+          /** static limit at theta_deg. */
+          ergosphere: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          theta_deg: string;
+          r: string;
+          omega: string;
+          far_field: string;
+          omega_least: string;
+          omega_most: string;
+          horizon_omega: string;
+          ergosphere: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** free fall into the hole by its own clock, to the horizon and to the end. */
+  'GET /v1/physics/infall': {
+    takes: {
+      query?: {
+        /** spin parameter a [M]; -1 to 1; default 0. */
+        spin?: number | string;
+        /** polar angle of what falls [degrees]; 0 to 180; default 90. */
+        inclination_deg?: number | string;
+        /**
+         * radius from which it falls, at rest there but for its angular momentum [M]; 1 to 10000000; default
+         * "infinity".
+         */
+        infall_from?: 'infinity' | number | string;
+        /** its energy per mass; rest: as infall_from has it; -100 to 1000; default "rest". */
+        infall_energy?: 'rest' | number | string;
+        /** its angular momentum per mass [M]; -10000 to 10000; default 0. */
+        infall_momentum?: number | string;
+        /** mass of the hole [solar masses]; 0.001 to 1e+12; default 100000000. */
+        mass_msun?: number | string;
+        /** radius where it is [M]; 0.001 to 10000000; default "0.2:20:100". */
+        r?: number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'infall';
+        parameters: {
+          spin: number | number[];
+          inclination_deg: number | number[];
+          infall_from: 'infinity' | number | number[];
+          infall_energy: 'rest' | number | number[];
+          infall_momentum: number | number[];
+          mass_msun: number | number[];
+          r: number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** by its own clock, from r to the outer horizon; null within. */
+          proper_time_to_horizon: number | null | (number | null)[];
+          /** by its own clock, from r to where the model ends: the inner horizon, or without spin the singularity. */
+          proper_time_to_end: number | null | (number | null)[];
+          /** the same in seconds. */
+          proper_time_to_horizon_s: number | null | (number | null)[];
+          /** the same in seconds. */
+          proper_time_to_end_s: number | null | (number | null)[];
+          /** towards the hole past one of zero angular momentum, in units of that of light; null within the horizon. */
+          velocity: number | null | (number | null)[];
+          /** frequency of starlight from straight behind, as it measures it, over that far away. */
+          g_behind: number | null | (number | null)[];
+          /** how far it turns until the end, in ingoing Kerr-Schild azimuth, that of camera.azimuth_deg. */
+          azimuth_to_end_deg: number | null | (number | null)[];
+          /** coordinate time until the end, of ingoing Kerr-Schild coordinates, which know no outer horizon. */
+          time_to_end: number | null | (number | null)[];
+          /** per mass. */
+          energy: number | null | (number | null)[];
+          /** radius where the model ends. */
+          end: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          inclination_deg: string;
+          infall_from: string;
+          infall_energy: string;
+          infall_momentum: string;
+          mass_msun: string;
+          r: string;
+          proper_time_to_horizon: string;
+          proper_time_to_end: string;
+          proper_time_to_horizon_s: string;
+          proper_time_to_end_s: string;
+          velocity: string;
+          g_behind: string;
+          azimuth_to_end_deg: string;
+          time_to_end: string;
+          energy: string;
+          end: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** the redshift of the sky for any observer, and the black disk that the hole takes out of it. */
+  'GET /v1/physics/sky': {
+    takes: {
+      query?: {
+        /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
+        spin?: number | string;
+        /** polar angle of the observer [degrees]; 0 to 180; default 60. */
+        inclination_deg?: number | string;
+        /** radius of the observer [M]; 0.01 to 10000000; default "infinity". */
+        observer_r?: 'infinity' | number | string;
+        /**
+         * state of motion at a finite radius; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
+         * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; i; default
+         * "static".
+         */
+        observer?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /** outwards, past one of zero angular momentum (observer velocity) [c]; -1 to 1; default 0. */
+        velocity_r?: number | string;
+        /** away from the north pole, likewise [c]; -1 to 1; default 0. */
+        velocity_theta?: number | string;
+        /** towards +phi, likewise [c]; -1 to 1; default 0. */
+        velocity_phi?: number | string;
+        /**
+         * radius from which the observer falls, at rest there but for its angular momentum (observer infall) [M]; 1 to
+         * 10000000; default "infinity".
+         */
+        infall_from?: 'infinity' | number | string;
+        /** its energy per mass; rest: as infall_from has it; -100 to 1000; default "rest". */
+        infall_energy?: 'rest' | number | string;
+        /** its angular momentum per mass [M]; -10000 to 10000; default 0. */
+        infall_momentum?: number | string;
+        /**
+         * direction of g: to the right of the hole, 180 straight away from it, as camera.yaw_deg [degrees]; -360 to
+         * 360; default "0:180:37".
+         */
+        yaw_deg?: number | string;
+        /** upwards, as camera.pitch_deg [degrees]; -90 to 90; default 0. */
+        pitch_deg?: number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'sky';
+        parameters: {
+          spin: number | number[];
+          inclination_deg: number | number[];
+          observer_r: 'infinity' | number | number[];
+          observer: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+          velocity_r: number | number[];
+          velocity_theta: number | number[];
+          velocity_phi: number | number[];
+          infall_from: 'infinity' | number | number[];
+          infall_energy: 'rest' | number | number[];
+          infall_momentum: number | number[];
+          yaw_deg: number | number[];
+          pitch_deg: number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /**
+           * frequency of starlight from that direction, as it is measured, over that far away; null in the dark disk.
+           */
+          g: number | null | (number | null)[];
+          /** the same straight ahead, towards the hole. */
+          g_ahead: number | null | (number | null)[];
+          /** straight behind, away from the hole. */
+          g_behind: number | null | (number | null)[];
+          /** overhead, towards -theta. */
+          g_above: number | null | (number | null)[];
+          /** towards +theta. */
+          g_below: number | null | (number | null)[];
+          /** towards +phi. */
+          g_right: number | null | (number | null)[];
+          /** towards -phi. */
+          g_left: number | null | (number | null)[];
+          /** least over all the sky that is seen. */
+          g_least: number | null | (number | null)[];
+          /** largest over it. */
+          g_greatest: number | null | (number | null)[];
+          /** angular radius of the black disk: of the round one of its solid angle. */
+          dark_radius_deg: number | null | (number | null)[];
+          /** solid angle of the black disk. */
+          dark_sr: number | null | (number | null)[];
+          /** the part of all directions that it takes. */
+          dark_share: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          inclination_deg: string;
+          observer_r: string;
+          velocity_r: string;
+          velocity_theta: string;
+          velocity_phi: string;
+          infall_from: string;
+          infall_energy: string;
+          infall_momentum: string;
+          yaw_deg: string;
+          pitch_deg: string;
+          g: string;
+          g_ahead: string;
+          g_behind: string;
+          g_above: string;
+          g_below: string;
+          g_right: string;
+          g_left: string;
+          g_least: string;
+          g_greatest: string;
+          dark_radius_deg: string;
+          dark_sr: string;
+          dark_share: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** a hole in kilometres, seconds and microarcseconds, beside the measured rings. */
+  'GET /v1/physics/scale': {
+    takes: {
+      query?: {
+        /** a hole whose ring has been measured: M87*, Sgr A*; default "m87". */
+        hole?: 'm87' | 'sgra' | 'none';
+        /** spin parameter a [M]; -1 to 1; default 0. */
+        spin?: number | string;
+        /** polar angle of the observer, for the shadow of a hole with spin [degrees]; 0 to 180; default 0. */
+        inclination_deg?: number | string;
+        /** mass of the hole [solar masses]; 0.001 to 1e+12; default "hole". */
+        mass_msun?: 'hole' | number | string;
+        /** its (angular diameter) distance [pc]; 0.001 to 100000000000; default "hole". */
+        distance_pc?: 'hole' | number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'scale';
+        parameters: {
+          hole: 'm87' | 'sgra' | 'none';
+          spin: number | number[];
+          inclination_deg: number | number[];
+          mass_msun: 'hole' | number | number[];
+          distance_pc: 'hole' | number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** as used. */
+          mass: number | null | (number | null)[];
+          /** as used. */
+          distance: number | null | (number | null)[];
+          /** M as a length, G m/c^2. */
+          m_km: number | null | (number | null)[];
+          /** M as a time, G m/c^3. */
+          m_s: number | null | (number | null)[];
+          /** M on the sky. */
+          m_uas: number | null | (number | null)[];
+          /** mean diameter of the shadow for this spin and inclination; 2 sqrt(27) M for a = 0. */
+          shadow_uas: number | null | (number | null)[];
+          /** measured diameter of the ring; null for no hole. */
+          ring_uas: number | null | (number | null)[];
+          /** its error, one sigma. */
+          ring_error_uas: number | null | (number | null)[];
+          /** measured over computed. */
+          ring_over_shadow: number | null | (number | null)[];
+          /** radius of the horizon r+. */
+          horizon_km: number | null | (number | null)[];
+          /** radius of the horizon r+. */
+          horizon_au: number | null | (number | null)[];
+          /** time of light over the horizon's diameter, 2 r+/c. */
+          light_crossing_s: number | null | (number | null)[];
+          /** period of the ISCO for an observer far away. */
+          isco_period_s: number | null | (number | null)[];
+          /** the same of the circular photon orbit, towards +phi. */
+          photon_period_s: number | null | (number | null)[];
+          /** proper time from horizon to singularity, at rest at infinity, a = 0: 4/3 M. */
+          fall_s: number | null | (number | null)[];
+          /** the longest that there is for a = 0: pi M. */
+          fall_longest_s: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          inclination_deg: string;
+          mass_msun: string;
+          distance_pc: string;
+          mass: string;
+          distance: string;
+          m_km: string;
+          m_s: string;
+          m_uas: string;
+          shadow_uas: string;
+          ring_uas: string;
+          ring_error_uas: string;
+          ring_over_shadow: string;
+          horizon_km: string;
+          horizon_au: string;
+          light_crossing_s: string;
+          isco_period_s: string;
+          photon_period_s: string;
+          fall_s: string;
+          fall_longest_s: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** decay of a binary under gravitational radiation, and its chirp. */
+  'GET /v1/physics/inspiral': {
+    takes: {
+      query?: {
+        /** one mass [solar masses]; 1e-10 to 1e+12; default 1.4398. */
+        mass1_msun?: number | string;
+        /** the other [solar masses]; 1e-10 to 1e+12; default 1.3886. */
+        mass2_msun?: number | string;
+        /** orbital period now [s]; 1e-09 to 1e+20; default 27906.979587. */
+        period_s?: number | string;
+        /** eccentricity now; 0 to 0.999999; default 0.6171334. */
+        eccentricity?: number | string;
+        /** a later, smaller eccentricity of the same orbit; 0 to 0.999999; default 0. */
+        eccentricity_later?: number | string;
+        /**
+         * distance (luminosity distance, with redshifted masses and times) [pc]; 0.001 to 100000000000; default 6400.
+         */
+        distance_pc?: number | string;
+        /**
+         * time before the coalescence of a circular orbit of these masses, for the chirp [s]; 1e-09 to 1e+20; default
+         * 1.
+         */
+        before_s?: number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'inspiral';
+        parameters: {
+          mass1_msun: number | number[];
+          mass2_msun: number | number[];
+          period_s: number | number[];
+          eccentricity: number | number[];
+          eccentricity_later: number | number[];
+          distance_pc: number | number[];
+          before_s: number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** (m1 m2)^(3/5)/(m1 + m2)^(1/5). */
+          chirp_mass: number | null | (number | null)[];
+          /** m1 m2/(m1 + m2)^2. */
+          eta: number | null | (number | null)[];
+          /** semi-major axis a, by Kepler's law. */
+          axis_km: number | null | (number | null)[];
+          /** the same, M being both masses. */
+          axis: number | null | (number | null)[];
+          /** power over that of a circle with the same a. */
+          enhancement: number | null | (number | null)[];
+          /** radiated power. */
+          power_w: number | null | (number | null)[];
+          /** da/dt. */
+          axis_rate: number | null | (number | null)[];
+          /** de/dt. */
+          eccentricity_rate: number | null | (number | null)[];
+          /** dP/dt. */
+          period_rate: number | null | (number | null)[];
+          /** time to coalescence. */
+          time_s: number | null | (number | null)[];
+          /** time to coalescence. */
+          time_yr: number | null | (number | null)[];
+          /** wave frequency at a = 6 M, where the chirp is cut. */
+          isco_hz: number | null | (number | null)[];
+          /** time before coalescence at a = 6 M. */
+          isco_before_s: number | null | (number | null)[];
+          /** a when the eccentricity is eccentricity_later; null if that is larger than now's. */
+          axis_later_km: number | null | (number | null)[];
+          /** time until then; likewise. */
+          time_later_yr: number | null | (number | null)[];
+          /** wave frequency of a circular orbit before_s before coalescence; null inside a = 6 M. */
+          chirp_hz: number | null | (number | null)[];
+          /** its a; likewise. */
+          chirp_axis: number | null | (number | null)[];
+          /** its amplitude of h+ and hx seen along the axis; likewise. */
+          chirp_strain: number | null | (number | null)[];
+        };
+        units: {
+          mass1_msun: string;
+          mass2_msun: string;
+          period_s: string;
+          eccentricity: string;
+          eccentricity_later: string;
+          distance_pc: string;
+          before_s: string;
+          chirp_mass: string;
+          eta: string;
+          axis_km: string;
+          axis: string;
+          enhancement: string;
+          power_w: string;
+          axis_rate: string;
+          eccentricity_rate: string;
+          period_rate: string;
+          time_s: string;
+          time_yr: string;
+          isco_hz: string;
+          isco_before_s: string;
+          axis_later_km: string;
+          time_later_yr: string;
+          chirp_hz: string;
+          chirp_axis: string;
+          chirp_strain: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** a star torn by a hole: tidal radius, fallback, and the heaviest hole that tears it. */
+  'GET /v1/physics/tidal': {
+    takes: {
+      query?: {
+        /** spin parameter a; a < 0: the star comes in against the hole's spin [M]; -1 to 1; default 0. */
+        spin?: number | string;
+        /** mass of the hole [solar masses]; 0.001 to 1e+12; default 1000000. */
+        mass_msun?: number | string;
+        /** mass of the star [solar masses]; 0.001 to 1000; default 1. */
+        star_mass_msun?: number | string;
+        /** its radius [solar radii]; 1e-06 to 10000; default 1. */
+        star_radius_rsun?: number | string;
+        /** tidal radius over pericentre of its parabolic orbit; 0.1 to 100; default 1. */
+        penetration?: number | string;
+        /**
+         * time after the disruption, for the rate of fallback; "fallback": when the first debris returns [days]; 0 to
+         * 1000000000; default "fallback".
+         */
+        time_days?: 'fallback' | number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'tidal';
+        parameters: {
+          spin: number | number[];
+          mass_msun: number | number[];
+          star_mass_msun: number | number[];
+          star_radius_rsun: number | number[];
+          penetration: number | number[];
+          time_days: 'fallback' | number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** r_t = R (M/m)^(1/3). */
+          tidal_radius: number | null | (number | null)[];
+          /** r_t. */
+          tidal_radius_km: number | null | (number | null)[];
+          /** outer horizon. */
+          horizon: number | null | (number | null)[];
+          /** parabolic orbits with a smaller pericentre are captured. */
+          marginally_bound: number | null | (number | null)[];
+          /** mass of a hole whose horizon is at r_t of this star (Hills). */
+          hills_msun: number | null | (number | null)[];
+          /** with the marginally bound orbit at r_t: the heaviest that tears it. */
+          capture_msun: number | null | (number | null)[];
+          /** half the range of specific energy in the debris, M R/r_t^2. */
+          energy_spread: number | null | (number | null)[];
+          /** time t_fb until the first debris returns. */
+          fallback_s: number | null | (number | null)[];
+          /** the same. */
+          fallback_days: number | null | (number | null)[];
+          /** largest rate of fallback, m/(3 t_fb). */
+          peak_msun_yr: number | null | (number | null)[];
+          /** the same, with the efficiency of this spin. */
+          peak_eddington: number | null | (number | null)[];
+          /** until the rate falls to the Eddington rate; null if it is never above. */
+          above_eddington_days: number | null | (number | null)[];
+          /** r_t over penetration. */
+          pericentre: number | null | (number | null)[];
+          /** over marginally_bound: below 1 the star is swallowed whole. */
+          pericentre_over_capture: number | null | (number | null)[];
+          /** rate of fallback at time_days, as t^(-5/3) after t_fb, 0 before. */
+          rate_msun_yr: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          mass_msun: string;
+          star_mass_msun: string;
+          star_radius_rsun: string;
+          penetration: string;
+          time_days: string;
+          tidal_radius: string;
+          tidal_radius_km: string;
+          horizon: string;
+          marginally_bound: string;
+          hills_msun: string;
+          capture_msun: string;
+          energy_spread: string;
+          fallback_s: string;
+          fallback_days: string;
+          peak_msun_yr: string;
+          peak_eddington: string;
+          above_eddington_days: string;
+          pericentre: string;
+          pericentre_over_capture: string;
+          rate_msun_yr: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** where bound orbits end: the least p of a stable one, by eccentricity and inclination. */
+  'GET /v1/physics/separatrix': {
+    takes: {
+      query?: {
+        /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
+        spin?: number | string;
+        /**
+         * inclination of the orbit to the equator, as of /v1/orbits; more than 90 is retrograde [degrees]; 0 to 180;
+         * default 0.
+         */
+        inclination_deg?: number | string;
+        /** eccentricity; 0 to 0.999999; default 0. */
+        e?: number | string;
+        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        digits?: number;
+        /** instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'separatrix';
+        parameters: {
+          spin: number | number[];
+          inclination_deg: number | number[];
+          e: number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** least semi-latus rectum of a stable bound orbit. */
+          p: number | null | (number | null)[];
+          /** where a body on the separatrix whirls: its periapsis p/(1 + e). */
+          r_min: number | null | (number | null)[];
+          /** its apoapsis p/(1 - e). */
+          r_max: number | null | (number | null)[];
+          /**
+           * radius of the orbit of light of this inclination: above it there are circles, below the separatrix unstable
+           * ones.
+           */
+          circle: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          inclination_deg: string;
+          e: string;
+          p: string;
+          r_min: string;
+          r_max: string;
+          circle: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /**
+   * Timelike orbits: path, turning points, constants of motion and their drift, frequencies, periastron advance.
+   */
+  'POST /v1/orbits': {
+    takes: {
+      body: OrbitsRequest;
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': OrbitPath | OrbitPaths;
+      'application/x-ndjson': Uint8Array;
+      'text/csv': string;
+      'application/x-npy': Uint8Array;
+    };
+  };
+  /** The profile of a line that the gas of a thin disk emits: the share of its photons in each bin of energy. */
+  'POST /v1/line': {
+    takes: {
+      body: LineRequest;
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': LineProfile;
+      'text/csv': string;
+      'application/x-npy': Uint8Array;
+    };
+  };
+  /** Cunningham's transfer function f(g*, r) of a thin disk, near and far side. */
+  'POST /v1/transfer-function': {
+    takes: {
+      body: TransferFunctionRequest;
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': TransferFunction;
+      'text/csv': string;
+      'application/x-npy': Uint8Array;
+    };
+  };
+  /** The spectrum of a thin disk of black bodies, or of a scene's volume, in SI units. */
+  'POST /v1/spectrum': {
+    takes: {
+      body: SpectrumRequest;
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': DiskSpectrum | VolumeSpectrum;
+      'text/csv': string;
+      'application/x-npy': Uint8Array;
+    };
+  };
+  /**
+   * Visibilities of a scene's picture: amplitude and phase by baseline, for all its light and by image order.
+   */
+  'POST /v1/visibility': {
+    takes: {
+      body: VisibilityRequest;
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': Visibilities;
+      'text/csv': string;
+      'application/x-npy': Uint8Array;
+    };
+  };
+  /**
+   * A scene beside an interferometer's observation: amplitudes, closure phases and log closure amplitudes, and
+   * chi^2 of each.
+   */
+  'POST /v1/compare': {
+    takes: {
+      body: CompareRequest;
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': Comparison;
+      'text/csv': string;
+      'application/x-npy': Uint8Array;
+    };
+  };
+  /** A live session of a scene: its id, and the token that changes it. */
+  'POST /v1/sessions': {
+    takes: {
+      query?: {
+        /** the least part of image.width that a frame has while the scene changes; 0.25 without it; 0.25 to 1. */
+        least?: number;
+        /**
+         * frames are narrower than that all the same where they were measured to take longer than this; 10 to 60000.
+         */
+        patience_ms?: number;
+        preset?: PresetName;
+      };
+      body: Scene;
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': Session;
+    };
+  };
+  /**
+   * A session's scene; a merge patch of it (RFC 7396), with Prefer: return=minimal answered by its revision
+   * alone; its end.
+   */
+  'GET /v1/sessions/{id}': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {
+      'application/json': Session;
+    };
+  };
+  /**
+   * A session's scene; a merge patch of it (RFC 7396), with Prefer: return=minimal answered by its revision
+   * alone; its end.
+   */
+  'PATCH /v1/sessions/{id}': {
+    takes: {
+      path: {
+        id: string;
+      };
+      query?: {
+        /** the least part of image.width that a frame has while the scene changes; 0.25 without it; 0.25 to 1. */
+        least?: number;
+        /**
+         * frames are narrower than that all the same where they were measured to take longer than this; 10 to 60000.
+         */
+        patience_ms?: number;
+        /**
+         * of patches that are under way at once the one with the highest number counts: one that comes after a higher
+         * one changes nothing; 1 to 9.00719925474e+15.
+         */
+        order?: number;
+      };
+      body: Patch<Scene>;
+      type?: 'application/json' | 'application/merge-patch+json';
+    };
+    gives: {
+      'application/json': Session | SessionPatched;
+    };
+  };
+  /**
+   * A session's scene; a merge patch of it (RFC 7396), with Prefer: return=minimal answered by its revision
+   * alone; its end.
+   */
+  'DELETE /v1/sessions/{id}': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {
+      /** without a body. */
+      '': undefined;
+    };
+  };
+  /** Strikes the hole: style.ringdown, from now on the session's clock; the session's scene. */
+  'POST /v1/sessions/{id}/ringdown': {
+    takes: {
+      path: {
+        id: string;
+      };
+      body?: {
+        /** style.ringdown; without it, what that is, or 1 where it is 0; 0 to 1. */
+        amplitude?: number;
+      };
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': Session;
+    };
+  };
+  /** Lets a session go along keyframes, by the second; stops it where it is. */
+  'POST /v1/sessions/{id}/path': {
+    takes: {
+      path: {
+        id: string;
+      };
+      body: {
+        /** up to 1000. */
+        keyframes: {
+          /** seconds from now; 0 to 3600. */
+          at: number;
+          scene?: Scene;
+          /** 0 to 1e+12. */
+          proper_time?: number | 'horizon' | 'end';
+          ease?: 'none' | 'in' | 'out' | 'in-out';
+          look_at?: 'hole' | 'free' | {
+            /** 0 to 1e+12. */
+            r?: number;
+            /** 0 to 180. */
+            theta_deg?: number;
+            /** -360 to 360. */
+            phi_deg?: number;
+          };
+        }[];
+        interpolation?: 'linear' | 'smooth' | 'catmull-rom';
+        distances?: 'linear' | 'geometric';
+        angles?: 'as-given' | 'shorter';
+        ease?: 'none' | 'in' | 'out' | 'in-out';
+        look_at?: 'hole' | 'free' | {
+          /** 0 to 1e+12. */
+          r?: number;
+          /** 0 to 180. */
+          theta_deg?: number;
+          /** -360 to 360. */
+          phi_deg?: number;
+        };
+      };
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': Session;
+    };
+  };
+  /** Lets a session go along keyframes, by the second; stops it where it is. */
+  'DELETE /v1/sessions/{id}/path': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {
+      /** without a body. */
+      '': undefined;
+    };
+  };
+  /** Where its particles are, and their constants and rates: 32-bit little-endian floats, row by row. */
+  'GET /v1/sessions/{id}/particles': {
+    takes: {
+      path: {
+        id: string;
+      };
+      query?: {
+        /** number of the first particle; 0 without it; at least 0. */
+        first?: number;
+        /** from one to the next; 1 without it; at least 1. */
+        stride?: number;
+        /** how many; without it, as many as there are; at least 1. */
+        count?: number;
+        /** M; without it, the session's now; -1e+12 to 1e+12. */
+        time?: number;
+        /** columns of a row; x,y,z without it. */
+        fields?: (
+            | 'x' | 'y' | 'z' | 'r' | 'phi' | 'latitude' | 'energy' | 'angular_momentum' | 'dr_dt' | 'dphi_dt'
+            | 'dlatitude_dt'
+          )[];
+      };
+    };
+    gives: {
+      'application/octet-stream': Uint8Array;
+    };
+  };
+  /**
+   * The newest frame, as soon as it is newer than the one whose number is given as after; 204 if there is none in
+   * wait_ms.
+   */
+  'GET /v1/sessions/{id}/frame.png': {
+    takes: {
+      path: {
+        id: string;
+      };
+      query?: {
+        /** number of the last frame that the client has; 0 without it; 0 to 1e+18. */
+        after?: number;
+        /** how long to wait for a newer one; 0 to 60000. */
+        wait_ms?: number;
+      };
+    };
+    gives: {
+      'image/png': Uint8Array;
+      /** without a body. */
+      '': undefined;
+    };
+  };
+  /**
+   * The same, with lossy=Q as JPEG while it is not the last; as PATCH it is a merge patch of the scene as well
+   * (RFC 7396), and the answer what comes of it.
+   */
+  'GET /v1/sessions/{id}/frame': {
+    takes: {
+      path: {
+        id: string;
+      };
+      query?: {
+        /** number of the last frame that the client has; 0 without it; 0 to 1e+18. */
+        after?: number;
+        /** how long to wait for a newer one; 0 to 60000. */
+        wait_ms?: number;
+        /** takes frames that are not the last as JPEG of this quality; without it all are PNG; 1 to 100. */
+        lossy?: number;
+        /**
+         * Kerrd-Sentences of a frame that the client has: where the newer one has the same approximations, they are
+         * left out; 0 to 4294967295.
+         */
+        sentences?: number;
+      };
+    };
+    gives: {
+      'image/png': Uint8Array;
+      'image/jpeg': Uint8Array;
+      /** without a body. */
+      '': undefined;
+    };
+  };
+  /**
+   * The same, with lossy=Q as JPEG while it is not the last; as PATCH it is a merge patch of the scene as well
+   * (RFC 7396), and the answer what comes of it.
+   */
+  'PATCH /v1/sessions/{id}/frame': {
+    takes: {
+      path: {
+        id: string;
+      };
+      query?: {
+        /**
+         * of patches that are under way at once the one with the highest number counts: one that comes after a higher
+         * one changes nothing; 1 to 9.00719925474e+15.
+         */
+        order?: number;
+        /** number of the last frame that the client has; 0 without it; 0 to 1e+18. */
+        after?: number;
+        /** how long to wait for a newer one; 0 to 60000. */
+        wait_ms?: number;
+        /** takes frames that are not the last as JPEG of this quality; without it all are PNG; 1 to 100. */
+        lossy?: number;
+        /**
+         * Kerrd-Sentences of a frame that the client has: where the newer one has the same approximations, they are
+         * left out; 0 to 4294967295.
+         */
+        sentences?: number;
+      };
+      body: Patch<Scene>;
+      type?: 'application/json' | 'application/merge-patch+json';
+    };
+    gives: {
+      'image/png': Uint8Array;
+      'image/jpeg': Uint8Array;
+      /** without a body. */
+      '': undefined;
+    };
+  };
+  /**
+   * Frames as they come, the newest only; with Accept: application/x-kerrd-frames length, number, revision and 0
+   * before each.
+   */
+  'GET /v1/sessions/{id}/frames': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {};
+  };
+  /** Numbers of each frame: quality in force, times, accuracy. */
+  'GET /v1/sessions/{id}/events': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {};
+  };
+  /**
+   * What a playground may be asked for: presets, settings, fields of a body; opens one: its id, and the token
+   * that changes it.
+   */
+  'GET /v1/playground': {
+    takes: {};
+    gives: {
+      'application/json': PlaygroundCatalogue;
+    };
+  };
+  /**
+   * What a playground may be asked for: presets, settings, fields of a body; opens one: its id, and the token
+   * that changes it.
+   */
+  'POST /v1/playground': {
+    takes: {
+      body: Playground;
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': PlaygroundStatus;
+    };
+  };
+  /** How a playground stands; a change of its pace, its settings and its bodies; its end. */
+  'GET /v1/playground/{id}': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {
+      'application/json': PlaygroundStatus;
+    };
+  };
+  /** How a playground stands; a change of its pace, its settings and its bodies; its end. */
+  'PATCH /v1/playground/{id}': {
+    takes: {
+      path: {
+        id: string;
+      };
+      body: Patch<PlaygroundChange>;
+      type?: 'application/json' | 'application/merge-patch+json';
+    };
+    gives: {
+      'application/json': PlaygroundStatus;
+    };
+  };
+  /** How a playground stands; a change of its pace, its settings and its bodies; its end. */
+  'DELETE /v1/playground/{id}': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {
+      /** without a body. */
+      '': undefined;
+    };
+  };
+  /** Moves a playground on that is paused: as `kerrd playground --time` does. */
+  'POST /v1/playground/{id}/step': {
+    takes: {
+      path: {
+        id: string;
+      };
+      body: {
+        /** M; 0 to 1e+12. */
+        by: number;
+      };
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': PlaygroundStatus;
+    };
+  };
+  /** Its numbers as it goes on (tick), and what has happened (happened), each once and by number. */
+  'GET /v1/playground/{id}/events': {
+    takes: {
+      path: {
+        id: string;
+      };
+      query?: {
+        /**
+         * number of the event behind which to begin, as Last-Event-ID says it; without it, all that are kept; 0 to
+         * 1e+18.
+         */
+        since?: number;
+      };
+    };
+    gives: {};
+  };
+  /**
+   * Its bodies as packed 32-bit words: eight of header, then ten a body; 204 if there is nothing new in wait_ms.
+   */
+  'GET /v1/playground/{id}/bodies': {
+    takes: {
+      path: {
+        id: string;
+      };
+      query?: {
+        /** generation that the client has; without it the answer comes at once; 0 to 1e+18. */
+        after?: number;
+        /** how long to wait for a newer one; 0 to 60000. */
+        wait_ms?: number;
+      };
+    };
+    gives: {
+      'application/octet-stream': Uint8Array;
+      'application/x-npy': Uint8Array;
+      /** without a body. */
+      '': undefined;
+    };
+  };
+  /**
+   * Its debris, thinned, as packed 32-bit words: eight of header, then four a piece; 204 if there is nothing new
+   * in wait_ms.
+   */
+  'GET /v1/playground/{id}/debris': {
+    takes: {
+      path: {
+        id: string;
+      };
+      query?: {
+        /** generation that the client has; without it the answer comes at once; 0 to 1e+18. */
+        after?: number;
+        /** how long to wait for a newer one; 0 to 60000. */
+        wait_ms?: number;
+        /** pieces: where there are more, every k-th is given; 20000 without it; 1 to 1000000. */
+        at_most?: number;
+      };
+    };
+    gives: {
+      'application/octet-stream': Uint8Array;
+      'application/x-npy': Uint8Array;
+      /** without a body. */
+      '': undefined;
+    };
+  };
+  /**
+   * The newest picture of it, as soon as it is newer than the one whose number is given as after; 204 if there is
+   * none in wait_ms.
+   */
+  'GET /v1/playground/{id}/frame.png': {
+    takes: {
+      path: {
+        id: string;
+      };
+      query?: {
+        /** number of the last frame that the client has; 0 without it; 0 to 1e+18. */
+        after?: number;
+        /** how long to wait for a newer one; 0 to 60000. */
+        wait_ms?: number;
+      };
+    };
+    gives: {
+      'image/png': Uint8Array;
+      /** without a body. */
+      '': undefined;
+    };
+  };
+  /** Pictures of it as they come, as those of a session. */
+  'GET /v1/playground/{id}/frames': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {};
+  };
+  /** A document from which it goes on exactly, here or on the command line. */
+  'GET /v1/playground/{id}/snapshot': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {
+      'application/json': Playground;
+    };
+  };
+  /** Energy, angular momentum, separation, wave frequency, strain and debris over time. */
+  'GET /v1/playground/{id}/series': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {
+      'text/csv': string;
+      'application/x-npy': Uint8Array;
+      'application/json': PlaygroundSeries;
+    };
+  };
+  /** The rate at which debris has come back, beside the line t^(-5/3). */
+  'GET /v1/playground/{id}/fallback': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {
+      'text/csv': string;
+      'application/x-npy': Uint8Array;
+    };
+  };
+  /**
+   * How many assets there are, and may be; a picture, a grid of matter or an observation, to be named by its
+   * SHA-256, and the token that deletes it.
+   */
+  'GET /v1/assets': {
+    takes: {};
+    gives: {
+      'application/json': Assets;
+    };
+  };
+  /**
+   * How many assets there are, and may be; a picture, a grid of matter or an observation, to be named by its
+   * SHA-256, and the token that deletes it.
+   */
+  'PUT /v1/assets': {
+    takes: {
+      body: Binary;
+      type: 'image/png' | 'application/x-npz' | 'application/x-uvfits' | 'text/csv';
+    };
+    gives: {
+      'application/json': Asset;
+    };
+  };
+  /** The bytes of an asset; its end. */
+  'GET /v1/assets/{sha256}': {
+    takes: {
+      path: {
+        sha256: string;
+      };
+    };
+    gives: {
+      'image/png': Uint8Array;
+      'application/x-npz': Uint8Array;
+      'application/x-uvfits': Uint8Array;
+      'text/csv': string;
+    };
+  };
+  /** The bytes of an asset; its end. */
+  'DELETE /v1/assets/{sha256}': {
+    takes: {
+      path: {
+        sha256: string;
+      };
+    };
+    gives: {
+      /** without a body. */
+      '': undefined;
+    };
+  };
+  /** A job, of one scene, of a list, or of a scene with keyframes: its id, and the token that ends it. */
+  'POST /v1/jobs': {
+    takes: {
+      query?: {
+        preset?: PresetName;
+      };
+      body: {
+        scene: Scene;
+        /** up to 1000. */
+        keyframes?: {
+          /** 0 to 9999. */
+          frame: number;
+          scene?: Scene;
+          /** 0 to 1e+12. */
+          proper_time?: number | 'horizon' | 'end';
+          ease?: 'none' | 'in' | 'out' | 'in-out';
+          look_at?: 'hole' | 'free' | {
+            /** 0 to 1e+12. */
+            r?: number;
+            /** 0 to 180. */
+            theta_deg?: number;
+            /** -360 to 360. */
+            phi_deg?: number;
+          };
+        }[];
+        interpolation?: 'linear' | 'smooth' | 'catmull-rom';
+        distances?: 'linear' | 'geometric';
+        angles?: 'as-given' | 'shorter';
+        ease?: 'none' | 'in' | 'out' | 'in-out';
+        look_at?: 'hole' | 'free' | {
+          /** 0 to 1e+12. */
+          r?: number;
+          /** 0 to 180. */
+          theta_deg?: number;
+          /** -360 to 360. */
+          phi_deg?: number;
+        };
+        /** 1 to 10000. */
+        frames?: number;
+        motion_blur?: {
+          /** 1 to 64. */
+          samples: number;
+          /** the part of a frame's time in which the shutter is open; 0 to 1; default 0.5. */
+          shutter?: number;
+        };
+        exposure?: 'one' | 'each';
+        output?: 'pictures' | 'layers' | 'npy' | 'npz' | 'fits' | 'exr' | 'light-curve';
+      } | {
+        scene?: Scene;
+        axes: SweepAxes;
+        exposure?: 'each';
+        output?: 'pictures' | 'layers' | 'npy' | 'npz' | 'fits' | 'exr' | 'cube' | 'light-curve';
+      } | {
+        /**
+         * a document of a playground, or a snapshot, as POST /v1/playground takes them, without rate, paused and scene.
+         */
+        playground: Playground;
+        /** M from a frame to the next; 0 to 1e+12. */
+        every: number;
+        scene?: Scene;
+        /** up to 1000. */
+        keyframes?: {
+          /** 0 to 9999. */
+          frame: number;
+          scene?: Scene;
+          /** 0 to 1e+12. */
+          proper_time?: number | 'horizon' | 'end';
+          ease?: 'none' | 'in' | 'out' | 'in-out';
+          look_at?: 'hole' | 'free' | {
+            /** 0 to 1e+12. */
+            r?: number;
+            /** 0 to 180. */
+            theta_deg?: number;
+            /** -360 to 360. */
+            phi_deg?: number;
+          };
+        }[];
+        interpolation?: 'linear' | 'smooth' | 'catmull-rom';
+        distances?: 'linear' | 'geometric';
+        angles?: 'as-given' | 'shorter';
+        ease?: 'none' | 'in' | 'out' | 'in-out';
+        look_at?: 'hole' | 'free' | {
+          /** 0 to 1e+12. */
+          r?: number;
+          /** 0 to 180. */
+          theta_deg?: number;
+          /** -360 to 360. */
+          phi_deg?: number;
+        };
+        /** 1 to 10000. */
+        frames?: number;
+        exposure?: 'each';
+        output?: 'pictures' | 'layers' | 'npy' | 'npz' | 'fits' | 'exr' | 'light-curve';
+      } | {
+        /** up to 10000. */
+        scenes: Scene[];
+        exposure?: 'one' | 'each';
+        output?: 'pictures' | 'layers' | 'npy' | 'npz' | 'fits' | 'exr' | 'light-curve';
+      };
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': Job;
+    };
+  };
+  /** How far a job is; its end, with its files. */
+  'GET /v1/jobs/{id}': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {
+      'application/json': Job;
+    };
+  };
+  /** How far a job is; its end, with its files. */
+  'DELETE /v1/jobs/{id}': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {
+      /** without a body. */
+      '': undefined;
+    };
+  };
+  /** The same whenever it changes. */
+  'GET /v1/jobs/{id}/events': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {};
+  };
+  /**
+   * The frame that is being rendered, as far as it is drawn, else the last finished one; 409 while there is
+   * nothing.
+   */
+  'GET /v1/jobs/{id}/preview.png': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {
+      'image/png': Uint8Array;
+    };
+  };
+  /**
+   * The picture of a job of one, or a ZIP of all; with format=png one frame, with format=stream the frames as
+   * they come; of a sweep asked for as a cube one array a layer, as application/fits, or with format=npz; of a
+   * light curve its rows, as application/json or text/csv.
+   */
+  'GET /v1/jobs/{id}/result': {
+    takes: {
+      path: {
+        id: string;
+      };
+      query?: {
+        /**
+         * json and csv are those of a light curve; fits and npz without a frame the cube of a sweep; the others of
+         * pictures, and of files of numbers; mp4 and webm of pictures alone, by the program ffmpeg.
+         */
+        format?: 'zip' | 'mp4' | 'webm' | 'png' | 'stream' | 'npy' | 'npz' | 'fits' | 'exr' | 'json' | 'csv';
+        /** which, by itself: with format=png, fits, npz, npy or exr; with format=stream from which on; 0 to 1e+18. */
+        frame?: number;
+        /** frames a second, with format=mp4 or webm; 24 without it; 1 to 120. */
+        rate?: number;
+      };
+    };
+    gives: {
+      'application/zip': Uint8Array;
+      'video/mp4': Uint8Array;
+      'video/webm': Uint8Array;
+      'image/png': Uint8Array;
+      'application/x-kerrd-frames': Uint8Array;
+      'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
+      'application/fits': Uint8Array;
+      'image/x-exr': Uint8Array;
+      'application/json': unknown;
+      'text/csv': string;
+    };
+  };
+  /**
+   * What one pixel of a scene's picture shows: its ray, what that crosses, what each emitter gives it, where it
+   * ends and why; with trace=steps the engine's steps along it.
+   */
+  'GET /v1/pixel': {
+    takes: {
+      query: SceneQuery & {
+        /** the pixel: a place X,Y in the picture, in pixels from its upper left corner. */
+        at: string;
+        /** tells the engine's own steps along the middle ray, too. */
+        trace?: 'steps';
+        preset?: PresetName;
+      };
+    };
+    gives: {
+      'application/json': Pixel;
+    };
+  };
+  /**
+   * What one pixel of a scene's picture shows: its ray, what that crosses, what each emitter gives it, where it
+   * ends and why; with trace=steps the engine's steps along it.
+   */
+  'POST /v1/pixel': {
+    takes: {
+      query: {
+        /** the pixel: a place X,Y in the picture, in pixels from its upper left corner. */
+        at: string;
+        /** tells the engine's own steps along the middle ray, too. */
+        trace?: 'steps';
+        preset?: PresetName;
+      };
+      body: Scene;
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': Pixel;
+    };
+  };
+  /** A short address of a scene, for others. */
+  'GET /v1/share': {
+    takes: {
+      query?: SceneQuery & {
+        preset?: PresetName;
+      };
+    };
+    gives: {
+      'application/json': Share;
+    };
+  };
+  /** A short address of a scene, for others. */
+  'POST /v1/share': {
+    takes: {
+      query?: {
+        preset?: PresetName;
+      };
+      body: Scene;
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': Share;
+    };
+  };
+  /** The picture of a shared scene, 1200 by 630 pixels. */
+  'GET /v1/share/{code}/picture.png': {
+    takes: {
+      path: {
+        code: string;
+      };
+      query?: {
+        /** pixels; 1200 without it. Its height follows; 64 to 1200. */
+        width?: number;
+      };
+    };
+    gives: {
+      'image/png': Uint8Array;
+    };
+  };
+  /** The picture of a scene. */
+  'GET /v1/render': {
+    takes: {
+      query?: SceneQuery & {
+        preset?: PresetName;
+      };
+    };
+    gives: {
+      'image/png': Uint8Array;
+      'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
+      'application/fits': Uint8Array;
+      'image/x-exr': Uint8Array;
+      'application/vnd.kerrd.stars+json': Stars;
+    };
+  };
+  /** The picture of a scene. */
+  'POST /v1/render': {
+    takes: {
+      query?: {
+        preset?: PresetName;
+      };
+      body: Scene;
+      type?: 'application/json';
+    };
+    gives: {
+      'image/png': Uint8Array;
+      'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
+      'application/fits': Uint8Array;
+      'image/x-exr': Uint8Array;
+      'application/vnd.kerrd.stars+json': Stars;
+    };
+  };
+}
+
+/** A method and a path. */
+export type Operation = keyof Operations;
+
+/** The media types of an operation's answers. */
+export type MediaOf<O extends Operation> = keyof Operations[O]['gives'] & string;
+
+/** What an answer holds, of the media types that were asked for. */
+export type DataOf<O extends Operation, M extends MediaOf<O> = MediaOf<O>> =
+  | Operations[O]['gives'][M]
+  | ('' extends keyof Operations[O]['gives'] ? undefined : never);
+
+/** What a request may say beside its parameters and its body. */
+export interface Sending<M extends string = string> {
+  /** Which media type the answer has, where there are several. */
+  accept?: M;
+  /** The token of the session, playground, job or asset. */
+  token?: string;
+  /** Further headers. */
+  headers?: Record<string, string>;
+  /** Ends the request, and waiting to send it again. */
+  signal?: AbortSignal;
+  /** Seconds for which a busy server is asked again. */
+  patience?: number;
+}
+
+/** Parameters and body of an operation, and how they are sent; may be left out where nothing is needed. */
+export type Options<O extends Operation, M extends MediaOf<O> = MediaOf<O>> = {} extends Operations[O]['takes']
+  ? [options?: Operations[O]['takes'] & Sending<M>]
+  : [options: Operations[O]['takes'] & Sending<M>];
