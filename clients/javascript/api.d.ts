@@ -24,7 +24,7 @@ export interface Scene {
   /** the hole. */
   spacetime?: {
     /**
-     * spin parameter a; a < 0 is a disk retrograde to its hole; in M; -0.999999999999 to 0.999999999999; default
+     * spin parameter a; a < 0: the disk is retrograde to its hole; in M; -0.999999999999 to 0.999999999999; default
      * 0.7.
      */
     spin?: number;
@@ -34,8 +34,8 @@ export interface Scene {
      */
     mass_msun?: number;
     /**
-     * (angular diameter) distance of the hole: with its mass it says how wide a picture is on the sky, for a beam
-     * and a scale; in pc; 0.001 to 100000000000; default 260000.
+     * angular diameter distance of the hole; with the mass it gives the width of a picture on the sky, which a beam
+     * and a scale bar need; in pc; 0.001 to 100000000000; default 260000.
      */
     distance_pc?: number;
   };
@@ -49,8 +49,8 @@ export interface Scene {
      */
     inclination_deg?: number;
     /**
-     * Boyer-Lindquist azimuth of the observer; of one that falls, ingoing Kerr-Schild azimuth, the same far away;
-     * in degrees; -360 to 360; default 0.
+     * Boyer-Lindquist azimuth of the observer; for a falling observer the ingoing Kerr-Schild azimuth, which is the
+     * same far away; in degrees; -360 to 360; default 0.
      */
     azimuth_deg?: number;
     /**
@@ -61,25 +61,34 @@ export interface Scene {
      * momentum; default "static".
      */
     observer?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-    /** velocity outwards, past one of zero angular momentum (observer: velocity); in c; -1 to 1; default 0. */
+    /**
+     * outward velocity in the frame of the local observer of zero angular momentum (observer: velocity); in c; -1
+     * to 1; default 0.
+     */
     velocity_r?: number;
-    /** velocity away from the north pole, likewise (observer: velocity); in c; -1 to 1; default 0. */
+    /**
+     * velocity away from the north pole, in the frame of the local observer of zero angular momentum (observer:
+     * velocity); in c; -1 to 1; default 0.
+     */
     velocity_theta?: number;
-    /** velocity along the disk's rotation, likewise (observer: velocity); in c; -1 to 1; default 0. */
+    /**
+     * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (observer:
+     * velocity); in c; -1 to 1; default 0.
+     */
     velocity_phi?: number;
     /**
-     * radius from which the observer falls, at rest there but for its angular momentum (observer: infall); in M; 1
-     * to 10000000; default "infinity".
+     * radius at which the observer's fall begins, at rest except for its angular momentum (observer: infall); in M;
+     * 1 to 10000000; default "infinity".
      */
     infall_from?: 'infinity' | number;
     /**
-     * energy per mass of the falling observer; rest: as infall_from has it (observer: infall); -100 to 1000;
-     * default "rest".
+     * energy per mass of the falling observer; rest: the energy that follows from infall_from (observer: infall);
+     * -100 to 1000; default "rest".
      */
     infall_energy?: 'rest' | number;
     /**
-     * angular momentum per mass of the falling observer, which moves in r and azimuth, not in latitude (observer:
-     * infall); in M; -10000 to 10000; default 0.
+     * angular momentum per mass of the falling observer, which moves in r and azimuth but not in latitude
+     * (observer: infall); in M; -10000 to 10000; default 0.
      */
     infall_momentum?: number;
     /**
@@ -93,8 +102,8 @@ export interface Scene {
     /** width of the image plane (plane projection); in M; 1e-06 to 10000000; default 46. */
     field_m?: number;
     /**
-     * the same width on the sky, at spacetime.mass_msun and spacetime.distance_pc: camera.field_m is what it comes
-     * to; none: camera.field_m says it; in microarcseconds; 1e-12 to 1e+12; default "none".
+     * width of the image plane on the sky, at spacetime.mass_msun and spacetime.distance_pc; it sets
+     * camera.field_m; none: camera.field_m is used; in microarcseconds; 1e-12 to 1e+12; default "none".
      */
     field_uas?: 'none' | number;
     /** horizontal field of view (pinhole projection); in degrees; 1e-06 to 179; default 50. */
@@ -118,47 +127,51 @@ export interface Scene {
      */
     stereo?: 'none' | 'pair';
     /**
-     * distance of the eyes, across the way the camera looks (stereo: pair); in M; 1e-06 to 1000000; default 0.5.
+     * distance between the eyes, perpendicular to the viewing direction (stereo: pair); in M; 1e-06 to 1000000;
+     * default 0.5.
      */
     eye_distance?: number;
     /**
-     * log10 of the distance to the critical curve, over its radius, at the upper and lower edge (ring); in decades;
-     * -12 to 0; default 0.
+     * log10 of the distance to the critical curve, in units of its radius, at the upper and the lower edge (ring);
+     * in decades; -12 to 0; default 0.
      */
     ring_decades_max?: number;
     /**
-     * the same at the middle line, above which rays pass outside the curve and below which inside (ring); in
-     * decades; -13 to -1; default -10.
+     * log10 of that distance at the middle line; rays above the line pass outside the curve, rays below it inside
+     * (ring); in decades; -13 to -1; default -10.
      */
     ring_decades_min?: number;
   };
   /** the accretion disk in the equatorial plane, turning towards +phi. */
   disk?: {
     /**
-     * radial flux: none, the exact Page-Thorne integral, or the Newtonian thin disk cut at the ISCO; particles: the
-     * exact one, made of orbiting particles; default "novikov-thorne".
+     * radial flux: none; the exact Page-Thorne integral; the Newtonian thin disk cut at the ISCO; or particles: the
+     * exact flux, as orbiting particles; default "novikov-thorne".
      */
     model?: 'none' | 'novikov-thorne' | 'shakura-sunyaev' | 'particles';
     /** inner edge; never inside the ISCO; in M; 1 to 1000000; default "isco". */
     inner?: 'isco' | number;
     /** outer edge; larger than the inner one; in M; 1 to 1000000; default 22. */
     outer?: number;
-    /** the outer fraction of the radius over which the disk fades out; 0 cuts it sharply; 0 to 1; default 0.7. */
+    /** outer fraction of the radius over which the disk fades out; 0: a sharp edge; 0 to 1; default 0.7. */
     taper?: number;
     /** opacity of one crossing; 1 is optically thick; 0 to 1; default 1. */
     opacity?: number;
     /**
-     * optical depth along the normal where the disk is brightest, elsewhere as its flux: a crossing takes 1 -
-     * exp(-depth/cos) of disk.opacity, by the angle of emission in the gas's frame; 0: opacity is the same
-     * everywhere; 0 to 1000000; default 10.
+     * optical depth along the normal where the disk is brightest; elsewhere it is proportional to the flux. A
+     * crossing has the opacity 1 - exp(-depth/cos) times disk.opacity, with the angle of emission in the gas's
+     * frame; 0: the same opacity everywhere; 0 to 1000000; default 10.
      */
     emission_opacity?: number;
     /**
-     * height of the gas over its distance from the axis, at 10 M: where its density has fallen to exp(-1/2); it has
-     * the thin disk's optical depth from top to bottom; 0: a thin disk; 0 to 0.5; default 0.
+     * height of the gas over its distance from the axis, at 10 M, where height is that at which the density has
+     * fallen to exp(-1/2); the optical depth from top to bottom is that of the thin disk; 0: a thin disk; 0 to 0.5;
+     * default 0.
      */
     height?: number;
-    /** power of the distance from the axis that the ratio grows as; -0.5 to 0.5; default 0. */
+    /**
+     * exponent: height over distance grows as the distance from the axis to this power; -0.5 to 0.5; default 0.
+     */
     flare?: number;
     /**
      * temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd; default "peak".
@@ -170,47 +183,50 @@ export interface Scene {
      */
     peak_temperature_k?: number;
     /**
-     * accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin; in Eddington
+     * accretion rate: luminosity over the Eddington luminosity, with the efficiency for this spin; in Eddington
      * rates; 1e-12 to 1000; default 0.1.
      */
     mdot_edd?: number;
     /** colour temperature over effective temperature; 1 to 3; default 1. */
     hardening?: number;
     /**
-     * brightness: bolometric, g^4 F; or visible, the luminance of the Planck spectrum as the eye weighs it; default
-     * "bolometric".
+     * brightness: bolometric, g^4 F; or visible, the luminance that the eye perceives of the Planck spectrum;
+     * default "bolometric".
      */
     band?: 'bolometric' | 'visible';
-    /** the Doppler shift and beaming of the orbiting gas; default true. */
+    /** include the Doppler shift and beaming of the orbiting gas; default true. */
     doppler?: boolean;
-    /** gravitational redshift and time dilation of the orbiting gas; default true. */
+    /** include the gravitational redshift and time dilation of the orbiting gas; default true. */
     redshift?: boolean;
     /** number of particles (model: particles); 1000 to 10000000; default 300000. */
     particles?: number;
-    /** another number, other particles (model: particles); 0 to 2147483647; default 1. */
+    /**
+     * seed of the random numbers: another seed gives other particles (model: particles); 0 to 2147483647; default
+     * 1.
+     */
     seed?: number;
     /**
-     * particles per area fall as r to this power; 2 puts as many into each octave of r (model: particles); 0 to 4;
-     * default 2.
+     * the number of particles per area falls as r to minus this power; with 2 each octave of r has as many (model:
+     * particles); 0 to 4; default 2.
      */
     density_index?: number;
     /**
-     * share of the particles that fall from the ISCO on its energy and angular momentum; none do where disk.inner
-     * is not "isco" (model: particles); 0 to 0.5; default 0.02.
+     * share of the particles that fall from the ISCO, with its energy and angular momentum; none fall unless
+     * disk.inner is "isco" (model: particles); 0 to 0.5; default 0.02.
      */
     plunging?: number;
     /**
-     * temperature of the plunging gas over the disk's largest; 0: it is not seen (model: particles); 0 to 1;
-     * default 0.7.
+     * temperature of the plunging gas over the disk's largest temperature; 0: it is invisible (model: particles); 0
+     * to 1; default 0.7.
      */
     plunging_temperature?: number;
     /**
-     * largest oscillations in latitude, radians, and in r over r, the latter times (kappa/Omega)^2, which vanishes
-     * at the ISCO (model: particles); 0 to 0.2; default 0.02.
+     * largest amplitude of oscillations: in latitude, in radians; in r over r, times (kappa/Omega)^2, which
+     * vanishes at the ISCO (model: particles); 0 to 0.2; default 0.02.
      */
     epicycles?: number;
     /**
-     * each ray shows particles, gas and spots where they were when its light left them, instead of all at one
+     * show particles, gas and spots where they were when each ray's light left them, instead of all at one
      * coordinate time; default false.
      */
     slow_light?: boolean;
@@ -221,59 +237,60 @@ export interface Scene {
        * 3; default 0.8.
        */
       amplitude?: number;
-      /** scales of the turbulence, each about half the one before; 1 to 8; default 6. */
+      /** number of scales of the turbulence; each scale is about half the one before; 1 to 8; default 6. */
       octaves?: number;
-      /** size of the largest eddies, over r, before they are drawn out; 0.02 to 2; default 0.4. */
+      /** size of the largest eddies over r, before shear stretches them; 0.02 to 2; default 0.4. */
       scale?: number;
       /**
-       * azimuth by which streaks trail, radians for each unit of ln r; they are 1 + shear^2 times as long as wide;
-       * below 0 they lead; -20 to 20; default 5.
+       * azimuth by which streaks trail, in radians for each unit of ln r; streaks are 1 + shear^2 times as long as
+       * wide; below 0 they lead; -20 to 20; default 5.
        */
       shear?: number;
-      /** another number, other gas; 0 to 2147483647; default 1. */
+      /** seed of the random numbers: another seed gives other gas; 0 to 2147483647; default 1. */
       seed?: number;
     };
   };
   /** hot spots: Gaussians in the equatorial plane that go round with the gas; up to 16; default []. */
   spots?: {
     /**
-     * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-     * such spot; 0 to 1000000; default 0.
+     * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+     * to 1000000; default 0.
      */
     brightness?: number;
-    /**
-     * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-     * default 9.
-     */
+    /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
     r?: number;
-    /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+    /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
     phase_deg?: number;
     /**
-     * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+     * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+     * default 1.
      */
     size?: number;
-    /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+    /**
+     * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+     * index); -4 to 6; default 1.
+     */
     index?: number;
     /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
     temperature_k?: number;
   }[];
   /** bodies: spheres that shine, before the hole, behind it and in the disk; up to 8; default []. */
   bodies?: {
-    /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+    /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
     radius?: number;
     /**
-     * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+     * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
      * default 15.
      */
     r?: number;
     /**
-     * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
-     * default 90.
+     * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+     * 180; default 90.
      */
     inclination_deg?: number;
     /**
-     * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
-     * default 0.
+     * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+     * 0.
      */
     phase_deg?: number;
     /**
@@ -285,22 +302,33 @@ export interface Scene {
      * momentum; default "keplerian".
      */
     motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-    /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+    /**
+     * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+     * 1; default 0.
+     */
     velocity_r?: number;
-    /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+    /**
+     * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+     * velocity); in c; -1 to 1; default 0.
+     */
     velocity_theta?: number;
-    /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+    /**
+     * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+     * velocity); in c; -1 to 1; default 0.
+     */
     velocity_phi?: number;
-    /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+    /**
+     * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+     */
     temperature_k?: number;
     /**
-     * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+     * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
      * 1000000000; default 1.
      */
     brightness?: number;
     /**
-     * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
-     * to 1; default 0.6.
+     * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+     * default 0.6.
      */
     limb_darkening?: number;
   }[];
@@ -319,37 +347,37 @@ export interface Scene {
      * "horizon".
      */
     inner?: 'horizon' | number;
-    /** outer edge; larger than the inner one; in M; 1 to 30000; default 20. */
+    /** outer edge of the matter; larger than the inner edge; in M; 1 to 30000; default 20. */
     outer?: number;
     /**
-     * light of a length of M, in its own frame, in units of the disk's brightest (model: uniform); in 1/M; 0 to
-     * 1e+30; default 0.02.
+     * light emitted along 1 M in the matter's frame, in units of the disk's brightest (model: uniform); in 1/M; 0
+     * to 1e+30; default 0.02.
      */
     emissivity?: number;
-    /** optical depth of a length of M, in its own frame (model: uniform); in 1/M; 0 to 1e+30; default 0.02. */
+    /** optical depth of 1 M in the matter's frame (model: uniform); in 1/M; 0 to 1e+30; default 0.02. */
     opacity?: number;
     /**
      * colour: that of a black body of this temperature, shifted by g (model: uniform); in K; 300 to 1000000000;
      * default 6500.
      */
     temperature_k?: number;
-    /** the frequency shift of the matter (model: uniform); default true. */
+    /** include the frequency shift of the matter (model: uniform); default true. */
     redshift?: boolean;
-    /** frequency that is observed (models: gold, riaf, torus, grid); in GHz; 1e-06 to 1e+12; default 230. */
+    /** observed frequency (models: gold, riaf, torus, grid); in GHz; 1e-06 to 1e+12; default 230. */
     frequency_ghz?: number;
     /**
-     * density, temperature, velocity and magnetic field of electrons on a grid of r, theta and phi, an NPZ file
-     * (model: grid); without one there is no matter; default null.
+     * NPZ file with density, temperature, velocity and magnetic field of the electrons on a grid of r, theta and
+     * phi (model: grid); without it there is no matter; default null.
      */
     grid?: null | string;
     /**
-     * factor on the density of the file; its magnetic field is multiplied by the square root of this (model: grid);
-     * 0 to 1e+30; default 1.
+     * factor on the file's density; the magnetic field is multiplied by the square root of it (model: grid); 0 to
+     * 1e+30; default 1.
      */
     grid_scale?: number;
     /**
-     * C n0: emissivity at 230 GHz where the density is largest (model: gold); in erg/(s cm^3 Hz sr); 0 to 1e+30;
-     * default 3e-18.
+     * C n0: emissivity at 230 GHz at the largest density (model: gold); in erg/(s cm^3 Hz sr); 0 to 1e+30; default
+     * 3e-18.
      */
     gold_emission?: number;
     /**
@@ -369,27 +397,27 @@ export interface Scene {
      */
     gold_absorption?: number;
     /**
-     * electrons at 1 M in the plane, as their power law has it (model: riaf), or where there are most of them
-     * (model: torus); in 1/cm^3; 0 to 1e+30; default 30000000.
+     * electron density: at r = 1 M in the equatorial plane, by its power law (model: riaf); its maximum (model:
+     * torus); in 1/cm^3; 0 to 1e+30; default 30000000.
      */
     density_cm3?: number;
-    /** density goes as r^-p, p being this number (model: riaf); -10 to 10; default 1.1. */
+    /** p: density is proportional to r^-p (model: riaf); -10 to 10; default 1.1. */
     density_index?: number;
-    /** temperature of the electrons at 1 M (model: riaf); in K; 1 to 1e+30; default 300000000000. */
+    /** electron temperature at r = 1 M (model: riaf); in K; 1 to 1e+30; default 300000000000. */
     electron_temperature_k?: number;
-    /** temperature goes as r^-p, p being this number (model: riaf); -10 to 10; default 0.84. */
+    /** p: electron temperature is proportional to r^-p (model: riaf); -10 to 10; default 0.84. */
     temperature_index?: number;
     /**
-     * height over the distance from the axis at which the density has fallen to exp(-1/2); 0: it is the same at all
-     * heights (model: riaf); 0 to 10; default 0.1.
+     * height over the distance from the axis at which the density has fallen to exp(-1/2); 0: the density does not
+     * depend on height (model: riaf); 0 to 10; default 0.1.
      */
     height?: number;
     /**
-     * magnetic pressure over the rest energy of a proton for each electron, at 1 M (model: riaf); 0 to 1e+12;
+     * magnetic pressure over the rest energy of a proton per electron, at r = 1 M (model: riaf); 0 to 1e+12;
      * default 0.016666666666666666.
      */
     magnetisation?: number;
-    /** magnetisation goes as r^-p, p being this number (model: riaf); -10 to 10; default 1. */
+    /** p: magnetisation is proportional to r^-p (model: riaf); -10 to 10; default 1. */
     magnetisation_index?: number;
     /**
      * magnetic field: round the axis, along it, or along the radius, made perpendicular to the motion (models:
@@ -402,65 +430,68 @@ export interface Scene {
      */
     flow?: 'orbits' | 'rest';
     /**
-     * energies of the electrons (models: riaf, torus, grid); kappa: thermal ones with a tail of a power law;
+     * energy distribution of the electrons (models: riaf, torus, grid); kappa: thermal with a power-law tail;
      * default "thermal".
      */
     electrons?: 'thermal' | 'power-law' | 'kappa';
-    /** p: electrons of energy gamma go as gamma to minus this (electrons: power-law); 1.1 to 10; default 3.5. */
+    /** p: the number of electrons is proportional to gamma^-p (electrons: power-law); 1.1 to 10; default 3.5. */
     electrons_index?: number;
     /**
-     * kappa: electrons of high energy gamma go as gamma to 1 minus this (electrons: kappa); 3.1 to 7.5; default 4.
+     * kappa: at high energies the number of electrons is proportional to gamma^(1 - kappa) (electrons: kappa); 3.1
+     * to 7.5; default 4.
      */
     kappa?: number;
     /**
-     * where the pressure is largest; the inner edge is volume.inner (model: torus); in M; 1 to 1000; default 12.
+     * radius of the largest pressure; the inner edge is volume.inner (model: torus); in M; 1 to 1000; default 12.
      */
     torus_radius?: number;
-    /** of the gas (model: torus); 1.1 to 2; default 1.4444444444444444. */
+    /** adiabatic index of the gas (model: torus); 1.1 to 2; default 1.4444444444444444. */
     adiabatic_index?: number;
-    /** temperature of the ions over that of the electrons (model: torus); 0 to 1000000; default 3. */
+    /** ion temperature over electron temperature (model: torus); 0 to 1000000; default 3. */
     temperature_ratio?: number;
-    /** pressure of the gas over that of the magnetic field (model: torus); 1e-06 to 1e+12; default 10. */
+    /** gas pressure over magnetic pressure (model: torus); 1e-06 to 1e+12; default 10. */
     beta?: number;
-    /** least energy of the electrons over that at rest (electrons: power-law); 1 to 1000000000; default 30. */
+    /** smallest Lorentz factor of the electrons (electrons: power-law); 1 to 1000000000; default 30. */
     gamma_min?: number;
-    /** largest energy of the electrons, more than the least (electrons: power-law); 1 to 1e+12; default 100000. */
+    /**
+     * largest Lorentz factor of the electrons; above gamma_min (electrons: power-law); 1 to 1e+12; default 100000.
+     */
     gamma_max?: number;
     /**
-     * flux that the picture shall have: the density (of gold the emissivity, of a grid its factor) is multiplied by
-     * what it takes, which kerrd finds by small pictures and answers tell; 0: left as it is (models: gold, riaf,
-     * torus, grid); in Jy; 0 to 1e+12; default 0.
+     * flux that the picture must have: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a
+     * number that it finds with small pictures, and reports it; 0: no change (models: gold, riaf, torus, grid); in
+     * Jy; 0 to 1e+12; default 0.
      */
     normalise_to_jy?: number;
-    /**
-     * frequency of that flux; observed: the one that the picture shows; in GHz; 1e-06 to 1e+12; default "observed".
-     */
+    /** frequency of that flux; observed: volume.frequency_ghz; in GHz; 1e-06 to 1e+12; default "observed". */
     normalise_ghz?: 'observed' | number;
   };
   /** stylised jets along the spin axis. */
   jets?: {
     /**
-     * light of a length of M in its own frame, carried back to the inner edge, where it begins smoothly, in units
-     * of the disk's brightest; 0: there are none; in 1/M; 0 to 1000000000; default 0.
+     * light emitted along 1 M in the jet's frame, extrapolated to the inner edge, where it begins smoothly, in
+     * units of the disk's brightest; 0: no jets; in 1/M; 0 to 1000000000; default 0.
      */
     brightness?: number;
-    /** half of the angle of the cone; in degrees; 1 to 60; default 8. */
+    /** half of the cone's opening angle; in degrees; 1 to 60; default 8. */
     opening_deg?: number;
-    /** Lorentz factor: how fast the light's source flies outwards; 1 to 100; default 2. */
+    /** Lorentz factor of the outflow; 1 to 100; default 2. */
     lorentz?: number;
-    /** where the light begins, at least a twentieth outside the horizon; in M; 1 to 1000000; default 4. */
+    /**
+     * radius at which the light begins, at least 1.05 times that of the horizon; in M; 1 to 1000000; default 4.
+     */
     inner?: number;
-    /** where it ends; larger than the inner edge; in M; 1 to 1000000; default 60. */
+    /** radius at which the light ends; larger than the inner edge; in M; 1 to 1000000; default 60. */
     outer?: number;
-    /** light along the jet goes as r to minus this; -10 to 10; default 1.5. */
+    /** p: light along the jet is proportional to r^-p; -10 to 10; default 1.5. */
     falloff?: number;
-    /** from a bright spine, 0, to bright edges, 1; 0 to 1; default 0.5. */
+    /** brightness across the jet: 0, a bright spine; 1, bright edges; 0 to 1; default 0.5. */
     sheath?: number;
-    /** brightness goes as the frequency shift to 2 plus this; -10 to 10; default 0.7. */
+    /** brightness is proportional to the frequency shift to the power of 2 plus this; -10 to 10; default 0.7. */
     spectral_index?: number;
-    /** colour: that of a black body of this temperature, not shifted; in K; 300 to 1000000000; default 14000. */
+    /** colour of a black body of this temperature, not shifted; in K; 300 to 1000000000; default 14000. */
     temperature_k?: number;
-    /** the jet below the disk, too; default true. */
+    /** include the jet below the disk; default true. */
     counterjet?: boolean;
   };
   /**
@@ -479,20 +510,20 @@ export interface Scene {
      */
     field?: 'toroidal' | 'radial' | 'vertical';
     /**
-     * electrons have energies E as E to minus this power p, and the light of a field in order is polarised by (p +
-     * 1)/(p + 7/3) (model: synchrotron); 1 to 10; default 3.
+     * p: the number of electrons is proportional to E^-p; an ordered field polarises their light by (p + 1)/(p +
+     * 7/3) (model: synchrotron); 1 to 10; default 3.
      */
     electron_index?: number;
-    /** part of that polarisation which disorder within a pixel leaves; 0 to 1; default 1. */
+    /** share of that polarisation which remains when the field is disordered within a pixel; 0 to 1; default 1. */
     order?: number;
     /**
-     * electrons turn the direction of light that passes (Faraday rotation), and make linear of circular
-     * polarisation and back (model: transfer); default true.
+     * include Faraday rotation, and conversion between linear and circular polarisation, by the electrons (model:
+     * transfer); default true.
      */
     faraday?: boolean;
     /**
-     * fit of the Faraday rotation by thermal electrons: of Shcherbakov 2008, or of Dexter 2016, as Huang and
-     * Shcherbakov 2011 have it (model: transfer); default "shcherbakov".
+     * fit of the Faraday rotation by thermal electrons: Shcherbakov 2008, or Dexter 2016 in the form of Huang and
+     * Shcherbakov 2011 (model: transfer); default "shcherbakov".
      */
     rotation?: 'shcherbakov' | 'dexter';
   };
@@ -511,7 +542,7 @@ export interface Scene {
     brightness?: 'auto' | number;
     /** spacing of the celestial grid; in degrees; 1 to 90; default 15. */
     grid_deg?: number;
-    /** brightness of the Milky Way, or of sky.image, over its own; 0: stars alone; 0 to 100; default 1. */
+    /** brightness of the Milky Way, or of sky.image, over its natural one; 0: stars alone; 0 to 100; default 1. */
     milky_way?: number;
     /**
      * picture of the whole sky in the place of the Milky Way that is made up (model: stars, catalogue, image):
@@ -521,7 +552,7 @@ export interface Scene {
     image?: null | string;
     /** stars fainter than this are left out; in magnitudes; -2 to 14; default 14. */
     limit_mag?: number;
-    /** another number, another sky that is made up; 0 to 2147483647; default 1. */
+    /** seed of the random numbers: another seed gives another generated sky; 0 to 2147483647; default 1. */
     seed?: number;
     /**
      * galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra,
@@ -530,12 +561,13 @@ export interface Scene {
      */
     orientation?: 'galactic' | 'equatorial' | 'sgra' | 'm87';
     /**
-     * the sky is turned about the hole's axis by so much, as by camera.azimuth_deg; in degrees; -360 to 360;
+     * rotation of the sky about the hole's axis, in the sense of camera.azimuth_deg; in degrees; -360 to 360;
      * default 0.
      */
     turn_deg?: number;
     /**
-     * and, after that, about the horizontal axis of the picture from azimuth 0; in degrees; -180 to 180; default 0.
+     * then, rotation of the sky about the horizontal axis of the picture from azimuth 0; in degrees; -180 to 180;
+     * default 0.
      */
     tilt_deg?: number;
   };
@@ -551,13 +583,13 @@ export interface Scene {
      */
     samples?: 'auto' | number;
     /**
-     * by how much of white a pixel of one ray may seem to be off before it is given more (samples: auto); 0.001 to
-     * 0.5; default 0.003.
+     * apparent error of a pixel of one ray, as a fraction of white, above which it gets more rays (samples: auto);
+     * 0.001 to 0.5; default 0.003.
      */
     pixel_error?: number;
     /**
-     * so many times as many along each side of the pixels that the critical curve passes, where the photon ring is
-     * thinner than they are; at most 16 in all; 1 to 16; default 4.
+     * factor on the rays along each side of pixels at the critical curve, where the photon ring is thinner than a
+     * pixel; at most 16 rays a side in all; 1 to 16; default 4.
      */
     critical_factor?: number;
     /** bits a channel: 8 or 16; in bits; 8 to 16; default 8. */
@@ -569,31 +601,34 @@ export interface Scene {
      */
     layers?: string[];
     /**
-     * number at the lower end of the colours of a layer; auto: what docs/layers.md says of each; -1e+12 to 1e+12;
-     * default "auto".
+     * value at the lower end of a layer's colour scale; auto: docs/layers.md gives it for each layer; -1e+12 to
+     * 1e+12; default "auto".
      */
     layer_min?: 'auto' | number;
-    /** the same at their upper end; -1e+12 to 1e+12; default "auto". */
+    /**
+     * value at the upper end of a layer's colour scale; auto: docs/layers.md gives it for each layer; -1e+12 to
+     * 1e+12; default "auto".
+     */
     layer_max?: 'auto' | number;
-    /** a colour bar in the lower left corner of a layer in false colour; default true. */
+    /** draw a colour bar in the lower left corner of a layer in false colour; default true. */
     legend?: boolean;
     /** a part of the picture, made by itself, the same to the byte as there. */
     tile?: {
-      /** columns of the picture to its left; in pixels; 0 to 32767; default 0. */
+      /** columns of the picture to the left of the tile; in pixels; 0 to 32767; default 0. */
       left?: number;
-      /** rows of the picture above it; in pixels; 0 to 32767; default 0. */
+      /** rows of the picture above the tile; in pixels; 0 to 32767; default 0. */
       top?: number;
-      /** its width; 0: the whole picture is made, and no tile; in pixels; 0 to 32768; default 0. */
+      /** width of the tile; 0: no tile, the whole picture is rendered; in pixels; 0 to 32768; default 0. */
       width?: number;
-      /** its height, likewise; in pixels; 0 to 32768; default 0. */
+      /** height of the tile; 0: no tile, the whole picture is rendered; in pixels; 0 to 32768; default 0. */
       height?: number;
     };
   };
   /** from brightness to the colours of the file. */
   style?: {
     /**
-     * a preset of what makes the look, which a document sets by naming it, but for the fields that it sets itself;
-     * none: nothing; default "film".
+     * style that sets all fields of the look, except those that the document sets itself; none: no style; default
+     * "film".
      */
     name?: 'none' | 'film' | 'raw' | 'dngr' | 'eht' | 'starless';
     /**
@@ -607,8 +642,8 @@ export interface Scene {
      */
     tone_map?: 'aces' | 'srgb' | 'neutral';
     /**
-     * share of bright light that a lens spreads round its place: all of what is over 0.6 of white, by an even knee
-     * from 0.2 on; 0: none; 0 to 1; default 0.4.
+     * share of bright light that the lens spreads around its place: all light over 0.6 of white, with a smooth
+     * transition from 0.2 on; 0: none; 0 to 1; default 0.4.
      */
     bloom?: number;
     /**
@@ -617,23 +652,23 @@ export interface Scene {
      */
     beam_uas?: number;
     /**
-     * colour: that of light; heat: brightness in false colour, black, red, orange, white, by a lightness that is
+     * colour: that of the light; heat: brightness in false colour (black, red, orange, white), with lightness
      * proportional to it; default "colour".
      */
     palette?: 'colour' | 'heat';
     /**
-     * a bar of brightness (palette: heat; tone_map: srgb) in the lower left corner, a scale of the sky and the beam
-     * in the upper right one; default false.
+     * draw a brightness bar in the lower left corner (palette: heat; tone_map: srgb), and in the upper right corner
+     * an angular scale and the shape of the beam; default false.
      */
     colour_bar?: boolean;
-    /** half a step of ordered noise before rounding, against banding; default true. */
+    /** add half a step of ordered noise before rounding, against banding; default true. */
     dither?: boolean;
     /**
      * a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * e^(-t/tau)
-     * cos(w t), the quasi-normal mode l = m = 2, n = 0 of the hole; 0: none; 0 to 1; default 0.
+     * cos(w t), with the hole's quasi-normal mode l = m = 2, n = 0; 0: none; 0 to 1; default 0.
      */
     ringdown?: number;
-    /** time at which it was struck; before that nothing rings; in M; -1e+12 to 1e+12; default 0. */
+    /** time at which the hole was struck; before it nothing rings; in M; -1e+12 to 1e+12; default 0. */
     ringdown_time?: number;
   };
   /** the source on the sky that the hole stands for: FITS files tell it, and no pixel depends on it. */
@@ -649,32 +684,37 @@ export interface Scene {
   };
   /** what goes on by itself in a live session; a still picture knows none of it. */
   motion?: {
-    /** the observer goes round the axis; in degrees per second; -360 to 360; default 0. */
+    /** rate at which the observer goes round the axis; in degrees per second; -360 to 360; default 0. */
     azimuth_rate_deg?: number;
-    /** coordinate time goes on; in M per second; -1000000 to 1000000; default 0. */
+    /** rate at which coordinate time goes on; in M per second; -1000000 to 1000000; default 0. */
     time_rate?: number;
     /**
-     * the observer goes on by its own clock: it falls, to where a camera can be at last, or goes round, and
-     * coordinate time goes on as it does on its way; in M per second; 0 to 1000000; default 0.
+     * rate of the observer's own clock: it falls, to the last place a camera can be at, or goes round; coordinate
+     * time goes on accordingly; in M per second; 0 to 1000000; default 0.
      */
     proper_time_rate?: number;
   };
   /** how closely the rays are followed. */
   accuracy?: {
-    /** how closely rays are followed, coarse to fine; reference is double precision; default "balanced". */
+    /**
+     * accuracy with which rays are traced, from coarse to fine; reference: double precision; default "balanced".
+     */
     profile?: 'draft' | 'interactive' | 'balanced' | 'high' | 'reference';
     /**
-     * relative error of the crossing radii to be held, by the accuracy table of the device, instead of the profile;
-     * 1e-18 to 0.1; default "profile".
+     * largest relative error of the crossing radii, by the accuracy table of the device; profile: what the profile
+     * means; 1e-18 to 0.1; default "profile".
      */
     tolerance?: 'profile' | number;
-    /** what traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6; default "auto". */
+    /**
+     * method that traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6; default
+     * "auto".
+     */
     engine?: 'auto' | 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
-    /** of the arithmetic; auto: what the profile means; default "auto". */
+    /** precision of the arithmetic; auto: what the profile means; default "auto". */
     precision?: 'auto' | 'f32' | 'f64';
-    /** steps of the integrator a half turn, a multiple of 4; 0: what the profile means; 0 to 2048; default 0. */
+    /** integrator steps for a half turn, a multiple of 4; 0: what the profile means; 0 to 2048; default 0. */
     steps?: number;
-    /** equatorial crossings kept a ray: image orders 0 to n - 1; 1 to 8; default 3. */
+    /** equatorial crossings kept for each ray: image orders 0 to n - 1; 1 to 8; default 3. */
     orders?: number;
   };
   /** coordinate time of the picture; in M; -1e+12 to 1e+12; default 0. */
@@ -1385,7 +1425,7 @@ export interface VisibilityRequest {
   baselines?: number;
   /** position angles of baselines with lengths, from the north to the east; 0 and 90 [deg]; up to 20001. */
   angles_deg?: number[];
-  /** number of image orders, from 0 on, whose light is told apart too; 0 to 8. */
+  /** number of image orders, from 0 on, whose visibilities are also given separately; 0 to 8. */
   orders?: number;
   /**
    * pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility and of a comparison; 16 to
@@ -2720,7 +2760,7 @@ export interface SceneQuery {
   /** version of this document format. */
   version?: 1;
   /**
-   * spin parameter a; a < 0 is a disk retrograde to its hole; in M; -0.999999999999 to 0.999999999999; default
+   * spin parameter a; a < 0: the disk is retrograde to its hole; in M; -0.999999999999 to 0.999999999999; default
    * 0.7.
    */
   'spacetime.spin'?: number;
@@ -2730,8 +2770,8 @@ export interface SceneQuery {
    */
   'spacetime.mass_msun'?: number;
   /**
-   * (angular diameter) distance of the hole: with its mass it says how wide a picture is on the sky, for a beam
-   * and a scale; in pc; 0.001 to 100000000000; default 260000.
+   * angular diameter distance of the hole; with the mass it gives the width of a picture on the sky, which a beam
+   * and a scale bar need; in pc; 0.001 to 100000000000; default 260000.
    */
   'spacetime.distance_pc'?: number;
   /** Boyer-Lindquist radius of the observer; in M; 0.01 to 10000000; default "infinity". */
@@ -2742,8 +2782,8 @@ export interface SceneQuery {
    */
   'camera.inclination_deg'?: number;
   /**
-   * Boyer-Lindquist azimuth of the observer; of one that falls, ingoing Kerr-Schild azimuth, the same far away;
-   * in degrees; -360 to 360; default 0.
+   * Boyer-Lindquist azimuth of the observer; for a falling observer the ingoing Kerr-Schild azimuth, which is the
+   * same far away; in degrees; -360 to 360; default 0.
    */
   'camera.azimuth_deg'?: number;
   /**
@@ -2754,25 +2794,34 @@ export interface SceneQuery {
    * momentum; default "static".
    */
   'camera.observer'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-  /** velocity outwards, past one of zero angular momentum (observer: velocity); in c; -1 to 1; default 0. */
+  /**
+   * outward velocity in the frame of the local observer of zero angular momentum (observer: velocity); in c; -1
+   * to 1; default 0.
+   */
   'camera.velocity_r'?: number;
-  /** velocity away from the north pole, likewise (observer: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity away from the north pole, in the frame of the local observer of zero angular momentum (observer:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'camera.velocity_theta'?: number;
-  /** velocity along the disk's rotation, likewise (observer: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (observer:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'camera.velocity_phi'?: number;
   /**
-   * radius from which the observer falls, at rest there but for its angular momentum (observer: infall); in M; 1
-   * to 10000000; default "infinity".
+   * radius at which the observer's fall begins, at rest except for its angular momentum (observer: infall); in M;
+   * 1 to 10000000; default "infinity".
    */
   'camera.infall_from'?: 'infinity' | number;
   /**
-   * energy per mass of the falling observer; rest: as infall_from has it (observer: infall); -100 to 1000;
-   * default "rest".
+   * energy per mass of the falling observer; rest: the energy that follows from infall_from (observer: infall);
+   * -100 to 1000; default "rest".
    */
   'camera.infall_energy'?: 'rest' | number;
   /**
-   * angular momentum per mass of the falling observer, which moves in r and azimuth, not in latitude (observer:
-   * infall); in M; -10000 to 10000; default 0.
+   * angular momentum per mass of the falling observer, which moves in r and azimuth but not in latitude
+   * (observer: infall); in M; -10000 to 10000; default 0.
    */
   'camera.infall_momentum'?: number;
   /**
@@ -2786,8 +2835,8 @@ export interface SceneQuery {
   /** width of the image plane (plane projection); in M; 1e-06 to 10000000; default 46. */
   'camera.field_m'?: number;
   /**
-   * the same width on the sky, at spacetime.mass_msun and spacetime.distance_pc: camera.field_m is what it comes
-   * to; none: camera.field_m says it; in microarcseconds; 1e-12 to 1e+12; default "none".
+   * width of the image plane on the sky, at spacetime.mass_msun and spacetime.distance_pc; it sets
+   * camera.field_m; none: camera.field_m is used; in microarcseconds; 1e-12 to 1e+12; default "none".
    */
   'camera.field_uas'?: 'none' | number;
   /** horizontal field of view (pinhole projection); in degrees; 1e-06 to 179; default 50. */
@@ -2811,44 +2860,48 @@ export interface SceneQuery {
    */
   'camera.stereo'?: 'none' | 'pair';
   /**
-   * distance of the eyes, across the way the camera looks (stereo: pair); in M; 1e-06 to 1000000; default 0.5.
+   * distance between the eyes, perpendicular to the viewing direction (stereo: pair); in M; 1e-06 to 1000000;
+   * default 0.5.
    */
   'camera.eye_distance'?: number;
   /**
-   * log10 of the distance to the critical curve, over its radius, at the upper and lower edge (ring); in decades;
-   * -12 to 0; default 0.
+   * log10 of the distance to the critical curve, in units of its radius, at the upper and the lower edge (ring);
+   * in decades; -12 to 0; default 0.
    */
   'camera.ring_decades_max'?: number;
   /**
-   * the same at the middle line, above which rays pass outside the curve and below which inside (ring); in
-   * decades; -13 to -1; default -10.
+   * log10 of that distance at the middle line; rays above the line pass outside the curve, rays below it inside
+   * (ring); in decades; -13 to -1; default -10.
    */
   'camera.ring_decades_min'?: number;
   /**
-   * radial flux: none, the exact Page-Thorne integral, or the Newtonian thin disk cut at the ISCO; particles: the
-   * exact one, made of orbiting particles; default "novikov-thorne".
+   * radial flux: none; the exact Page-Thorne integral; the Newtonian thin disk cut at the ISCO; or particles: the
+   * exact flux, as orbiting particles; default "novikov-thorne".
    */
   'disk.model'?: 'none' | 'novikov-thorne' | 'shakura-sunyaev' | 'particles';
   /** inner edge; never inside the ISCO; in M; 1 to 1000000; default "isco". */
   'disk.inner'?: 'isco' | number;
   /** outer edge; larger than the inner one; in M; 1 to 1000000; default 22. */
   'disk.outer'?: number;
-  /** the outer fraction of the radius over which the disk fades out; 0 cuts it sharply; 0 to 1; default 0.7. */
+  /** outer fraction of the radius over which the disk fades out; 0: a sharp edge; 0 to 1; default 0.7. */
   'disk.taper'?: number;
   /** opacity of one crossing; 1 is optically thick; 0 to 1; default 1. */
   'disk.opacity'?: number;
   /**
-   * optical depth along the normal where the disk is brightest, elsewhere as its flux: a crossing takes 1 -
-   * exp(-depth/cos) of disk.opacity, by the angle of emission in the gas's frame; 0: opacity is the same
-   * everywhere; 0 to 1000000; default 10.
+   * optical depth along the normal where the disk is brightest; elsewhere it is proportional to the flux. A
+   * crossing has the opacity 1 - exp(-depth/cos) times disk.opacity, with the angle of emission in the gas's
+   * frame; 0: the same opacity everywhere; 0 to 1000000; default 10.
    */
   'disk.emission_opacity'?: number;
   /**
-   * height of the gas over its distance from the axis, at 10 M: where its density has fallen to exp(-1/2); it has
-   * the thin disk's optical depth from top to bottom; 0: a thin disk; 0 to 0.5; default 0.
+   * height of the gas over its distance from the axis, at 10 M, where height is that at which the density has
+   * fallen to exp(-1/2); the optical depth from top to bottom is that of the thin disk; 0: a thin disk; 0 to 0.5;
+   * default 0.
    */
   'disk.height'?: number;
-  /** power of the distance from the axis that the ratio grows as; -0.5 to 0.5; default 0. */
+  /**
+   * exponent: height over distance grows as the distance from the axis to this power; -0.5 to 0.5; default 0.
+   */
   'disk.flare'?: number;
   /**
    * temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd; default "peak".
@@ -2860,47 +2913,50 @@ export interface SceneQuery {
    */
   'disk.peak_temperature_k'?: number;
   /**
-   * accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin; in Eddington
+   * accretion rate: luminosity over the Eddington luminosity, with the efficiency for this spin; in Eddington
    * rates; 1e-12 to 1000; default 0.1.
    */
   'disk.mdot_edd'?: number;
   /** colour temperature over effective temperature; 1 to 3; default 1. */
   'disk.hardening'?: number;
   /**
-   * brightness: bolometric, g^4 F; or visible, the luminance of the Planck spectrum as the eye weighs it; default
-   * "bolometric".
+   * brightness: bolometric, g^4 F; or visible, the luminance that the eye perceives of the Planck spectrum;
+   * default "bolometric".
    */
   'disk.band'?: 'bolometric' | 'visible';
-  /** the Doppler shift and beaming of the orbiting gas; default true. */
+  /** include the Doppler shift and beaming of the orbiting gas; default true. */
   'disk.doppler'?: boolean;
-  /** gravitational redshift and time dilation of the orbiting gas; default true. */
+  /** include the gravitational redshift and time dilation of the orbiting gas; default true. */
   'disk.redshift'?: boolean;
   /** number of particles (model: particles); 1000 to 10000000; default 300000. */
   'disk.particles'?: number;
-  /** another number, other particles (model: particles); 0 to 2147483647; default 1. */
+  /**
+   * seed of the random numbers: another seed gives other particles (model: particles); 0 to 2147483647; default
+   * 1.
+   */
   'disk.seed'?: number;
   /**
-   * particles per area fall as r to this power; 2 puts as many into each octave of r (model: particles); 0 to 4;
-   * default 2.
+   * the number of particles per area falls as r to minus this power; with 2 each octave of r has as many (model:
+   * particles); 0 to 4; default 2.
    */
   'disk.density_index'?: number;
   /**
-   * share of the particles that fall from the ISCO on its energy and angular momentum; none do where disk.inner
-   * is not "isco" (model: particles); 0 to 0.5; default 0.02.
+   * share of the particles that fall from the ISCO, with its energy and angular momentum; none fall unless
+   * disk.inner is "isco" (model: particles); 0 to 0.5; default 0.02.
    */
   'disk.plunging'?: number;
   /**
-   * temperature of the plunging gas over the disk's largest; 0: it is not seen (model: particles); 0 to 1;
-   * default 0.7.
+   * temperature of the plunging gas over the disk's largest temperature; 0: it is invisible (model: particles); 0
+   * to 1; default 0.7.
    */
   'disk.plunging_temperature'?: number;
   /**
-   * largest oscillations in latitude, radians, and in r over r, the latter times (kappa/Omega)^2, which vanishes
-   * at the ISCO (model: particles); 0 to 0.2; default 0.02.
+   * largest amplitude of oscillations: in latitude, in radians; in r over r, times (kappa/Omega)^2, which
+   * vanishes at the ISCO (model: particles); 0 to 0.2; default 0.02.
    */
   'disk.epicycles'?: number;
   /**
-   * each ray shows particles, gas and spots where they were when its light left them, instead of all at one
+   * show particles, gas and spots where they were when each ray's light left them, instead of all at one
    * coordinate time; default false.
    */
   'disk.slow_light'?: boolean;
@@ -2909,352 +2965,368 @@ export interface SceneQuery {
    * 3; default 0.8.
    */
   'disk.gas.amplitude'?: number;
-  /** scales of the turbulence, each about half the one before; 1 to 8; default 6. */
+  /** number of scales of the turbulence; each scale is about half the one before; 1 to 8; default 6. */
   'disk.gas.octaves'?: number;
-  /** size of the largest eddies, over r, before they are drawn out; 0.02 to 2; default 0.4. */
+  /** size of the largest eddies over r, before shear stretches them; 0.02 to 2; default 0.4. */
   'disk.gas.scale'?: number;
   /**
-   * azimuth by which streaks trail, radians for each unit of ln r; they are 1 + shear^2 times as long as wide;
-   * below 0 they lead; -20 to 20; default 5.
+   * azimuth by which streaks trail, in radians for each unit of ln r; streaks are 1 + shear^2 times as long as
+   * wide; below 0 they lead; -20 to 20; default 5.
    */
   'disk.gas.shear'?: number;
-  /** another number, other gas; 0 to 2147483647; default 1. */
+  /** seed of the random numbers: another seed gives other gas; 0 to 2147483647; default 1. */
   'disk.gas.seed'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.0.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.0.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.0.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.0.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.0.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.0.temperature_k'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.1.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.1.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.1.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.1.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.1.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.1.temperature_k'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.2.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.2.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.2.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.2.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.2.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.2.temperature_k'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.3.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.3.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.3.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.3.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.3.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.3.temperature_k'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.4.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.4.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.4.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.4.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.4.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.4.temperature_k'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.5.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.5.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.5.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.5.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.5.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.5.temperature_k'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.6.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.6.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.6.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.6.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.6.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.6.temperature_k'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.7.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.7.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.7.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.7.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.7.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.7.temperature_k'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.8.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.8.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.8.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.8.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.8.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.8.temperature_k'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.9.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.9.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.9.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.9.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.9.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.9.temperature_k'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.10.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.10.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.10.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.10.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.10.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.10.temperature_k'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.11.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.11.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.11.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.11.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.11.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.11.temperature_k'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.12.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.12.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.12.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.12.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.12.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.12.temperature_k'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.13.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.13.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.13.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.13.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.13.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.13.temperature_k'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.14.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.14.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.14.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.14.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.14.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.14.temperature_k'?: number;
   /**
-   * surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no
-   * such spot; 0 to 1000000; default 0.
+   * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+   * to 1000000; default 0.
    */
   'spots.15.brightness'?: number;
-  /**
-   * radius of the circular orbit that the centre goes round on; never inside the ISCO; in M; 1 to 1000000;
-   * default 9.
-   */
+  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
   'spots.15.r'?: number;
-  /** azimuth of the centre at time 0; in degrees; -360 to 360; default 0. */
+  /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.15.phase_deg'?: number;
   /**
-   * distance from the centre at which the Gaussian has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
+   * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+   * default 1.
    */
   'spots.15.size'?: number;
-  /** spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen; -4 to 6; default 1. */
+  /**
+   * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+   * index); -4 to 6; default 1.
+   */
   'spots.15.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.15.temperature_k'?: number;
-  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
   'bodies.0.radius'?: number;
   /**
-   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
    * default 15.
    */
   'bodies.0.r'?: number;
   /**
-   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
-   * default 90.
+   * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+   * 180; default 90.
    */
   'bodies.0.inclination_deg'?: number;
   /**
-   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
-   * default 0.
+   * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+   * 0.
    */
   'bodies.0.phase_deg'?: number;
   /**
@@ -3266,39 +3338,50 @@ export interface SceneQuery {
    * momentum; default "keplerian".
    */
   'bodies.0.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+   * 1; default 0.
+   */
   'bodies.0.velocity_r'?: number;
-  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.0.velocity_theta'?: number;
-  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.0.velocity_phi'?: number;
-  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  /**
+   * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+   */
   'bodies.0.temperature_k'?: number;
   /**
-   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
    * 1000000000; default 1.
    */
   'bodies.0.brightness'?: number;
   /**
-   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
-   * to 1; default 0.6.
+   * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+   * default 0.6.
    */
   'bodies.0.limb_darkening'?: number;
-  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
   'bodies.1.radius'?: number;
   /**
-   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
    * default 15.
    */
   'bodies.1.r'?: number;
   /**
-   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
-   * default 90.
+   * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+   * 180; default 90.
    */
   'bodies.1.inclination_deg'?: number;
   /**
-   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
-   * default 0.
+   * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+   * 0.
    */
   'bodies.1.phase_deg'?: number;
   /**
@@ -3310,39 +3393,50 @@ export interface SceneQuery {
    * momentum; default "keplerian".
    */
   'bodies.1.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+   * 1; default 0.
+   */
   'bodies.1.velocity_r'?: number;
-  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.1.velocity_theta'?: number;
-  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.1.velocity_phi'?: number;
-  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  /**
+   * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+   */
   'bodies.1.temperature_k'?: number;
   /**
-   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
    * 1000000000; default 1.
    */
   'bodies.1.brightness'?: number;
   /**
-   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
-   * to 1; default 0.6.
+   * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+   * default 0.6.
    */
   'bodies.1.limb_darkening'?: number;
-  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
   'bodies.2.radius'?: number;
   /**
-   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
    * default 15.
    */
   'bodies.2.r'?: number;
   /**
-   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
-   * default 90.
+   * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+   * 180; default 90.
    */
   'bodies.2.inclination_deg'?: number;
   /**
-   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
-   * default 0.
+   * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+   * 0.
    */
   'bodies.2.phase_deg'?: number;
   /**
@@ -3354,39 +3448,50 @@ export interface SceneQuery {
    * momentum; default "keplerian".
    */
   'bodies.2.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+   * 1; default 0.
+   */
   'bodies.2.velocity_r'?: number;
-  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.2.velocity_theta'?: number;
-  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.2.velocity_phi'?: number;
-  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  /**
+   * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+   */
   'bodies.2.temperature_k'?: number;
   /**
-   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
    * 1000000000; default 1.
    */
   'bodies.2.brightness'?: number;
   /**
-   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
-   * to 1; default 0.6.
+   * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+   * default 0.6.
    */
   'bodies.2.limb_darkening'?: number;
-  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
   'bodies.3.radius'?: number;
   /**
-   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
    * default 15.
    */
   'bodies.3.r'?: number;
   /**
-   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
-   * default 90.
+   * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+   * 180; default 90.
    */
   'bodies.3.inclination_deg'?: number;
   /**
-   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
-   * default 0.
+   * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+   * 0.
    */
   'bodies.3.phase_deg'?: number;
   /**
@@ -3398,39 +3503,50 @@ export interface SceneQuery {
    * momentum; default "keplerian".
    */
   'bodies.3.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+   * 1; default 0.
+   */
   'bodies.3.velocity_r'?: number;
-  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.3.velocity_theta'?: number;
-  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.3.velocity_phi'?: number;
-  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  /**
+   * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+   */
   'bodies.3.temperature_k'?: number;
   /**
-   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
    * 1000000000; default 1.
    */
   'bodies.3.brightness'?: number;
   /**
-   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
-   * to 1; default 0.6.
+   * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+   * default 0.6.
    */
   'bodies.3.limb_darkening'?: number;
-  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
   'bodies.4.radius'?: number;
   /**
-   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
    * default 15.
    */
   'bodies.4.r'?: number;
   /**
-   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
-   * default 90.
+   * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+   * 180; default 90.
    */
   'bodies.4.inclination_deg'?: number;
   /**
-   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
-   * default 0.
+   * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+   * 0.
    */
   'bodies.4.phase_deg'?: number;
   /**
@@ -3442,39 +3558,50 @@ export interface SceneQuery {
    * momentum; default "keplerian".
    */
   'bodies.4.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+   * 1; default 0.
+   */
   'bodies.4.velocity_r'?: number;
-  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.4.velocity_theta'?: number;
-  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.4.velocity_phi'?: number;
-  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  /**
+   * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+   */
   'bodies.4.temperature_k'?: number;
   /**
-   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
    * 1000000000; default 1.
    */
   'bodies.4.brightness'?: number;
   /**
-   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
-   * to 1; default 0.6.
+   * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+   * default 0.6.
    */
   'bodies.4.limb_darkening'?: number;
-  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
   'bodies.5.radius'?: number;
   /**
-   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
    * default 15.
    */
   'bodies.5.r'?: number;
   /**
-   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
-   * default 90.
+   * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+   * 180; default 90.
    */
   'bodies.5.inclination_deg'?: number;
   /**
-   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
-   * default 0.
+   * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+   * 0.
    */
   'bodies.5.phase_deg'?: number;
   /**
@@ -3486,39 +3613,50 @@ export interface SceneQuery {
    * momentum; default "keplerian".
    */
   'bodies.5.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+   * 1; default 0.
+   */
   'bodies.5.velocity_r'?: number;
-  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.5.velocity_theta'?: number;
-  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.5.velocity_phi'?: number;
-  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  /**
+   * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+   */
   'bodies.5.temperature_k'?: number;
   /**
-   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
    * 1000000000; default 1.
    */
   'bodies.5.brightness'?: number;
   /**
-   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
-   * to 1; default 0.6.
+   * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+   * default 0.6.
    */
   'bodies.5.limb_darkening'?: number;
-  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
   'bodies.6.radius'?: number;
   /**
-   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
    * default 15.
    */
   'bodies.6.r'?: number;
   /**
-   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
-   * default 90.
+   * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+   * 180; default 90.
    */
   'bodies.6.inclination_deg'?: number;
   /**
-   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
-   * default 0.
+   * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+   * 0.
    */
   'bodies.6.phase_deg'?: number;
   /**
@@ -3530,39 +3668,50 @@ export interface SceneQuery {
    * momentum; default "keplerian".
    */
   'bodies.6.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+   * 1; default 0.
+   */
   'bodies.6.velocity_r'?: number;
-  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.6.velocity_theta'?: number;
-  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.6.velocity_phi'?: number;
-  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  /**
+   * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+   */
   'bodies.6.temperature_k'?: number;
   /**
-   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
    * 1000000000; default 1.
    */
   'bodies.6.brightness'?: number;
   /**
-   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
-   * to 1; default 0.6.
+   * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+   * default 0.6.
    */
   'bodies.6.limb_darkening'?: number;
-  /** radius of the sphere, in its own frame; 0: there is no such body; in M; 0 to 1000000; default 0. */
+  /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
   'bodies.7.radius'?: number;
   /**
-   * Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's; in M; 1 to 10000000;
+   * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
    * default 15.
    */
   'bodies.7.r'?: number;
   /**
-   * polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
-   * default 90.
+   * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+   * 180; default 90.
    */
   'bodies.7.inclination_deg'?: number;
   /**
-   * azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0; in degrees; -360 to 360;
-   * default 0.
+   * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+   * 0.
    */
   'bodies.7.phase_deg'?: number;
   /**
@@ -3574,22 +3723,33 @@ export interface SceneQuery {
    * momentum; default "keplerian".
    */
   'bodies.7.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-  /** velocity outwards, past one of zero angular momentum (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+   * 1; default 0.
+   */
   'bodies.7.velocity_r'?: number;
-  /** velocity away from the north pole, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.7.velocity_theta'?: number;
-  /** velocity along the disk's rotation, likewise (motion: velocity); in c; -1 to 1; default 0. */
+  /**
+   * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+   * velocity); in c; -1 to 1; default 0.
+   */
   'bodies.7.velocity_phi'?: number;
-  /** it shines as a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6000. */
+  /**
+   * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+   */
   'bodies.7.temperature_k'?: number;
   /**
-   * light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark; 0 to
+   * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
    * 1000000000; default 1.
    */
   'bodies.7.brightness'?: number;
   /**
-   * light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none; 0
-   * to 1; default 0.6.
+   * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+   * default 0.6.
    */
   'bodies.7.limb_darkening'?: number;
   /**
@@ -3605,37 +3765,37 @@ export interface SceneQuery {
    * "horizon".
    */
   'volume.inner'?: 'horizon' | number;
-  /** outer edge; larger than the inner one; in M; 1 to 30000; default 20. */
+  /** outer edge of the matter; larger than the inner edge; in M; 1 to 30000; default 20. */
   'volume.outer'?: number;
   /**
-   * light of a length of M, in its own frame, in units of the disk's brightest (model: uniform); in 1/M; 0 to
-   * 1e+30; default 0.02.
+   * light emitted along 1 M in the matter's frame, in units of the disk's brightest (model: uniform); in 1/M; 0
+   * to 1e+30; default 0.02.
    */
   'volume.emissivity'?: number;
-  /** optical depth of a length of M, in its own frame (model: uniform); in 1/M; 0 to 1e+30; default 0.02. */
+  /** optical depth of 1 M in the matter's frame (model: uniform); in 1/M; 0 to 1e+30; default 0.02. */
   'volume.opacity'?: number;
   /**
    * colour: that of a black body of this temperature, shifted by g (model: uniform); in K; 300 to 1000000000;
    * default 6500.
    */
   'volume.temperature_k'?: number;
-  /** the frequency shift of the matter (model: uniform); default true. */
+  /** include the frequency shift of the matter (model: uniform); default true. */
   'volume.redshift'?: boolean;
-  /** frequency that is observed (models: gold, riaf, torus, grid); in GHz; 1e-06 to 1e+12; default 230. */
+  /** observed frequency (models: gold, riaf, torus, grid); in GHz; 1e-06 to 1e+12; default 230. */
   'volume.frequency_ghz'?: number;
   /**
-   * density, temperature, velocity and magnetic field of electrons on a grid of r, theta and phi, an NPZ file
-   * (model: grid); without one there is no matter; default null.
+   * NPZ file with density, temperature, velocity and magnetic field of the electrons on a grid of r, theta and
+   * phi (model: grid); without it there is no matter; default null.
    */
   'volume.grid'?: null | string;
   /**
-   * factor on the density of the file; its magnetic field is multiplied by the square root of this (model: grid);
-   * 0 to 1e+30; default 1.
+   * factor on the file's density; the magnetic field is multiplied by the square root of it (model: grid); 0 to
+   * 1e+30; default 1.
    */
   'volume.grid_scale'?: number;
   /**
-   * C n0: emissivity at 230 GHz where the density is largest (model: gold); in erg/(s cm^3 Hz sr); 0 to 1e+30;
-   * default 3e-18.
+   * C n0: emissivity at 230 GHz at the largest density (model: gold); in erg/(s cm^3 Hz sr); 0 to 1e+30; default
+   * 3e-18.
    */
   'volume.gold_emission'?: number;
   /**
@@ -3655,27 +3815,27 @@ export interface SceneQuery {
    */
   'volume.gold_absorption'?: number;
   /**
-   * electrons at 1 M in the plane, as their power law has it (model: riaf), or where there are most of them
-   * (model: torus); in 1/cm^3; 0 to 1e+30; default 30000000.
+   * electron density: at r = 1 M in the equatorial plane, by its power law (model: riaf); its maximum (model:
+   * torus); in 1/cm^3; 0 to 1e+30; default 30000000.
    */
   'volume.density_cm3'?: number;
-  /** density goes as r^-p, p being this number (model: riaf); -10 to 10; default 1.1. */
+  /** p: density is proportional to r^-p (model: riaf); -10 to 10; default 1.1. */
   'volume.density_index'?: number;
-  /** temperature of the electrons at 1 M (model: riaf); in K; 1 to 1e+30; default 300000000000. */
+  /** electron temperature at r = 1 M (model: riaf); in K; 1 to 1e+30; default 300000000000. */
   'volume.electron_temperature_k'?: number;
-  /** temperature goes as r^-p, p being this number (model: riaf); -10 to 10; default 0.84. */
+  /** p: electron temperature is proportional to r^-p (model: riaf); -10 to 10; default 0.84. */
   'volume.temperature_index'?: number;
   /**
-   * height over the distance from the axis at which the density has fallen to exp(-1/2); 0: it is the same at all
-   * heights (model: riaf); 0 to 10; default 0.1.
+   * height over the distance from the axis at which the density has fallen to exp(-1/2); 0: the density does not
+   * depend on height (model: riaf); 0 to 10; default 0.1.
    */
   'volume.height'?: number;
   /**
-   * magnetic pressure over the rest energy of a proton for each electron, at 1 M (model: riaf); 0 to 1e+12;
+   * magnetic pressure over the rest energy of a proton per electron, at r = 1 M (model: riaf); 0 to 1e+12;
    * default 0.016666666666666666.
    */
   'volume.magnetisation'?: number;
-  /** magnetisation goes as r^-p, p being this number (model: riaf); -10 to 10; default 1. */
+  /** p: magnetisation is proportional to r^-p (model: riaf); -10 to 10; default 1. */
   'volume.magnetisation_index'?: number;
   /**
    * magnetic field: round the axis, along it, or along the radius, made perpendicular to the motion (models:
@@ -3688,62 +3848,65 @@ export interface SceneQuery {
    */
   'volume.flow'?: 'orbits' | 'rest';
   /**
-   * energies of the electrons (models: riaf, torus, grid); kappa: thermal ones with a tail of a power law;
+   * energy distribution of the electrons (models: riaf, torus, grid); kappa: thermal with a power-law tail;
    * default "thermal".
    */
   'volume.electrons'?: 'thermal' | 'power-law' | 'kappa';
-  /** p: electrons of energy gamma go as gamma to minus this (electrons: power-law); 1.1 to 10; default 3.5. */
+  /** p: the number of electrons is proportional to gamma^-p (electrons: power-law); 1.1 to 10; default 3.5. */
   'volume.electrons_index'?: number;
   /**
-   * kappa: electrons of high energy gamma go as gamma to 1 minus this (electrons: kappa); 3.1 to 7.5; default 4.
+   * kappa: at high energies the number of electrons is proportional to gamma^(1 - kappa) (electrons: kappa); 3.1
+   * to 7.5; default 4.
    */
   'volume.kappa'?: number;
   /**
-   * where the pressure is largest; the inner edge is volume.inner (model: torus); in M; 1 to 1000; default 12.
+   * radius of the largest pressure; the inner edge is volume.inner (model: torus); in M; 1 to 1000; default 12.
    */
   'volume.torus_radius'?: number;
-  /** of the gas (model: torus); 1.1 to 2; default 1.4444444444444444. */
+  /** adiabatic index of the gas (model: torus); 1.1 to 2; default 1.4444444444444444. */
   'volume.adiabatic_index'?: number;
-  /** temperature of the ions over that of the electrons (model: torus); 0 to 1000000; default 3. */
+  /** ion temperature over electron temperature (model: torus); 0 to 1000000; default 3. */
   'volume.temperature_ratio'?: number;
-  /** pressure of the gas over that of the magnetic field (model: torus); 1e-06 to 1e+12; default 10. */
+  /** gas pressure over magnetic pressure (model: torus); 1e-06 to 1e+12; default 10. */
   'volume.beta'?: number;
-  /** least energy of the electrons over that at rest (electrons: power-law); 1 to 1000000000; default 30. */
+  /** smallest Lorentz factor of the electrons (electrons: power-law); 1 to 1000000000; default 30. */
   'volume.gamma_min'?: number;
-  /** largest energy of the electrons, more than the least (electrons: power-law); 1 to 1e+12; default 100000. */
+  /**
+   * largest Lorentz factor of the electrons; above gamma_min (electrons: power-law); 1 to 1e+12; default 100000.
+   */
   'volume.gamma_max'?: number;
   /**
-   * flux that the picture shall have: the density (of gold the emissivity, of a grid its factor) is multiplied by
-   * what it takes, which kerrd finds by small pictures and answers tell; 0: left as it is (models: gold, riaf,
-   * torus, grid); in Jy; 0 to 1e+12; default 0.
+   * flux that the picture must have: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a
+   * number that it finds with small pictures, and reports it; 0: no change (models: gold, riaf, torus, grid); in
+   * Jy; 0 to 1e+12; default 0.
    */
   'volume.normalise_to_jy'?: number;
-  /**
-   * frequency of that flux; observed: the one that the picture shows; in GHz; 1e-06 to 1e+12; default "observed".
-   */
+  /** frequency of that flux; observed: volume.frequency_ghz; in GHz; 1e-06 to 1e+12; default "observed". */
   'volume.normalise_ghz'?: 'observed' | number;
   /**
-   * light of a length of M in its own frame, carried back to the inner edge, where it begins smoothly, in units
-   * of the disk's brightest; 0: there are none; in 1/M; 0 to 1000000000; default 0.
+   * light emitted along 1 M in the jet's frame, extrapolated to the inner edge, where it begins smoothly, in
+   * units of the disk's brightest; 0: no jets; in 1/M; 0 to 1000000000; default 0.
    */
   'jets.brightness'?: number;
-  /** half of the angle of the cone; in degrees; 1 to 60; default 8. */
+  /** half of the cone's opening angle; in degrees; 1 to 60; default 8. */
   'jets.opening_deg'?: number;
-  /** Lorentz factor: how fast the light's source flies outwards; 1 to 100; default 2. */
+  /** Lorentz factor of the outflow; 1 to 100; default 2. */
   'jets.lorentz'?: number;
-  /** where the light begins, at least a twentieth outside the horizon; in M; 1 to 1000000; default 4. */
+  /**
+   * radius at which the light begins, at least 1.05 times that of the horizon; in M; 1 to 1000000; default 4.
+   */
   'jets.inner'?: number;
-  /** where it ends; larger than the inner edge; in M; 1 to 1000000; default 60. */
+  /** radius at which the light ends; larger than the inner edge; in M; 1 to 1000000; default 60. */
   'jets.outer'?: number;
-  /** light along the jet goes as r to minus this; -10 to 10; default 1.5. */
+  /** p: light along the jet is proportional to r^-p; -10 to 10; default 1.5. */
   'jets.falloff'?: number;
-  /** from a bright spine, 0, to bright edges, 1; 0 to 1; default 0.5. */
+  /** brightness across the jet: 0, a bright spine; 1, bright edges; 0 to 1; default 0.5. */
   'jets.sheath'?: number;
-  /** brightness goes as the frequency shift to 2 plus this; -10 to 10; default 0.7. */
+  /** brightness is proportional to the frequency shift to the power of 2 plus this; -10 to 10; default 0.7. */
   'jets.spectral_index'?: number;
-  /** colour: that of a black body of this temperature, not shifted; in K; 300 to 1000000000; default 14000. */
+  /** colour of a black body of this temperature, not shifted; in K; 300 to 1000000000; default 14000. */
   'jets.temperature_k'?: number;
-  /** the jet below the disk, too; default true. */
+  /** include the jet below the disk; default true. */
   'jets.counterjet'?: boolean;
   /**
    * of light from the disk's plane: none; synchrotron, across polarization.field and the light, in the gas's
@@ -3757,20 +3920,20 @@ export interface SceneQuery {
    */
   'polarization.field'?: 'toroidal' | 'radial' | 'vertical';
   /**
-   * electrons have energies E as E to minus this power p, and the light of a field in order is polarised by (p +
-   * 1)/(p + 7/3) (model: synchrotron); 1 to 10; default 3.
+   * p: the number of electrons is proportional to E^-p; an ordered field polarises their light by (p + 1)/(p +
+   * 7/3) (model: synchrotron); 1 to 10; default 3.
    */
   'polarization.electron_index'?: number;
-  /** part of that polarisation which disorder within a pixel leaves; 0 to 1; default 1. */
+  /** share of that polarisation which remains when the field is disordered within a pixel; 0 to 1; default 1. */
   'polarization.order'?: number;
   /**
-   * electrons turn the direction of light that passes (Faraday rotation), and make linear of circular
-   * polarisation and back (model: transfer); default true.
+   * include Faraday rotation, and conversion between linear and circular polarisation, by the electrons (model:
+   * transfer); default true.
    */
   'polarization.faraday'?: boolean;
   /**
-   * fit of the Faraday rotation by thermal electrons: of Shcherbakov 2008, or of Dexter 2016, as Huang and
-   * Shcherbakov 2011 have it (model: transfer); default "shcherbakov".
+   * fit of the Faraday rotation by thermal electrons: Shcherbakov 2008, or Dexter 2016 in the form of Huang and
+   * Shcherbakov 2011 (model: transfer); default "shcherbakov".
    */
   'polarization.rotation'?: 'shcherbakov' | 'dexter';
   /**
@@ -3786,7 +3949,7 @@ export interface SceneQuery {
   'sky.brightness'?: 'auto' | number;
   /** spacing of the celestial grid; in degrees; 1 to 90; default 15. */
   'sky.grid_deg'?: number;
-  /** brightness of the Milky Way, or of sky.image, over its own; 0: stars alone; 0 to 100; default 1. */
+  /** brightness of the Milky Way, or of sky.image, over its natural one; 0: stars alone; 0 to 100; default 1. */
   'sky.milky_way'?: number;
   /**
    * picture of the whole sky in the place of the Milky Way that is made up (model: stars, catalogue, image):
@@ -3796,7 +3959,7 @@ export interface SceneQuery {
   'sky.image'?: null | string;
   /** stars fainter than this are left out; in magnitudes; -2 to 14; default 14. */
   'sky.limit_mag'?: number;
-  /** another number, another sky that is made up; 0 to 2147483647; default 1. */
+  /** seed of the random numbers: another seed gives another generated sky; 0 to 2147483647; default 1. */
   'sky.seed'?: number;
   /**
    * galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra,
@@ -3805,12 +3968,13 @@ export interface SceneQuery {
    */
   'sky.orientation'?: 'galactic' | 'equatorial' | 'sgra' | 'm87';
   /**
-   * the sky is turned about the hole's axis by so much, as by camera.azimuth_deg; in degrees; -360 to 360;
+   * rotation of the sky about the hole's axis, in the sense of camera.azimuth_deg; in degrees; -360 to 360;
    * default 0.
    */
   'sky.turn_deg'?: number;
   /**
-   * and, after that, about the horizontal axis of the picture from azimuth 0; in degrees; -180 to 180; default 0.
+   * then, rotation of the sky about the horizontal axis of the picture from azimuth 0; in degrees; -180 to 180;
+   * default 0.
    */
   'sky.tilt_deg'?: number;
   /** width of the picture; in pixels; 1 to 32768; default 1280. */
@@ -3823,13 +3987,13 @@ export interface SceneQuery {
    */
   'image.samples'?: 'auto' | number;
   /**
-   * by how much of white a pixel of one ray may seem to be off before it is given more (samples: auto); 0.001 to
-   * 0.5; default 0.003.
+   * apparent error of a pixel of one ray, as a fraction of white, above which it gets more rays (samples: auto);
+   * 0.001 to 0.5; default 0.003.
    */
   'image.pixel_error'?: number;
   /**
-   * so many times as many along each side of the pixels that the critical curve passes, where the photon ring is
-   * thinner than they are; at most 16 in all; 1 to 16; default 4.
+   * factor on the rays along each side of pixels at the critical curve, where the photon ring is thinner than a
+   * pixel; at most 16 rays a side in all; 1 to 16; default 4.
    */
   'image.critical_factor'?: number;
   /** bits a channel: 8 or 16; in bits; 8 to 16; default 8. */
@@ -3841,25 +4005,28 @@ export interface SceneQuery {
    */
   'image.layers'?: string[];
   /**
-   * number at the lower end of the colours of a layer; auto: what docs/layers.md says of each; -1e+12 to 1e+12;
-   * default "auto".
+   * value at the lower end of a layer's colour scale; auto: docs/layers.md gives it for each layer; -1e+12 to
+   * 1e+12; default "auto".
    */
   'image.layer_min'?: 'auto' | number;
-  /** the same at their upper end; -1e+12 to 1e+12; default "auto". */
+  /**
+   * value at the upper end of a layer's colour scale; auto: docs/layers.md gives it for each layer; -1e+12 to
+   * 1e+12; default "auto".
+   */
   'image.layer_max'?: 'auto' | number;
-  /** a colour bar in the lower left corner of a layer in false colour; default true. */
+  /** draw a colour bar in the lower left corner of a layer in false colour; default true. */
   'image.legend'?: boolean;
-  /** columns of the picture to its left; in pixels; 0 to 32767; default 0. */
+  /** columns of the picture to the left of the tile; in pixels; 0 to 32767; default 0. */
   'image.tile.left'?: number;
-  /** rows of the picture above it; in pixels; 0 to 32767; default 0. */
+  /** rows of the picture above the tile; in pixels; 0 to 32767; default 0. */
   'image.tile.top'?: number;
-  /** its width; 0: the whole picture is made, and no tile; in pixels; 0 to 32768; default 0. */
+  /** width of the tile; 0: no tile, the whole picture is rendered; in pixels; 0 to 32768; default 0. */
   'image.tile.width'?: number;
-  /** its height, likewise; in pixels; 0 to 32768; default 0. */
+  /** height of the tile; 0: no tile, the whole picture is rendered; in pixels; 0 to 32768; default 0. */
   'image.tile.height'?: number;
   /**
-   * a preset of what makes the look, which a document sets by naming it, but for the fields that it sets itself;
-   * none: nothing; default "film".
+   * style that sets all fields of the look, except those that the document sets itself; none: no style; default
+   * "film".
    */
   'style.name'?: 'none' | 'film' | 'raw' | 'dngr' | 'eht' | 'starless';
   /**
@@ -3873,8 +4040,8 @@ export interface SceneQuery {
    */
   'style.tone_map'?: 'aces' | 'srgb' | 'neutral';
   /**
-   * share of bright light that a lens spreads round its place: all of what is over 0.6 of white, by an even knee
-   * from 0.2 on; 0: none; 0 to 1; default 0.4.
+   * share of bright light that the lens spreads around its place: all light over 0.6 of white, with a smooth
+   * transition from 0.2 on; 0: none; 0 to 1; default 0.4.
    */
   'style.bloom'?: number;
   /**
@@ -3883,23 +4050,23 @@ export interface SceneQuery {
    */
   'style.beam_uas'?: number;
   /**
-   * colour: that of light; heat: brightness in false colour, black, red, orange, white, by a lightness that is
+   * colour: that of the light; heat: brightness in false colour (black, red, orange, white), with lightness
    * proportional to it; default "colour".
    */
   'style.palette'?: 'colour' | 'heat';
   /**
-   * a bar of brightness (palette: heat; tone_map: srgb) in the lower left corner, a scale of the sky and the beam
-   * in the upper right one; default false.
+   * draw a brightness bar in the lower left corner (palette: heat; tone_map: srgb), and in the upper right corner
+   * an angular scale and the shape of the beam; default false.
    */
   'style.colour_bar'?: boolean;
-  /** half a step of ordered noise before rounding, against banding; default true. */
+  /** add half a step of ordered noise before rounding, against banding; default true. */
   'style.dither'?: boolean;
   /**
    * a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * e^(-t/tau)
-   * cos(w t), the quasi-normal mode l = m = 2, n = 0 of the hole; 0: none; 0 to 1; default 0.
+   * cos(w t), with the hole's quasi-normal mode l = m = 2, n = 0; 0: none; 0 to 1; default 0.
    */
   'style.ringdown'?: number;
-  /** time at which it was struck; before that nothing rings; in M; -1e+12 to 1e+12; default 0. */
+  /** time at which the hole was struck; before it nothing rings; in M; -1e+12 to 1e+12; default 0. */
   'style.ringdown_time'?: number;
   /** the source on the sky that the hole stands for; default "none". */
   'source.name'?: 'none' | 'm87' | 'sgra';
@@ -3909,29 +4076,34 @@ export interface SceneQuery {
   'source.dec_deg'?: number;
   /** date of the picture, as a modified Julian date; in days; 0 to 1000000; default "none". */
   'source.mjd'?: 'none' | number;
-  /** the observer goes round the axis; in degrees per second; -360 to 360; default 0. */
+  /** rate at which the observer goes round the axis; in degrees per second; -360 to 360; default 0. */
   'motion.azimuth_rate_deg'?: number;
-  /** coordinate time goes on; in M per second; -1000000 to 1000000; default 0. */
+  /** rate at which coordinate time goes on; in M per second; -1000000 to 1000000; default 0. */
   'motion.time_rate'?: number;
   /**
-   * the observer goes on by its own clock: it falls, to where a camera can be at last, or goes round, and
-   * coordinate time goes on as it does on its way; in M per second; 0 to 1000000; default 0.
+   * rate of the observer's own clock: it falls, to the last place a camera can be at, or goes round; coordinate
+   * time goes on accordingly; in M per second; 0 to 1000000; default 0.
    */
   'motion.proper_time_rate'?: number;
-  /** how closely rays are followed, coarse to fine; reference is double precision; default "balanced". */
+  /**
+   * accuracy with which rays are traced, from coarse to fine; reference: double precision; default "balanced".
+   */
   'accuracy.profile'?: 'draft' | 'interactive' | 'balanced' | 'high' | 'reference';
   /**
-   * relative error of the crossing radii to be held, by the accuracy table of the device, instead of the profile;
-   * 1e-18 to 0.1; default "profile".
+   * largest relative error of the crossing radii, by the accuracy table of the device; profile: what the profile
+   * means; 1e-18 to 0.1; default "profile".
    */
   'accuracy.tolerance'?: 'profile' | number;
-  /** what traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6; default "auto". */
+  /**
+   * method that traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6; default
+   * "auto".
+   */
   'accuracy.engine'?: 'auto' | 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
-  /** of the arithmetic; auto: what the profile means; default "auto". */
+  /** precision of the arithmetic; auto: what the profile means; default "auto". */
   'accuracy.precision'?: 'auto' | 'f32' | 'f64';
-  /** steps of the integrator a half turn, a multiple of 4; 0: what the profile means; 0 to 2048; default 0. */
+  /** integrator steps for a half turn, a multiple of 4; 0: what the profile means; 0 to 2048; default 0. */
   'accuracy.steps'?: number;
-  /** equatorial crossings kept a ray: image orders 0 to n - 1; 1 to 8; default 3. */
+  /** equatorial crossings kept for each ray: image orders 0 to n - 1; 1 to 8; default 3. */
   'accuracy.orders'?: number;
   /** coordinate time of the picture; in M; -1e+12 to 1e+12; default 0. */
   time?: number;
