@@ -1,5 +1,5 @@
-// Controls of what moves: play and pause, the clock, the buttons that set fields, another seed, and the struck hole.
-// The session does the moving.
+// Controls for everything that moves: play and pause, the clock, the buttons that set fields, another seed, and the
+// struck hole. The session computes the motion.
 import { byId, el, latest } from './dom.js';
 import { duration, number, t, tell } from './i18n.js';
 import { meansSomething } from './known.js';

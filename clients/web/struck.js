@@ -1,5 +1,5 @@
-// A struck hole is heard at once, unless it is muted: its ringdown made audible (sound.js), and its curve in the view
-// of physics.
+// A struck hole is heard at once, unless it is muted: its ringdown is made audible (sound.js). The view of physics also
+// shows the ringdown as a curve.
 import { byId } from './dom.js';
 import { t, tell } from './i18n.js';
 import { physics } from './server.js';

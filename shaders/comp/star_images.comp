@@ -1,4 +1,4 @@
-/* Kernel: spreads the images of stars over pixels. Each pair of star_tiles.comp and star_search.comp is a ray and a
+/* Kernel: spreads the images of stars over pixels. star_tiles.comp and star_search.comp make pairs of a ray and a
  * star. The kernel finds the places in the ray's cell of the picture, [-1/2, 1/2]^2 steps, that the lens map takes to
  * the star. It spreads the star's magnified light over the pixels nearest to each place.
  *

@@ -45,7 +45,8 @@
           * it */
 
 /* State along the ray. here: the medium at the current place, per unit of the affine parameter; right: kappa of the
- * unit vector to the right of the ray; seen: Q, U and V so far; front: the transfer of light from behind. */
+ * unit vector to the right of the ray; seen: Q, U and V so far; front: how the medium passed so
+ * far changes light that comes from behind it. */
 kd_stokes kd_stokes_here = kd_stokes(vec4(0.0), 0.0, vec3(0.0), vec3(0.0));
 vec2 kd_stokes_right = vec2(0.0);
 vec3 kd_stokes_seen = vec3(0.0);

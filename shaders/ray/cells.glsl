@@ -26,8 +26,8 @@ kd_camera_block cam;
 const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SLOPE = (QUANTITIES & KD_LENS_SLOPE) != 0u,
            SKY = (QUANTITIES & KD_LENS_SKY_U) != 0u, FATE = (QUANTITIES & KD_LENS_FATE) != 0u;
 
-/* The index has two parts. First a word for each even place: the number of the place's node plus 1, or 0. Then for each
- * cell of the last level the two rays that check it. */
+/* The index has two parts. The first has a word for each even place: 1 + the number of its node, or 0 if it has no
+ * node. The second has, for each cell of the last level, the two rays by which the cell is checked. */
 const uint SIDE = 32u; /* even places along the side of a block */
 uint index_width() { return SIDE * push.blocks_x + 1u; }
 uint index_of(uvec2 even) { return even.y * index_width() + even.x; }

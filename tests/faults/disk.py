@@ -164,8 +164,8 @@ class Operations(Case):
                 self.assertEqual(self.half_written(), [])
 
     def test_a_restart(self):
-        """A start that cannot read or write either reports this and ends, or sets aside what it cannot read. In both
-        cases the next start has everything."""
+        """If a start cannot read or write its files, it reports this and ends, or it sets aside what it cannot read. In
+        both cases the next start has everything."""
         server = self.start()
         job = self.job(server).json()
         self.until(job, "done", server)

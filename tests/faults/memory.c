@@ -33,7 +33,7 @@ static struct object {
 static size_t n_objects;
 static bool tells; /* KD_FAULTS_TELL is set: print the stack of each failed allocation */
 
-/* Memory for allocations before the real functions are known, as by dlsym. */
+/* Memory for allocations made before the real functions are known; dlsym itself makes some. */
 static _Alignas(16) unsigned char early[EARLY];
 static _Atomic size_t early_used;
 static void *(*real_malloc)(size_t), *(*real_calloc)(size_t, size_t), *(*real_realloc)(void *, size_t);

@@ -241,8 +241,9 @@ static void test_turning(void **state)
     kd_frame_finish(&against);
 }
 
-/* Particles oscillate across the edges of the disk; the picture shows those between them. From above, without spin,
- * the direct image of a circle of r has b^2 = r^2 + 2r to a percent (A. M. Beloborodov 2002, at 90 degrees). */
+/* Particles oscillate across the edges of the disk; the picture shows those that are between the edges. From above,
+ * without spin, the direct image of a circle of r has b^2 = r^2 + 2r to a percent (A. M. Beloborodov 2002, at 90
+ * degrees). */
 static void test_edges(void **state)
 {
     (void)state;

@@ -164,7 +164,7 @@ static void frame_dragging_and_ergosphere(void **state)
                 double rho2 = r * r + a * a * u * u, delta = r * r - 2 * r + a * a, s2 = 1 - u * u;
                 double tphi = (delta * a * s2 - s2 * (r * r + a * a) * a) / rho2;
                 double phiphi = (s2 * pow(r * r + a * a, 2) - delta * a * a * s2 * s2) / rho2;
-                /* g_tphi here is a difference of terms r/2 times its size */
+                /* here g_tphi is the difference of two terms, each r/2 times as large as it */
                 close_to("dragging", a, r, kd_kerr_dragging(kd_hole(a), r, u), -tphi / phiphi, 1e-15 * (10 + 4 * r));
             }
             double e = kd_kerr_ergosphere(kd_hole(a), u); /* g_tt = 0 */

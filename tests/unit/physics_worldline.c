@@ -82,8 +82,8 @@ static void near(const char *what, const struct fall *f, double proper_time, dou
         fail_msg("spin %g from %g M, after %g M: %s %.15g, wanted %.15g", f->a, f->r, proper_time, what, got, wanted);
 }
 
-/* The reference is accurate to some 1e-10. Next to r = 0 its steps are too long, so that it stops when half of the
- * remaining way to the end is left. */
+/* The reference is accurate to about 1e-10. Near r = 0 its steps are too long, so it stops halfway between its last
+ * accurate place and the end. */
 static void what_falls_is_where_its_clock_says(void **state)
 {
     (void)state;

@@ -275,9 +275,9 @@ static void scenes_that_mean_harm_stay_finite(void **state)
         }
 }
 
-/* All bodies are captured in one sub-step, or all shed in each: both must cost a few passes over all pairs, not one
- * for each body. With gravity "kerr", steps that would never end, and times so large that a step does not change
- * them, stop at the budget. */
+/* All bodies are captured in one sub-step, or all bodies shed mass in every sub-step. Either must cost a few passes
+ * over all pairs, not one for each body. With gravity "kerr" two cases must stop at the budget: steps that would
+ * never end, and times so large that adding a step does not change them. */
 static void harm_is_bounded(void **state)
 {
     (void)state;

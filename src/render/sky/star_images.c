@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SAME 1e-3  /* rays: two roots of one star nearer than this are the same image, unless only one is mirrored */
+#define SAME 1e-3  /* in ray spacings: roots of a star nearer than this are one image, unless only one is mirrored */
 #define FOLDED 0.2 /* rad: only cells up to this size are searched for folds */
 #define REACH \
     0.5 /* fraction of a cell's size: where the map folds, stars this near to a corner or the middle of the cell are \
