@@ -15,6 +15,11 @@ LONG = "/v1/render?image.width=1280&image.height=1280&image.samples=2&accuracy.p
 
 
 class Case(daemon.Case):
+    def setUp(self):
+        """The renders that the test before has left are over: Daemon.reaches would count them."""
+        super().setUp()
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()["kerrd_renders_unfinished"] == 0))
+
     def ask(self, source, method, target, body=None, headers=None):
         connection = http.client.HTTPConnection("127.0.0.1", self.daemon.port, timeout=60, source_address=(source, 0))
         try:
