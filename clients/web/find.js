@@ -5,7 +5,8 @@ import { english, lang, t } from './i18n.js';
 
 const most = 4; // matching fields without effect that are named
 
-const plain = text => text.normalize('NFD').replace(/\p{M}/gu, '').replace(/[’‘]/g, "'").toLowerCase();
+// Text for comparison: lower case, without accents, with straight apostrophes.
+export const plain = text => text.normalize('NFD').replace(/\p{M}/gu, '').replace(/[’‘]/g, "'").toLowerCase();
 
 // A function that gives the texts of a field in the other language.
 async function otherWords(scene) {

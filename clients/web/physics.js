@@ -4,6 +4,7 @@ import { light } from './curves-light.js';
 import { matter } from './curves-matter.js';
 import { entitle } from './describe.js';
 import { byId, el, still } from './dom.js';
+import { plain } from './find.js';
 import { buildForm } from './form.js';
 import { lang, t } from './i18n.js';
 import { plot } from './plot.js';
@@ -89,8 +90,6 @@ function card(chart, known) {
   );
   return { node, draw, title: chart.title, words: plain(`${id} ${chart.name} ${node.textContent}`) };
 }
-
-const plain = text => text.normalize('NFD').replace(/\p{M}/gu, '').toLowerCase();
 
 // The index of all curves, with links to their cards, and a search through the texts of the cards.
 function index(cards) {
