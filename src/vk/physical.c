@@ -2,9 +2,11 @@
 
 #include "vk/instance.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 const char *kd_vk_type_name(enum kd_vk_type type)
 {
@@ -132,6 +134,22 @@ static void read_1_2(const struct kd_vk_functions *fn, struct kd_vk_physical *de
         lacks(info, "uniform buffers of standard layout");
 }
 
+/* Mesa's llvmpipe keeps all memory of a device in one anonymous file, whose growth it does not check: beyond `ulimit
+ * -f` the first access is a SIGBUS. Seen with Mesa 25.0, and not with 22.3; the versions between count as those that
+ * do. */
+static void read_file_limit(struct kd_vk_physical *device)
+{
+    struct rlimit limit;
+    char text[128];
+    if (strcmp(device->info.driver, "llvmpipe") || device->info.driver_version < VK_MAKE_API_VERSION(0, 23, 0, 0) ||
+        getrlimit(RLIMIT_FSIZE, &limit) < 0 || limit.rlim_cur == RLIM_INFINITY ||
+        limit.rlim_cur >= device->info.heap_bytes)
+        return;
+    snprintf(text, sizeof text, "files as large as its memory (ulimit -f allows %ju bytes, and must be unlimited)",
+             (uintmax_t)limit.rlim_cur);
+    lacks(&device->info, text);
+}
+
 /* VK_KHR_portability_subset must be enabled if a device lists it. Layered drivers do, such as those for Vulkan on top
  * of Metal. */
 static void read_extensions(const struct kd_vk_functions *fn, struct kd_vk_physical *device)
@@ -165,6 +183,7 @@ static void inspect(const struct kd_vk_functions *fn, uint32_t index, struct kd_
     choose_family(fn, device);
     if (version >= VK_API_VERSION_1_2)
         read_1_2(fn, device);
+    read_file_limit(device);
 }
 
 enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance instance, struct kd_vk_physical **out,

@@ -52,13 +52,23 @@ class Sites(unittest.TestCase):
 
 class Limits(unittest.TestCase):
     def test_a_limit_of_file_size_is_an_answer(self):
-        """ulimit -f: a file that would exceed it is refused, and the server continues."""
+        """ulimit -f: a file that would exceed it is refused, and the server continues. A driver that keeps memory in a
+        file cannot be used: the server says so and does not start."""
         import assets
 
         command = list(daemon.COMMAND)
+        limited = ["sh", "-c", 'ulimit -f 64 && exec "$@"', "sh"]
+        if (
+            b"(ulimit -f allows 65536 bytes"
+            in subprocess.run([*limited, command[0], "doctor"], capture_output=True).stdout
+        ):
+            done = subprocess.run([*limited, *command, "--port", "0"], capture_output=True, timeout=60)
+            self.assertEqual((done.returncode, done.stdout), (1, b""), done)
+            self.assertIn(b"lacks files as large as its memory (ulimit -f allows 65536 bytes", done.stderr)
+            return
         with (
             tempfile.TemporaryDirectory() as state,
-            unittest.mock.patch.object(daemon, "COMMAND", ["sh", "-c", 'ulimit -f 64 && exec "$@"', "sh", *command]),
+            unittest.mock.patch.object(daemon, "COMMAND", [*limited, *command]),
         ):
             server = daemon.Daemon("--state", state)
             self.addCleanup(server.process.kill)
