@@ -258,6 +258,12 @@ export const sentences = {
     'aritmetica: raggi a 64 bit; le distanze r dei loro attraversamenti sono conservate a 32 bit',
   'rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md gives the cost':
     'raggi: seguiti in coordinate di Kerr–Schild per confronto; docs/accuracy.md dice quanto costa',
+  'rays: some rays of this picture were given up; their pixels are magenta; the accuracy report has their number, undecided':
+    'raggi: alcuni raggi di questa immagine sono stati abbandonati; i loro pixel sono magenta; il rapporto di accuratezza ne dà il numero, undecided',
+  "rays: a sample of this picture's rays was traced again in 64 bits, and some of them have another fate or number of crossings; the accuracy report has their number, differ":
+    'raggi: un campione dei raggi di questa immagine è stato seguito di nuovo in 64 bit, e alcuni hanno un’altra sorte o un altro numero di attraversamenti; il rapporto di accuratezza ne dà il numero, differ',
+  'light: some pixels of this picture have no finite light, or a ray that was given up in a volume; they are magenta; the accuracy report has their number, lost':
+    'luce: alcuni pixel di questa immagine non hanno luce finita, o hanno un raggio abbandonato in un volume; sono magenta; il rapporto di accuratezza ne dà il numero, lost',
   'the server is stopping and takes no new sessions': 'il server si sta fermando e non apre nuove sessioni',
   'one image of each point, followed from that of the point before: the direct one, but next to a hole that spins and is seen nearly edge on it may pass onto one that has gone round it; none is told from within 1.2 horizons':
     'una sola immagine di ogni punto, seguita da quella del punto prima: la diretta, ma accanto a un buco in rotazione visto quasi di taglio può passare a una che gli ha girato attorno; nessuna da entro 1,2 orizzonti',

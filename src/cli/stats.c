@@ -80,8 +80,9 @@ enum kd_status kd_stats_json(const struct kd_stats *stats, struct kd_buffer *out
     add_times(json, stats);
     add_accuracy(json, stats);
     kd_json_array(json, "approximations");
-    for (size_t i = 0; i < stats->plan->n_approximations; i++)
-        kd_json_string(json, NULL, stats->plan->approximations[i].text);
+    struct kd_approximation one;
+    for (size_t i = 0; kd_picture_approximation(stats->plan, &stats->frame->accuracy, i, &one); i++)
+        kd_json_string(json, NULL, one.text);
     kd_json_end(json);
     kd_json_end(json);
     return kd_json_finish_line(json);

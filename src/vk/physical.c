@@ -134,15 +134,16 @@ static void read_1_2(const struct kd_vk_functions *fn, struct kd_vk_physical *de
         lacks(info, "uniform buffers of standard layout");
 }
 
-/* Mesa's llvmpipe keeps all memory of a device in one anonymous file, whose growth it does not check: beyond `ulimit
- * -f` the first access is a SIGBUS. Seen with Mesa 25.0, and not with 22.3; the versions between count as those that
- * do. */
+/* Mesa's llvmpipe keeps all memory of a device in one anonymous file, and does not check whether that grows: beyond
+ * `ulimit -f` the first access is a SIGBUS. Seen with Mesa 25.0, and not with 22.3; the versions between count as those
+ * that do. Its version is in driver_info alone, as "Mesa 25.0.7-2 (LLVM 19.1.7)". */
 static void read_file_limit(struct kd_vk_physical *device)
 {
     struct rlimit limit;
+    unsigned version;
     char text[128];
-    if (strcmp(device->info.driver, "llvmpipe") || device->info.driver_version < VK_MAKE_API_VERSION(0, 23, 0, 0) ||
-        getrlimit(RLIMIT_FSIZE, &limit) < 0 || limit.rlim_cur == RLIM_INFINITY ||
+    if (strcmp(device->info.driver, "llvmpipe") || sscanf(device->info.driver_info, "Mesa %u.", &version) != 1 ||
+        version < 23 || getrlimit(RLIMIT_FSIZE, &limit) < 0 || limit.rlim_cur == RLIM_INFINITY ||
         limit.rlim_cur >= device->info.heap_bytes)
         return;
     snprintf(text, sizeof text, "files as large as its memory (ulimit -f allows %ju bytes, and must be unlimited)",

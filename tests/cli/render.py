@@ -282,6 +282,17 @@ class Pictures(Case):
         self.assertEqual(stats["accuracy"]["profile"], "balanced")
         self.assertTrue(stats["approximations"])
 
+    def test_rays_that_differ_from_their_audit_are_said_in_words(self):
+        coarse = [option for value in ("engine=ks-euler", "steps=60") for option in ("--set", "accuracy." + value)]
+        size = ["--set", "image.width=160", "--set", "image.height=90"]
+        words = "rays: a sample of this picture's rays was traced again in 64 bits"
+        for options, said in (coarse, True), ([], False):
+            done = run("render", *size, *options, "--stats", "-o", self.path("a.png"))
+            stats = json.loads(done.stderr)
+            self.assertEqual(stats["accuracy"]["differ"] > 0, said, stats["accuracy"])
+            self.assertEqual(any(line.startswith(words) for line in stats["approximations"]), said)
+            self.assertEqual(words.encode() in text(self.read("a.png"))[b"kerrd:approximations"], said)
+
     def test_stats_of_pixels_that_have_as_many_rays_as_they_need(self):
         done = run(
             "render",

@@ -2,6 +2,7 @@
 #include "render/emit/emitter.h"
 #include "render/emit/motion.h"
 #include "render/emit/describe.h"
+#include "render/output/notes.h"
 #include "render/plan/plan.h"
 #include "render/rays/answer.h"
 #include "scene/table.h"
@@ -59,8 +60,33 @@ static void names_are_short_and_differ(void **state)
             check_name(kd_emitters[i]->sentences[k].name, all);
     for (size_t i = 0; i < kd_plan_sentence_count(); i++)
         check_name(kd_plan_sentence(i).name, all);
+    for (size_t i = 0; kd_measured_approximation(NULL, i, &one); i++)
+        check_name(one.name, all);
     for (size_t i = 0; kd_rays_approximation(NULL, i, &one); i++)
         check_name(one.name, all);
+}
+
+/* What only a rendered picture shows is said where the report counts it, after the sentences of the plan. */
+static void what_a_report_counts_is_said(void **state)
+{
+    (void)state;
+    static struct kd_plan plan;
+    struct kd_accuracy_report report = { .sampled = 768 };
+    struct kd_approximation one;
+    plan.approximations[plan.n_approximations++] = kd_plan_sentence(0);
+    assert_true(kd_picture_approximation(&plan, &report, 0, &one));
+    assert_string_equal(one.name, kd_plan_sentence(0).name);
+    assert_false(kd_picture_approximation(&plan, &report, 1, &one));
+    report.lost = 1;
+    assert_true(kd_picture_approximation(&plan, &report, 1, &one));
+    assert_string_equal(one.name, "light.lost");
+    report.undecided = report.differ = 2;
+    static const char *const names[] = { "rays.undecided", "rays.differ", "light.lost" };
+    for (size_t i = 0; i < 3; i++) {
+        assert_true(kd_picture_approximation(&plan, &report, 1 + i, &one));
+        assert_string_equal(one.name, names[i]);
+    }
+    assert_false(kd_picture_approximation(&plan, &report, 4, &one));
 }
 
 struct said {
@@ -419,6 +445,7 @@ int main(void)
         cmocka_unit_test(all_are_there),
         cmocka_unit_test(sentences_have_room),
         cmocka_unit_test(names_are_short_and_differ),
+        cmocka_unit_test(what_a_report_counts_is_said),
         cmocka_unit_test(what_is_off_says_and_needs_nothing),
         cmocka_unit_test(numbers_follow_the_scene),
         cmocka_unit_test(numbers_follow_each_field),

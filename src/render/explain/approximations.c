@@ -2,6 +2,7 @@
 
 #include "base/json.h"
 #include "render/emit/emitter.h"
+#include "render/output/notes.h"
 #include "render/plan/plan.h"
 #include "render/rays/answer.h"
 
@@ -12,9 +13,12 @@ static const char introduction[] =
     "\n"
     "A plan lists the sentences that are in force in its scene (`kerrd plan`), and every picture carries them. The "
     "header `Kerrd-Approximations`\n"
-    "has their names, and `GET /v1/approximations` the sentence of each name. These are all of them. This page is "
+    "has their names, and `GET /v1/approximations` the sentence of each name. Those \"if there are such\" are found "
+    "while "
+    "a picture is rendered: only the picture has them. These are all of them. This page is "
     "generated from the emitters\n"
-    "(`src/render/emit/emitter.h`), `src/render/plan/plan.c` and `src/render/rays/answer.c`; do not edit it.\n"
+    "(`src/render/emit/emitter.h`), `src/render/plan/plan.c`, `src/render/output/notes.c` and "
+    "`src/render/rays/answer.c`; do not edit it.\n"
     "The chapters on the [physics](physics/README.md) say what stands behind them.\n"
     "\n"
     "Not modelled, and so not in the list of any picture: the motion of gas by its own forces, magnetic fields that "
@@ -58,6 +62,8 @@ enum kd_status kd_approximations_page(struct kd_buffer *page)
     KD_TRY(add_table(page, OF_ANY));
     for (size_t i = 0; i < kd_plan_sentence_count(); i++)
         KD_TRY(add_row(page, kd_plan_sentence(i).name, kd_plan_sentence(i).text, sometimes));
+    for (size_t i = 0; kd_measured_approximation(NULL, i, &one); i++)
+        KD_TRY(add_row(page, one.name, one.text, "if there are such"));
     KD_TRY(add_table(page, OF_RAYS));
     for (size_t i = 0; kd_rays_approximation(NULL, i, &one); i++)
         KD_TRY(add_row(page, one.name, one.text, "of some lists"));
@@ -86,6 +92,8 @@ enum kd_status kd_approximations_json(struct kd_buffer *out)
                        kd_emitters[i]->sentences[k].text);
     for (size_t i = 0; i < kd_plan_sentence_count(); i++)
         add_object(&json, kd_plan_sentence(i).name, OF_ANY, kd_plan_sentence(i).text);
+    for (size_t i = 0; kd_measured_approximation(NULL, i, &one); i++)
+        add_object(&json, one.name, OF_ANY, one.text);
     for (size_t i = 0; kd_rays_approximation(NULL, i, &one); i++)
         add_object(&json, one.name, OF_RAYS, one.text);
     kd_json_end(&json);

@@ -22,10 +22,11 @@ static enum kd_status put_notes(struct kd_buffer *cards, const struct kd_picture
     KD_TRY(kd_fits_text(cards, "KDHASH", notes->hash, NULL));
     KD_TRY(kd_fits_text(cards, "KDDEVICE", picture->device, NULL));
     KD_TRY(kd_fits_text(cards, "KDACCUR", notes->accuracy, NULL));
-    for (size_t i = 0; i < picture->plan->n_approximations; i++) {
+    struct kd_approximation one;
+    for (size_t i = 0; kd_picture_approximation(picture->plan, &picture->frame->accuracy, i, &one); i++) {
         char key[32];
         snprintf(key, sizeof key, "KDAPPR%zu", i + 1);
-        KD_TRY(kd_fits_text(cards, key, picture->plan->approximations[i].text, NULL));
+        KD_TRY(kd_fits_text(cards, key, one.text, NULL));
     }
     if (*picture->frame->credit)
         KD_TRY(kd_fits_text(cards, "KDCREDIT", picture->frame->credit, NULL));

@@ -65,12 +65,54 @@ void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *
     }
 }
 
+static uint64_t undecided(const struct kd_accuracy_report *report) { return report->undecided; }
+static uint64_t differ(const struct kd_accuracy_report *report) { return report->differ; }
+static uint64_t lost(const struct kd_accuracy_report *report) { return report->lost; }
+
+static const struct {
+    struct kd_approximation sentence;
+    uint64_t (*count)(const struct kd_accuracy_report *report);
+} measured[] = {
+    { { "rays.undecided", "rays: some rays of this picture were given up; their pixels are magenta; the accuracy "
+                          "report has their number, "
+                          "undecided" },
+      undecided },
+    { { "rays.differ", "rays: a sample of this picture's rays was traced again in 64 bits, and some of them have "
+                       "another fate or number "
+                       "of crossings; the accuracy report has their number, differ" },
+      differ },
+    { { "light.lost",
+        "light: some pixels of this picture have no finite light, or a ray that was given up in a volume; they are "
+        "magenta; the accuracy report has their number, lost" },
+      lost },
+};
+
+bool kd_measured_approximation(const struct kd_accuracy_report *report, size_t index, struct kd_approximation *out)
+{
+    for (size_t i = 0; i < sizeof measured / sizeof *measured; i++)
+        if ((!report || measured[i].count(report)) && !index--) {
+            *out = measured[i].sentence;
+            return true;
+        }
+    return false;
+}
+
+bool kd_picture_approximation(const struct kd_plan *plan, const struct kd_accuracy_report *report, size_t index,
+                              struct kd_approximation *out)
+{
+    if (index >= plan->n_approximations)
+        return kd_measured_approximation(report, index - plan->n_approximations, out);
+    *out = plan->approximations[index];
+    return true;
+}
+
 /* Joins the approximations, one sentence a line, for readers of the file's properties. */
-static enum kd_status join_approximations(const struct kd_plan *plan, struct kd_buffer *out)
+static enum kd_status join_approximations(const struct kd_picture *picture, struct kd_buffer *out)
 {
     enum kd_status status = kd_buffer_append(out, "", 0); /* makes `out` a string even without approximations */
-    for (size_t i = 0; i < plan->n_approximations && !status; i++)
-        status = kd_buffer_printf(out, "%s%s", i ? "\n" : "", plan->approximations[i].text);
+    struct kd_approximation one;
+    for (size_t i = 0; !status && kd_picture_approximation(picture->plan, &picture->frame->accuracy, i, &one); i++)
+        status = kd_buffer_printf(out, "%s%s", i ? "\n" : "", one.text);
     return status;
 }
 
@@ -105,7 +147,7 @@ enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *ou
                  picture->plan->blur.shutter);
     enum kd_status status;
     KD_TRY(put_scene(picture, out));
-    KD_TRY(join_approximations(picture->plan, &out->approximations));
+    KD_TRY(join_approximations(picture, &out->approximations));
 done:
     return status
                ? kd_error_set(error, status, "cannot describe the scene inside its picture: %s", kd_status_name(status))

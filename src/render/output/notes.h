@@ -17,6 +17,13 @@ void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_p
 void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median,
                          const char *worst);
 
+/* The approximation of this index that only a rendered picture shows, such as rays that were given up. report: NULL:
+ * all that there are. Returns false if there are fewer. */
+bool kd_measured_approximation(const struct kd_accuracy_report *report, size_t index, struct kd_approximation *out);
+/* The same of all approximations of a picture: first those of its plan, then the measured ones. */
+bool kd_picture_approximation(const struct kd_plan *plan, const struct kd_accuracy_report *report, size_t index,
+                              struct kd_approximation *out);
+
 /* "samples=16 shutter=0.5": the light is the mean of 16 pictures at equal time steps within half of a frame's time
  * (render/frame/blur.h). */
 #define KD_BLUR_TEXT 48

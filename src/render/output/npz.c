@@ -40,6 +40,7 @@ static enum kd_status put_notes(struct kd_zip *zip, const struct kd_picture *pic
                                 const struct kd_numbers *numbers)
 {
     struct kd_buffer text = { 0 };
+    struct kd_approximation one;
     struct kd_json json = kd_json_begin(&text);
     kd_json_object(&json, NULL);
     kd_json_raw(&json, "scene", (const char *)notes->scene.data, notes->scene.size);
@@ -48,8 +49,8 @@ static enum kd_status put_notes(struct kd_zip *zip, const struct kd_picture *pic
     kd_json_string(&json, "device", picture->device);
     kd_json_string(&json, "accuracy", notes->accuracy);
     kd_json_array(&json, "approximations");
-    for (size_t i = 0; i < picture->plan->n_approximations; i++)
-        kd_json_string(&json, NULL, picture->plan->approximations[i].text);
+    for (size_t i = 0; kd_picture_approximation(picture->plan, &picture->frame->accuracy, i, &one); i++)
+        kd_json_string(&json, NULL, one.text);
     kd_json_end(&json);
     kd_json_object(&json, "units");
     for (size_t i = 0; i < numbers->n; i++)

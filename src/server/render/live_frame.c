@@ -208,8 +208,9 @@ struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct
     describe_timing(frame, job);
     enum kd_status status;
     KD_TRY(describe_event(frame, job, note));
-    for (size_t i = 0; i < job->plan.n_approximations; i++)
-        KD_TRY(kd_reply_item(&frame->approximations, job->plan.approximations[i].name));
+    struct kd_approximation one;
+    for (size_t i = 0; kd_picture_approximation(&job->plan, &job->frame.accuracy, i, &one); i++)
+        KD_TRY(kd_reply_item(&frame->approximations, one.name));
     frame->sentences = (uint32_t)kd_hash(KD_HASH_BEGIN, frame->approximations.data, frame->approximations.size);
 done:
     if (!status && job->keeps) {

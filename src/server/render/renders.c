@@ -50,12 +50,14 @@ static bool client_has(struct kd_request *request)
     return yes;
 }
 
-static void add_approximations(struct MHD_Response *response, const struct kd_plan *plan)
+static void add_approximations(struct MHD_Response *response, const struct kd_plan *plan,
+                               const struct kd_accuracy_report *report)
 {
     struct kd_buffer list = { 0 };
+    struct kd_approximation one;
     enum kd_status status = KD_OK;
-    for (size_t i = 0; i < plan->n_approximations; i++)
-        KD_TRY(kd_reply_item(&list, plan->approximations[i].name));
+    for (size_t i = 0; kd_picture_approximation(plan, report, i, &one); i++)
+        KD_TRY(kd_reply_item(&list, one.name));
     if (list.data)
         MHD_add_response_header(response, "Kerrd-Approximations", (const char *)list.data);
 done:
@@ -69,9 +71,10 @@ static const char *caching(const struct kd_request *request)
     return shared ? "public, max-age=86400" : "private, no-cache";
 }
 
-/* Adds the headers that answers with 200, with 304 and to HEAD have in common. */
+/* Adds the headers that answers with 200, with 304 and to HEAD have in common. report: zeros if nothing is rendered. */
 static struct MHD_Response *describe(struct kd_request *request, struct MHD_Response *response,
-                                     const struct kd_scene *scene, const struct kd_plan *plan)
+                                     const struct kd_scene *scene, const struct kd_plan *plan,
+                                     const struct kd_accuracy_report *report)
 {
     char hash[65], clock[KD_CLOCK_TEXT];
     if (!response)
@@ -82,7 +85,7 @@ static struct MHD_Response *describe(struct kd_request *request, struct MHD_Resp
     MHD_add_response_header(response, "Cache-Control", caching(request));
     MHD_add_response_header(response, "Vary", "Accept");
     MHD_add_response_header(response, "Kerrd-Scene-Hash", hash);
-    add_approximations(response, plan);
+    add_approximations(response, plan, report);
     kd_fall_clock_text(scene, clock);
     if (*clock)
         MHD_add_response_header(response, "Kerrd-Clock", clock);
@@ -159,7 +162,8 @@ static enum MHD_Result deliver(struct kd_request *request)
         job->error.status = job->status;
         return kd_reply_error(request, &job->error);
     }
-    struct MHD_Response *response = describe(request, picture_response(request), &job->scene, &job->plan);
+    struct MHD_Response *response =
+        describe(request, picture_response(request), &job->scene, &job->plan, &job->frame.accuracy);
     if (response) {
         add_accuracy(response, job);
         add_timings(response, job);
@@ -293,10 +297,12 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
     if (tag(request, planned))
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     if (client_has(request))
-        return kd_reply_send(request, MHD_HTTP_NOT_MODIFIED, describe(request, kd_reply_empty(NULL), scene, plan));
+        return kd_reply_send(request, MHD_HTTP_NOT_MODIFIED,
+                             describe(request, kd_reply_empty(NULL), scene, plan, &(struct kd_accuracy_report) { 0 }));
     if (request->head)
         return kd_reply_send(request, MHD_HTTP_OK,
-                             describe(request, kd_reply_empty(request->format->media_type), scene, plan));
+                             describe(request, kd_reply_empty(request->format->media_type), scene, plan,
+                                      &(struct kd_accuracy_report) { 0 }));
     if (narrow(request, planned, &error))
         return kd_reply_error(request, &error);
     if (!admitted(request, plan, &problem, &error))
