@@ -184,6 +184,20 @@ float steps_to_hole(uvec2 corner, uint side)
     return (cam.sight == KD_SIGHT_PLANE ? length(k.xy) : length(k.yz)) / step_;
 }
 
+/* Whether the nodes of a cell are so far apart that an island of another image order may lie between them. An observer
+ * among the photon orbits or closer sees such islands, a few degrees wide, next to the horizon of a hole that spins
+ * fast; no smooth function of the nodes tells of them. */
+bool islands_fit_in(uint side)
+{
+    const float AMONG_ORBITS = 0.25, APART = 2.0 * KD_PI / 180.0;
+    if (cam.w0 < AMONG_ORBITS || cam.sight == KD_SIGHT_PLANE)
+        return false;
+    float ray = cam.sight >= KD_SIGHT_SPHERE
+                    ? 0.5 * KD_PI * max(cam.turn_x, cam.turn_y)
+                    : length(vec3(cam.cxx, cam.cxy, cam.cxz)) / length(vec3(cam.c0x, cam.c0y, cam.c0z));
+    return 0.25 * float(side) * ray > APART;
+}
+
 /* Whether the function that vanishes where fates change is nonzero between the nodes; `least` is its least value at
  * them. Between nodes a curve deviates by an eighth of its second difference; the margin is four times that, plus twice
  * the error of the polynomials. */
@@ -264,7 +278,7 @@ void look_at(uvec2 cell, uint level)
     uint side = begins ? KD_CELL_BLOCK : side_of(level), cells = begins ? 1u : 2u;
     uvec2 corner = cell * side;
     float state = 0.0;
-    bool smooth_ = !begins && is_smooth(corner, side, state);
+    bool smooth_ = !begins && !islands_fit_in(side) && is_smooth(corner, side, state);
     if (smooth_ && crossings_of(state) > 0u)
         list_units(0u, corner, level);
     if (smooth_ && SKY && !captured(state))

@@ -75,4 +75,22 @@ static void random_camera(struct kd_random *random, int side, struct kd_scene *s
     }
 }
 
+/* The same with a spin close to 1 and a radius close to the horizon: image orders have small islands there. An
+ * infalling observer is sometimes within the horizon. */
+static void random_camera_near_horizon(struct kd_random *random, int side, struct kd_scene *s)
+{
+    struct kd_camera *c = &s->camera;
+    random_camera(random, side, s);
+    if (isinf(c->r))
+        return;
+    s->spacetime.spin = (below(random, 4) ? 1 : -1) * (1 - decades(random, -12, -1));
+    const struct kd_hole *hole = kd_hole(s->spacetime.spin);
+    const bool falls = c->observer == KD_OBSERVER_INFALL;
+    const double u = cos(c->inclination_deg * (M_PI / 180)), part = decades(random, -6, 0.5);
+    if (falls && below(random, 2))
+        c->r = hole->outer - fmin(part, 0.9) * (hole->outer - hole->inner);
+    else
+        c->r = (falls ? hole->outer : kd_observers[c->observer].outside(hole, u)) * (1 + part);
+}
+
 #endif

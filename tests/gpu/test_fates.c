@@ -222,17 +222,28 @@ static void pictures_that_were_wrong_once(void **state)
     tell_tally(&t, sizeof once / sizeof *once + 1);
 }
 
-static void fates_are_those_of_double_precision(void **state)
+static void judge_random(void (*make)(struct kd_random *, int, struct kd_scene *))
 {
-    (void)state;
     struct tally t = { 0 };
     for (unsigned i = first; i < first + cameras; i++) {
         struct kd_random random = { seed + i * UINT64_C(0x100000001) };
         struct kd_scene scene;
-        random_camera(&random, SIDE, &scene);
+        make(&random, SIDE, &scene);
         judge(&scene, i, &t);
     }
     tell_tally(&t, cameras);
+}
+
+static void fates_are_those_of_double_precision(void **state)
+{
+    (void)state;
+    judge_random(random_camera);
+}
+
+static void fates_near_the_horizon(void **state)
+{
+    (void)state;
+    judge_random(random_camera_near_horizon);
 }
 
 int main(int argc, char **argv)
@@ -240,6 +251,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pictures_that_were_wrong_once),
         cmocka_unit_test(fates_are_those_of_double_precision),
+        cmocka_unit_test(fates_near_the_horizon),
     };
     cameras = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : cameras;
     seed = argc > 2 ? strtoull(argv[2], NULL, 10) : seed;

@@ -15,6 +15,7 @@ import shutil
 import stat
 import subprocess
 import tempfile
+import unittest
 
 import daemon
 from job_case import SCENE, Case, scene_of
@@ -237,6 +238,7 @@ class Kept(Films):
         self.gone(number)
         self.ended(server)
 
+    @unittest.skipUnless(shutil.which("curl"), "curl is not installed")
     def test_curl_goes_on_with_half_of_it(self):
         for kind in "mp4", "webm":
             server, job, whole = self.film_of(KEEPS, self.FRAMES, "?format=" + kind)

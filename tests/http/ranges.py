@@ -3,9 +3,11 @@ ETag."""
 
 import base64
 import hashlib
+import shutil
 import struct
 import subprocess
 import tempfile
+import unittest
 import zlib
 
 import daemon
@@ -238,6 +240,7 @@ class Ranges(Case):
             self.ask(target, "HEAD")
         self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= files))
 
+    @unittest.skipUnless(shutil.which("curl"), "curl is not installed")
     def test_curl_goes_on(self):
         target = self.frame()
         whole = self.ask(target)
