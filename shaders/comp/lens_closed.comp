@@ -158,7 +158,8 @@ void main()
     kd_state start;
     start.w = ray.w;
     start.dw = ray.dw;
-    kd_turning_point barrier = kd_turning_point_of(m, ray, cam.spin, cam.horizon, cam.root, kd_camera_rounding());
+    const kd_rounding rounding = kd_camera_rounding();
+    kd_turning_point barrier = kd_turning_point_of(m, ray, cam.spin, cam.horizon, cam.root, rounding);
     kd_drag_terms drag = kd_drag_terms_of(m, ray.e, cam.spin, cam.root, a.unit, !kd_escapes(barrier, start));
     float edge = cam.horizon * a.scale, limit = time_limit(barrier, start, ray.e, drag.falls);
 
@@ -184,7 +185,7 @@ void main()
     /* Far out, the scale of w is E over the larger of E and |(l, p)|; the larger one is at least a.scale / sqrt(3), or
      * 1. The scale is at most that of the horizon. */
     const kd_margins margins = kd_margins_of(barrier, barrier.noise, max(1.74 * cam.size_e, cam.horizon), edge);
-    bool open = !kd_is_decided(barrier, start) || is_open(leg, polar, margins);
+    bool open = !kd_is_decided(barrier, start, kd_start_noise(m, start, rounding)) || is_open(leg, polar, margins);
     keep(at, 0, leg.alive && polar.crosses, leg, drag);
     uint crossings = leg.alive && polar.crosses ? 1u : 0u;
     const uint legs = SKY && !drag.falls ? ORDERS + MORE : ORDERS;

@@ -102,10 +102,10 @@ void main()
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     bool alive = polar.crosses && !dark;
     uint crossings = 0u;
-    bool open = !dark && !kd_is_decided(barrier, start);
     const float far = cam.size_e * inversesqrt(max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e));
     /* rounding error of R; the error due to the steps is measured at each crossing */
     float lost = kd_start_noise(m, start, rounding);
+    bool open = !dark && !kd_is_decided(barrier, start, lost);
     const float deepest = INGOING ? max(2.0, 1.1 * cam.w0) : 2.0;
     float h = polar.first * (1.0 / float(STEPS));
     for (uint n = 0; n < (PHI ? 2 : 1) * ORDERS + (SLOPE ? ORDERS : 0); n++) /* crossings come first, without gaps */

@@ -137,9 +137,8 @@ void main()
     kd_state half_, start;
     half_.w = start.w = ray.w;
     half_.dw = start.dw = ray.dw;
-    kd_turning_point barrier =
-        kd_turning_point_of(m, ray, cam.spin, cam.horizon, cam.root,
-                            kd_rounding_of_labels(ray, cam.spin, cam.u, cam.s, cam.horizon, cam.epsilon));
+    const kd_rounding rounding = kd_rounding_of_labels(ray, cam.spin, cam.u, cam.s, cam.horizon, cam.epsilon);
+    kd_turning_point barrier = kd_turning_point_of(m, ray, cam.spin, cam.horizon, cam.root, rounding);
     float way = 0.0, started = delay_edge(m, start, 0.0), fallen = 0.0;
     /* Rounding errors at the start, in roundoffs. size: of R, whose root is w'; kick: of w and w' together. */
     float size = 1.0 + ray.w * ray.w * (ray.l * ray.l + ray.p * ray.p + 2.0 * abs(m.k) * ray.w);
@@ -226,7 +225,8 @@ void main()
     kd_escape end = kd_path_escape(m, ray, last);
     if (error == 0.0) /* no crossing: nothing amplifies errors */
         error = 1e3 * cam.epsilon + lost_in_a_turn(KD_PI / float(STEPS));
-    if (!kd_is_decided(barrier, start) || kd_escapes(barrier, start) != (end.fate == KD_FATE_ESCAPED))
+    if (!kd_is_decided(barrier, start, kd_start_noise(m, start, rounding)) ||
+        kd_escapes(barrier, start) != (end.fate == KD_FATE_ESCAPED))
         end.fate = KD_FATE_UNDECIDED;
     at = o + 3 * ORDERS;
     ends[at] = end.u;

@@ -112,7 +112,8 @@ kd_turning_point kd_turning_point_beside(kd_geodesic m, kd_turning_point b, kd_s
 /* Error of R along a ray traced by steps, due to rounding at its start: of w, and of w', whose square is R. */
 float kd_start_noise(kd_geodesic m, kd_state y, kd_rounding off)
 {
-    return off.unit * (abs(y.dw) * (off.size_e + sqrt(max(m.k, 0.0)) * y.w) + abs(y.w * kd_acceleration(m, y.w)));
+    float dw = off.unit * (off.size_e + sqrt(max(m.k, 0.0)) * y.w);
+    return dw * (abs(y.dw) + dw) + off.unit * abs(y.w * kd_acceleration(m, y.w));
 }
 
 /* Whether a ray falls into the horizon from its present state, without turning. */
@@ -130,11 +131,11 @@ bool kd_escapes(kd_turning_point b, kd_state y)
     return y.dw < 0.0 ? b.open || y.w < b.w || b.r > 0.0 : !b.open && y.w < b.w && b.r <= 0.0;
 }
 
-/* Whether it is certain in spite of rounding where the ray ends. */
-bool kd_is_decided(kd_turning_point b, kd_state y)
+/* Whether it is certain in spite of rounding where the ray ends. start: kd_start_noise at y. */
+bool kd_is_decided(kd_turning_point b, kd_state y, float start)
 {
     bool ahead = y.dw < 0.0 ? y.w > b.w : y.w < b.w;
-    return (!b.open && abs(b.r) > b.noise) || ((b.open || !ahead) && y.dw * y.dw > b.noise);
+    return (!b.open && abs(b.r) > b.noise) || ((b.open || !ahead) && y.dw * y.dw > max(b.noise, start));
 }
 
 #endif
