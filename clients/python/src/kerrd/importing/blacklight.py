@@ -51,7 +51,11 @@ METHOD_NUMBERS = (
     "fallback_rho",
     "fallback_pgas",
     "fallback_kappa",
-    *(f"adaptive_{of}_{end}" for of in ("val", "abs_grad", "rel_grad", "abs_lapl", "rel_lapl") for end in ("cut", "frac")),
+    *(
+        f"adaptive_{of}_{end}"
+        for of in ("val", "abs_grad", "rel_grad", "abs_lapl", "rel_lapl")
+        for end in ("cut", "frac")
+    ),
 )
 METHOD_FLAGS = (
     "fallback_nan",
@@ -137,7 +141,9 @@ def _entries(name: str, data: bytes) -> dict[str, Entry]:
             continue
         key, equals, value = told.partition("=")
         if not equals or not key:
-            raise ImportProblem(name, number, None, f"{shown(line.strip())} is no assignment; a line must be `key = value`")
+            raise ImportProblem(
+                name, number, None, f"{shown(line.strip())} is no assignment; a line must be `key = value`"
+            )
         text.add(name, entries, key, Entry(value, number))
     return entries
 
@@ -226,7 +232,9 @@ def _simulation(sheet: Sheet) -> float:
     sheet.say("simulation_a", "spacetime.spin", spin)
     if "simulation_m_msun" in sheet:
         sheet.say("simulation_m_msun", "spacetime.mass_msun", sheet.positive("simulation_m_msun"))
-    sheet.unsaid("model_type", "kerrd reads no file of a simulation: the scene has the hole and the camera, and no matter")
+    sheet.unsaid(
+        "model_type", "kerrd reads no file of a simulation: the scene has the hole and the camera, and no matter"
+    )
     for keys, check in (
         (SIMULATION_FLAGS, sheet.flag),
         (SIMULATION_WHOLES, sheet.whole),
@@ -284,7 +292,9 @@ def _camera(sheet: Sheet, spin: float) -> Received:
         if name == photon[0] or value == 0:
             sheet.said(name, "camera: its middle ray has no angular momentum")
         else:
-            sheet.unsaid(name, "kerrd's middle ray has no angular momentum; camera.centre_alpha and centre_beta move it")
+            sheet.unsaid(
+                name, "kerrd's middle ray has no angular momentum; camera.centre_alpha and centre_beta move it"
+            )
     if plane:
         sheet.said(kind, "camera.projection")
         sheet.say(key["width"], "camera.field_m", width)
@@ -353,7 +363,9 @@ def _image(sheet: Sheet, seen: Received, model: str) -> None:
     else:
         sheet.unsaid("image_polarization", "the scene has no matter; polarization.model transfer needs some")
     for name, sentence in MAPS.items():
-        (sheet.unsaid if sheet.flag(name, False) else sheet.ignore)(name, sentence if sheet.flag(name, False) else "off")
+        (sheet.unsaid if sheet.flag(name, False) else sheet.ignore)(
+            name, sentence if sheet.flag(name, False) else "off"
+        )
     if sheet.flag("ray_flat", False):
         sheet.unsaid("ray_flat", "kerrd's rays are always bent by the hole")
     else:

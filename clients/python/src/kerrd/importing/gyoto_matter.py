@@ -93,9 +93,9 @@ class Matter:
                 f"kerrd has no {kind}: the scene is without it" + (f", and without its {inside}" if inside else ""),
             )
         else:
-            {"ThinDisk": self._disk, "PageThorneDisk": self._disk, "EquatorialHotSpot": self._spot}.get(kind, self._sphere)(
-                element, name, kind
-            )
+            {"ThinDisk": self._disk, "PageThorneDisk": self._disk, "EquatorialHotSpot": self._spot}.get(
+                kind, self._sphere
+            )(element, name, kind)
 
     def finish(self, camera: Camera) -> None:
         """Completes what depends on all objects: the time, and the sense in which the disk turns."""
@@ -125,14 +125,17 @@ class Matter:
         for key in ("RadiativeQ", "NoRadiativeQ"):
             sheet.ignore(key, "GYOTO's method")
         sheet.unsaid("ShowShadow", "kerrd does not mark the shadow; the layer fate does")
-        for key in ("NoShowShadow", "Redshift", "OpticallyThick"):
-            sheet.ignore(key, "off" if key != "OpticallyThick" else "as in kerrd")
+        sheet.ignore("NoShowShadow", "off")
+        for key in ("Redshift", "OpticallyThick"):
+            sheet.ignore(key, "as in kerrd")
         return "NoRedshift" not in sheet, "OpticallyThin" in sheet
 
     def _disk(self, element: xml.Element, name: str, kind: str) -> None:
         sheet = section(self.draft, element, name)
         page_thorne = kind == "PageThorneDisk"
-        sheet.known(DISK | ({"Mdot", "BlackbodyMdot", *(n for p in DISK_SWITCHES for n in p)} if page_thorne else set()))
+        sheet.known(
+            DISK | ({"Mdot", "BlackbodyMdot", *(n for p in DISK_SWITCHES for n in p)} if page_thorne else set())
+        )
         self.disks += 1
         if self.disks > 1:
             self.draft.note(name + "kind", element.line, "not said", "a scene has one disk: it is without this one")
@@ -150,7 +153,9 @@ class Matter:
             self.draft.put("disk.redshift", False)
             sheet.said("NoRedshift", "disk.doppler, disk.redshift")
         if thin:
-            sheet.unsaid("OpticallyThin", "a disk that light passes without loss shines but is not seen through in kerrd")
+            sheet.unsaid(
+                "OpticallyThin", "a disk that light passes without loss shines but is not seen through in kerrd"
+            )
         sheet.number("Thickness", 0.0)
         sheet.ignore("Thickness", "the path through GYOTO's disk where light passes it")
         if page_thorne:
@@ -244,7 +249,12 @@ class Matter:
         if path.motion != "keplerian" or path.r < isco(self.spin):
             problem = problem or "kerrd's spots are on circular orbits outside the ISCO, with the disk"
         if problem or "CounterRotating" in sheet:
-            self.draft.note(name + "kind", element.line, "not said", f"the scene is without this spot: {problem or 'it turns against the spin'}")
+            self.draft.note(
+                name + "kind",
+                element.line,
+                "not said",
+                f"the scene is without this spot: {problem or 'it turns against the spin'}",
+            )
             return
         sheet.fits("SpotRadSize", "spots.size", size)
         sheet.fits("Position", "spots.r", path.r)
@@ -304,7 +314,9 @@ class Matter:
             raise sheet.wrong("Radius", "a finite number above 0")
         problem = self._place_problem(sheet, path)
         if not fixed and not path.motion:
-            problem = problem or "kerrd's bodies are at rest or on circular orbits in the plane, and this one is on neither"
+            problem = (
+                problem or "kerrd's bodies are at rest or on circular orbits in the plane, and this one is on neither"
+            )
         if problem:
             self.draft.note(name + "kind", element.line, "not said", f"the scene is without this sphere: {problem}")
             return

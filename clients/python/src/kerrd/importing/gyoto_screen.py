@@ -106,10 +106,13 @@ def _place(screen: Section, units: Units, spin: float, coordinates: str) -> Came
         raise screen.wrong("Distance", "given, or else Screen/Position")
     place_key = by["Distance"]
     if not 2 < r < 1e30:
-        raise screen.wrong(place_key, f"such that the distance, {r:g} M, is above 2 M, where an observer can be at rest")
+        raise screen.wrong(
+            place_key, f"such that the distance, {r:g} M, is above 2 M, where an observer can be at rest"
+        )
     if not -1e-9 <= theta <= math.pi + 1e-9:
         raise screen.wrong(
-            by.get("Inclination", "Position"), f"such that the polar angle, {math.degrees(theta):g} degrees, is from 0 to 180"
+            by.get("Inclination", "Position"),
+            f"such that the polar angle, {math.degrees(theta):g} degrees, is from 0 to 180",
         )
     for key, path in (
         ("Position", "camera.r, camera.inclination_deg, camera.azimuth_deg"),
@@ -122,9 +125,9 @@ def _place(screen: Section, units: Units, spin: float, coordinates: str) -> Came
             screen.said(key, path)
         else:
             screen.ignore(key, "replaced by Position, which follows it")
-    distance = screen.element.attributes, screen.elements.get("Distance")
-    if distance[1] is not None and "dmax" in distance[1].attributes:
-        _check_number(screen, "Distance", distance[1].attributes["dmax"], "its attribute dmax, a finite number")
+    distance = screen.elements.get("Distance")
+    if distance is not None and "dmax" in distance.attributes:
+        _check_number(screen, "Distance", distance.attributes["dmax"], "its attribute dmax, a finite number")
     inclination = min(max(round(math.degrees(theta), 9), 0.0), 180.0)
     return Camera(r, inclination, turn(math.degrees(phi)), turn(180 - math.degrees(nodes)), None, screen)
 

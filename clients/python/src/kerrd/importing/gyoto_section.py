@@ -47,7 +47,7 @@ class Section(Sheet):
                 self.draft.file,
                 self.element.line,
                 self.section + "kind",
-                f'the kind of <{self.element.name}> is {shown(said)}; it must be {" or ".join(kinds)}, because {why}',
+                f"the kind of <{self.element.name}> is {shown(said)}; it must be {' or '.join(kinds)}, because {why}",
             )
         return said
 
@@ -85,7 +85,9 @@ class Section(Sheet):
         self.unsaid("MaxCrossEqplane", "accuracy.orders leaves out images by their order")
 
 
-def section(draft: Draft, element: Element, name: str, containers: Iterable[str] = (), several: Iterable[str] = ()) -> Section:
+def section(
+    draft: Draft, element: Element, name: str, containers: Iterable[str] = (), several: Iterable[str] = ()
+) -> Section:
     """The children of an element as entries. containers: children that have children; several: children that may be
     there more than once, which are no entries."""
     entries: dict[str, Entry] = {}

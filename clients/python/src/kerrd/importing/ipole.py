@@ -62,17 +62,7 @@ GRMHD = (
 )
 RIAF = "nth0 Te0 disk_h pow_nth pow_T keplerian_factor Ne_unit Te_unit".split()
 OTHERS = "model a Mdot rho_unit rmax_geo rmin_geo emission_type only_unpolarized Rout Rh r_isco".split()
-KNOWN = {
-    *CAMERA,
-    *METHOD_WHOLES,
-    *METHOD_NUMBERS,
-    *METHOD_TEXTS,
-    *OFF,
-    *ELECTRONS,
-    *GRMHD,
-    *RIAF,
-    *OTHERS,
-}
+KNOWN = {*CAMERA, *METHOD_WHOLES, *METHOD_NUMBERS, *METHOD_TEXTS, *OFF, *ELECTRONS, *GRMHD, *RIAF, *OTHERS}
 ALWAYS = "not used by this model of ipole"
 
 
@@ -88,7 +78,9 @@ def _entries(name: str, data: bytes) -> dict[str, Entry]:
                 name, number, None, f"has {len(line)} characters; a line of ipole's must have at most {LONGEST_LINE}"
             )
         if len(words) == 1 or not re.fullmatch(r"[A-Za-z]\w*", words[0]):
-            raise ImportProblem(name, number, None, f"{shown(line.strip())} is no parameter; a line must be `key value`")
+            raise ImportProblem(
+                name, number, None, f"{shown(line.strip())} is no parameter; a line must be `key value`"
+            )
         text.add(name, entries, words[0], Entry(words[1], number))
     return entries
 
@@ -138,11 +130,7 @@ def read(name: str, data: bytes, model: str | None = None) -> Imported:
 
 
 def _method(sheet: Sheet) -> None:
-    for keys, check in (
-        (METHOD_WHOLES, sheet.whole),
-        (METHOD_NUMBERS, sheet.number),
-        (METHOD_TEXTS, sheet.text),
-    ):
+    for keys, check in ((METHOD_WHOLES, sheet.whole), (METHOD_NUMBERS, sheet.number), (METHOD_TEXTS, sheet.text)):
         for key in keys:
             if key in sheet and sheet.entries[key].value == "=":
                 sheet.ignore(key, "ipole's method or files; ipole takes no value after a =")
@@ -250,7 +238,9 @@ def _electrons(sheet: Sheet) -> None:
     else:
         sheet.said("emission_type", "volume.electrons")
     if polarised and kind == 2 and not 3.5 <= kappa <= 5:
-        sheet.unsaid("only_unpolarized", "kerrd's light is polarised with volume.kappa from 3.5 to 5; the scene's is not")
+        sheet.unsaid(
+            "only_unpolarized", "kerrd's light is polarised with volume.kappa from 3.5 to 5; the scene's is not"
+        )
     elif polarised:
         sheet.draft.put("polarization.model", "transfer")
         sheet.said("only_unpolarized", "polarization.model")

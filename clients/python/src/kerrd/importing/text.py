@@ -34,7 +34,9 @@ def lines(name: str, data: bytes) -> list[str]:
             ) from None
         odd = re.search(r"[^\t\r\f\v -\U0010ffff]|\x7f", text)
         if odd:
-            raise ImportProblem(name, number, None, f"character {odd.start() + 1} is U+{ord(odd[0]):04X}; the file must be text")
+            raise ImportProblem(
+                name, number, None, f"character {odd.start() + 1} is U+{ord(odd[0]):04X}; the file must be text"
+            )
     return data.decode("utf-8").split("\n")
 
 
@@ -60,10 +62,13 @@ def code_of(name: str, data: bytes) -> str:
     rows = [row for row in rows if row]
     if any(re.match(rb"model_type\s*=", row) for row in rows):
         return "blacklight"
-    if any(re.match(rb"[A-Za-z]\w*\s*=", row) for row in rows[:1]):
-        return "blacklight"
-    if rows and re.match(rb"[A-Za-z]\w*\s+\S", rows[0]):
-        return "ipole"
+    assigned = sum(bool(re.match(rb"[A-Za-z]\w*\s*=", row)) for row in rows)
+    spaced = sum(bool(re.match(rb"[A-Za-z]\w*\s+[^=\s]", row)) for row in rows)
+    if max(assigned, spaced):
+        return "blacklight" if assigned > spaced else "ipole"
     raise ImportProblem(
-        name, None, None, "is no input file of gyoto (XML), ipole (lines as `rcam 1000`) or blacklight (`camera_r = 1000`)"
+        name,
+        None,
+        None,
+        "is no input file of gyoto (XML), ipole (lines as `rcam 1000`) or blacklight (`camera_r = 1000`)",
     )

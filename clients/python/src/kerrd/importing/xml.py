@@ -8,6 +8,7 @@ from xml.parsers import expat
 from .sheet import ImportProblem
 
 DEEPEST = 16
+MOST_ELEMENTS = 10000
 
 
 @dataclass
@@ -27,16 +28,32 @@ def parse(file: str, data: bytes) -> Element:
     parser.buffer_text = True
     open_elements: list[Element] = []
     roots: list[Element] = []
+    count = 0
 
     def refuse(*_: object) -> None:
         raise ImportProblem(
-            file, parser.CurrentLineNumber, None, "has a document type; an input file of gyoto must have none, nor entities"
+            file,
+            parser.CurrentLineNumber,
+            None,
+            "has a document type; an input file of gyoto must have none, nor entities",
         )
 
     def start(name: str, attributes: dict[str, str]) -> None:
+        nonlocal count
+        count += 1
+        if count > MOST_ELEMENTS:
+            raise ImportProblem(
+                file,
+                parser.CurrentLineNumber,
+                None,
+                f"has more than {MOST_ELEMENTS} elements, which no input file may have",
+            )
         if len(open_elements) == DEEPEST:
             raise ImportProblem(
-                file, parser.CurrentLineNumber, None, f"<{name}> is nested too deeply; it must be in at most {DEEPEST} others"
+                file,
+                parser.CurrentLineNumber,
+                None,
+                f"<{name}> is nested too deeply; it must be in at most {DEEPEST} others",
             )
         element = Element(name, parser.CurrentLineNumber, attributes)
         (open_elements[-1].children if open_elements else roots).append(element)
