@@ -462,6 +462,8 @@ class Gyoto(Files):
             ({"place": far, "metric_more": sun}, "camera.inclination_deg", 60),
             ({"place": far, "metric_more": sun}, "spacetime.distance_pc", 8000),
             ({"place": far, "metric_more": sun, "fov_unit": " unit='µas'", "fov": "150"}, "camera.field_uas", 150),
+            ({"place": far, "metric_more": sun, "fov_unit": " unit='microas'", "fov": "150"}, "camera.field_uas", 150),
+            ({"place": far, "metric_more": sun, "fov_unit": " unit='mas'", "fov": "0.2"}, "camera.field_uas", 200),
             ({"place": far + "<PALN unit='degree'>70</PALN>", "metric_more": sun}, "camera.roll_deg", 110),
             (
                 {"place": far + "<PALN>3.141592653589793</PALN><Argument>0</Argument>", "metric_more": sun},

@@ -22,9 +22,11 @@ ANGLES = {
     **{"rad": 1.0, "radian": 1.0, "": 1.0},
     **{name: math.radians(1) for name in ("degree", "degrees", "deg", "°")},
     **{name: math.radians(1 / 60) for name in ("arcmin", "arcminute")},
-    **{name: 1e6 * UAS for name in ("arcsec", "arcsecond", "as")},
-    **{name: 1e3 * UAS for name in ("milliarcsec", "milliarcsecond", "mas")},
-    **{name: UAS for name in ("microarcsec", "microarcsecond", "µas", "μas", "uas")},
+    **{
+        prefix + name: scale * UAS
+        for name in ("as", "arcsec", "arcsecond")
+        for prefix, scale in {"": 1e6, "milli": 1e3, "m": 1e3, "micro": 1.0, "µ": 1.0, "μ": 1.0, "u": 1.0}.items()
+    },
 }
 
 
