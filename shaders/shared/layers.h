@@ -40,6 +40,6 @@
     LIGHT(19, brightness_temperature, 0u, light.x *emission.plasma.kelvin) \
     LIGHT(20, specific_intensity, 0u, light.x *emission.plasma.jansky) \
     LIGHT(21, stokes_v, KD_LENS_SLOPE, light.w) \
-    LIGHT(22, jy_per_pixel, 0u, light.x *emission.plasma.jansky_pixel)
+    LIGHT(22, jy_per_pixel, 0u, light.x *emission.frame.jansky_pixel)
 
 #endif

@@ -171,6 +171,9 @@ class Documents(unittest.TestCase):
     def test_comparing(self):
         self.made("docs/comparing.md", 2, "chi2.json")
 
+    def test_importing(self):
+        self.made("docs/importing.md", 1, "scene.json", "disk.png")
+
     def test_orbits(self):
         self.run_all("docs/orbits.md", 2)
 

@@ -226,9 +226,22 @@ static int follow_each_field(const char *document)
     return tried;
 }
 
+#define VOLUME(rest) "{\"disk\": {\"model\": \"none\"}, \"volume\": {\"model\": " rest "}}"
+static const char *const volumes[] = {
+    VOLUME("\"uniform\""),
+    VOLUME("\"gold\", \"gold_momentum\": 0.5, \"gold_flattening\": 2"),
+    VOLUME("\"riaf\""),
+    VOLUME("\"torus\", \"inner\": 6, \"outer\": 90, \"electrons\": \"kappa\""),
+    "{\"disk\": {\"model\": \"none\"}, \"volume\": {\"model\": \"riaf\"}, \"polarization\": {\"model\": "
+    "\"transfer\"}}",
+    "{\"jets\": {\"brightness\": 1}, \"bodies\": [{\"radius\": 1}]}",
+};
+
 static void numbers_follow_each_field(void **state)
 {
     (void)state;
+    for (size_t k = 0; k < sizeof volumes / sizeof *volumes; k++)
+        assert_true(follow_each_field(volumes[k]) > 30);
     assert_true(follow_each_field(BASE) > 40); /* the others are words, or tied to a third field */
     assert_true(follow_each_field(GAS) > 40);
     assert_true(follow_each_field(STARS) > 40);

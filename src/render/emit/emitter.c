@@ -2,8 +2,10 @@
 
 #include "physics/spacetime/kerr.h"
 #include "render/emit/particles.h"
+#include "render/emit/radio.h"
 #include "scene/hole.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -244,6 +246,7 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
         .along_hollow = (float)hollow_of_all(scene),
         .along_knot = (float)knot_of_all(scene),
         .along_u = (float)height_of_all(scene),
+        .jansky_pixel = isfinite(scene->camera.r) ? 0 : (float)fmin(kd_radio_jansky_pixel(scene), FLT_MAX),
         .r_isco = (float)kd_kerr_isco(kd_scene_hole(scene)),
         .one_minus_a = (float)(1 - scene->spacetime.spin),
         .inner = (float)kd_disk_inner(scene),

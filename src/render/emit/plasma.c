@@ -189,7 +189,6 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
         .depth = (float)log2(kd_synchrotron_depth_unit() * metre),
         .kelvin = (float)KD_RADIO_KELVIN,
         .jansky = (float)(unit / KD_JANSKY_SI),
-        .jansky_pixel = isfinite(scene->camera.r) ? 0 : (float)kd_radio_jansky_pixel(scene),
     };
     fill_gold(to, &scene->volume, metre, unit);
     fill_electrons(to, &scene->volume);

@@ -8,6 +8,7 @@ from .client import Client, Job, Session
 from .eht import to_ehtim
 from .errors import JobFailed, KerrdError, NoBinary, NoKerrd, Problem, Unreachable
 from .frame import Frame
+from .importing import Imported, ImportProblem, scene_from
 from .local import local
 from .result import Sweep
 from .scene import *
@@ -18,6 +19,8 @@ __all__ = [
     "AsyncSession",
     "Client",
     "Frame",
+    "ImportProblem",
+    "Imported",
     "Job",
     "JobFailed",
     "KerrdError",
@@ -28,6 +31,7 @@ __all__ = [
     "Sweep",
     "Unreachable",
     "local",
+    "scene_from",
     "sweep",
     "to_ehtim",
     "widget",
