@@ -163,11 +163,12 @@ void main()
             sum += turn.any ? drag - turn.drag : 0.0;
             fallen -= turn.any ? 2.0 * kd_drag_fall(turn.w, cam.spin, cam.root) : 0.0;
         }
+        if (abs(y.w) < cam.horizon) /* the error of the steps up to this crossing; beyond, the values mean nothing */
+            lost = max(lost, abs(y.dw * y.dw - kd_radial_potential(m, y.w, ray.e, cam.spin, cam.root)));
         kd_margins margins = kd_margins_of(barrier, barrier.noise + lost, min(far, cam.horizon), cam.horizon);
         open = open || kd_crossing_is_open(y.w, margins) || !kd_is_finite(y.w + sum);
         alive = low >= 0.0 && high < cam.horizon && y.w > 0.0;
         if (alive) {
-            lost = max(lost, abs(y.dw * y.dw - kd_radial_potential(m, y.w, ray.e, cam.spin, cam.root)));
             chi += sum * h * (2.0 / 45.0);
             float fall = way * kd_drag_fall(y.w, cam.spin, cam.root) + fallen;
             crossings++;
