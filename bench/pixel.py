@@ -14,9 +14,8 @@ import random
 import statistics
 import time
 
-import measure
-
 import fairness
+import measure
 
 SOURCE = "127.0.0.2"
 WIDTH, HEIGHT = 1600, 900
