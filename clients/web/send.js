@@ -37,13 +37,13 @@ const frameOf = ({ embed, title }) =>
 // Opens the panel that shows a job's progress, and its button to cancel.
 function inPanel(card, told, cancel) {
   card.close();
-  byId('take').open = true;
   byId(told).scrollIntoView({ block: 'center' });
   byId(cancel).focus();
 }
 
 // Makes a poster by "Save picture", with a line of text.
-function makePoster(card, scene, url) {
+async function makePoster(card, scene, url, openTake) {
+  await openTake();
   const size = byId('save-size');
   size.value = poster;
   size.dispatchEvent(new Event('change'));
@@ -53,9 +53,9 @@ function makePoster(card, scene, url) {
 }
 
 // Begins the first of these films that would show something: of what moves by itself, once round the hole, other spins.
-async function makeFilm(card) {
+async function makeFilm(card, openTake) {
   const films = ['time', 'orbit', 'spin'].map(name => `#film-${name}`);
-  byId('take').open = true; // opening it builds the films' buttons
+  await openTake(); // which builds the films' buttons
   while (!document.querySelector(films[0])) await new Promise(resolve => setTimeout(resolve, 50));
   films
     .map(id => document.querySelector(id))
@@ -118,7 +118,7 @@ function previewOf({ code, title, about }) {
   return el('figure', {}, picture, el('figcaption', { lang: 'en' }, el('strong', {}, title), ' ', about));
 }
 
-function fill(card, shared, scene) {
+function fill(card, shared, scene, openTake) {
   const url = absolute(shared.url),
     field = el('input', { id: 'sending-link', readonly: true, value: url, spellcheck: 'false' }),
     done = el('span', { role: 'status' });
@@ -146,12 +146,12 @@ function fill(card, shared, scene) {
         ),
       el(
         'button',
-        { type: 'button', onclick: () => makePoster(card, scene, url) },
+        { type: 'button', onclick: () => makePoster(card, scene, url, openTake) },
         t('Save a poster, 4K', 'Salva un poster, 4K'),
       ),
       el(
         'button',
-        { type: 'button', onclick: () => makeFilm(card) },
+        { type: 'button', onclick: () => makeFilm(card, openTake) },
         t('Make a film, five seconds', 'Fai un film, cinque secondi'),
       ),
       done,
@@ -161,7 +161,8 @@ function fill(card, shared, scene) {
   copies.focus();
 }
 
-export async function send(scene) {
+// openTake(): opens the panel of what can be saved.
+export async function send(scene, openTake) {
   const card = byId('sending'),
     told = el('p', { role: 'status' }, '…');
   card.replaceChildren(
@@ -177,7 +178,7 @@ export async function send(scene) {
   try {
     const shared = await postJson(asked, documentOf(scene));
     told.remove();
-    fill(card, shared, scene);
+    fill(card, shared, scene, openTake);
   } catch (error) {
     tell(told, error.message).className = 'fault';
   }
