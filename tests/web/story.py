@@ -3,9 +3,11 @@
 import html.parser
 import json
 import re
+import subprocess
+import urllib.parse
 import urllib.request
 
-from browser import Browser, main
+from browser import KERRD, Browser, main
 
 import daemon
 
@@ -98,6 +100,35 @@ class Story(Browser):
         self.assertTrue(page.evaluate("document.querySelector('#sky').shadowRoot.querySelector('p').hidden"))
         self.value(page, "sky", 20)
         page.wait_for_function(f"() => {still}.src.includes('camera.r=20')")
+
+    def scene(self, preset, values):
+        """The scene of a preset with these values; kerrd refuses it if it is not valid."""
+        settings = [f"--set={path}={value}" for path, value in values.items()]
+        told = subprocess.run([KERRD, "scene", f"--preset={preset}", *settings], capture_output=True, text=True)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        return json.loads(told.stdout)
+
+    def test_every_position_of_a_slider_is_a_scene(self):
+        found = Parts(self.read("story")).found
+        holes = {dict(part[1:])["id"]: dict(part[1:]) for part in found if part[0] == "kerr-hole"}
+        paths = {"spin": "spacetime.spin", "inclination": "camera.inclination_deg"}
+        sliders = [dict(part[1:]) for part in found if part[0] == "input"]
+        self.assertEqual({slider["data-for"] for slider in sliders}, set(holes))
+        for slider in sliders:
+            hole = holes[slider["data-for"]]
+            scene = dict(urllib.parse.parse_qsl(hole.get("scene", "")))
+            scene.update({path: hole[name] for name, path in paths.items() if name in hole})
+            shown = self.scene(hole["preset"], scene)
+            for path in slider["data-set"].split():
+                path = paths.get(path, path)
+                if "value" in slider:
+                    names = path.split(".")
+                    self.assertEqual(
+                        shown[names[0]][names[1]], float(slider["value"]), "the slider begins at the picture"
+                    )
+                for value in (slider["min"], slider["max"]) if "min" in slider else ("true",):
+                    with self.subTest(hole["id"], path=path, value=value):
+                        self.scene(hole["preset"], {**scene, path: value})
 
     def test_reduced_motion(self):
         page = self.visit(reduced_motion="reduce")
