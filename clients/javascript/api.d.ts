@@ -2395,6 +2395,8 @@ export interface PixelCrossing {
   seen: boolean;
   temperature?: number;
   emission_angle?: number;
+  speed?: number | null;
+  approach?: number | null;
   evpa?: number | null;
   polarization_fraction?: number | null;
   picture?: PixelPictured;

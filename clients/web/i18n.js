@@ -271,6 +271,7 @@ export function translatePage() {
   document.documentElement.lang = lang;
   if (lang !== 'it') return;
   for (const node of document.querySelectorAll('[data-it]')) node.textContent = node.dataset.it;
+  document.querySelector('.story').href = 'storia';
   for (const node of document.querySelectorAll('[data-it-label]'))
     node.setAttribute('aria-label', node.dataset.itLabel);
 }

@@ -4,6 +4,8 @@
 //
 //   preset, spin, inclination   what is shown; scene: more fields, in the form of a link after its #
 //   interactive                 whether it can be moved
+//   live                        live as soon as it is in sight; not where reduced motion is wished
+//   poster                      address of the picture that it begins with, instead of one that the server renders
 //   label                       its alternative text
 //   server                      address of the server, with a slash at its end; by default where this file came from
 const here = new URL('..', import.meta.url);
@@ -13,6 +15,7 @@ const idle_ms = 60000; // without input for so long, a live hole becomes a pictu
 const retry_ms = 3000;
 const degrees_per_width = 180; // by which a drag across the element turns the camera
 const key_deg = 5;
+const least_part = 0.5; // of the width: until it is touched, smaller live pictures do not replace the still one
 const widest = 960; // largest width of a live picture, pixels
 
 const words = {
@@ -82,6 +85,7 @@ class KerrHole extends HTMLElement {
   #parts = {};
   #session = null;
   #seen = false;
+  #first = ''; // the query that the poster shows
   #again = 0; // number of the newest request for a poster; older ones are dropped
   #watch = new IntersectionObserver(entries => this.#look(entries.at(-1).isIntersecting), { rootMargin: '200px' });
   #leave = () => this.#end();
@@ -101,6 +105,7 @@ class KerrHole extends HTMLElement {
   }
 
   connectedCallback() {
+    this.#first = String(this.#query);
     this.#watch.observe(this);
     addEventListener('pagehide', this.#leave);
     this.#show();
@@ -112,8 +117,9 @@ class KerrHole extends HTMLElement {
     this.#end();
   }
 
-  attributeChangedCallback() {
-    if (!this.isConnected) return;
+  attributeChangedCallback(name, before, now) {
+    if (!this.isConnected || before === now) return;
+    if (this.#session && ['spin', 'inclination', 'scene'].includes(name)) return void this.#change();
     this.#end();
     this.#parts.canvas.hidden = true;
     this.#show();
@@ -155,7 +161,12 @@ class KerrHole extends HTMLElement {
 
   #show() {
     this.#rest();
-    if (this.#seen) this.#poster();
+    if (this.#seen) this.#appear();
+  }
+
+  #appear() {
+    this.#poster();
+    if (this.hasAttribute('live') && !matchMedia('(prefers-reduced-motion: reduce)').matches) this.#begin(true);
   }
 
   // Shows the poster, and the button if there is to be one.
@@ -170,7 +181,7 @@ class KerrHole extends HTMLElement {
   }
 
   #look(seen) {
-    if (seen && !this.#seen) (this.#seen = true), this.#poster();
+    if (seen && (!this.#seen || this.hasAttribute('live'))) (this.#seen = true), this.#appear();
     if (!seen) this.#end();
   }
 
@@ -179,12 +190,13 @@ class KerrHole extends HTMLElement {
     inTurn(async () => {
       if (mine !== this.#again || !this.isConnected) return;
       const query = this.#query,
-        { width, height } = this.#size;
+        { width, height } = this.#size,
+        still = String(query) === this.#first ? this.getAttribute('poster') : null;
       for (const [name, value] of Object.entries({ width, height, samples: 2 })) query.set('image.' + name, value);
       for (let tries = 0; tries < 5 && mine === this.#again; tries++) {
         const picture = new Image();
         picture.crossOrigin = 'anonymous';
-        picture.src = new URL('v1/render?' + query, this.#server);
+        picture.src = still ?? new URL('v1/render?' + query, this.#server);
         try {
           await picture.decode();
           if (mine === this.#again) this.#placed(picture);
@@ -205,7 +217,9 @@ class KerrHole extends HTMLElement {
     this.dispatchEvent(new Event('load'));
   }
 
-  async #begin() {
+  // byItself: without a touch. It then takes no focus, and stays a picture if the server is busy.
+  async #begin(byItself = false) {
+    if (live.includes(this)) return;
     const query = this.#query,
       preset = query.get('preset'),
       { button, stage } = this.#parts;
@@ -226,6 +240,8 @@ class KerrHole extends HTMLElement {
       this.#session = {
         ...session,
         camera: { inclination_deg, azimuth_deg },
+        change: scene,
+        touched: !byItself,
         moved: performance.now(),
         left: new AbortController(),
       };
@@ -233,11 +249,11 @@ class KerrHole extends HTMLElement {
       stage.setAttribute('role', 'application');
       stage.setAttribute('aria-label', this.#words.how);
       stage.tabIndex = 0;
-      stage.focus({ preventScroll: true });
+      if (!byItself) stage.focus({ preventScroll: true });
       this.#run(this.#session);
     } catch {
       this.#end();
-      this.#say(this.#words.wrong);
+      if (!byItself) this.#say(this.#words.wrong);
     }
     button.disabled = false;
   }
@@ -270,6 +286,7 @@ class KerrHole extends HTMLElement {
           after = Number(answer.headers.get('Kerrd-Frame'));
           const picture = await createImageBitmap(await answer.blob());
           if (session !== this.#session) return;
+          if (!session.touched && picture.width < least_part * this.#size.width) continue;
           Object.assign(canvas, { width: picture.width, height: picture.height, hidden: false });
           context.drawImage(picture, 0, 0);
           picture.close();
@@ -281,19 +298,34 @@ class KerrHole extends HTMLElement {
     }
   }
 
-  // Moves the camera. One patch is under way at a time; the next one has the newest place.
-  async #move(azimuth, inclination) {
-    const session = this.#session,
-      { camera } = session;
-    session.moved = performance.now();
+  // Shows what the attributes say now.
+  #change() {
+    const { change, camera } = this.#session,
+      query = this.#query;
+    query.delete('preset');
+    Object.assign(change, documentOf(query));
+    camera.inclination_deg = change.camera?.inclination_deg ?? camera.inclination_deg;
+    this.#send(this.#session);
+  }
+
+  #move(azimuth, inclination) {
+    const { camera } = this.#session;
     camera.azimuth_deg = ((((camera.azimuth_deg + azimuth + 180) % 360) + 360) % 360) - 180;
     camera.inclination_deg = clamp(1, camera.inclination_deg + inclination, 179);
-    session.pending = true;
+    this.#send(this.#session);
+  }
+
+  // One patch is under way at a time; the next one has the newest values.
+  async #send(session) {
+    session.moved = performance.now();
+    session.pending = session.touched = true;
     if (session.busy) return;
     session.busy = true;
     while (session.pending && session === this.#session) {
       session.pending = false;
-      await this.#ask(`v1/sessions/${session.id}`, 'PATCH', { camera: { ...camera } }, session).catch(() => {});
+      const { change, camera } = session;
+      const patch = { ...change, camera: { ...change.camera, ...camera } };
+      await this.#ask(`v1/sessions/${session.id}`, 'PATCH', patch, session).catch(() => {});
     }
     session.busy = false;
   }

@@ -8,11 +8,11 @@ import { light_m_s, sun_m } from './scene.js';
 import { ask } from './server.js';
 import { hasNames, nameOf, starsIn } from './stars.js';
 
-const rest_ms = 80; // a pointer must rest so long before the server is asked
+const rest_ms = 40; // a pointer must rest so long before the server is asked
 const late_ms = 150; // after which the old text is replaced by "Following this light back …"
 const change_ms = 400; // the scene must be unchanged so long before the server is asked again
 const star_px = 6;
-const sideways = 0.01; // M, of L/E: light of less comes from gas that neither approaches nor recedes
+const sideways = 0.005; // c: slower gas neither approaches nor recedes
 const faint = 0.005; // share of the light below which a source goes unmentioned
 
 // Values that make the pixel independent of the rest of the picture, so that no other pixel is rendered. The card shows
@@ -124,17 +124,18 @@ function round(order) {
       );
 }
 
-// Gas in the plane moves towards +φ: light with positive L was emitted forwards.
-function motion({ kind, lambda }) {
-  if (kind !== 'crossing' || Math.abs(lambda) < sideways) return '';
-  return lambda > 0
-    ? t(', coming towards you', ', che viene verso di te')
-    : t(', going away from you', ', che si allontana da te');
+// The velocity of gas along the light, as it is measured beside the gas.
+function motion({ kind, approach }) {
+  if (kind !== 'crossing' || approach == null || Math.abs(approach) < sideways) return '';
+  const speed = `${number(Math.abs(approach), 2)} c`;
+  return approach > 0
+    ? t(`, coming towards you at ${speed}`, `, che viene verso di te a ${speed}`)
+    : t(`, going away from you at ${speed}`, `, che si allontana da te a ${speed}`);
 }
 
 // The sentences and the numbers for one source.
 function wording(source, place) {
-  const { title, far, star, lambda } = place,
+  const { title, far, star } = place,
     { kind, points, g, delay, r } = source,
     sentences = (...all) => all.filter(Boolean).join(' ');
   if (kind === 'end') {
@@ -161,8 +162,8 @@ function wording(source, place) {
   return {
     head: sentences(
       t(
-        `${title}, ${number(r, 3)} M from the hole${motion({ kind, lambda })}.`,
-        `${title}, a ${number(r, 3)} M dal buco${motion({ kind, lambda })}.`,
+        `${title}, ${number(r, 3)} M from the hole${motion(source)}.`,
+        `${title}, a ${number(r, 3)} M dal buco${motion(source)}.`,
       ),
       g > 0 && shifted(g),
       round(source.order),
@@ -269,7 +270,6 @@ export function buildPixel(stage, scene, size) {
             title: titled(first.name),
             far,
             star: first.points ? star : null,
-            lambda: answer.constants.lambda,
             second: (scene.get('spacetime.mass_msun') * sun_m) / light_m_s,
           })
         : { head: none(answer), facts: answer.end.fate === 'escaped' ? skyFacts(answer.end) : [] };
@@ -298,6 +298,12 @@ export function buildPixel(stage, scene, size) {
   }
 
   const seeks = () => t('Following this light back …', 'Si segue questa luce all’indietro …');
+  // The list of a sky's stars may take longer than the pixel. The card shows the star's name when the list is there.
+  async function nameStar(answer, place) {
+    const star = await starAt();
+    if (star && at === place) show(answer, star);
+  }
+
   const find = latest(async () => {
     if (!at) return;
     clearTimeout(late);
@@ -307,16 +313,15 @@ export function buildPixel(stage, scene, size) {
       y = Math.min(at.v * height, height - 0.01);
     try {
       const body = JSON.stringify(scene.document({ 'image.width': width, 'image.height': height, ...alone })),
-        [answer, star] = await Promise.all([
-          ask(`v1/pixel?at=${x.toFixed(2)},${y.toFixed(2)}`, {
-            method: 'POST',
-            headers: { 'Content-Type': 'application/json' },
-            body,
-          }).then(reply => reply.json()),
-          starAt(),
-        ]);
+        reply = await ask(`v1/pixel?at=${x.toFixed(2)},${y.toFixed(2)}`, {
+          method: 'POST',
+          headers: { 'Content-Type': 'application/json' },
+          body,
+        }),
+        answer = await reply.json();
       fault.textContent = '';
-      if (at) show(answer, star);
+      if (at) show(answer, null);
+      nameStar(answer, at);
     } catch (wrong) {
       tell(fault, wrong.message);
     }

@@ -3,24 +3,8 @@ import { byId } from './dom.js';
 import { t } from './i18n.js';
 import { fileName, jobOf, offer, remembered } from './job.js';
 import * as link from './link.js';
-import { samples } from './source.js';
 import { ask } from './server.js';
-
-// The values to render with, over those of the scene. With the window's shape the picture shows what the window shows.
-export function picked(scene, size) {
-  const choice = byId('save-size').value,
-    here = size(),
-    wide = width => [width, Math.max(2, 2 * Math.round((width * here.height) / here.width / 2))];
-  const [width, height] =
-    choice === 'window'
-      ? [here.width, here.height]
-      : choice === 'own'
-        ? ['save-width', 'save-height'].map(id => byId(id).valueAsNumber)
-        : choice.startsWith('window-')
-          ? wide(Number(choice.slice(7)))
-          : choice.split('x').map(Number);
-  return { 'image.width': width, 'image.height': height, 'image.samples': samples(scene) };
-}
+import { picked } from './share.js';
 
 export function buildSave(scene, size, changed) {
   const [start, cancel, bar, told, fault, got, own, sizes, group] = [
@@ -81,6 +65,7 @@ export function buildSave(scene, size, changed) {
     });
   });
   for (const control of [sizes, byId('save-width'), byId('save-height')]) control.addEventListener('change', showSize);
+  start.disabled = false;
   if (job.resume() || remembered('film')) group.open = true;
   showSize();
 

@@ -1,5 +1,5 @@
 // "Share": the address of the scene, with the preview that others see before they open it, and a poster.
-import { byId, el } from './dom.js';
+import { byId, el, svg } from './dom.js';
 import { describe } from './describe.js';
 import { t, tell } from './i18n.js';
 import { linkedTime } from './scene.js';
@@ -37,13 +37,13 @@ const frameOf = ({ embed, title }) =>
 // Opens the panel that shows a job's progress, and its button to cancel.
 function inPanel(card, told, cancel) {
   card.close();
-  byId('take').open = true;
   byId(told).scrollIntoView({ block: 'center' });
   byId(cancel).focus();
 }
 
 // Makes a poster by "Save picture", with a line of text.
-function makePoster(card, scene, url) {
+async function makePoster(card, scene, url, openTake) {
+  await openTake();
   const size = byId('save-size');
   size.value = poster;
   size.dispatchEvent(new Event('change'));
@@ -53,15 +53,58 @@ function makePoster(card, scene, url) {
 }
 
 // Begins the first of these films that would show something: of what moves by itself, once round the hole, other spins.
-async function makeFilm(card) {
+async function makeFilm(card, openTake) {
   const films = ['time', 'orbit', 'spin'].map(name => `#film-${name}`);
-  byId('take').open = true; // opening it builds the films' buttons
+  await openTake(); // which builds the films' buttons
   while (!document.querySelector(films[0])) await new Promise(resolve => setTimeout(resolve, 50));
   films
     .map(id => document.querySelector(id))
     .find(({ disabled }) => !disabled)
     ?.click();
   inPanel(card, 'film-told', 'film-cancel');
+}
+
+const quiet = 4; // modules: the least white margin of a QR code (ISO/IEC 18004)
+
+// The QR code of an address, drawn when its box is first opened.
+function codeOf(url) {
+  const box = el('details', { id: 'sending-code' }, el('summary', {}, t('QR code', 'Codice QR')));
+  box.addEventListener(
+    'toggle',
+    async () => {
+      try {
+        const { generate } = await import('./vendor/lean-qr/nano.mjs'),
+          code = generate(url),
+          whole = code.size + 2 * quiet;
+        let path = '';
+        for (let y = 0; y < code.size; y++)
+          for (let x = 0; x < code.size; x++) if (code.get(x, y)) path += `M${x + quiet} ${y + quiet}h1v1h-1z`;
+        box.append(
+          svg(
+            'svg',
+            {
+              viewBox: `0 0 ${whole} ${whole}`,
+              role: 'img',
+              'aria-label': t('QR code of the link', 'Codice QR del collegamento'),
+              'shape-rendering': 'crispEdges',
+            },
+            svg('path', { d: `M0 0h${whole}v${whole}H0z`, fill: '#fff' }),
+            svg('path', { d: path, fill: '#000' }),
+          ),
+        );
+      } catch {
+        box.append(
+          el(
+            'p',
+            { role: 'status' },
+            t('The link is too long for a code.', 'Il collegamento è troppo lungo per un codice.'),
+          ),
+        );
+      }
+    },
+    { once: true },
+  );
+  return box;
 }
 
 // The preview that others see with the link.
@@ -75,7 +118,7 @@ function previewOf({ code, title, about }) {
   return el('figure', {}, picture, el('figcaption', { lang: 'en' }, el('strong', {}, title), ' ', about));
 }
 
-function fill(card, shared, scene) {
+function fill(card, shared, scene, openTake) {
   const url = absolute(shared.url),
     field = el('input', { id: 'sending-link', readonly: true, value: url, spellcheck: 'false' }),
     done = el('span', { role: 'status' });
@@ -103,21 +146,23 @@ function fill(card, shared, scene) {
         ),
       el(
         'button',
-        { type: 'button', onclick: () => makePoster(card, scene, url) },
+        { type: 'button', onclick: () => makePoster(card, scene, url, openTake) },
         t('Save a poster, 4K', 'Salva un poster, 4K'),
       ),
       el(
         'button',
-        { type: 'button', onclick: () => makeFilm(card) },
+        { type: 'button', onclick: () => makeFilm(card, openTake) },
         t('Make a film, five seconds', 'Fai un film, cinque secondi'),
       ),
       done,
     ),
+    codeOf(url),
   );
   copies.focus();
 }
 
-export async function send(scene) {
+// openTake(): opens the panel of what can be saved.
+export async function send(scene, openTake) {
   const card = byId('sending'),
     told = el('p', { role: 'status' }, '…');
   card.replaceChildren(
@@ -133,7 +178,7 @@ export async function send(scene) {
   try {
     const shared = await postJson(asked, documentOf(scene));
     told.remove();
-    fill(card, shared, scene);
+    fill(card, shared, scene, openTake);
   } catch (error) {
     tell(told, error.message).className = 'fault';
   }

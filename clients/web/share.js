@@ -2,10 +2,35 @@
 import { byId, paced } from './dom.js';
 import { t, tell } from './i18n.js';
 import * as link from './link.js';
-import { buildSave, picked } from './save.js';
 import { linkedTime } from './scene.js';
+import { samples } from './source.js';
+
+// The values to render with, over those of the scene. With the window's shape the picture shows what the window shows.
+export function picked(scene, size) {
+  const choice = byId('save-size').value,
+    here = size(),
+    wide = width => [width, Math.max(2, 2 * Math.round((width * here.height) / here.width / 2))];
+  const [width, height] =
+    choice === 'window'
+      ? [here.width, here.height]
+      : choice === 'own'
+        ? ['save-width', 'save-height'].map(id => byId(id).valueAsNumber)
+        : choice.startsWith('window-')
+          ? wide(Number(choice.slice(7)))
+          : choice.split('x').map(Number);
+  return { 'image.width': width, 'image.height': height, 'image.samples': samples(scene) };
+}
 
 const shell = text => `'${text.replaceAll("'", `'\\''`)}'`;
+
+// Whether a job was under way when the page was left (job.js). The browser may block the storage.
+function goesOn() {
+  try {
+    return ['job', 'film'].some(key => sessionStorage.getItem(key));
+  } catch {
+    return false;
+  }
+}
 
 export function share(scene, size) {
   const box = byId('scene-text'),
@@ -40,7 +65,7 @@ export function share(scene, size) {
   });
   byId('send').addEventListener('click', async () => {
     try {
-      (await import('./send.js')).send(scene);
+      (await import('./send.js')).send(scene, openTake);
     } catch {
       tell(byId('copied'), t('The server does not answer', 'Il server non risponde'));
     }
@@ -48,6 +73,23 @@ export function share(scene, size) {
   form.addEventListener('change', show);
   scene.addEventListener('change', paced(show));
   scene.addEventListener('settle', show);
-  buildSave(scene, size, show);
+
+  // "Save picture" is loaded when its section is opened, or at once if a job goes on from before a reload.
+  const group = byId('take');
+  let save = null;
+  const loadSave = () =>
+    (save ??= import('./save.js').then(
+      ({ buildSave }) => buildSave(scene, size, show),
+      () => {
+        save = null;
+        tell(byId('save-fault'), t('The server does not answer', 'Il server non risponde'));
+      },
+    ));
+  async function openTake() {
+    group.open = true;
+    await loadSave();
+  }
+  group.addEventListener('toggle', () => group.open && loadSave());
+  if (group.open || goesOn()) loadSave();
   return show;
 }

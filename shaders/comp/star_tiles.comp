@@ -239,8 +239,8 @@ void main()
     kd_sky_map_read();
     cam = camera_;
     if (TILE == KD_STAR_TILE || AT_RIM) {
-        uint x = gl_GlobalInvocationID.x * TILE;
-        if (x < push.width)
+        uint x = push.left + gl_GlobalInvocationID.x * TILE;
+        if (x < push.right)
             seek(x, push.first + gl_WorkGroupID.y * TILE);
         return;
     }

@@ -146,6 +146,7 @@
     U(width)                /* rays a row */ \
     U(rows)                 /* number of all rows */ \
     U(first) U(end)         /* requested rows */ \
+    U(left) U(right)        /* requested columns: from left, to the one before right */ \
     U(stride)               /* rays a plane */ \
     U(row0) U(column0)      /* row and column of the buffer's first ray, among the picture's rays */ \
     U(room)                 /* capacity for pairs of a ray and a star */ \

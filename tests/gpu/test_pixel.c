@@ -321,6 +321,43 @@ static void layers(void **state)
     assert_true(compared > 3);
 }
 
+/* The gas's velocity from its g is that of its circular orbit, along the azimuthal component of the light's direction.
+ * Gas on the side of positive lambda approaches. */
+static void velocity_of_gas(void **state)
+{
+    (void)state;
+    static const char *const sets[][5] = { { "camera.inclination_deg", "75", NULL },
+                                           { "camera.r", "30", "spacetime.spin", "-0.6", NULL } };
+    int compared = 0, approaching = 0;
+    for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
+        const struct kd_scene scene = scene_of(NULL, sets[i]);
+        const struct kd_hole *hole = kd_scene_hole(&scene);
+        for (uint32_t x = 4; x < WIDTH; x += 7) {
+            struct kd_plan plan;
+            struct kd_frame frame = told_at(&scene, x, 20, &plan);
+            const struct kd_picture picture = { &frame, &scene, &plan, "", 0 };
+            struct kd_explained e;
+            OK(kd_explain(&picture, &e, &error));
+            for (uint32_t k = 0; k < e.end.n_crossings; k++) {
+                const struct kd_ray_crossing *c = &e.crossings[k];
+                if (!kd_explained_has_gas(kd_explained_place(&e, k)) || c->r < kd_kerr_isco(hole))
+                    continue;
+                const struct kd_gas_velocity v = kd_explained_velocity(&e, c);
+                const double drag = kd_kerr_dragging(hole, c->r, 0), reach = kd_kerr_rotation_reach(hole, c->r, 0, 1);
+                const double speed = (kd_kerr_omega(hole, c->r) - drag) / reach,
+                             along = e.motion.lambda * reach / (1 - drag * e.motion.lambda);
+                near("speed of the gas", v.speed, fabs(speed), 1e-9);
+                near("its approach", v.approach, speed * along, 1e-6);
+                approaching += v.approach > 0.1;
+                compared++;
+            }
+            kd_explained_finish(&e);
+            kd_frame_finish(&frame);
+        }
+    }
+    assert_true(compared > 8 && approaching > 2 && compared > approaching + 2);
+}
+
 /* Explains pixels of special pictures: of one eye of a stereo pair, in a band that is no longer in memory, and in a
  * picture of a ring. */
 static void other_pictures(void **state)
@@ -676,10 +713,15 @@ static void alone(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(sums),           cmocka_unit_test(many_rays),
-                                        cmocka_unit_test(volumes),        cmocka_unit_test(layers),
-                                        cmocka_unit_test(other_pictures), cmocka_unit_test(negative_energies),
-                                        cmocka_unit_test(from_within),    cmocka_unit_test(places),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(sums),
+                                        cmocka_unit_test(many_rays),
+                                        cmocka_unit_test(volumes),
+                                        cmocka_unit_test(layers),
+                                        cmocka_unit_test(velocity_of_gas),
+                                        cmocka_unit_test(other_pictures),
+                                        cmocka_unit_test(negative_energies),
+                                        cmocka_unit_test(from_within),
+                                        cmocka_unit_test(places),
                                         cmocka_unit_test(alone) };
     int status = open_renderer();
     return status ? status : close_renderer(cmocka_run_group_tests_name("pixel", tests, NULL, NULL));

@@ -95,6 +95,41 @@ static void test_tiles_of_pictures(void **state)
     }
 }
 
+/* A small tile searches only part of the rim of the shadow for stars. Its light stays that of the whole picture where
+ * the critical curve passes it, beside the curve, and where the rays of the rim begin and end. */
+static void test_small_tiles_of_stars(void **state)
+{
+    (void)state;
+    static const char *const documents[] = {
+        "{\"disk\":{\"model\":\"none\"},\"sky\":{\"model\":\"stars\"},\"camera\":{\"field_m\":16}}",
+        "{\"spacetime\":{\"spin\":0.998},\"disk\":{\"model\":\"none\"},\"sky\":{\"model\":\"stars\"},"
+        "\"camera\":{\"r\":15,\"inclination_deg\":89,\"fov_deg\":70}}",
+    };
+    enum { SIDE = 5, TILES = 24 };
+    for (size_t i = 0; i < sizeof documents / sizeof *documents; i++) {
+        uint32_t none;
+        const struct kd_scene scene = scene_of(documents[i], WIDTH, HEIGHT);
+        struct kd_frame whole = by_format(scene, &kd_format_png, 0, &none);
+        size_t lit = 0;
+        for (uint32_t k = 0; k < 3 * TILES; k++) { /* along a row, a column and a diagonal */
+            const uint32_t step = k % TILES, x = k / TILES == 1 ? WIDTH / 2 : step * (WIDTH - SIDE) / (TILES - 1),
+                           y = k / TILES == 0 ? HEIGHT / 2 : step * (HEIGHT - SIDE) / (TILES - 1);
+            const uint32_t left = x < WIDTH - SIDE ? x : WIDTH - SIDE, top = y < HEIGHT - SIDE ? y : HEIGHT - SIDE;
+            const struct kd_window window = { left, top, SIDE, SIDE };
+            struct kd_frame tile = by_format(kd_scene_tile(&scene, window), &kd_format_png, 0, &none);
+            const size_t different = off(&whole, &tile, left, top);
+            const unsigned char *bytes = tile.layers[0].data;
+            for (uint32_t b = 0; b < 3 * SIDE * SIDE; b++)
+                lit += bytes[b] > 8;
+            kd_frame_finish(&tile);
+            if (different)
+                fail_msg("scene %zu: %zu bytes of the tile at %u, %u differ", i, different, left, top);
+        }
+        kd_frame_finish(&whole);
+        assert_true(lit > 300); /* there are stars in the tiles */
+    }
+}
+
 /* Exposure "auto" and a lens's glare apply to the picture only. */
 static void test_tiles_of_numbers(void **state)
 {
@@ -129,6 +164,7 @@ static void test_strips(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_tiles_of_pictures),
+                                        cmocka_unit_test(test_small_tiles_of_stars),
                                         cmocka_unit_test(test_tiles_of_numbers), cmocka_unit_test(test_strips) };
     int closed = open_renderer();
     return closed ? closed : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

@@ -80,6 +80,9 @@ class Metrics(daemon.Case):
             "/web/{name}",
             "/web/stills/{name}",
             "/web/vendor/uplot/{name}",
+            "/web/vendor/lean-qr/{name}",
+            "/story",
+            "/storia",
         }
         self.assertLessEqual({s.labels["route"] for s in one.samples}, routes)
         self.assertLessEqual({s.labels["status"] for s in one.samples}, {"none", "2xx", "3xx", "4xx", "5xx"})

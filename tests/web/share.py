@@ -8,6 +8,44 @@ from browser import Browser, main
 
 import daemon
 
+MASKS = (
+    lambda y, x: (y + x) % 2,
+    lambda y, x: y % 2,
+    lambda y, x: x % 3,
+    lambda y, x: (y + x) % 3,
+    lambda y, x: (y // 2 + x // 3) % 2,
+    lambda y, x: y * x % 2 + y * x % 3,
+    lambda y, x: (y * x % 2 + y * x % 3) % 2,
+    lambda y, x: ((y + x) % 2 + y * x % 3) % 2,
+)
+
+
+def read_code(dark, size):
+    """The bytes of a QR code of versions 2 to 5 at the lowest level of correction, where the data are one block
+    (ISO/IEC 18004). dark: set of (row, column). Errors are not corrected: there must be none."""
+    bit = lambda y, x: int((y, x) in dark)
+    word = [bit(8, x) for x in (0, 1, 2, 3, 4, 5, 7, 8)] + [bit(y, 8) for y in (7, 5, 4, 3, 2, 1, 0)]
+    level_and_mask = (int("".join(map(str, word)), 2) ^ 0x5412) >> 10
+    if level_and_mask >> 3 != 1 or not 25 <= size <= 37:
+        raise ValueError((level_and_mask, size))
+    mask = MASKS[level_and_mask & 7]
+
+    def is_function(y, x):
+        corner = (y < 9 and (x < 9 or x >= size - 8)) or (y >= size - 8 and x < 9)
+        return corner or 6 in (y, x) or (abs(y - size + 7) < 3 and abs(x - size + 7) < 3)
+
+    bits, upwards = [], True
+    for right in (x - (x <= 6) for x in range(size - 1, 0, -2)):
+        for y in range(size - 1, -1, -1) if upwards else range(size):
+            bits += [bit(y, x) ^ (not mask(y, x)) for x in (right, right - 1) if not is_function(y, x)]
+        upwards = not upwards
+    text = "".join(map(str, map(int, bits)))
+    take = lambda at, n: int(text[at : at + n], 2)
+    at = 12 if take(0, 4) == 7 else 0  # the character set, UTF-8, may come first
+    if take(at, 4) != 4:
+        raise ValueError("not a code of bytes")
+    return bytes(take(at + 12 + 8 * i, 8) for i in range(take(at + 4, 8)))
+
 
 class Share(Browser):
     def share(self, page):
@@ -49,6 +87,20 @@ class Share(Browser):
         page = self.open("lang=en&preset=edge-on&pause=1", viewport={"width": 1400, "height": 500})
         code = self.share(page).rsplit("/", 1)[1]
         self.assertLess(len(code), 40, "the name of the preset and no more")
+
+    def test_a_code_for_telephones(self):
+        """The code is drawn when it is asked for, and holds the link."""
+        page = self.open("lang=it&preset=smooth&pause=1")
+        url = self.share(page)
+        self.assertFalse([r for r in self.requests if "lean-qr" in r.url], "nothing is loaded before")
+        page.get_by_text("Codice QR").click()
+        page.get_by_role("img", name="Codice QR del collegamento").wait_for()
+        page.locator("#sending-code svg").scroll_into_view_if_needed()
+        self.shot(page, "share-code")
+        whole = int(page.get_attribute("#sending-code svg", "viewBox").split()[2])
+        path = page.locator("#sending-code path").nth(1).get_attribute("d")
+        dark = {(int(y) - 4, int(x) - 4) for x, y in re.findall(r"M(\d+) (\d+)h1v1h-1z", path)}
+        self.assertEqual(read_code(dark, whole - 8).decode(), url)
 
     def test_by_keys_alone(self):
         page = self.open("lang=it&preset=smooth&pause=1")

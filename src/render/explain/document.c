@@ -160,6 +160,14 @@ static void put_polarized_pixel(struct kd_json *json, const struct kd_probed_pix
         put_polarization(json, "pixel_polarization", sum, n);
 }
 
+/* c: NULL if there is no crossing outside the horizon. */
+static void put_velocity(struct kd_json *json, const struct kd_explained *x, const struct kd_ray_crossing *c)
+{
+    const struct kd_gas_velocity v = c ? kd_explained_velocity(x, c) : (struct kd_gas_velocity) { NAN, NAN };
+    kd_json_number(json, "speed", v.speed);
+    kd_json_number(json, "approach", v.approach);
+}
+
 static void put_crossing(struct kd_json *json, const struct kd_explained *x, uint32_t n)
 {
     const bool has = n < x->end.n_crossings;
@@ -176,6 +184,7 @@ static void put_crossing(struct kd_json *json, const struct kd_explained *x, uin
     if (kd_explained_has_gas(p)) {
         kd_json_number(json, "temperature", p->temperature);
         kd_json_number(json, "emission_angle", p->angle);
+        put_velocity(json, x, has && c->r > x->motion.horizon ? c : NULL);
     }
     if (p && p->polarized)
         put_evpa(json, (double[]) { 1, (double)p->stokes[0], (double)p->stokes[1] });

@@ -1,11 +1,13 @@
 #include "render/explain/explain.h"
 
 #include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 #include "render/lens/label.h"
 #include "render/plan/sample.h"
 #include "render/plan/tile.h"
 #include "render/rays/closed.h"
 #include "render/view/critical_pixels.h"
+#include "scene/hole.h"
 #include "scene/number.h"
 #include "scene/text.h"
 
@@ -239,6 +241,19 @@ bool kd_explained_has_gas(const struct kd_probed_place *p)
         if (p->glows[i].opacity > 0)
             return true;
     return false;
+}
+
+/* With the lapse A and the dragging W: the local observer measures the energies (E - W L)/A of the gas, per unit mass,
+ * which is its Lorentz factor, and (1 - W lambda)/A of light with E = 1. The gas measures 1/g of that light, which is
+ * the Lorentz factor times the local energy times 1 - approach. */
+struct kd_gas_velocity kd_explained_velocity(const struct kd_explained *x, const struct kd_ray_crossing *at)
+{
+    const struct kd_hole *hole = kd_scene_hole(&x->scene);
+    const struct kd_metric_scalars m = kd_metric_at(hole, at->r, 0);
+    const double orbit = fmax(at->r, kd_kerr_isco(hole)), lapse = sqrt(m.lapse2);
+    const double gamma = (kd_kerr_energy(hole, orbit) - m.omega * kd_kerr_momentum(hole, orbit)) / lapse;
+    const double local = (1 - m.omega * x->motion.lambda) / lapse, received = 1 / (x->label.energy * at->g);
+    return (struct kd_gas_velocity) { sqrt(1 - 1 / (gamma * gamma)), 1 - received / (gamma * local) };
 }
 
 double kd_explained_azimuth(const struct kd_explained *x, double phi)

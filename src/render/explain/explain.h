@@ -57,6 +57,11 @@ void kd_explained_finish(struct kd_explained *explained);
 const struct kd_probed_place *kd_explained_place(const struct kd_explained *explained, uint32_t order);
 /* Whether there is gas with a known temperature and angle; place may be NULL. */
 bool kd_explained_has_gas(const struct kd_probed_place *place);
+/* Velocity of the disk's gas at a crossing outside the horizon, in c, as a local observer of zero angular momentum
+ * measures it: its size, and its component along the light towards the camera. Within the last stable orbit the gas
+ * keeps that orbit's E and L. */
+struct kd_gas_velocity { double speed, approach; };
+struct kd_gas_velocity kd_explained_velocity(const struct kd_explained *explained, const struct kd_ray_crossing *at);
 /* Boyer-Lindquist azimuth in the hole's own frame, in (-pi, pi]. */
 double kd_explained_azimuth(const struct kd_explained *explained, double phi);
 

@@ -11,6 +11,8 @@ void kd_frame_find_rim(struct kd_frame_job *j)
     if (!map->rim_known) {
         kd_rim_of(j->scene, &map->rim);
         kd_rim_grids_of(j->scene, &map->rim, &map->rim_grids);
+        if (kd_scene_has_tile(j->scene))
+            kd_rim_grids_keep(j->scene, &map->rim, &map->rim_grids);
     }
     map->rim_known = true;
 }

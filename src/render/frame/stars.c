@@ -13,8 +13,8 @@
 /* The same number for each core, if the device is a CPU: there a group costs 15 us even if the list is done, and a rim
  * has several grids. */
 #define LIST_GROUPS_CORE 4
-#define RIM_TILE 3 /* rays along a side of a small tile, and of a tile of the rim */
-#define SPILL 2u   /* rows of pixels that an image may reach into the next band */
+#define RIM_TILE KD_RIM_TILE_RAYS /* rays along a side of a small tile, and of a tile of the rim */
+#define SPILL 2u                  /* rows of pixels that an image may reach into the next band */
 
 /* Rays among which stars are searched: some rows of a lens map, or a grid of the rim. */
 struct part {
@@ -135,7 +135,7 @@ static enum kd_status search(struct kd_frame_job *j, const struct part *part)
     const uint32_t tile = part->rim ? RIM_TILE : KD_STAR_TILE;
     const enum rays rays = rays_of(j, part);
     struct kd_vk_dispatch first = d;
-    first.groups[0] = kd_frame_groups(along(part->push.width, tile));
+    first.groups[0] = kd_frame_groups(along(part->push.right - part->push.left, tile));
     first.groups[1] = along(part->push.end - part->push.first, tile);
     enum kd_status status;
     KD_TRY(kd_vk_fill(j->r->vk, d.pass, s->star_pairs, 0, 8, 0, j->error));
@@ -232,7 +232,7 @@ static enum kd_status rows_of(struct kd_frame_job *j, uint32_t from, uint32_t fi
     struct part part = { .lens = kd_frame_band_lens(j, from),
                          .push = push_of(j),
                          .light = j->lens->star_light.buffers[to] };
-    part.push.width = width;
+    part.push.width = part.push.right = width;
     part.push.rows = kd_frame_band_rows(j, from) * p->side;
     part.push.stride = width * p->band_rows * p->side;
     part.push.row0 = (window.top + kd_frame_band_first(j, from)) * p->side;
@@ -257,13 +257,19 @@ static enum kd_status grid_of(struct kd_frame_job *j, const struct kd_rim_grid *
         .lens = j->lens->rim_lens, .rim = grid, .push = push_of(j), .light = j->lens->star_light.buffers[to]
     };
     part.push.width = grid->columns;
-    part.push.rows = part.push.end = grid->rows;
+    part.push.rows = grid->rows;
+    part.push.first = grid->y.first, part.push.end = grid->y.end;
     part.push.stride = kd_rim_grid_rays(grid);
     part.push.rim = grid->table;
     part.push.far = (float)exp(grid->l);
     part.push.fall = (float)grid->dl;
     set_light(&part.push, j, to);
-    return stars_of(j, &part);
+    enum kd_status status = KD_OK;
+    for (int k = 0; k < 2 && grid->x[k].end && !status; k++) {
+        part.push.left = grid->x[k].first, part.push.right = grid->x[k].end;
+        status = stars_of(j, &part);
+    }
+    return status;
 }
 
 /* Adds images next to the critical curve to the light of a band. */

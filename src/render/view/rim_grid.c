@@ -94,7 +94,11 @@ static void see_corners(const struct layout *o, struct corner corners[ROUND + 1]
     }
 }
 
-static bool is_in_picture(const struct corner *c[4], double width, double height)
+/* A rectangle of the picture, in rays. */
+struct rectangle { double left, top, right, bottom; };
+
+/* Whether images in the cell with these corners may light some of the rectangle. spread: see SPREAD, in rays. */
+static bool may_light(const struct corner *c[4], const struct rectangle *r, double spread)
 {
     double left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
     int seen = 0;
@@ -105,8 +109,9 @@ static bool is_in_picture(const struct corner *c[4], double width, double height
         bottom = fmax(bottom, c[k]->y);
         seen++;
     }
-    const double more = SPREAD + BESIDE * fmax(right - left, bottom - top);
-    return seen && (seen < 4 || (right + more > 0 && left - more < width && bottom + more > 0 && top - more < height));
+    const double more = spread + BESIDE * fmax(right - left, bottom - top);
+    return seen && (seen < 4 || (right + more > r->left && left - more < r->right && bottom + more > r->top &&
+                                 top - more < r->bottom));
 }
 
 static void set_most(struct layout *o, int i, int j)
@@ -148,13 +153,14 @@ static void measure_column(void *user, size_t item)
 static void look_at_cells(struct layout *o, const struct kd_scene *scene)
 {
     struct corner corners[ROUND + 1][ACROSS + 1];
-    const double side = kd_scene_side(scene), width = side * scene->image.width, height = side * scene->image.height;
+    const double side = kd_scene_side(scene);
+    const struct rectangle picture = { 0, 0, side * scene->image.width, side * scene->image.height };
     see_corners(o, corners);
     for (int i = 0; i < ROUND; i++)
         for (int j = 0; j < ACROSS; j++) {
             const struct corner *c[] = { &corners[i][j], &corners[i + 1][j], &corners[i][j + 1],
                                          &corners[i + 1][j + 1] };
-            o->of[i][j] = (struct cell) { .in_picture = is_in_picture(c, width, height) };
+            o->of[i][j] = (struct cell) { .in_picture = may_light(c, &picture, SPREAD) };
         }
     /* a rim that winds slowly is measured in blocks of 2 x 2 cells */
     struct columns_of columns = { o, o->rim->winds < SLOW ? 2 : 1 };
@@ -215,6 +221,7 @@ static struct kd_rim_grid grid_of(const struct layout *o, const struct part *p)
     g.u = g.low_u - KD_RIM_SHARED_U - KD_RIM_HALO * g.du;
     g.l = o->first - p->l0 * o->dl + KD_RIM_SHARED_L + KD_RIM_HALO * g.dl;
     g.columns = (uint32_t)fmin(columns, 1e4), g.rows = (uint32_t)fmin(rows, 1e4);
+    g.x[0] = (struct kd_rim_span) { 0, g.columns }, g.y = (struct kd_rim_span) { 0, g.rows };
     return g;
 }
 
@@ -347,4 +354,96 @@ void kd_rim_grids_of(const struct kd_scene *scene, const struct kd_rim *rim, str
             out->faintest *= 0.7;
     }
     set_places(out);
+}
+
+/* Corners of ACROSS cells along one line of constant turn u, from logarithm l to l + high. */
+static void see_line(const struct kd_rim *rim, const struct kd_camera_exact *camera, double u, double l, double high,
+                     struct corner line[ACROSS + 1])
+{
+    double point[2], look[3];
+    kd_rim_place(rim, u, 0, point);
+    for (int j = 0; j <= ACROSS; j++) {
+        const double out = 1 + exp(l + high * j / ACROSS), place[] = { out * point[0], out * point[1] };
+        kd_rim_look(rim, place, look);
+        line[j].seen = kd_camera_seen(camera, look, &line[j].x, &line[j].y);
+    }
+}
+
+/* The least range of whole tiles of the star search that contains the rays from `low` to `high`. */
+static struct kd_rim_span span_of(double low, double high, uint32_t rays)
+{
+    const double tile = KD_RIM_TILE_RAYS, first = floor(fmax(low - 1, 0) / tile) * tile;
+    return (struct kd_rim_span) { (uint32_t)first,
+                                  (uint32_t)fmin(first + ceil((high + 2 - first) / tile) * tile, rays) };
+}
+
+/* Sets the columns to search to those that are lit: one range or, around the largest gap, two. Where a grid goes all
+ * round, both of its ends may be in the picture. */
+static void set_columns(struct kd_rim_grid *g, const bool lit[], int columns, double from, double wide)
+{
+    int left = 0, right = columns, gap = 0, gap_end = 0;
+    while (!lit[left])
+        left++;
+    while (!lit[right - 1])
+        right--;
+    for (int i = left, dark = 0; i < right; i++) {
+        dark = lit[i] ? 0 : dark + 1;
+        if (dark > gap)
+            gap = dark, gap_end = i + 1;
+    }
+    const double by = wide / columns / g->du, at = (from - g->u) / g->du;
+    g->x[0] = span_of(at + by * left, at + by * right, g->columns);
+    if (!gap)
+        return;
+    const struct kd_rim_span a = span_of(at + by * left, at + by * (gap_end - gap), g->columns),
+                             b = span_of(at + by * gap_end, at + by * right, g->columns);
+    if (a.end < b.first)
+        g->x[0] = a, g->x[1] = b;
+}
+
+/* Sets the ranges of the grid's rays whose images may light some of the rectangle; false if there are none. */
+static bool set_spans(const struct kd_rim *rim, const struct kd_camera_exact *camera, const struct rectangle *r,
+                      double spread, struct kd_rim_grid *g)
+{
+    const double outermost = log(rim->none), innermost = log(rim->last);
+    const double u = g->low_u - KD_RIM_SHARED_U, wide = g->high_u + KD_RIM_SHARED_U - u;
+    const double l = fmax(g->low_l - KD_RIM_SHARED_L, innermost),
+                 high = fmin(g->high_l + KD_RIM_SHARED_L, outermost) - l;
+    const int columns = (int)ceil(wide * ROUND / KD_RIM_ANGLES); /* at most ROUND + 1 */
+    int low = ACROSS, up = 0;
+    bool lit[ROUND + 1] = { false };
+    struct corner lines[2][ACROSS + 1];
+    see_line(rim, camera, u, l, high, lines[0]);
+    for (int i = 0; i < columns; i++) {
+        const struct corner *a = lines[i % 2], *b = lines[(i + 1) % 2];
+        see_line(rim, camera, u + wide * (i + 1) / columns, l, high, lines[(i + 1) % 2]);
+        for (int j = 0; j < ACROSS; j++)
+            if (may_light((const struct corner *[]) { &a[j], &a[j + 1], &b[j], &b[j + 1] }, r, spread)) {
+                lit[i] = true;
+                low = j < low ? j : low, up = j + 1 > up ? j + 1 : up;
+            }
+    }
+    if (!up)
+        return false;
+    set_columns(g, lit, columns, u, wide);
+    g->y = span_of((g->l - l - high * up / ACROSS) / g->dl, (g->l - l - high * low / ACROSS) / g->dl, g->rows);
+    return true;
+}
+
+void kd_rim_grids_keep(const struct kd_scene *scene, const struct kd_rim *rim, struct kd_rim_grids *grids)
+{
+    const struct kd_sky_rays rays = kd_sky_rays_of(scene);
+    const struct kd_window w = kd_scene_window(scene);
+    const double side = kd_scene_side(scene);
+    const struct rectangle tile = { side * w.left, side * w.top, side * ((double)w.left + w.width),
+                                    side * ((double)w.top + w.height) };
+    uint32_t n = 0;
+    grids->rays = 0;
+    for (uint32_t i = 0; i < grids->n; i++)
+        if (set_spans(rim, &rays.camera, &tile, SPREAD * side, &grids->of[i])) {
+            grids->of[n] = grids->of[i];
+            grids->rays += kd_rim_grid_rays(&grids->of[n++]);
+        }
+    grids->n = n;
+    set_places(grids);
 }

@@ -18,9 +18,13 @@
                 * that are brighter are searched for */
 #define KD_RIM_GRIDS 192            /* at most */
 #define KD_RIM_GRID_RAYS (1u << 16) /* rays of one grid, at most */
+#define KD_RIM_TILE_RAYS 3          /* side of a tile of the star search on a grid */
 #define KD_RIM_HALO 3               /* extra rays on each side of the part */
 #define KD_RIM_SHARED_U 0.5
 #define KD_RIM_SHARED_L 0.05
+
+/* A range of columns or rows. */
+struct kd_rim_span { uint32_t first, end; };
 
 /* One grid. Ray (x, y) is at the turn u + x du and the logarithm l - y dl. */
 struct kd_rim_grid {
@@ -29,6 +33,8 @@ struct kd_rim_grid {
     /* the part of the rim that belongs to the grid, from low to high; infinite at the outermost and innermost
      * borders */
     double low_u, high_u, low_l, high_l;
+    /* columns and rows in which images are searched; all, unless kd_rim_grids_keep set them. x[1] may be empty. */
+    struct kd_rim_span x[2], y;
     uint32_t first, table; /* offsets of its rays and of its table in the buffer, counted in numbers */
 };
 
@@ -42,6 +48,10 @@ struct kd_rim_grids {
 
 /* Makes the grids; n is 0 if there is no rim or no part of it is seen. 3 to 15 ms. */
 void kd_rim_grids_of(const struct kd_scene *scene, const struct kd_rim *rim, struct kd_rim_grids *out);
+
+/* Keeps the grids whose images may light pixels of the scene's tile, and drops the others. Of those that it keeps, only
+ * the columns and rows are searched whose images may light the tile. Its light stays the same to the bit. */
+void kd_rim_grids_keep(const struct kd_scene *scene, const struct kd_rim *rim, struct kd_rim_grids *grids);
 
 /* Whether even KD_RIM_STEP_MOST takes too many rays, so that fainter images are left out. Takes about 5 ms for a fast
  * hole, and no time for others. */

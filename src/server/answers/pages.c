@@ -57,8 +57,20 @@ static const char *const guarded[] = { "Content-Security-Policy",
                                        "'self'; frame-ancestors 'none'",
                                        "Referrer-Policy", "no-referrer", NULL };
 
-/* Handles "/" and files below "/web/". The files are small and may change with the next version, so browsers revalidate
- * them each time. */
+/* Name of the file that a route shows. */
+static const char *file_of(const struct kd_request *request)
+{
+    static const struct {
+        const char *path, *file;
+    } pages[] = { { "/", "index.html" }, { "/story", "story.html" }, { "/storia", "story-it.html" } };
+    for (size_t i = 0; i < sizeof pages / sizeof *pages; i++)
+        if (!strcmp(request->route->path, pages[i].path))
+            return pages[i].file;
+    return request->target.path + strlen("/web/");
+}
+
+/* Handles "/", "/story", "/storia" and files below "/web/". The files are small and may change with the next version,
+ * so browsers revalidate them each time. */
 enum MHD_Result kd_handle_page(struct kd_request *request)
 {
     if (!*request->target.path)
@@ -66,8 +78,7 @@ enum MHD_Result kd_handle_page(struct kd_request *request)
     const char *token = kd_access_query(request);
     if (token)
         return signed_in(request, token);
-    const struct kd_served *file =
-        find(strcmp(request->route->path, "/") ? request->target.path + strlen("/web/") : "index.html");
+    const struct kd_served *file = find(file_of(request));
     if (!file)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND });
     return kd_reply_served(request, file, document(file) ? guarded : NULL);

@@ -72,6 +72,8 @@ static void add_crossings(struct kd_json *json)
         { "seen", BOOL, false },
         { "temperature", NUMBER, true },
         { "emission_angle", NUMBER, true },
+        { "speed", OR_NULL, true },
+        { "approach", OR_NULL, true },
         { "evpa", OR_NULL, true },
         { "polarization_fraction", OR_NULL, true },
         { "picture", REF("PixelPictured"), true },

@@ -118,6 +118,8 @@ class PixelCrossing(TypedDict):
     seen: bool
     temperature: NotRequired[float]
     emission_angle: NotRequired[float]
+    speed: NotRequired[float | None]
+    approach: NotRequired[float | None]
     evpa: NotRequired[float | None]
     polarization_fraction: NotRequired[float | None]
     picture: NotRequired[PixelPictured]
