@@ -64,8 +64,25 @@ static void metric(void **state)
             }
 }
 
+/* Delta/r^2 of w = 1/r: the error is that of h = root w, an ulp or two, over 1 - w r+. 1 - 2w + a^2 w^2 would have one
+ * of 1e-16 over Delta/r^2, which is smaller than that for the last spins here. */
+static void metric_of_the_inverse_radius(void **state)
+{
+    (void)state;
+    static const double gaps[] = { 1e-12, 1e-9, 1e-6, 1e-3, 0.5, 1, 10, 1e6 };
+    for (size_t i = 0; i < COUNT(spins); i++)
+        for (size_t j = 0; j < COUNT(gaps); j++) {
+            const struct kd_hole hole = kd_hole_of(spins[i]);
+            const double w = 1 / (hole.outer * (1 + gaps[j]));
+            const long double a = hole.a, root = sqrtl((1 - a) * (1 + a)), d = 1.0L - w, h = root * w;
+            const double near = 1e-15 + 2 * DBL_EPSILON * (double)(h / (d - h));
+            close_to("Delta/r^2", hole.a, 1 / w, kd_hole_delta_w(&hole, w), (d - h) * (d + h), near);
+        }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(horizons), cmocka_unit_test(metric) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(horizons), cmocka_unit_test(metric),
+                                        cmocka_unit_test(metric_of_the_inverse_radius) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,6 +44,14 @@ static inline double kd_hole_delta(const struct kd_hole *hole, double r)
     return (r - hole->outer) * (r - hole->inner);
 }
 
+/* Delta/r^2 = 1 - 2w + (a^2 + q^2) w^2 at w = 1/r, as (1 - w)^2 - (root w)^2. 1 - w is exact near the horizon of a
+ * fast hole, and the two factors keep their accuracy where the horizons almost coincide. The error is that of w. */
+static inline double kd_hole_delta_w(const struct kd_hole *hole, double w)
+{
+    double d = 1 - w, h = hole->root * w;
+    return (d - h) * (d + h);
+}
+
 /* The metric in Boyer-Lindquist coordinates (Bardeen, Press & Teukolsky 1972, ApJ 178, 347, eqs 2.1 to 2.5; with
  * charge Misner, Thorne & Wheeler 1973, eq. 33.2): Sigma = r^2 + a^2 cos^2(theta), Delta, A = (r^2 + a^2)^2 - a^2
  * Delta sin^2(theta), the angular velocity of frame dragging -g_tphi/g_phiphi, and the square of the lapse,
