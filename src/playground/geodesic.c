@@ -54,15 +54,13 @@ static void tell(const struct kd_playground_geodesic *g, const struct kd_orbit_p
 {
     const struct kd_orbit *o = &path->orbit;
     const struct kd_orbit_place at = kd_orbit_path_place(path);
-    const double a2 = o->a * o->a, r = at.r, c = cos(at.theta), s = sin(at.theta), s2 = s * s, phi = g->phi + at.phi;
-    const double sigma = r * r + a2 * c * c, delta = r * r - 2 * r + a2,
-                 big = (r * r + a2) * (r * r + a2) - a2 * delta * s2;
-    const double alpha = sqrt(sigma * delta / big), omega = 2 * o->a * r / big,
-                 gamma = (o->energy - omega * o->momentum) / alpha;
+    const double r = at.r, c = cos(at.theta), s = sin(at.theta), phi = g->phi + at.phi;
+    const struct kd_metric_scalars m = kd_metric_at(kd_hole(o->a), r, c);
+    const double gamma = (o->energy - m.omega * o->momentum) / sqrt(m.lapse2);
     const double r_rate = -path->rate[KD_PATH_W].value * r * r, u_rate = sqrt(o->z) * path->rate[KD_PATH_Y].value;
-    const double v_r = r_rate / (sqrt(sigma * delta) * gamma),
-                 v_theta = s > 0 ? -u_rate / s / (sqrt(sigma) * gamma) : 0;
-    const double v_phi = s > 0 ? o->momentum / (sqrt(big / sigma) * s * gamma) : 0;
+    const double v_r = r_rate / (sqrt(m.sigma * m.delta) * gamma),
+                 v_theta = s > 0 ? -u_rate / s / (sqrt(m.sigma) * gamma) : 0;
+    const double v_phi = s > 0 ? o->momentum / (sqrt(m.area / m.sigma) * s * gamma) : 0;
     const double n[3][3] = { { s * cos(phi), s * sin(phi), c },
                              { c * cos(phi), c * sin(phi), -s },
                              { -sin(phi), cos(phi), 0 } };
@@ -98,14 +96,13 @@ bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *
 
 void kd_geodesic_back(struct kd_playground_geodesic *g) { g->path = g->begun; }
 
-/* From dt/dlambda = (A E - 2 a r L)/Delta, A = (r^2 + a^2)^2 - a^2 Delta sin^2. */
+/* From dt/dlambda = A (E - omega L)/Delta. */
 double kd_geodesic_pace(const struct kd_playground_geodesic *g)
 {
     const struct kd_orbit *o = &g->path.orbit;
     const struct kd_orbit_place at = kd_orbit_path_place(&g->path);
-    const double r = at.r, a2 = o->a * o->a, s = sin(at.theta), delta = r * r - 2 * r + a2;
-    const double big = (r * r + a2) * (r * r + a2) - a2 * delta * s * s;
-    return delta / (g->h * (big * o->energy - 2 * o->a * r * o->momentum));
+    const struct kd_metric_scalars m = kd_metric_at(kd_hole(o->a), at.r, cos(at.theta));
+    return m.delta / (g->h * m.area * (o->energy - m.omega * o->momentum));
 }
 
 enum kd_geodesic_fate kd_geodesic_at(struct kd_playground_geodesic *g, double t, double x[3], double v[3])
