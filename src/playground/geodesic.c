@@ -16,7 +16,7 @@
 static double pace(const struct kd_orbit *o)
 {
     const double w[3] = { o->w_low, 0.5 * (o->w_low + o->w_high), o->w_high };
-    double fastest = fmax(o->total + o->a * o->a * o->binding, o->total);
+    double fastest = fmax(o->total + o->hole.a * o->hole.a * o->binding, o->total);
     for (int i = 0; i < 3; i++) {
         fastest = fmax(fastest, fabs(o->w[2] + w[i] * (3 * o->w[3] + w[i] * 6 * o->w[4])));
         fastest = fmax(fastest, kd_orbit_radial(o, w[i]) / (o->w_high * o->w_high));
@@ -37,9 +37,7 @@ enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, const struct 
             strcpy(error->pointer, "/position");
         return status;
     }
-    *g = (struct kd_playground_geodesic) {
-        .spin = hole->a, .from_t = t, .phi = at.phi, .h = 2 * M_PI / pace(&orbit) / STEPS_A_TURN
-    };
+    *g = (struct kd_playground_geodesic) { .from_t = t, .phi = at.phi, .h = 2 * M_PI / pace(&orbit) / STEPS_A_TURN };
     memcpy(g->from_x, x, sizeof g->from_x);
     memcpy(g->from_v, v, sizeof g->from_v);
     kd_orbit_path_init(&g->path, &orbit, &start, KD_ORBIT_YOSHIDA6);
@@ -55,7 +53,7 @@ static void tell(const struct kd_playground_geodesic *g, const struct kd_orbit_p
     const struct kd_orbit *o = &path->orbit;
     const struct kd_orbit_place at = kd_orbit_path_place(path);
     const double r = at.r, c = cos(at.theta), s = sin(at.theta), phi = g->phi + at.phi;
-    const struct kd_metric_scalars m = kd_metric_at(kd_hole(o->a), r, c);
+    const struct kd_metric_scalars m = kd_metric_at(&o->hole, r, c);
     const double gamma = (o->energy - m.omega * o->momentum) / sqrt(m.lapse2);
     const double r_rate = -path->rate[KD_PATH_W].value * r * r, u_rate = sqrt(o->z) * path->rate[KD_PATH_Y].value;
     const double v_r = r_rate / (sqrt(m.sigma * m.delta) * gamma),
@@ -72,9 +70,9 @@ static void tell(const struct kd_playground_geodesic *g, const struct kd_orbit_p
 
 static enum kd_geodesic_fate fate_at(const struct kd_playground_geodesic *g, double r)
 {
-    return !(r > KD_GEODESIC_NEAR * kd_hole(g->spin)->outer) ? KD_GEODESIC_CAPTURED
-           : !(r < KD_GEODESIC_FAR)                          ? KD_GEODESIC_AWAY
-                                                             : KD_GEODESIC_GOES;
+    return !(r > KD_GEODESIC_NEAR * g->path.orbit.hole.outer) ? KD_GEODESIC_CAPTURED
+           : !(r < KD_GEODESIC_FAR)                           ? KD_GEODESIC_AWAY
+                                                              : KD_GEODESIC_GOES;
 }
 
 bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *steps)
@@ -101,7 +99,7 @@ double kd_geodesic_pace(const struct kd_playground_geodesic *g)
 {
     const struct kd_orbit *o = &g->path.orbit;
     const struct kd_orbit_place at = kd_orbit_path_place(&g->path);
-    const struct kd_metric_scalars m = kd_metric_at(kd_hole(o->a), at.r, cos(at.theta));
+    const struct kd_metric_scalars m = kd_metric_at(&o->hole, at.r, cos(at.theta));
     return m.delta / (g->h * m.area * (o->energy - m.omega * o->momentum));
 }
 

@@ -152,10 +152,10 @@ static struct kd_exact get_exact(const struct exact *from, int i)
 static void load(struct state *s, int i, const struct kd_orbit_path *p, double h)
 {
     const struct kd_orbit *o = &p->orbit;
-    s->a[i] = o->a, s->a2[i] = o->a * o->a, s->energy[i] = o->energy, s->momentum[i] = o->momentum,
+    s->a[i] = o->hole.a, s->a2[i] = o->hole.a * o->hole.a, s->energy[i] = o->energy, s->momentum[i] = o->momentum,
     s->binding[i] = o->binding;
     s->z[i] = o->z, s->n[i] = o->n, s->axis_gap[i] = o->axis_gap, s->total[i] = o->total;
-    s->w_low[i] = o->w_low, s->w_high[i] = o->w_high, s->horizon[i] = kd_hole(o->a)->outer;
+    s->w_low[i] = o->w_low, s->w_high[i] = o->w_high, s->horizon[i] = o->hole.outer;
     for (int k = 0; k < 3; k++)
         s->g[k][i] = p->g[k];
     for (int k = 0; k < 5; k++)
