@@ -9,7 +9,7 @@ struct kd_null_motion kd_null_motion_of(const struct kd_hole *hole, double cos_t
                                         double beta)
 {
     const double a = hole->a;
-    struct kd_null_motion m = { .a = a, .c = cos_theta, .alpha = alpha, .beta = beta };
+    struct kd_null_motion m = { .hole = *hole, .c = cos_theta, .alpha = alpha, .beta = beta };
     m.s = sin_theta > 0 ? sin_theta : sqrt((1 - cos_theta) * (1 + cos_theta));
     m.lambda = -alpha * m.s;
     m.eta = (alpha - a) * (alpha + a) * m.c * m.c + beta * beta;
@@ -132,8 +132,8 @@ struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion 
     return (struct kd_null_displacement) { .r = r,
                                            .bend = bend,
                                            .quadratic = -(p + q),
-                                           .k = p + q + 2 * m->a * m->s * dalpha,
-                                           .constant = -m->a * m->a * (m->c * m->c * p + q) };
+                                           .k = p + q + 2 * m->hole.a * m->s * dalpha,
+                                           .constant = -m->hole.a * m->hole.a * (m->c * m->c * p + q) };
 }
 
 /* About r the quartic is x^4 + 4r x^3 + c2 x^2 + c1 x + c0 with small c1 and c0. It splits into x^2 - sum x +

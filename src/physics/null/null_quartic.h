@@ -20,7 +20,8 @@
  *
  * in the forms on the right, which cancel least. */
 struct kd_null_motion {
-    double a, c, s, alpha, beta;
+    struct kd_hole hole;
+    double c, s, alpha, beta;
     double lambda, eta, quadratic, k, constant; /* A is `quadratic`, C is `constant` */
 };
 

@@ -123,7 +123,7 @@ static double powers(const struct kd_null_roots *o, const struct span *s, double
 
 struct kd_null_radial_sum kd_null_radial_rates(const struct kd_null_motion *m, double r)
 {
-    double a = m->a, al = a * m->lambda, delta = kd_hole_delta(kd_hole(a), r);
+    double a = m->hole.a, al = a * m->lambda, delta = kd_hole_delta(&m->hole, r);
     return (struct kd_null_radial_sum) { 1, a * (2 * r - al) / delta,
                                          r * r + 2 * r + 4 + ((8 - 2 * al) * r - 4 * a * a) / delta };
 }
@@ -137,7 +137,7 @@ struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *
         return sum;
     struct span s = q->inner ? span_inner(q, at) : span_outer(q, at);
     sum.tau = 2 * kd_carlson_rf_arg(s.arg);
-    double a = q->motion.a, al = a * q->motion.lambda, gap = q->r_plus - q->r_minus;
+    double a = q->motion.hole.a, al = a * q->motion.lambda, gap = q->r_plus - q->r_minus;
     double plus = at_pole(o, &s, &s.plus, q->r_plus, sum.tau), minus = at_pole(o, &s, &s.minus, q->r_minus, sum.tau);
     sum.phi = a * ((2 * q->r_plus - al) * plus - (2 * q->r_minus - al) * minus) / gap;
     if (time) {
@@ -185,8 +185,8 @@ static struct kd_null_radial without_times(const struct kd_null_motion *m, const
                                            bool inner)
 {
     struct kd_null_radial q = { .motion = *m, .roots = *roots, .inner = inner };
-    q.r_plus = kd_hole(m->a)->outer;
-    q.r_minus = kd_hole(m->a)->inner;
+    q.r_plus = m->hole.outer;
+    q.r_minus = m->hole.inner;
     if (roots->kind == KD_NULL_FOUR_REAL)
         jacobi_four(&q);
     else
@@ -332,9 +332,9 @@ struct kd_null_radial_sum kd_null_radial_complex(const struct kd_null_motion *m,
     struct kd_carlson_arg arg = { p + pl, sqrt(both * both_left), 0 };
     /* U13 U14 = p (r - r1 + r - r2) + pl (r - r3 + r - r4) */
     arg.root = 2 * (p * xl + pl * x);
-    double plus = kd_hole(m->a)->outer, minus = kd_hole(m->a)->inner, al = m->a * m->lambda;
+    double plus = m->hole.outer, minus = m->hole.inner, al = m->hole.a * m->lambda;
     struct kd_null_radial_sum total = { .tau = 2 * kd_carlson_rf_arg(arg) };
     double i_plus = complex_pole(o, arg, r, plus, total.tau), i_minus = complex_pole(o, arg, r, minus, total.tau);
-    total.phi = m->a * ((2 * plus - al) * i_plus - (2 * minus - al) * i_minus) / (plus - minus);
+    total.phi = m->hole.a * ((2 * plus - al) * i_plus - (2 * minus - al) * i_minus) / (plus - minus);
     return total;
 }
