@@ -26,7 +26,7 @@ const char *kd_orbit_end_name(enum kd_orbit_end end)
 static enum kd_status look(struct kd_orbit_run *run, struct kd_error *error)
 {
     const struct kd_orbit_observer *o = &run->params->seen;
-    const struct kd_vantage at = { run->orbit.hole.a, o->r, kd_cos_deg(o->inclination_deg),
+    const struct kd_vantage at = { run->orbit.hole, o->r, kd_cos_deg(o->inclination_deg),
                                    kd_sin_deg(o->inclination_deg) };
     const struct kd_observer_motion motion = kd_observer_motion_of(o->motion);
     char others[KD_OBSERVER_TEXT];

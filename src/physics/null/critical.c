@@ -100,7 +100,7 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
     c.sine = o->sin_theta > 0 ? o->sin_theta : sqrt((1 - u) * (1 + u));
     c.shell = kd_shell_of(kd_hole(a));
     if (isfinite(o->radius)) {
-        const struct kd_vantage at = { a, o->radius, u, c.sine };
+        const struct kd_vantage at = { kd_hole_of(a), o->radius, u, c.sine };
         double bound;
         if (!kd_observer_exists(o->motion.observer, &at) || kd_observer_check(&o->motion, &at, &bound))
             c.status = KD_CRITICAL_NO_OBSERVER;

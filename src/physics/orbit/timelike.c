@@ -184,7 +184,7 @@ double kd_orbit_whirl(const struct kd_orbit *o, const struct kd_orbit_state *s, 
 static enum kd_status check_state(const struct kd_hole *hole, double r, double theta_deg, enum kd_observer frame,
                                   const double v[3], struct kd_error *error)
 {
-    const struct kd_vantage at = { hole->a, r, kd_cos_deg(theta_deg), kd_sin_deg(theta_deg) };
+    const struct kd_vantage at = { *hole, r, kd_cos_deg(theta_deg), kd_sin_deg(theta_deg) };
     const struct kd_observer_row *row = &kd_observers[frame];
     char others[KD_OBSERVER_TEXT];
     enum kd_status status = kd_orbit_check_hole(hole, error);
@@ -259,7 +259,7 @@ enum kd_status kd_orbit_from_state(const struct kd_hole *hole, double r, double 
     enum kd_status status = check_state(hole, r, theta_deg, frame, v, error);
     if (status)
         return status;
-    const struct kd_vantage at = { a, r, kd_cos_deg(theta_deg), kd_sin_deg(theta_deg) };
+    const struct kd_vantage at = { *hole, r, kd_cos_deg(theta_deg), kd_sin_deg(theta_deg) };
     const struct kd_observer_motion motion = kd_observer_motion_of(frame);
     const struct kd_tetrad tetrad = kd_observer_tetrad(&motion, &at);
     double gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));

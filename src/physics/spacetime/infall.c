@@ -8,7 +8,7 @@
 
 bool kd_infall_is_level(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
-    return at->spin == 0 || at->u == 0 || at->s == 0 || (m->fall_momentum == 0 && kd_observer_energy(m, at) == 1);
+    return at->hole.a == 0 || at->u == 0 || at->s == 0 || (m->fall_momentum == 0 && kd_observer_energy(m, at) == 1);
 }
 
 /* (Sigma r')^2 = c[4] r^4 + ... + c[0]. If fall_from is finite, this polynomial has been divided by fall_from - r, a
@@ -22,11 +22,11 @@ struct fall {
 
 static struct fall fall_of(const struct kd_observer_motion *m, const struct kd_vantage *at, double r)
 {
-    double a = at->spin, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
+    double a = at->hole.a, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
     double ls = l == 0 ? 0 : l / at->s, q = at->u * at->u * (ls * ls - a * a * bound), rest = l - a * e;
     struct fall f = {
         .c = { -a * a * q, 2 * (q + rest * rest), a * a * bound - l * l - q, 2, bound },
-        .hole = kd_hole_of(a),
+        .hole = at->hole,
         .u = at->u,
         .low = r,
         .span = at->r - r,
@@ -143,7 +143,7 @@ struct kd_infall_way kd_infall_after(const struct kd_observer_motion *m, const s
                                      double proper_time)
 {
     const struct clock clock = { m, at, proper_time };
-    double last = fmin(kd_infall_last(kd_hole(at->spin)), at->r);
+    double last = fmin(kd_infall_last(&at->hole), at->r);
     bool ends = !(too_far(&clock, last) > 0);
     struct kd_infall_way way = kd_infall_way(m, at, ends ? last : kd_root(too_far, &clock, last, at->r));
     way.ended = ends;
