@@ -179,7 +179,7 @@ static void the_edge_of_the_shadow(void **state)
                 double angle = 0.3 + k * 0.6, off = 1e-9;
                 struct kd_critical c = curve_of(spins[i], cosines[j], INFINITY, KD_OBSERVER_STATIC);
                 struct kd_critical_point p = kd_critical_at(&c, angle);
-                struct kd_null_ray ray = { .spin = spins[i], .radius = INFINITY, .cos_theta = cosines[j] };
+                struct kd_null_ray ray = { .hole = kd_hole_of(spins[i]), .radius = INFINITY, .cos_theta = cosines[j] };
                 for (int side = -1; side <= 1; side += 2) {
                     ray.alpha = p.alpha + side * off * (p.alpha - c.centre);
                     ray.beta = p.beta * (1 + side * off);
@@ -234,7 +234,7 @@ static void the_edge_from_nearby(void **state)
                 struct kd_covector photon = kd_tetrad_covector(&c.tetrad, (double[]) { 1, inwards, up, -right });
                 if (photon.energy <= 0.05) /* in the ergosphere: the ray has no alpha and beta */
                     continue;
-                struct kd_null_ray ray = { .spin = a,
+                struct kd_null_ray ray = { .hole = kd_hole_of(a),
                                            .radius = r,
                                            .cos_theta = u,
                                            .outward = inwards < 0,

@@ -27,7 +27,7 @@ static double turn(double phi) { return remainder(phi, 2 * M_PI); }
 static int crosses(const struct kd_place_view *view, const struct kd_place_image *image, double r, double phi)
 {
     const struct kd_vantage *v = &view->frame.at;
-    const struct kd_null_ray ray = { .spin = v->hole.a,
+    const struct kd_null_ray ray = { .hole = v->hole,
                                      .radius = v->r,
                                      .cos_theta = v->u,
                                      .sin_theta = v->s,

@@ -84,7 +84,7 @@ static double dragged(const struct swing *w, double from, double to)
 
 static struct kd_null_motion motion_of(const struct kd_null_ray *ray)
 {
-    return kd_null_motion_of(kd_hole(ray->spin), ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
+    return kd_null_motion_of(&ray->hole, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
 }
 
 void kd_null_bend_tangent(const struct kd_null_ray *ray, struct kd_null_bend *out)

@@ -299,8 +299,8 @@ static struct kd_null_course follow(const struct kd_null_ray *ray, double ingoin
     struct kd_null_course course = { .least_r = INFINITY };
     const double begun = isinf(ray->radius) ? 0 : 1 / ray->radius;
     struct course c = {
-        .m = kd_null_motion_of(kd_hole(ray->spin), ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta),
-        .horizon = 1 / kd_hole(ray->spin)->outer,
+        .m = kd_null_motion_of(&ray->hole, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta),
+        .horizon = 1 / ray->hole.outer,
         .ingoing = ingoing,
         .first = fmin(1 / far, begun > 0 ? begun : INFINITY),
         .out = out,

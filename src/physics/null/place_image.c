@@ -53,7 +53,7 @@ static bool ray_of(const struct kd_place_view *view, const double at[2], struct 
 {
     const struct kd_vantage *v = &view->frame.at;
     *ray = (struct kd_null_ray) {
-        .spin = v->hole.a, .radius = v->r, .cos_theta = v->u, .sin_theta = v->s, .alpha = at[0], .beta = at[1]
+        .hole = v->hole, .radius = v->r, .cos_theta = v->u, .sin_theta = v->s, .alpha = at[0], .beta = at[1]
     };
     *look = (struct kd_look) { NAN, NAN, NAN, NAN };
     if (isinf(v->r))

@@ -23,7 +23,7 @@ static void place(const struct kd_ring_image *ring, double chi, double log_rho, 
 /* ln(r_n/r); -INFINITY for a ray captured before its crossing n, INFINITY for one that escapes. */
 static double mismatch(const struct kd_ring_image *ring, double chi, double log_rho, struct kd_null_crossing *crossing)
 {
-    struct kd_null_ray ray = { .spin = ring->spin,
+    struct kd_null_ray ray = { .hole = kd_hole_of(ring->spin),
                                .radius = INFINITY,
                                .cos_theta = ring->cos_theta,
                                .sin_theta = ring->sin_theta,

@@ -63,7 +63,7 @@ static void add_place(const struct kd_ring_view *view, const struct kd_covector 
     out->phi = out->delay = NAN;
     if (!(photon->energy > 0) || !(at->r > at->hole.outer))
         return;
-    const struct kd_null_ray ray = { .spin = at->hole.a,
+    const struct kd_null_ray ray = { .hole = at->hole,
                                      .radius = at->r,
                                      .cos_theta = at->u,
                                      .sin_theta = at->s,

@@ -250,7 +250,7 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
     const uint32_t orders = w->plan->orders ? w->plan->orders : 1;
     const bool reversed = w->energy[i] < 0;
     const struct kd_null_ray ray = {
-        .spin = at.hole.a,
+        .hole = at.hole,
         .radius = at.r,
         .cos_theta = at.u,
         .sin_theta = at.s,
