@@ -48,7 +48,7 @@ static enum kd_status make_curve(const struct parameters *p, struct memory *m, s
     const struct kd_vantage at = { kd_hole_of(p->spin), p->observer_r, kd_cos_deg(p->inclination_deg),
                                    kd_sin_deg(p->inclination_deg) };
     const struct kd_critical_observer observer = {
-        .spin = at.hole.a,
+        .hole = at.hole,
         .radius = at.r,
         .cos_theta = at.u,
         .sin_theta = at.s,

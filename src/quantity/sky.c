@@ -49,7 +49,7 @@ static enum kd_status look_around(const struct parameters *p, struct kd_sky_view
     const struct kd_vantage at = { kd_hole_of(p->spin), p->observer_r, kd_cos_deg(p->inclination_deg),
                                    kd_sin_deg(p->inclination_deg) };
     const struct kd_critical_observer observer = {
-        .spin = at.hole.a,
+        .hole = at.hole,
         .radius = at.r,
         .cos_theta = at.u,
         .sin_theta = at.s,

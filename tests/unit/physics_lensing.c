@@ -20,7 +20,7 @@
 
 static struct kd_critical curve_of(double spin, double cos_theta)
 {
-    struct kd_critical_observer o = { .spin = spin, .radius = INFINITY, .cos_theta = cos_theta };
+    struct kd_critical_observer o = { .hole = kd_hole_of(spin), .radius = INFINITY, .cos_theta = cos_theta };
     return kd_critical_of(&o);
 }
 
