@@ -85,7 +85,8 @@ static double along(const struct kd_critical *c, double at)
 
 static bool valid(const struct kd_critical_observer *o)
 {
-    return fabs(o->hole.a) < 1 && fabs(o->cos_theta) <= 1 && o->sin_theta >= 0 && o->sin_theta <= 1 &&
+    return kd_hole_exists(&o->hole) && o->hole.q == 0 && fabs(o->cos_theta) <= 1 && o->sin_theta >= 0 &&
+           o->sin_theta <= 1 &&
            o->radius > (o->motion.observer == KD_OBSERVER_INFALL ? o->hole.inner : o->hole.outer) &&
            (unsigned)o->motion.observer < KD_OBSERVER_COUNT;
 }

@@ -8,10 +8,11 @@
 #define KD_PHYSICS_SPACETIME_HOLE_H
 
 #include <math.h>
+#include <stdbool.h>
 
 struct kd_hole {
     double a;     /* spin */
-    double q;     /* charge; always 0 so far */
+    double q;     /* charge in M */
     double root;  /* half the distance between the horizons; to an ulp or two, also as |a| -> 1 */
     double outer; /* r+; to a few ulp up to |a| = 1 - 1e-15 */
     double inner; /* r- */
@@ -23,6 +24,16 @@ static inline struct kd_hole kd_hole_of(double a)
 {
     double root = sqrt((1 - a) * (1 + a)), outer = 1 + root;
     return (struct kd_hole) { a, 0, root, outer, a * a / outer };
+}
+
+/* A hole of charge q, a^2 + q^2 < 1. 1 - a^2 - q^2 is summed with the rounding errors of its terms (Dekker 1971), so
+ * that root keeps its digits as a^2 + q^2 -> 1. q = 0 gives the same bits as kd_hole_of. */
+struct kd_hole kd_hole_charged(double a, double q);
+
+/* False for a struct of zeros and outside the domain. */
+static inline bool kd_hole_exists(const struct kd_hole *hole)
+{
+    return hole->a * hole->a + hole->q * hole->q <= 1 && hole->root > 0 && hole->outer > 1;
 }
 
 /* A hole from its spin, to be used as an argument: kd_kerr_isco(kd_hole(0.9)). It lives until the end of the enclosing
