@@ -44,7 +44,7 @@ static double gone(const struct course *c, double w, double dw, double d)
 static struct state rates(const struct course *c, const struct state *s)
 {
     const struct kd_null_motion *m = &c->m;
-    const double w = s->y[W], dw = s->y[DW], u = s->y[NZ], a = m->hole.a, a2 = a * a, d = 1 - 2 * w + a2 * w * w;
+    const double w = s->y[W], dw = s->y[DW], u = s->y[NZ], a = m->hole.a, a2 = a * a, d = kd_hole_delta_w(&m->hole, w);
     const double pull = m->eta + m->lambda * m->lambda + 2 * a2 * u * u;
     const double g = c->ingoing != 0 && w != 0 ? gone(c, w, dw, d) : 0;
     return (struct state) { {

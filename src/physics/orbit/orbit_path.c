@@ -48,7 +48,7 @@ static void pull(const struct kd_orbit_path *p, const double *q, double rest, do
         f[KD_PATH_CHI] = turn + a * slow - a * o->energy;
         return;
     }
-    double hole = 1 / (1 - 2 * w + a2w2);                                          /* r^2/Delta */
+    double hole = 1 / kd_hole_delta_w(&o->hole, w);                                /* r^2/Delta */
     f[KD_PATH_CHI] = turn + a * (2 * o->energy * w - a * o->momentum * w2) * hole; /* a (2Er - aL)/Delta */
     /* E r^2 + 2 E r + 4 E + [(8E - 2aL) r - 4 a^2 E]/Delta + a^2 E u^2 */
     f[KD_PATH_T] = o->energy * (far + 2 * w * far + 4 + up) +
@@ -275,7 +275,7 @@ struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *p)
     };
     /* mass^2 Sigma = (P^2 - r'^2)/Delta - u'^2/sin^2 theta - ...: both residuals have the weight of their term */
     if (w * o->hole.outer < 0.99 && sine2 > 0.01)
-        d.mass = -(radial / (w * w * (1 - 2 * w + a2 * w * w)) + polar / sine2) / (1 / (w * w) + a2 * u2);
+        d.mass = -(radial / (w * w * kd_hole_delta_w(&o->hole, w)) + polar / sine2) / (1 / (w * w) + a2 * u2);
     return d;
 }
 
