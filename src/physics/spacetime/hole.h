@@ -27,7 +27,8 @@ static inline struct kd_hole kd_hole_of(double a)
 }
 
 /* A hole of charge q, a^2 + q^2 < 1. 1 - a^2 - q^2 is summed with the rounding errors of its terms (Dekker 1971), so
- * that root keeps its digits as a^2 + q^2 -> 1. q = 0 gives the same bits as kd_hole_of. */
+ * that root keeps its digits as a^2 + q^2 -> 1. If q^2 is 0 or underflows, the horizons are
+ * those of kd_hole_of to the bit. */
 struct kd_hole kd_hole_charged(double a, double q);
 
 /* False for a struct of zeros and outside the domain. */
