@@ -18,8 +18,8 @@ struct motion {
 
 static bool valid(const struct kd_null_ray *ray)
 {
-    if (!kd_hole_exists(&ray->hole) || ray->hole.q != 0 || !(fabs(ray->cos_theta) <= 1) ||
-        !(ray->sin_theta >= 0 && ray->sin_theta <= 1) || !isfinite(ray->alpha) || !isfinite(ray->beta))
+    if (!kd_hole_exists(&ray->hole) || !(fabs(ray->cos_theta) <= 1) || !(ray->sin_theta >= 0 && ray->sin_theta <= 1) ||
+        !isfinite(ray->alpha) || !isfinite(ray->beta))
         return false;
     if (ray->orders < 0 || ray->orders > KD_NULL_ORDERS || !(ray->radius > ray->hole.outer))
         return false;

@@ -18,7 +18,8 @@
 
 struct kd_covector { double energy, momentum, polar, radial; /* E, L/sin(theta), p_theta, Delta p_r */ };
 
-/* Position of a frame: the hole; radius; cosine and sine of the polar angle, one of which may be 0. */
+/* Position of a frame: the hole, which must be uncharged; radius; cosine and sine of the polar angle, one of which may
+ * be 0. */
 struct kd_vantage {
     struct kd_hole hole;
     double r, u, s;
