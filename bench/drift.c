@@ -272,7 +272,7 @@ static struct orbit matter(void)
     if (kd_orbit_from_shape(kd_hole(0.9), 8, 0.5, 0.5, &k, NULL))
         abort(); /* there is such an orbit */
     return (struct orbit) { .name = "matter",
-                            .a = k.a,
+                            .a = k.hole.a,
                             .mass2 = 1,
                             .energy = k.energy,
                             .momentum = k.momentum,

@@ -37,7 +37,7 @@ static struct orbit pack(const struct kd_orbit_path *p, double h)
     struct kd_orbit_path stepped = *p; /* has the springs' turns */
     const struct kd_orbit *k = &p->orbit;
     kd_orbit_path_step(&stepped, h);
-    struct orbit o = { .a = k->a,
+    struct orbit o = { .a = k->hole.a,
                        .energy = k->energy,
                        .momentum = k->momentum,
                        .z = k->z,

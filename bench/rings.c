@@ -11,8 +11,10 @@ enum { ORDERS = 6 };
 static struct kd_critical curve_of(double spin, double inclination_deg)
 {
     double i = inclination_deg * (M_PI / 180);
-    return kd_critical_of(&(struct kd_critical_observer) {
-        .spin = spin, .radius = INFINITY, .cos_theta = inclination_deg == 90 ? 0 : cos(i), .sin_theta = sin(i) });
+    return kd_critical_of(&(struct kd_critical_observer) { .hole = kd_hole_of(spin),
+                                                           .radius = INFINITY,
+                                                           .cos_theta = inclination_deg == 90 ? 0 : cos(i),
+                                                           .sin_theta = sin(i) });
 }
 
 static void bands(void)

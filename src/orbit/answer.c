@@ -166,7 +166,7 @@ static void head(struct text *t, const struct kd_orbit_run *run)
 {
     const struct kd_orbit *o = &run->orbit;
     double swing = asin(fmin(sqrt(o->z), 1)) * 180 / M_PI;
-    member(t, "spin", o->a);
+    member(t, "spin", o->hole.a);
     put(t, ",\"fate\":\"");
     put(t, kd_orbit_fate_name(o->fate));
     put(t, o->circular ? "\",\"circular\":true" : "\",\"circular\":false");
@@ -175,7 +175,7 @@ static void head(struct text *t, const struct kd_orbit_run *run)
     member(t, "binding", o->binding);
     member(t, "angular_momentum", o->momentum);
     member(t, "carter", o->carter);
-    if (o->a == 0)
+    if (o->hole.a == 0)
         member(t, "binet_c", -o->binding / o->total);
     close(t);
     open(t, "turning_points");
@@ -203,7 +203,7 @@ static void drift(struct text *t, const struct kd_orbit_run *run)
     member(t, "angular_momentum", 0);
     member(t, "carter", run->worst.carter);
     member(t, "mass", run->worst.mass);
-    if (run->orbit.a == 0)
+    if (run->orbit.hole.a == 0)
         member(t, "binet_c", run->worst.binet);
     close(t);
 }
@@ -413,7 +413,7 @@ static void summary_of(const struct kd_orbit_run *run, double to[SUMMARY])
     const struct kd_orbit_frequencies *f = &run->frequencies;
     bool closed = run->params->way == KD_WAY_CLOSED;
     const double all[SUMMARY] = { o->fate,
-                                  o->a,
+                                  o->hole.a,
                                   o->energy,
                                   o->momentum,
                                   o->carter,

@@ -26,14 +26,15 @@ const char *kd_orbit_end_name(enum kd_orbit_end end)
 static enum kd_status look(struct kd_orbit_run *run, struct kd_error *error)
 {
     const struct kd_orbit_observer *o = &run->params->seen;
-    const struct kd_vantage at = { run->orbit.a, o->r, kd_cos_deg(o->inclination_deg), kd_sin_deg(o->inclination_deg) };
+    const struct kd_vantage at = { run->orbit.hole, o->r, kd_cos_deg(o->inclination_deg),
+                                   kd_sin_deg(o->inclination_deg) };
     const struct kd_observer_motion motion = kd_observer_motion_of(o->motion);
     char others[KD_OBSERVER_TEXT];
     run->image = (struct kd_place_image) { .off = NAN };
-    if (isfinite(o->r) && !(o->r > kd_hole(run->orbit.a)->outer))
+    if (isfinite(o->r) && !(o->r > run->orbit.hole.outer))
         return kd_error_field(error, "/seen/observer_r",
                               "observer_r is %.9g; it must be a radius outside the horizon, r = %.9g", o->r,
-                              kd_hole(run->orbit.a)->outer);
+                              run->orbit.hole.outer);
     if (isfinite(o->r) && !kd_observer_exists(o->motion, &at))
         return kd_error_field(error, "/seen/observer_r",
                               "observer_r is %.9g, where there is no observer %s; observers there are %s", o->r,
@@ -93,7 +94,7 @@ static double mino_at(const struct kd_orbit_run *run, double time)
  * that is too long does this close to a whirl. */
 static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before, const struct kd_orbit_path *path)
 {
-    bool fallen = !(path->place[KD_PATH_W].value < 1 / kd_hole(o->a)->outer); /* or NAN */
+    bool fallen = !(path->place[KD_PATH_W].value < 1 / o->hole.outer); /* or NAN */
     if (o->fate == KD_ORBIT_ESCAPE)
         return fallen;
     return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);
@@ -109,7 +110,7 @@ static bool find_end(struct kd_orbit_run *run, double h)
 {
     const struct kd_orbit *o = &run->orbit;
     struct kd_orbit_path path, before;
-    double horizon = 1 / kd_hole(o->a)->outer, far = 1 / run->params->r_max;
+    double horizon = 1 / o->hole.outer, far = 1 / run->params->r_max;
     double time = run->params->time,
            turns = isnan(run->params->periods) || !o->circular ? LONGEST_TURNS : run->params->periods;
     double longest = turns * 2 * M_PI / kd_orbit_pace(o);
@@ -282,7 +283,7 @@ enum kd_status kd_orbit_run_prepare(struct kd_orbit_run *const *runs, size_t n, 
 static struct kd_orbit_sample sample_of(struct kd_orbit_run *run, struct kd_orbit_place place, double energy_error)
 {
     struct kd_place_image image = { NAN, NAN, false, { NAN, NAN, NAN, NAN }, NAN, NAN, { NAN, NAN } };
-    double a = run->orbit.a, across = sqrt(place.r * place.r + a * a) * sin(place.theta);
+    double a = run->orbit.hole.a, across = sqrt(place.r * place.r + a * a) * sin(place.theta);
     place.phi += run->phi;
     if (kd_orbit_is_seen(run->params)) {
         const double from = run->params->seen.azimuth_deg * (M_PI / 180);

@@ -8,7 +8,7 @@
 
 double kd_orbit_pace(const struct kd_orbit *o)
 {
-    double fastest = fmax(o->total + o->a * o->a * o->binding, o->total),
+    double fastest = fmax(o->total + o->hole.a * o->hole.a * o->binding, o->total),
            w[3] = { o->w_low, 0.5 * (o->w_low + o->w_high), o->w_high };
     for (int i = 0; i < 3; i++) {
         fastest = fmax(fastest, fabs(o->w[2] + w[i] * (3 * o->w[3] + w[i] * 6 * o->w[4])));

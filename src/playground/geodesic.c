@@ -16,7 +16,7 @@
 static double pace(const struct kd_orbit *o)
 {
     const double w[3] = { o->w_low, 0.5 * (o->w_low + o->w_high), o->w_high };
-    double fastest = fmax(o->total + o->a * o->a * o->binding, o->total);
+    double fastest = fmax(o->total + o->hole.a * o->hole.a * o->binding, o->total);
     for (int i = 0; i < 3; i++) {
         fastest = fmax(fastest, fabs(o->w[2] + w[i] * (3 * o->w[3] + w[i] * 6 * o->w[4])));
         fastest = fmax(fastest, kd_orbit_radial(o, w[i]) / (o->w_high * o->w_high));
@@ -37,9 +37,7 @@ enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, const struct 
             strcpy(error->pointer, "/position");
         return status;
     }
-    *g = (struct kd_playground_geodesic) {
-        .spin = hole->a, .from_t = t, .phi = at.phi, .h = 2 * M_PI / pace(&orbit) / STEPS_A_TURN
-    };
+    *g = (struct kd_playground_geodesic) { .from_t = t, .phi = at.phi, .h = 2 * M_PI / pace(&orbit) / STEPS_A_TURN };
     memcpy(g->from_x, x, sizeof g->from_x);
     memcpy(g->from_v, v, sizeof g->from_v);
     kd_orbit_path_init(&g->path, &orbit, &start, KD_ORBIT_YOSHIDA6);
@@ -54,15 +52,13 @@ static void tell(const struct kd_playground_geodesic *g, const struct kd_orbit_p
 {
     const struct kd_orbit *o = &path->orbit;
     const struct kd_orbit_place at = kd_orbit_path_place(path);
-    const double a2 = o->a * o->a, r = at.r, c = cos(at.theta), s = sin(at.theta), s2 = s * s, phi = g->phi + at.phi;
-    const double sigma = r * r + a2 * c * c, delta = r * r - 2 * r + a2,
-                 big = (r * r + a2) * (r * r + a2) - a2 * delta * s2;
-    const double alpha = sqrt(sigma * delta / big), omega = 2 * o->a * r / big,
-                 gamma = (o->energy - omega * o->momentum) / alpha;
+    const double r = at.r, c = cos(at.theta), s = sin(at.theta), phi = g->phi + at.phi;
+    const struct kd_metric_scalars m = kd_metric_at(&o->hole, r, c);
+    const double gamma = (o->energy - m.omega * o->momentum) / sqrt(m.lapse2);
     const double r_rate = -path->rate[KD_PATH_W].value * r * r, u_rate = sqrt(o->z) * path->rate[KD_PATH_Y].value;
-    const double v_r = r_rate / (sqrt(sigma * delta) * gamma),
-                 v_theta = s > 0 ? -u_rate / s / (sqrt(sigma) * gamma) : 0;
-    const double v_phi = s > 0 ? o->momentum / (sqrt(big / sigma) * s * gamma) : 0;
+    const double v_r = r_rate / (sqrt(m.sigma * m.delta) * gamma),
+                 v_theta = s > 0 ? -u_rate / s / (sqrt(m.sigma) * gamma) : 0;
+    const double v_phi = s > 0 ? o->momentum / (sqrt(m.area / m.sigma) * s * gamma) : 0;
     const double n[3][3] = { { s * cos(phi), s * sin(phi), c },
                              { c * cos(phi), c * sin(phi), -s },
                              { -sin(phi), cos(phi), 0 } };
@@ -74,9 +70,9 @@ static void tell(const struct kd_playground_geodesic *g, const struct kd_orbit_p
 
 static enum kd_geodesic_fate fate_at(const struct kd_playground_geodesic *g, double r)
 {
-    return !(r > KD_GEODESIC_NEAR * kd_hole(g->spin)->outer) ? KD_GEODESIC_CAPTURED
-           : !(r < KD_GEODESIC_FAR)                          ? KD_GEODESIC_AWAY
-                                                             : KD_GEODESIC_GOES;
+    return !(r > KD_GEODESIC_NEAR * g->path.orbit.hole.outer) ? KD_GEODESIC_CAPTURED
+           : !(r < KD_GEODESIC_FAR)                           ? KD_GEODESIC_AWAY
+                                                              : KD_GEODESIC_GOES;
 }
 
 bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *steps)
@@ -98,14 +94,13 @@ bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *
 
 void kd_geodesic_back(struct kd_playground_geodesic *g) { g->path = g->begun; }
 
-/* From dt/dlambda = (A E - 2 a r L)/Delta, A = (r^2 + a^2)^2 - a^2 Delta sin^2. */
+/* From dt/dlambda = A (E - omega L)/Delta. */
 double kd_geodesic_pace(const struct kd_playground_geodesic *g)
 {
     const struct kd_orbit *o = &g->path.orbit;
     const struct kd_orbit_place at = kd_orbit_path_place(&g->path);
-    const double r = at.r, a2 = o->a * o->a, s = sin(at.theta), delta = r * r - 2 * r + a2;
-    const double big = (r * r + a2) * (r * r + a2) - a2 * delta * s * s;
-    return delta / (g->h * (big * o->energy - 2 * o->a * r * o->momentum));
+    const struct kd_metric_scalars m = kd_metric_at(&o->hole, at.r, cos(at.theta));
+    return m.delta / (g->h * m.area * (o->energy - m.omega * o->momentum));
 }
 
 enum kd_geodesic_fate kd_geodesic_at(struct kd_playground_geodesic *g, double t, double x[3], double v[3])

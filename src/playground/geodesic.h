@@ -17,11 +17,11 @@
           */
 
 struct kd_playground_geodesic {
-    double spin, from_x[3], from_v[3], from_t; /* initial conditions, which give the constants of motion */
-    double phi;                                /* initial azimuth */
-    double h;                                  /* step in Mino time */
-    struct kd_orbit_path path;                 /* state, which is not beyond the time that was last approached */
-    struct kd_orbit_path begun;                /* state at the last time reached; kd_geodesic_back returns to it */
+    double from_x[3], from_v[3], from_t; /* initial conditions, which give the constants of motion */
+    double phi;                          /* initial azimuth */
+    double h;                            /* step in Mino time */
+    struct kd_orbit_path path;           /* state, which is not beyond the time that was last approached */
+    struct kd_orbit_path begun;          /* state at the last time reached; kd_geodesic_back returns to it */
 };
 
 /* Begins the motion. KD_EINVAL, with the pointer "/position" or "/velocity", if there is no such motion. */

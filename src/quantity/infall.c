@@ -47,7 +47,7 @@ static const char *const approximations[] = { NULL };
 static enum kd_status check(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                             struct kd_error *error)
 {
-    const double end = kd_hole(at->spin)->inner;
+    const double end = at->hole.inner;
     if (!(at->r > end))
         return kd_quantity_outside(error, "r", at->r, "not outside %.9g M, where the model ends", end);
     if (kd_quantity_observer_exists(motion, at, error))
@@ -64,7 +64,8 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     (void)memory, (void)fresh;
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
-    const struct kd_vantage at = { p->spin, p->r, kd_cos_deg(p->inclination_deg), kd_sin_deg(p->inclination_deg) };
+    const struct kd_vantage at = { kd_hole_of(p->spin), p->r, kd_cos_deg(p->inclination_deg),
+                                   kd_sin_deg(p->inclination_deg) };
     const struct kd_observer_motion motion = {
         .observer = KD_OBSERVER_INFALL,
         .fall_from = p->infall_from,
@@ -90,8 +91,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     if (!within) {
         const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);
         const struct kd_tetrad rest = kd_observer_tetrad(&zamo, &at);
-        double gamma =
-            (frame.t.energy - kd_kerr_dragging(kd_hole(at.spin), at.r, at.u) * motion.fall_momentum) / rest.t.energy;
+        double gamma = (frame.t.energy - kd_kerr_dragging(&at.hole, at.r, at.u) * motion.fall_momentum) / rest.t.energy;
         o->velocity = -frame.t.radial / rest.r.radial / gamma;
     }
     return KD_OK;

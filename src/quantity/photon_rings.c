@@ -64,7 +64,7 @@ static enum kd_status begin(const struct parameters *p, struct memory *m, struct
                                    horizon);
     if (!(p->outer > m->inner))
         return kd_quantity_outside(error, "outer", p->outer, "and must be more than inner, %.9g M", m->inner);
-    m->curve = kd_critical_of(&(struct kd_critical_observer) { .spin = p->spin,
+    m->curve = kd_critical_of(&(struct kd_critical_observer) { .hole = kd_hole_of(p->spin),
                                                                .radius = INFINITY,
                                                                .cos_theta = fabs(kd_cos_deg(p->inclination_deg)),
                                                                .sin_theta = kd_sin_deg(p->inclination_deg) });

@@ -51,7 +51,7 @@ struct memory {
 static enum kd_status make(const struct parameters *p, double r, struct memory *m, struct kd_error *error)
 {
     const double i = p->inclination_deg;
-    const struct kd_vantage at = { p->spin, p->observer_r, kd_cos_deg(i), kd_sin_deg(i) };
+    const struct kd_vantage at = { kd_hole_of(p->spin), p->observer_r, kd_cos_deg(i), kd_sin_deg(i) };
     const struct kd_observer_motion motion = KD_QUANTITY_MOTION(p);
     if (isinf(at.r)) { /* from below the plane the ring looks the same except for beta */
         m->far = kd_ring_image_plain(kd_hole(p->spin), (i > 90 ? 180 - i : i) * (M_PI / 180), r, (int)p->order);

@@ -55,7 +55,7 @@ struct memory { double shadow; }; /* mean radius of the shadow, M */
 static double shadow_of(const struct parameters *p)
 {
     struct kd_critical curve = kd_critical_of(&(struct kd_critical_observer) {
-        .spin = p->spin,
+        .hole = kd_hole_of(p->spin),
         .radius = INFINITY,
         .cos_theta = kd_cos_deg(p->inclination_deg),
         .sin_theta = kd_sin_deg(p->inclination_deg),

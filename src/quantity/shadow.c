@@ -45,10 +45,10 @@ struct memory { struct kd_critical curve; };
 static enum kd_status make_curve(const struct parameters *p, struct memory *m, struct outputs *o,
                                  struct kd_error *error)
 {
-    const struct kd_vantage at = { p->spin, p->observer_r, kd_cos_deg(p->inclination_deg),
+    const struct kd_vantage at = { kd_hole_of(p->spin), p->observer_r, kd_cos_deg(p->inclination_deg),
                                    kd_sin_deg(p->inclination_deg) };
     const struct kd_critical_observer observer = {
-        .spin = at.spin,
+        .hole = at.hole,
         .radius = at.r,
         .cos_theta = at.u,
         .sin_theta = at.s,

@@ -46,10 +46,10 @@ static void far_away(struct outputs *o) { *o = (struct outputs) { 1, 1, 1, 1, 1,
 static enum kd_status look_around(const struct parameters *p, struct kd_sky_view *view, struct outputs *o,
                                   struct kd_error *error)
 {
-    const struct kd_vantage at = { p->spin, p->observer_r, kd_cos_deg(p->inclination_deg),
+    const struct kd_vantage at = { kd_hole_of(p->spin), p->observer_r, kd_cos_deg(p->inclination_deg),
                                    kd_sin_deg(p->inclination_deg) };
     const struct kd_critical_observer observer = {
-        .spin = at.spin,
+        .hole = at.hole,
         .radius = at.r,
         .cos_theta = at.u,
         .sin_theta = at.s,

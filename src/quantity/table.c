@@ -61,8 +61,8 @@ enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *moti
                                            struct kd_error *error)
 {
     static const struct kd_observer_names names = { "", "", "observer_r", "observer" };
-    const double horizon = kd_hole(at->spin)->outer;
-    if (!(at->r > horizon) && kd_observers[motion->observer].outside(kd_hole(at->spin), at->u) >= horizon)
+    const double horizon = at->hole.outer;
+    if (!(at->r > horizon) && kd_observers[motion->observer].outside(&at->hole, at->u) >= horizon)
         return kd_quantity_outside(error, "observer_r", at->r, "not outside the horizon at %.9g M", horizon);
     enum kd_status status = kd_observer_check_place(&names, motion->observer, at, error);
     return status || !isfinite(at->r) ? status : kd_observer_check_numbers(&names, motion, at, error);

@@ -11,7 +11,7 @@ static const double BESIDE = 1e-7;
 
 static struct kd_vantage beside_horizon(struct kd_vantage at)
 {
-    const double horizon = kd_hole(at.spin)->outer;
+    const double horizon = at.hole.outer;
     if (fabs(at.r - horizon) < BESIDE)
         at.r = horizon + BESIDE;
     return at;
@@ -27,7 +27,7 @@ static void free_look(const struct kd_scene *scene, double look[3])
 
 static struct kd_covector straight_out(const struct kd_vantage *at)
 {
-    const double a = at->spin;
+    const double a = at->hole.a;
     return (struct kd_covector) { 1, a * at->s, 0, at->r * at->r + a * a * at->u * at->u };
 }
 

@@ -7,6 +7,7 @@
 #include "physics/spacetime/worldline.h"
 #include "physics/waves/qnm.h"
 #include "physics/waves/ringdown.h"
+#include "scene/hole.h"
 
 #define TIME_END 1e12 /* limit of `time` in fields.h, for both signs */
 
@@ -66,12 +67,12 @@ bool kd_scene_clock(const struct kd_scene *scene, struct kd_fall_clock *out)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
     const struct kd_observer_motion motion = kd_scene_observer(scene);
-    const double horizon = kd_hole(at.spin)->outer;
+    const double horizon = at.hole.outer;
     if (motion.observer != KD_OBSERVER_INFALL || !kd_worldline_is_known(&motion, &at))
         return false;
     *out = (struct kd_fall_clock) {
         .to_horizon = at.r > horizon ? kd_infall_proper_time(&motion, &at, horizon) : NAN,
-        .to_end = kd_infall_proper_time(&motion, &at, kd_hole(at.spin)->inner),
+        .to_end = kd_infall_proper_time(&motion, &at, at.hole.inner),
         .second = kd_scale_seconds(scene->spacetime.mass_msun),
     };
     return true;
@@ -80,7 +81,7 @@ bool kd_scene_clock(const struct kd_scene *scene, struct kd_fall_clock *out)
 struct kd_vantage kd_scene_vantage(const struct kd_scene *scene)
 {
     const double i = scene->camera.inclination_deg;
-    return (struct kd_vantage) { scene->spacetime.spin, scene->camera.r, kd_cos_deg(i), kd_sin_deg(i) };
+    return (struct kd_vantage) { *kd_scene_hole(scene), scene->camera.r, kd_cos_deg(i), kd_sin_deg(i) };
 }
 
 bool kd_scene_is_flat(const struct kd_scene *scene)
@@ -122,7 +123,7 @@ size_t kd_scene_bodies(const struct kd_scene *scene, const struct kd_body *on[KD
 struct kd_vantage kd_body_vantage(const struct kd_scene *scene, const struct kd_body *body)
 {
     const double i = body->inclination_deg;
-    return (struct kd_vantage) { scene->spacetime.spin, body->r, kd_cos_deg(i), kd_sin_deg(i) };
+    return (struct kd_vantage) { *kd_scene_hole(scene), body->r, kd_cos_deg(i), kd_sin_deg(i) };
 }
 
 struct kd_observer_motion kd_body_motion(const struct kd_body *body)

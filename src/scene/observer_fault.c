@@ -37,7 +37,7 @@ enum kd_status kd_observer_check_place(const struct kd_observer_names *names, en
     char others[KD_OBSERVER_TEXT];
     if (kd_observer_exists(kind, at))
         return KD_OK;
-    const struct shown r = show(at->r), least = show_bound(row->outside(kd_hole(at->spin), at->u));
+    const struct shown r = show(at->r), least = show_bound(row->outside(&at->hole, at->u));
     if (kind == KD_OBSERVER_INFALL)
         return fault(names, names->r, error,
                      "is %s M; for %s%s \"infall\" it must be more than %s M, the inner horizon, where the model ends",

@@ -367,7 +367,7 @@ static enum kd_status body(const struct kd_scene *scene, size_t index, struct kd
     }
     if (!kd_observer_exists((enum kd_observer)b->motion, &at)) {
         snprintf(allowed, sizeof allowed, "more than %s M, %s, with motion \"%s\": inside %s",
-                 show_bound(row->outside(kd_hole(at.spin), at.u)).text, row->edge, row->word, row->why);
+                 show_bound(row->outside(&at.hole, at.u)).text, row->edge, row->word, row->why);
         return body_field("r", index, show(b->r).text, allowed, error);
     }
     if (b->motion == KD_OBSERVER_VELOCITY && !(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] <= 0.999 * 0.999)) {

@@ -53,8 +53,8 @@ static struct view view_of(const struct kd_camera *c)
  * is evaluated next to the horizon. */
 static void along(const struct kd_vantage *at, const struct kd_covector *leg, bool falls, double out[3])
 {
-    const double a = at->spin, r = at->r, s = at->s, sigma = r * r + a * a * at->u * at->u, w2 = r * r + a * a;
-    const double delta = kd_hole_delta(kd_hole(a), r);
+    const double a = at->hole.a, r = at->r, s = at->s, sigma = r * r + a * a * at->u * at->u, w2 = r * r + a * a;
+    const double delta = kd_hole_delta(&at->hole, r);
     const double p = leg->energy * w2 - a * s * leg->momentum + (falls ? leg->radial : 0);
     out[0] += leg->radial / sigma;
     out[1] += r * leg->polar / sigma;
@@ -65,7 +65,7 @@ static void leave_background_render(const struct kd_scene *scene, const double l
 {
     const struct kd_observer_motion motion = kd_scene_observer(scene);
     struct kd_vantage at = kd_scene_vantage(scene);
-    const double horizon = kd_hole(at.spin)->outer, beside = 1e-5;
+    const double horizon = at.hole.outer, beside = 1e-5;
     if (fabs(at.r - horizon) < beside * horizon)
         at.r = horizon * (1 + beside);
     const struct kd_tetrad f = kd_observer_tetrad(&motion, &at);

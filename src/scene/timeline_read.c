@@ -52,9 +52,7 @@ static double proper_time_to(const struct kd_scene *scene, const char *word)
     const struct kd_observer_motion motion = kd_scene_observer(scene);
     if (motion.observer != KD_OBSERVER_INFALL || !kd_worldline_is_known(&motion, &at))
         return NAN;
-    double r = !strcmp(word, "horizon") ? kd_hole(at.spin)->outer
-               : !strcmp(word, "end")   ? kd_infall_last(kd_hole(at.spin))
-                                        : NAN;
+    double r = !strcmp(word, "horizon") ? at.hole.outer : !strcmp(word, "end") ? kd_infall_last(&at.hole) : NAN;
     return r <= at.r ? kd_infall_proper_time(&motion, &at, r) : NAN;
 }
 

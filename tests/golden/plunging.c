@@ -36,7 +36,7 @@ static struct ray ray_of(const struct kd_scene *scene, uint32_t x, uint32_t y)
     ray.lambda = -alpha * sin(i);
     ray.eta = (alpha - a) * (alpha + a) * c * c + beta * beta;
     const struct kd_null_ray null = {
-        .spin = a,
+        .hole = kd_hole_of(a),
         .radius = scene->camera.r,
         .cos_theta = c,
         .sin_theta = sin(i),

@@ -20,7 +20,7 @@ struct tally {
 
 static void judge(const struct null_extreme *e, struct tally *t, struct extreme_row *row)
 {
-    struct kd_null_ray ray = { .spin = e->spin,
+    struct kd_null_ray ray = { .hole = kd_hole_of(e->spin),
                                .radius = e->radius,
                                .cos_theta = e->cos_theta,
                                .alpha = e->alpha,

@@ -4,7 +4,7 @@
 
 static void inputs(struct kd_null_ray *ray, double *out[EXTREME_INPUTS])
 {
-    out[0] = &ray->alpha, out[1] = &ray->beta, out[2] = &ray->spin, out[3] = &ray->cos_theta, out[4] = &ray->radius;
+    out[0] = &ray->alpha, out[1] = &ray->beta, out[2] = &ray->hole.a, out[3] = &ray->cos_theta, out[4] = &ray->radius;
 }
 
 static struct kd_null_path moved(const struct kd_null_ray *ray, int input, double by)
@@ -13,6 +13,7 @@ static struct kd_null_path moved(const struct kd_null_ray *ray, int input, doubl
     double *x[EXTREME_INPUTS];
     inputs(&near, x);
     *x[input] *= 1 + by;
+    near.hole = kd_hole_of(near.hole.a);
     near.cos_theta = fmax(-1, fmin(1, near.cos_theta));
     if (input == 3) /* computed from the cosine */
         near.sin_theta = 0;
@@ -42,7 +43,7 @@ bool extreme_steady(const struct kd_null_ray *ray, const struct kd_null_path *pa
     for (int k = 0; k < 2 * EXTREME_INPUTS; k++) {
         double by = step * (weight ? weight[k / 2] : 1);
         if (k / 2 == 2) /* callers that round the spin compute the horizon from the rounded value */
-            by = fmin(by, 0.1 * (1 - fabs(ray->spin)));
+            by = fmin(by, 0.1 * (1 - fabs(ray->hole.a)));
         struct kd_null_path near = moved(ray, k / 2, k % 2 ? by : -by);
         if (near.crossings != path->crossings || near.fate != path->fate || near.status != path->status)
             return false;

@@ -63,7 +63,7 @@ static bool ray_of(const struct camera *v, const struct kd_camera_block *c, int 
     float x = (float)(pixel % GRID) - c->middle_x, y = c->middle_y - (float)(pixel / GRID);
     float kx = c->c0x + x * c->cxx + y * c->cyx, ky = c->c0y + x * c->cxy + y * c->cyy;
     double i = v->inclination;
-    *ray = (struct kd_null_ray) { .spin = v->spin,
+    *ray = (struct kd_null_ray) { .hole = kd_hole_of(v->spin),
                                   .radius = v->r,
                                   .cos_theta = extreme_cos_deg(i),
                                   .sin_theta = extreme_sin_deg(i),

@@ -35,7 +35,7 @@ static struct kd_null_ray ray_of(const struct view *v, const double *alpha_beta)
 {
     double i = v->inclination;
     return (struct kd_null_ray) {
-        .spin = v->spin,
+        .hole = kd_hole_of(v->spin),
         .radius = v->r,
         .cos_theta = extreme_cos_deg(i),
         .sin_theta = extreme_sin_deg(i),

@@ -106,7 +106,7 @@ static void judge_share(const struct kd_scene *scene, unsigned number, const flo
 {
     const struct kd_camera *c = &scene->camera;
     const struct kd_vantage at = kd_scene_vantage(scene);
-    const struct kd_critical_observer observer = { at.spin, at.r, at.u, at.s, kd_scene_observer(scene) };
+    const struct kd_critical_observer observer = { at.hole, at.r, at.u, at.s, kd_scene_observer(scene) };
     if (isinf(c->r) || c->projection != KD_PROJECTION_EQUIRECTANGULAR)
         return;
     const struct kd_critical curve = kd_critical_of(&observer);

@@ -97,8 +97,11 @@ static void prepare(void)
                                                .orders = ORDERS,
                                                .precision = KD_PRECISION_F64 };
         series_angle(v->inclination, &ray.cosine, &ray.sine);
-        const struct kd_critical curve = kd_critical_of(&(struct kd_critical_observer) {
-            .spin = v->spin, .radius = INFINITY, .cos_theta = (double)ray.cosine, .sin_theta = (double)ray.sine });
+        const struct kd_critical curve =
+            kd_critical_of(&(struct kd_critical_observer) { .hole = kd_hole_of(v->spin),
+                                                            .radius = INFINITY,
+                                                            .cos_theta = (double)ray.cosine,
+                                                            .sin_theta = (double)ray.sine });
         for (size_t k = 0; k < RAYS; k++) {
             double *out = l->rays + 2 * l->n;
             place(v, &curve, k, out);

@@ -61,7 +61,7 @@ struct lt_law {
 /* mu = g sqrt(eta)/r, eta = (alpha^2 - a^2) cos^2 i + beta^2 (Cunningham & Bardeen 1973, ApJ 183, 237). */
 static inline double lt_cosine(const struct kd_disk_image *image, const struct lt_place *p, double r)
 {
-    double a = image->spin, c = image->cos_i, eta = (p->alpha * p->alpha - a * a) * c * c + p->beta * p->beta;
+    double a = image->hole.a, c = image->cos_i, eta = (p->alpha * p->alpha - a * a) * c * c + p->beta * p->beta;
     return fmin(1, p->g * sqrt(fmax(eta, 0)) / r);
 }
 
@@ -72,7 +72,7 @@ static inline double lt_profile_of(const struct kd_disk_image *image, const stru
                                    const double *edges, int bins, double *cumulative)
 {
     struct lt_place *at = malloc((size_t)n * (size_t)(m + 1) * sizeof *at);
-    double *in = calloc((size_t)bins * 2, sizeof *in), apart = 0, a = image->spin;
+    double *in = calloc((size_t)bins * 2, sizeof *in), apart = 0, a = image->hole.a;
     for (int i = 0; i <= m && apart >= 0; i++) {
         double part = (double)i / m,
                r = i == m ? law->outer : law->inner * pow(law->outer / law->inner, part * (0.4 + 0.6 * part)),

@@ -38,7 +38,7 @@ static void fates(const struct kd_scene *scene, bool *captured)
             struct kd_camera_label label;
             kd_camera_label(&camera, x, y, &label);
             const struct kd_null_ray ray = {
-                .spin = scene->spacetime.spin,
+                .hole = kd_hole_of(scene->spacetime.spin),
                 .radius = scene->camera.r,
                 .cos_theta = camera.u,
                 .sin_theta = camera.s,

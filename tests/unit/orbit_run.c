@@ -287,7 +287,7 @@ static void ends(void **state)
         if (!isnan(request.params.time))
             assert_true(fabs(last->place.t / request.params.time - 1) < 1e-9);
         if (run.end == KD_END_HORIZON)
-            assert_true(fabs(last->place.r / kd_hole(run.orbit.a)->outer - 1) < 1e-13 && isfinite(last->place.proper) &&
+            assert_true(fabs(last->place.r / run.orbit.hole.outer - 1) < 1e-13 && isfinite(last->place.proper) &&
                         !(last->place.t < last[-1].place.t));
         if (run.end == KD_END_FAR)
             assert_true(last->place.r >= 99.9999 && last[-1].place.r < last->place.r);

@@ -30,8 +30,8 @@ static const double cosines[] = { 1, 0.9563, 0.7071, 0.342, 0.01, 0, -0.5, -0.9,
 
 static struct kd_null_ray random_ray(uint64_t *seed, double field)
 {
-    struct kd_null_ray ray = { .radius = INFINITY, .orders = ORDERS };
-    ray.spin = spins[(int)(8 * random_unit(seed))];
+    struct kd_null_ray ray = { .hole = kd_hole_of(0), .radius = INFINITY, .orders = ORDERS };
+    ray.hole = kd_hole_of(spins[(int)(8 * random_unit(seed))]);
     ray.cos_theta = cosines[(int)(9 * random_unit(seed))];
     ray.alpha = random_unit(seed) < 0.05 ? 0 : field * (2 * random_unit(seed) - 1);
     ray.beta = field * (2 * random_unit(seed) - 1);
@@ -42,7 +42,7 @@ static void say(const struct kd_null_ray *ray, const char *what, int n, double g
 {
     fail_msg("a = %.17g, r = %.17g%s, cos = %.17g, alpha = %.17g, beta = %.17g: %s %d: %.17g, not %.17g: off by %.2g, "
              "allowed %.2g",
-             ray->spin, ray->radius, ray->outward ? " outwards" : "", ray->cos_theta, ray->alpha, ray->beta, what, n,
+             ray->hole.a, ray->radius, ray->outward ? " outwards" : "", ray->cos_theta, ray->alpha, ray->beta, what, n,
              got, want, fabs(got - want), allowed);
 }
 
@@ -53,7 +53,7 @@ static void check_neighbours(const struct kd_null_ray *ray, const struct kd_null
                              const struct kd_null_place *q)
 {
     const double s = sqrt((1 - p->u) * (1 + p->u)), t = sqrt((1 - q->u) * (1 + q->u));
-    if (s < 0.05 || t < 0.05 || fabs(ray->spin) > 0.01) /* otherwise frame dragging turns places as well */
+    if (s < 0.05 || t < 0.05 || fabs(ray->hole.a) > 0.01) /* otherwise frame dragging turns places as well */
         return;
     const double apart = acos(fmin(1, p->u * q->u + s * t * cos(p->phi - q->phi)));
     if (apart > 0.035)
@@ -65,7 +65,7 @@ static void check_neighbours(const struct kd_null_ray *ray, const struct kd_null
 static void judge(const struct kd_null_ray *ray, const struct ks_photon *photon)
 {
     static struct kd_null_place places[MOST];
-    const double near = 0.01 * horizon(ray->spin), far = isinf(ray->radius) ? 50 : fmax(50, 2 * ray->radius);
+    const double near = 0.01 * horizon(ray->hole.a), far = isinf(ray->radius) ? 50 : fmax(50, 2 * ray->radius);
     const struct kd_null_course course = kd_null_course_of(ray, far, near, places, MOST);
     const struct ks_path oracle = ks_trace(*photon, ORDERS);
     const struct kd_null_path closed = kd_null_trace(ray);
@@ -99,7 +99,7 @@ static void judge(const struct kd_null_ray *ray, const struct ks_photon *photon)
     }
     int there = 0; /* crossings farther out than the path, or closer to the horizon than it, are not part of it */
     for (int n = 0; n < oracle.crossings; n++)
-        there += oracle.r[n] < 0.999 * far && oracle.r[n] > 1.001 * (horizon(ray->spin) + near);
+        there += oracle.r[n] < 0.999 * far && oracle.r[n] > 1.001 * (horizon(ray->hole.a) + near);
     if (met < there)
         say(ray, "crossings", 0, met, there, 0);
 }
@@ -110,7 +110,7 @@ static void from_infinity(void **state)
     (void)state;
     for (int i = 0; i < 1500; i++) {
         const struct kd_null_ray ray = random_ray(&seed, i % 3 == 0 ? 25 : 8);
-        const struct ks_photon photon = ks_from_infinity(ray.spin, ray.cos_theta, ray.alpha, ray.beta);
+        const struct ks_photon photon = ks_from_infinity(ray.hole.a, ray.cos_theta, ray.alpha, ray.beta);
         judge(&ray, &photon);
     }
 }
@@ -119,7 +119,7 @@ static void from_infinity(void **state)
  * inaccurate there. */
 static bool photon_of(const struct kd_null_ray *ray, struct ks_photon *photon)
 {
-    const double a = ray->spin, u = ray->cos_theta, r = ray->radius, lambda = -ray->alpha * sqrt((1 - u) * (1 + u));
+    const double a = ray->hole.a, u = ray->cos_theta, r = ray->radius, lambda = -ray->alpha * sqrt((1 - u) * (1 + u));
     const double eta = (ray->alpha * ray->alpha - a * a) * u * u + ray->beta * ray->beta;
     const double delta = r * r - 2 * r + a * a, w = r * r + a * a - a * lambda,
                  big = w * w - delta * (eta + (lambda - a) * (lambda - a));
@@ -143,7 +143,7 @@ static void from_nearby(void **state)
     for (int i = 0; i < 2500; i++) {
         struct kd_null_ray ray = random_ray(&seed, 9);
         struct ks_photon photon;
-        ray.radius = horizon(ray.spin) * (1.25 + exp(6 * random_unit(&seed) - 3));
+        ray.radius = horizon(ray.hole.a) * (1.25 + exp(6 * random_unit(&seed) - 3));
         ray.outward = random_unit(&seed) < 0.5;
         if (fabs(ray.cos_theta) == 1)
             ray.cos_theta *= 0.99;
@@ -165,20 +165,20 @@ static void between_crossings(void **state)
     (void)state;
     for (int i = 0; i < 150; i++) {
         struct kd_null_ray ray = random_ray(&seed, 9);
-        const struct kd_null_course course = kd_null_course_of(&ray, 50, 0.01 * horizon(ray.spin), places, MOST);
+        const struct kd_null_course course = kd_null_course_of(&ray, 50, 0.01 * horizon(ray.hole.a), places, MOST);
         const struct kd_null_path whole = kd_null_trace(&ray);
         const double s = sqrt((1 - ray.cos_theta) * (1 + ray.cos_theta)), lambda = -ray.alpha * s;
         const double eta =
-            (ray.alpha * ray.alpha - ray.spin * ray.spin) * ray.cos_theta * ray.cos_theta + ray.beta * ray.beta;
+            (ray.alpha * ray.alpha - ray.hole.a * ray.hole.a) * ray.cos_theta * ray.cos_theta + ray.beta * ray.beta;
         for (size_t k = 20; k + 1 < course.n; k += 17) {
             const struct kd_null_place *p = &places[k];
             const double sin2 = (1 - p->u) * (1 + p->u), alpha = -lambda / sqrt(sin2);
-            const double beta2 = eta - (alpha * alpha - ray.spin * ray.spin) * p->u * p->u;
+            const double beta2 = eta - (alpha * alpha - ray.hole.a * ray.hole.a) * p->u * p->u;
             const bool outward = places[k + 1].r > p->r;
             if (p->crossing >= 0 || p->order >= whole.crossings || !(sin2 > 1e-2 && beta2 > 1e-2) ||
                 fabs(places[k + 1].r / p->r - 1) < 1e-3 || fabs(p->u) < 1e-2)
                 continue;
-            const struct kd_null_ray rest = { .spin = ray.spin,
+            const struct kd_null_ray rest = { .hole = ray.hole,
                                               .radius = p->r,
                                               .cos_theta = p->u,
                                               .sin_theta = sqrt(sin2),
@@ -210,12 +210,12 @@ static void without_a_course(void **state)
     struct kd_null_place places[10];
     (void)state;
     const struct kd_null_ray forbidden = {
-        .spin = 0.5, .radius = 5, .cos_theta = 0.2, .alpha = 40, .beta = 1, .orders = 1
+        .hole = kd_hole_of(0.5), .radius = 5, .cos_theta = 0.2, .alpha = 40, .beta = 1, .orders = 1
     };
     assert_int_equal(kd_null_course_of(&forbidden, 50, 0.01, places, 10).end, KD_COURSE_NONE);
     static const double no_number[] = { INFINITY, -INFINITY, NAN, 1e200 };
     for (int i = 0; i < 16; i++) {
-        const struct kd_null_ray none = { .spin = 0.5,
+        const struct kd_null_ray none = { .hole = kd_hole_of(0.5),
                                           .radius = i & 8 ? 1.9 : INFINITY,
                                           .cos_theta = 0.2,
                                           .sin_theta = sqrt(0.96),
@@ -225,7 +225,7 @@ static void without_a_course(void **state)
         assert_int_equal(kd_null_course_of(&none, 50, 0.01, places, 10).end, KD_COURSE_NONE);
     }
     const struct kd_null_ray ray = {
-        .spin = 0.5, .radius = INFINITY, .cos_theta = 0.2, .alpha = 6, .beta = 1, .orders = 1
+        .hole = kd_hole_of(0.5), .radius = INFINITY, .cos_theta = 0.2, .alpha = 6, .beta = 1, .orders = 1
     };
     const struct kd_null_course course = kd_null_course_of(&ray, 50, 0.01, places, 10);
     assert_int_equal(course.end, KD_COURSE_LONG);
@@ -262,7 +262,7 @@ static void from_within(void **state)
         ks_constants(&at, p, c);
         if (fabs(c[0]) < 0.02)
             continue;
-        const struct kd_null_ray ray = { .spin = a,
+        const struct kd_null_ray ray = { .hole = kd_hole_of(a),
                                          .radius = at.r,
                                          .cos_theta = cos(at.theta),
                                          .sin_theta = sin(at.theta),
@@ -329,7 +329,7 @@ static void ingoing_time(void **state)
     (void)state;
     for (int i = 0; i < 900; i++) {
         struct kd_null_ray ray = random_ray(&seed, 6);
-        const double a = ray.spin, root = sqrt((1 - a) * (1 + a)), inner = a * a / (1 + root);
+        const double a = ray.hole.a, root = sqrt((1 - a) * (1 + a)), inner = a * a / (1 + root);
         ray.radius = 1.05 * horizon(a) + 20 * random_unit(&seed);
         ray.outward = i & 1;
         const struct kd_null_path closed = kd_null_trace(&ray);

@@ -23,7 +23,7 @@ static const double root27 = 5.196152422706632;
 static struct kd_critical curve_of(double spin, double cos_theta, double radius, enum kd_observer frame)
 {
     struct kd_critical_observer o = {
-        .spin = spin, .radius = radius, .cos_theta = cos_theta, .motion = kd_observer_motion_of(frame)
+        .hole = kd_hole_of(spin), .radius = radius, .cos_theta = cos_theta, .motion = kd_observer_motion_of(frame)
     };
     struct kd_critical c = kd_critical_of(&o);
     if (c.status != KD_CRITICAL_OK)
@@ -179,7 +179,7 @@ static void the_edge_of_the_shadow(void **state)
                 double angle = 0.3 + k * 0.6, off = 1e-9;
                 struct kd_critical c = curve_of(spins[i], cosines[j], INFINITY, KD_OBSERVER_STATIC);
                 struct kd_critical_point p = kd_critical_at(&c, angle);
-                struct kd_null_ray ray = { .spin = spins[i], .radius = INFINITY, .cos_theta = cosines[j] };
+                struct kd_null_ray ray = { .hole = kd_hole_of(spins[i]), .radius = INFINITY, .cos_theta = cosines[j] };
                 for (int side = -1; side <= 1; side += 2) {
                     ray.alpha = p.alpha + side * off * (p.alpha - c.centre);
                     ray.beta = p.beta * (1 + side * off);
@@ -234,7 +234,7 @@ static void the_edge_from_nearby(void **state)
                 struct kd_covector photon = kd_tetrad_covector(&c.tetrad, (double[]) { 1, inwards, up, -right });
                 if (photon.energy <= 0.05) /* in the ergosphere: the ray has no alpha and beta */
                     continue;
-                struct kd_null_ray ray = { .spin = a,
+                struct kd_null_ray ray = { .hole = kd_hole_of(a),
                                            .radius = r,
                                            .cos_theta = u,
                                            .outward = inwards < 0,
@@ -305,16 +305,17 @@ static void measures(void **state)
 static void bad_input(void **state)
 {
     (void)state;
-    const struct kd_critical_observer good = { 0.5, 10, 0.5, 0, { .observer = KD_OBSERVER_STATIC } };
+    const struct kd_critical_observer good = { kd_hole_of(0.5), 10, 0.5, 0, { .observer = KD_OBSERVER_STATIC } };
     struct kd_critical_observer bad[8];
     for (size_t i = 0; i < COUNT(bad); i++)
         bad[i] = good;
     assert_int_equal(kd_critical_of(&good).status, KD_CRITICAL_OK);
-    bad[0].spin = 1, bad[1].spin = NAN, bad[2].radius = 1.5, bad[3].radius = NAN, bad[4].cos_theta = 1.1;
+    bad[0].hole = kd_hole_of(1), bad[1].hole = kd_hole_of(NAN), bad[2].radius = 1.5, bad[3].radius = NAN,
+    bad[4].cos_theta = 1.1;
     bad[5].cos_theta = NAN, bad[6].sin_theta = -0.1, bad[7].motion.observer = (enum kd_observer)KD_OBSERVER_COUNT;
     for (size_t i = 0; i < COUNT(bad); i++)
         assert_int_equal(kd_critical_of(&bad[i]).status, KD_CRITICAL_BAD_INPUT);
-    struct kd_critical_observer held = { 0.9, 1.99, 0, 0, { .observer = KD_OBSERVER_STATIC } };
+    struct kd_critical_observer held = { kd_hole_of(0.9), 1.99, 0, 0, { .observer = KD_OBSERVER_STATIC } };
     assert_int_equal(kd_critical_of(&held).status, KD_CRITICAL_NO_OBSERVER);
 }
 

@@ -67,7 +67,8 @@ static void the_edge_is_where_it_is_seen(void **state)
         const struct seer *s = &seers[i];
         const struct ks_place at = { s->spin, s->r, s->theta_deg * (M_PI / 180) };
         const struct ks_frame frame = frame_of(s, &at);
-        const struct kd_critical_observer observer = { s->spin, s->r, cos(at.theta), sin(at.theta), s->motion };
+        const struct kd_critical_observer observer = { kd_hole_of(s->spin), s->r, cos(at.theta), sin(at.theta),
+                                                       s->motion };
         const struct kd_critical curve = kd_critical_of(&observer);
         assert_int_equal(curve.status, KD_CRITICAL_OK);
         assert_int_equal(curve.is_skew, s->motion.observer == KD_OBSERVER_VELOCITY);

@@ -20,7 +20,7 @@
 
 static struct kd_critical curve_of(double spin, double cos_theta)
 {
-    struct kd_critical_observer o = { .spin = spin, .radius = INFINITY, .cos_theta = cos_theta };
+    struct kd_critical_observer o = { .hole = kd_hole_of(spin), .radius = INFINITY, .cos_theta = cos_theta };
     return kd_critical_of(&o);
 }
 
@@ -76,7 +76,7 @@ static void rays_agree(void **state)
                 fail_msg("a = %g, u = %g, angle %g, n = %d, source %g: no edge", a, u, angle, n, source);
             continue;
         }
-        struct kd_null_ray ray = { .spin = a, .radius = INFINITY, .cos_theta = u, .orders = n + 1 };
+        struct kd_null_ray ray = { .hole = kd_hole_of(a), .radius = INFINITY, .cos_theta = u, .orders = n + 1 };
         ray.alpha = p.alpha + d * (p.alpha - c.centre), ray.beta = p.beta + d * p.beta;
         struct kd_null_path path = kd_null_trace(&ray);
         assert_true(path.crossings > n);

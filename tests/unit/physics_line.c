@@ -142,7 +142,7 @@ static void sum_over_rays(double a, double i, double outer, const double *edges,
             /* each direction has another offset, so that no edge of the disk runs along the grid */
             double rho = exp(first + (k + fmod(0.6180339887498949 * j, 1)) * step), chi = 2 * M_PI * (j + 0.5) / around;
             struct kd_null_ray ray = {
-                .spin = a, .radius = INFINITY, .cos_theta = cos(i), .sin_theta = sin(i), .orders = 1
+                .hole = kd_hole_of(a), .radius = INFINITY, .cos_theta = cos(i), .sin_theta = sin(i), .orders = 1
             };
             ray.alpha = rho * cos(chi), ray.beta = squeeze * rho * sin(chi);
             struct kd_null_path path = kd_null_trace_fast(&ray);
@@ -471,7 +471,7 @@ static void test_spectrum(void **state)
         for (int n = 0; n < ACROSS * AROUND; n++) {
             double rho = 0.9 * exp((n / AROUND + fmod(0.6180339887498949 * (n % AROUND), 1)) * step),
                    chi = 2 * M_PI * (n % AROUND + 0.5) / AROUND;
-            struct kd_null_ray ray = { .spin = a,
+            struct kd_null_ray ray = { .hole = kd_hole_of(a),
                                        .radius = INFINITY,
                                        .cos_theta = c,
                                        .sin_theta = s,

@@ -17,7 +17,7 @@
 
 static struct kd_null_ray ray_of(const struct null_reference *e)
 {
-    return (struct kd_null_ray) { .spin = e->spin,
+    return (struct kd_null_ray) { .hole = kd_hole_of(e->spin),
                                   .radius = e->radius,
                                   .cos_theta = e->cos_theta,
                                   .alpha = e->alpha,
@@ -106,7 +106,7 @@ static void mirrors(void **state)
     for (size_t i = 0; i < COUNT(null_reference); i++) {
         struct kd_null_ray ray = ray_of(&null_reference[i]), flipped = ray, turned = ray;
         flipped.cos_theta = -ray.cos_theta, flipped.beta = -ray.beta;
-        turned.spin = -ray.spin, turned.alpha = -ray.alpha;
+        turned.hole = kd_hole_of(-ray.hole.a), turned.alpha = -ray.alpha;
         struct kd_null_path p = kd_null_trace(&ray), f = kd_null_trace(&flipped), t = kd_null_trace(&turned);
         assert_true(p.crossings == f.crossings && p.crossings == t.crossings && p.fate == f.fate && p.fate == t.fate);
         for (int n = 0; n < p.crossings; n++) {
@@ -130,11 +130,14 @@ static void continuity(void **state)
     for (size_t i = 0; i < COUNT(inclined); i++)
         for (int k = 0; k < 24; k++) {
             double angle = k * M_PI / 12 + 0.1, alpha = 7 * cos(angle), beta = 7 * sin(angle), tiny = 1e-13;
-            struct kd_null_ray still = {
-                .radius = INFINITY, .cos_theta = inclined[i], .alpha = alpha, .beta = beta, .orders = 2
-            };
+            struct kd_null_ray still = { .hole = kd_hole_of(0),
+                                         .radius = INFINITY,
+                                         .cos_theta = inclined[i],
+                                         .alpha = alpha,
+                                         .beta = beta,
+                                         .orders = 2 };
             struct kd_null_ray near[] = { still, still, still };
-            near[0].spin = tiny, near[1].spin = -tiny;
+            near[0].hole = kd_hole_of(tiny), near[1].hole = kd_hole_of(-tiny);
             near[2].cos_theta = i == 0 ? 1 - 1e-15 : i == 5 ? -1 + 1e-15 : inclined[i];
             struct kd_null_path p = kd_null_trace(&still);
             for (size_t j = 0; j < COUNT(near); j++) {
@@ -149,8 +152,12 @@ static void continuity(void **state)
             }
         }
     /* Through beta = 0, where the start is a turning point. */
-    struct kd_null_ray turn = { .spin = 0.9, .radius = INFINITY, .cos_theta = 0.5, .alpha = 8, .orders = 1 }, up = turn,
-                       down = turn;
+    struct kd_null_ray turn = { .hole = kd_hole_of(0.9),
+                                .radius = INFINITY,
+                                .cos_theta = 0.5,
+                                .alpha = 8,
+                                .orders = 1 },
+                       up = turn, down = turn;
     up.beta = 1e-13, down.beta = -1e-13;
     double r = kd_null_trace(&turn).crossing[0].r;
     within(0, 0, "r above beta = 0", fabs(kd_null_trace(&up).crossing[0].r / r - 1), 1e-12);
@@ -162,7 +169,9 @@ static void continuity(void **state)
 static void the_axis(void **state)
 {
     (void)state;
-    struct kd_null_ray ray = { .spin = 0.9, .radius = INFINITY, .cos_theta = 0.5, .beta = 6.5, .orders = 1 };
+    struct kd_null_ray ray = {
+        .hole = kd_hole_of(0.9), .radius = INFINITY, .cos_theta = 0.5, .beta = 6.5, .orders = 1
+    };
     double on = kd_null_trace(&ray).crossing[0].phi;
     ray.alpha = 1e-9;
     double right = kd_null_trace(&ray).crossing[0].phi;
@@ -178,7 +187,9 @@ static void the_axis(void **state)
 static void observers_along_a_ray(void **state)
 {
     (void)state;
-    struct kd_null_ray far = { .spin = 0.9, .radius = INFINITY, .cos_theta = 0, .alpha = -7, .beta = 3, .orders = 2 };
+    struct kd_null_ray far = {
+        .hole = kd_hole_of(0.9), .radius = INFINITY, .cos_theta = 0, .alpha = -7, .beta = 3, .orders = 2
+    };
     struct kd_null_path p = kd_null_trace(&far);
     far.radius = 1e7;
     struct kd_null_path q = kd_null_trace(&far);
@@ -192,12 +203,15 @@ static void observers_along_a_ray(void **state)
 static void degenerate_input(void **state)
 {
     (void)state;
-    const struct kd_null_ray good = { .spin = 0.9, .radius = 10, .cos_theta = 0.5, .alpha = 3, .beta = 3, .orders = 2 };
+    const struct kd_null_ray good = {
+        .hole = kd_hole_of(0.9), .radius = 10, .cos_theta = 0.5, .alpha = 3, .beta = 3, .orders = 2
+    };
     assert_int_equal(kd_null_trace(&good).status, KD_NULL_OK);
     struct kd_null_ray bad[9];
     for (size_t i = 0; i < COUNT(bad); i++)
         bad[i] = good;
-    bad[0].spin = 1, bad[1].spin = NAN, bad[2].radius = 1.4, bad[3].radius = NAN, bad[4].cos_theta = 1.0000001;
+    bad[0].hole = kd_hole_of(1), bad[1].hole = kd_hole_of(NAN), bad[2].radius = 1.4, bad[3].radius = NAN,
+    bad[4].cos_theta = 1.0000001;
     bad[5].alpha = INFINITY, bad[6].beta = NAN, bad[7].orders = KD_NULL_ORDERS + 1, bad[8].orders = -1;
     for (size_t i = 0; i < COUNT(bad); i++) {
         struct kd_null_path p = kd_null_trace(&bad[i]);
@@ -207,7 +221,7 @@ static void degenerate_input(void **state)
     struct kd_null_ray beyond = good; /* with b = 50 light does not come within 10 */
     beyond.alpha = 50;
     assert_int_equal(kd_null_trace(&beyond).status, KD_NULL_NO_RAY);
-    struct kd_null_ray plane = { .spin = 0.9, .radius = INFINITY, .cos_theta = 0, .alpha = 7, .orders = 3 };
+    struct kd_null_ray plane = { .hole = kd_hole_of(0.9), .radius = INFINITY, .cos_theta = 0, .alpha = 7, .orders = 3 };
     assert_int_equal(kd_null_trace(&plane).status, KD_NULL_IN_PLANE);
     assert_int_equal(kd_null_trace(&plane).crossings, 0);
 }
@@ -216,7 +230,7 @@ static void degenerate_input(void **state)
 static void principal_rays(void **state)
 {
     (void)state;
-    struct kd_null_ray centre = { .radius = 10, .cos_theta = 0.5, .orders = 3, .outward = true };
+    struct kd_null_ray centre = { .hole = kd_hole_of(0), .radius = 10, .cos_theta = 0.5, .orders = 3, .outward = true };
     struct kd_null_path p = kd_null_trace(&centre);
     assert_true(p.fate == KD_NULL_ESCAPED && p.crossings == 0 && p.sky_u == 0.5 && fabs(p.sky_phi) == 0);
     centre.outward = false;
@@ -225,7 +239,7 @@ static void principal_rays(void **state)
      * is followed backwards */
     double a = 0.9, s = sqrt(0.75), plus = 1 + sqrt(1 - a * a), minus = 1 - sqrt(1 - a * a);
     struct kd_null_ray principal = {
-        .spin = a, .radius = 10, .cos_theta = 0.5, .alpha = -a * s, .orders = 3, .outward = true
+        .hole = kd_hole_of(a), .radius = 10, .cos_theta = 0.5, .alpha = -a * s, .orders = 3, .outward = true
     };
     p = kd_null_trace(&principal);
     double turn = a / (plus - minus) * log((10 - minus) / (10 - plus));
@@ -233,11 +247,11 @@ static void principal_rays(void **state)
     within(0, 0, "u of a principal ray", fabs(p.sky_u - 0.5),
            1e-7); /* at a double root of U the rounding of alpha is under a square root */
     within(0, 0, "phi of a principal ray", fabs(p.sky_phi + turn), 1e-7);
-    struct kd_null_ray axis = { .spin = a, .radius = 10, .cos_theta = 1, .orders = 3, .outward = true };
+    struct kd_null_ray axis = { .hole = kd_hole_of(a), .radius = 10, .cos_theta = 1, .orders = 3, .outward = true };
     p = kd_null_trace(&axis);
     assert_true(p.fate == KD_NULL_ESCAPED && p.sky_u == 1);
     struct kd_null_ray equatorial = {
-        .spin = a, .radius = 10, .cos_theta = 0, .alpha = -a, .orders = 3, .outward = true
+        .hole = kd_hole_of(a), .radius = 10, .cos_theta = 0, .alpha = -a, .orders = 3, .outward = true
     };
     p = kd_null_trace(&equatorial);
     assert_true(p.fate == KD_NULL_ESCAPED && p.sky_u == 0);
@@ -250,9 +264,12 @@ static void many_orders(void **state)
 {
     (void)state;
     double b = sqrt(27) * (1 + 1e-14);
-    struct kd_null_ray ray = {
-        .radius = INFINITY, .cos_theta = 0.5, .alpha = b * 0.6, .beta = b * 0.8, .orders = KD_NULL_ORDERS
-    };
+    struct kd_null_ray ray = { .hole = kd_hole_of(0),
+                               .radius = INFINITY,
+                               .cos_theta = 0.5,
+                               .alpha = b * 0.6,
+                               .beta = b * 0.8,
+                               .orders = KD_NULL_ORDERS };
     struct kd_null_path p = kd_null_trace(&ray);
     assert_in_range(p.crossings, 8, 20);
     for (int n = 1; n < p.crossings; n++) {
@@ -285,7 +302,9 @@ static void neighbours(void **state)
     (void)state;
     static const double spins[] = { 0, 0.5, 0.9, -0.9, 0.998 }, off[] = { 1e-3, 1e-6, 1e-10, -1e-3, -1e-6, -1e-10 };
     for (size_t i = 0; i < COUNT(spins) * COUNT(off) * 6; i++) {
-        struct kd_null_ray ray = { .spin = spins[i % COUNT(spins)], .radius = INFINITY, .cos_theta = 0.6, .orders = 4 };
+        struct kd_null_ray ray = {
+            .hole = kd_hole_of(spins[i % COUNT(spins)]), .radius = INFINITY, .cos_theta = 0.6, .orders = 4
+        };
         double angle = 1 + (double)(i / COUNT(spins) / COUNT(off)), x = cos(angle), y = sin(angle);
         double b = critical_scale(ray, x, y) * (1 + off[i / COUNT(spins) % COUNT(off)]);
         ray.alpha = b * x, ray.beta = b * y;
@@ -311,9 +330,11 @@ static void exactly_critical(void **state)
     (void)state;
     int uncertain = 0;
     for (int k = -50; k <= 50; k++) {
-        struct kd_null_ray ray = {
-            .radius = INFINITY, .cos_theta = 0.6, .alpha = sqrt(27) * (1 + k * DBL_EPSILON), .orders = 3
-        };
+        struct kd_null_ray ray = { .hole = kd_hole_of(0),
+                                   .radius = INFINITY,
+                                   .cos_theta = 0.6,
+                                   .alpha = sqrt(27) * (1 + k * DBL_EPSILON),
+                                   .orders = 3 };
         struct kd_null_path p = kd_null_trace(&ray);
         uncertain += p.status == KD_NULL_CRITICAL;
         assert_int_equal(p.crossings, 3);

@@ -31,8 +31,8 @@ static const double cosines[] = { 1, 0.9563, 0.7071, 0.342, 0.01, 0, -0.5, -0.9,
 
 static struct kd_null_ray random_ray(uint64_t *seed, double field)
 {
-    struct kd_null_ray ray = { .radius = INFINITY, .orders = ORDERS };
-    ray.spin = pick(seed, spins, 9);
+    struct kd_null_ray ray = { .hole = kd_hole_of(0), .radius = INFINITY, .orders = ORDERS };
+    ray.hole = kd_hole_of(pick(seed, spins, 9));
     ray.cos_theta = pick(seed, cosines, 9);
     ray.alpha = field * (2 * random_unit(seed) - 1);
     ray.beta = field * (2 * random_unit(seed) - 1);
@@ -46,7 +46,7 @@ static void say(const struct kd_null_ray *ray, const char *what, int n, double g
     fail_msg("a = %.17g, r = %.17g%s, cos = %.17g, alpha = %.17g, beta = %.17g: %s %d: %.17g, not %.17g: off "
              "by %.2g, "
              "allowed %.2g",
-             ray->spin, ray->radius, ray->outward ? " outwards" : "", ray->cos_theta, ray->alpha, ray->beta, what, n,
+             ray->hole.a, ray->radius, ray->outward ? " outwards" : "", ray->cos_theta, ray->alpha, ray->beta, what, n,
              got, want, fabs(got - want), allowed);
 }
 
@@ -91,7 +91,7 @@ static void from_infinity(void **state)
     uint64_t seed = 1;
     for (int i = 0; i < 3000; i++) {
         struct kd_null_ray ray = random_ray(&seed, i % 3 == 0 ? 25 : 8);
-        compare(&ray, ks_from_infinity(ray.spin, ray.cos_theta, ray.alpha, ray.beta), 1e-11);
+        compare(&ray, ks_from_infinity(ray.hole.a, ray.cos_theta, ray.alpha, ray.beta), 1e-11);
     }
 }
 
@@ -100,7 +100,7 @@ static void from_infinity(void **state)
  * loses a factor 1/Delta. */
 static bool photon_of(const struct kd_null_ray *ray, struct ks_photon *photon)
 {
-    double a = ray->spin, u = ray->cos_theta, r = ray->radius, s = sqrt((1 - u) * (1 + u)), lambda = -ray->alpha * s;
+    double a = ray->hole.a, u = ray->cos_theta, r = ray->radius, s = sqrt((1 - u) * (1 + u)), lambda = -ray->alpha * s;
     double eta = (ray->alpha * ray->alpha - a * a) * u * u + ray->beta * ray->beta;
     double delta = r * r - 2 * r + a * a, w = r * r + a * a - a * lambda;
     double big = w * w - delta * (eta + (lambda - a) * (lambda - a));
@@ -119,7 +119,7 @@ static void from_nearby(void **state)
     int compared = 0;
     for (int i = 0; i < 6000; i++) {
         struct kd_null_ray ray = random_ray(&seed, 9);
-        ray.radius = (1 + sqrt(1 - ray.spin * ray.spin)) * (1.25 + exp(7 * random_unit(&seed) - 3));
+        ray.radius = (1 + sqrt(1 - ray.hole.a * ray.hole.a)) * (1.25 + exp(7 * random_unit(&seed) - 3));
         ray.outward = random_unit(&seed) < 0.5;
         if (fabs(ray.cos_theta) == 1)
             ray.cos_theta *= 0.99;

@@ -23,7 +23,7 @@ typedef long double vector[4], matrix[4][4];
  * Sigma dtheta^2 */
 static void metric(const struct kd_vantage *at, matrix g)
 {
-    long double a = at->spin, r = at->r, u = at->u, s = at->s, sigma = r * r + a * a * u * u;
+    long double a = at->hole.a, r = at->r, u = at->u, s = at->s, sigma = r * r + a * a * u * u;
     /* not r^2 - 2r + a^2, which cancels near the horizon; sqrtl so that the digits of the code's double are all used */
     long double root = sqrtl((1 - a) * (1 + a)), delta = (r - 1 - root) * (r - 1 + root);
     vector time = { [T] = 1, [PHI] = -a * s * s }, turn = { [T] = -a, [PHI] = r * r + a * a };
@@ -67,7 +67,7 @@ static long double dot(const vector p, const vector x) { return p[0] * x[0] + p[
 /* Covariant components in Boyer-Lindquist coordinates. */
 static void lower(const struct kd_vantage *at, const struct kd_covector *p, vector out)
 {
-    long double root = sqrtl((1 - (long double)at->spin) * (1 + (long double)at->spin));
+    long double root = sqrtl((1 - (long double)at->hole.a) * (1 + (long double)at->hole.a));
     out[T] = -p->energy;
     out[R] = p->radial / ((at->r - 1 - root) * (at->r - 1 + root));
     out[THETA] = p->polar;
@@ -102,8 +102,8 @@ static void everywhere(check *each)
         double height = heights[n / COUNT(spins) / COUNT(angles) % COUNT(heights)], bound;
         size_t k = n / COUNT(spins) / COUNT(angles) / COUNT(heights);
         struct kd_observer_motion m = motions[k];
-        struct kd_vantage at = { .spin = a, .u = cos(theta), .s = sin(theta) };
-        at.r = fmax(kd_observers[m.observer].outside(kd_hole(a), at.u), kd_hole(a)->outer) *
+        struct kd_vantage at = { .hole = kd_hole_of(a), .u = cos(theta), .s = sin(theta) };
+        at.r = fmax(kd_observers[m.observer].outside(&at.hole, at.u), at.hole.outer) *
                (1 + height); /* the coordinates are singular on the axis */
         m.fall_momentum *= at.s;
         m.fall_from *= at.r;
@@ -124,9 +124,9 @@ static void everywhere(check *each)
  * the edge, over the distance to the edge. */
 static double rounding(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
-    double edge = fmax(kd_observers[m->observer].outside(kd_hole(at->spin), at->u), kd_hole(at->spin)->outer),
-           inner = fabs(at->r - kd_hole(at->spin)->outer);
-    double moves = at->spin * at->spin / fabs(edge - 1);
+    double edge = fmax(kd_observers[m->observer].outside(&at->hole, at->u), at->hole.outer),
+           inner = fabs(at->r - at->hole.outer);
+    double moves = at->hole.a * at->hole.a / fabs(edge - 1);
     return (m->observer > KD_OBSERVER_ZAMO ? 100 : 8) * 2.2e-16 *
            ((at->r + moves) / (at->r - edge) + at->r / inner + 1);
 }
@@ -136,14 +136,14 @@ static void near(double is, double wanted, double bound, const char *what, const
 {
     if (!(fabs(is - wanted) <= bound))
         fail_msg("%s is %.17g, not %.17g within %.3g: %s, a = %g, r = %.17g, u = %g", what, is, wanted, bound,
-                 kd_observers[m->observer].word, at->spin, at->r, at->u);
+                 kd_observers[m->observer].word, at->hole.a, at->r, at->u);
 }
 
 /* The derivative of the metric with respect to r, by differences. */
 static void slope(const struct kd_vantage *at, matrix out)
 {
     matrix g[4];
-    const double h = 1e-4 * (at->r - kd_hole(at->spin)->outer);
+    const double h = 1e-4 * (at->r - at->hole.outer);
     for (int k = 0; k < 4; k++) {
         struct kd_vantage beside = *at;
         beside.r += h * (k < 2 ? k - 2 : k - 1);
@@ -187,7 +187,7 @@ static void circular_orbit(const struct kd_observer_motion *m, const struct kd_v
     near((double)up[THETA], 0, 0, "way down", m, at);
     near(force(at, up), 0, 1e-9 + rounding(m, at), "force", m, at);
     if (fabs(at->u) < 1e-9) { /* Bardeen, Press & Teukolsky's circular orbits */
-        double a = sense * at->spin, bound = 4 * rounding(m, at);
+        double a = sense * at->hole.a, bound = 4 * rounding(m, at);
         near((double)-down[T], kd_kerr_energy(kd_hole(a), at->r), bound * kd_kerr_energy(kd_hole(a), at->r), "E", m,
              at);
         near((double)down[PHI], sense * kd_kerr_momentum(kd_hole(a), at->r),
@@ -207,7 +207,7 @@ static void free_fall(const struct kd_observer_motion *m, const struct kd_vantag
     near((double)down[PHI], m->fall_momentum, 1e-14 * fabs(m->fall_momentum), "L", m, at);
     near((double)down[THETA], 0, 0, "way down", m, at);
     assert_true(up[R] < 0);
-    if (at->spin == 0 && isfinite(from.r) && m->fall_momentum == 0)
+    if (at->hole.a == 0 && isfinite(from.r) && m->fall_momentum == 0)
         near(energy, sqrt(1 - 2 / from.r), 1e-14, "E of Schwarzschild", m, at);
 }
 
@@ -254,9 +254,7 @@ static double cancelled(const struct kd_observer_motion *m, const struct kd_vant
     long double size = 0;
     for (int i = 0; i < 4; i++)
         size += fabsl(p[i] * x[i]);
-    return m->observer == KD_OBSERVER_INFALL
-               ? 16 * 2.2e-16 * (double)size * (1 + at->r / (at->r - kd_hole(at->spin)->outer))
-               : 0;
+    return m->observer == KD_OBSERVER_INFALL ? 16 * 2.2e-16 * (double)size * (1 + at->r / (at->r - at->hole.outer)) : 0;
 }
 
 static void orthonormal_at(const struct kd_observer_motion *m, const struct kd_vantage *at,
@@ -303,7 +301,7 @@ static const double directions[][3] = { { 1, 0, 0 },  { 0, 1, 0 },          { 0,
 static struct ks_frame frame_by_oracle(const struct kd_observer_motion *m, const struct kd_vantage *v,
                                        const struct kd_tetrad *frame)
 {
-    const struct ks_place at = { v->spin, v->r, atan2(v->s, v->u) };
+    const struct ks_place at = { v->hole.a, v->r, atan2(v->s, v->u) };
     struct ks_frame base = m->observer == KD_OBSERVER_INFALL ? ks_rain(&at) : ks_zamo(&at);
     double u[4] = { 0 }, x[4] = { 1, m->velocity[0], m->velocity[1], m->velocity[2] };
     double gamma = 1 / sqrt(1 - (x[1] * x[1] + x[2] * x[2] + x[3] * x[3]));
@@ -329,7 +327,7 @@ static void constants_at(const struct kd_observer_motion *m, const struct kd_van
     /* the axes of a static frame are not those of a boosted one */
     if (bound > 1e-4 || at->s < 1e-3 || m->observer == KD_OBSERVER_STATIC)
         return;
-    const struct ks_place place = { at->spin, at->r, atan2(at->s, at->u) };
+    const struct ks_place place = { at->hole.a, at->r, atan2(at->s, at->u) };
     const struct ks_frame oracle = frame_by_oracle(m, at, frame);
     double size = fabs(frame->phi.momentum) + fabs(frame->t.momentum);
     for (size_t i = 0; i < COUNT(directions); i++) {
@@ -353,8 +351,8 @@ static void at_rest_at(const struct kd_observer_motion *m, const struct kd_vanta
         return;
     for (size_t i = 0; i < COUNT(directions); i++) {
         const double *k = directions[i];
-        struct ks_photon want =
-            ks_from_camera(at->spin, at->r, theta, m->observer == KD_OBSERVER_ZAMO, (double[]) { -k[0], -k[1], -k[2] });
+        struct ks_photon want = ks_from_camera(at->hole.a, at->r, theta, m->observer == KD_OBSERVER_ZAMO,
+                                               (double[]) { -k[0], -k[1], -k[2] });
         struct kd_covector is = kd_tetrad_covector(frame, (double[]) { 1, k[0], k[1], k[2] });
         double size = fabs(frame->phi.momentum) + fabs(frame->t.momentum);
         near(is.energy, want.energy, bound * (fabs(frame->t.energy) + fabs(frame->phi.energy)), "E", m, at);
@@ -376,9 +374,8 @@ static double square_gamma(const struct kd_observer_motion *m, const struct kd_v
 {
     const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);
     double lapse = kd_observer_tetrad(&zamo, at).t.energy;
-    double gamma =
-        (frame->t.energy - kd_kerr_dragging(kd_hole(at->spin), at->r, at->u) * frame->t.momentum * at->s) / lapse;
-    return m->observer > KD_OBSERVER_ZAMO ? gamma * gamma * (1 + at->r / (at->r - kd_hole(at->spin)->outer)) : 1;
+    double gamma = (frame->t.energy - kd_kerr_dragging(&at->hole, at->r, at->u) * frame->t.momentum * at->s) / lapse;
+    return m->observer > KD_OBSERVER_ZAMO ? gamma * gamma * (1 + at->r / (at->r - at->hole.outer)) : 1;
 }
 
 /* Components survive the conversion into the frame and back, and a photon is seen in the direction it comes from; also
@@ -438,14 +435,15 @@ static void outgoing(void **state)
 {
     (void)state;
     everywhere(outgoing_at);
-    assert_true(kd_tetrad_outgoing(&(struct kd_vantage) { 0, 3, 0, 1 }, 9, 0).radial == 0);
+    assert_true(kd_tetrad_outgoing(&(struct kd_vantage) { kd_hole_of(0), 3, 0, 1 }, 9, 0).radial == 0);
 }
 
 static void words(void **state)
 {
     (void)state;
     char text[KD_OBSERVER_TEXT];
-    const struct kd_vantage far = { 0.9, 10, 0, 1 }, ergosphere = { 0.9, 1.9, 0, 1 }, hole = { 0.9, 1.2, 0, 1 };
+    const struct kd_vantage far = { kd_hole_of(0.9), 10, 0, 1 }, ergosphere = { kd_hole_of(0.9), 1.9, 0, 1 },
+                            hole = { kd_hole_of(0.9), 1.2, 0, 1 };
     assert_string_equal(KD_OBSERVER_WORDS, "static|zamo|keplerian|retrograde|infall|velocity");
     assert_string_equal(kd_observers[KD_OBSERVER_STATIC].word, "static");
     assert_string_equal(kd_observers[KD_OBSERVER_ZAMO].word, "zamo");

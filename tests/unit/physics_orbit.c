@@ -391,9 +391,9 @@ static void azimuth_has_no_pole(void **state)
                     if (n)
                         kd_orbit_path_step(&path, 0.5 * h);
                     struct kd_orbit_place at = kd_orbit_path_place(&path);
-                    double delta = at.r * (at.r - 2) + o.a * o.a;
+                    double delta = at.r * (at.r - 2) + o.hole.a * o.hole.a;
                     f[n] = o.momentum / (sin(at.theta) * sin(at.theta));
-                    g[n] = o.a * (2 * o.energy * at.r - o.a * o.momentum) / delta;
+                    g[n] = o.hole.a * (2 * o.energy * at.r - o.hole.a * o.momentum) / delta;
                 }
                 sum += h / 6 * (f[0] + 4 * f[1] + f[2]);
                 drag += h / 6 * (g[0] + 4 * g[1] + g[2]);

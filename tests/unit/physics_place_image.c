@@ -17,7 +17,7 @@
 static struct kd_place_view view_of(double a, double r, double i_deg)
 {
     const struct kd_observer_motion motion = kd_observer_motion_of(KD_OBSERVER_STATIC);
-    const struct kd_vantage at = { a, r, cos(i_deg * RADIAN), sin(i_deg * RADIAN) };
+    const struct kd_vantage at = { kd_hole_of(a), r, cos(i_deg * RADIAN), sin(i_deg * RADIAN) };
     return kd_place_view_of(&motion, &at);
 }
 
@@ -27,7 +27,7 @@ static double turn(double phi) { return remainder(phi, 2 * M_PI); }
 static int crosses(const struct kd_place_view *view, const struct kd_place_image *image, double r, double phi)
 {
     const struct kd_vantage *v = &view->frame.at;
-    const struct kd_null_ray ray = { .spin = v->spin,
+    const struct kd_null_ray ray = { .hole = v->hole,
                                      .radius = v->r,
                                      .cos_theta = v->u,
                                      .sin_theta = v->s,
@@ -48,7 +48,7 @@ static int crosses(const struct kd_place_view *view, const struct kd_place_image
         }
     }
     fail_msg("a = %g, from %g: no crossing of (%.9g, %.9g) is at r = %g, phi = %g: the nearest %.3g off, told %.3g",
-             v->spin, v->r, image->alpha, image->beta, r, phi, least, image->off);
+             v->hole.a, v->r, image->alpha, image->beta, r, phi, least, image->off);
     return -1;
 }
 

@@ -26,13 +26,13 @@ static void within(const char *what, double a, double x, double got, double want
 
 static struct kd_vantage vantage(double a, double i_deg, double r)
 {
-    return (struct kd_vantage) { a, r, cos(i_deg * RADIAN), sin(i_deg * RADIAN) };
+    return (struct kd_vantage) { kd_hole_of(a), r, cos(i_deg * RADIAN), sin(i_deg * RADIAN) };
 }
 
 /* The frame of an observer, by the reference. */
 static struct ks_frame oracle_frame(const struct kd_observer_motion *m, const struct kd_vantage *v)
 {
-    const struct ks_place at = { v->spin, v->r, atan2(v->s, v->u) };
+    const struct ks_place at = { v->hole.a, v->r, atan2(v->s, v->u) };
     const struct ks_frame rain = ks_rain(&at);
     double u[4];
     if (m->observer == KD_OBSERVER_ZAMO)
@@ -47,19 +47,20 @@ static void comes_from(const struct kd_observer_motion *m, const struct kd_vanta
                        double magnified)
 {
     const struct kd_ring_view view = kd_ring_view_of(m, v, r, order);
-    const struct ks_place at = { v->spin, v->r, atan2(v->s, v->u) };
+    const struct ks_place at = { v->hole.a, v->r, atan2(v->s, v->u) };
     const struct ks_frame frame = oracle_frame(m, v);
     struct kd_ring_view_point p;
     double photon[4], constants[4];
     if (!kd_ring_view_seen(&view, chi, &p))
-        fail_msg("no image of order %d of a ring at %.17g, chi = %g, a = %g, from %.17g", order, r, chi, v->spin, v->r);
-    within("a unit vector", v->spin, r, hypot(hypot(p.look.right, p.look.up), p.look.inwards), 1, 1e-13);
+        fail_msg("no image of order %d of a ring at %.17g, chi = %g, a = %g, from %.17g", order, r, chi, v->hole.a,
+                 v->r);
+    within("a unit vector", v->hole.a, r, hypot(hypot(p.look.right, p.look.up), p.look.inwards), 1, 1e-13);
     ks_seen(&frame, (double[]) { -p.look.inwards, -p.look.up, p.look.right }, photon);
     ks_constants(&at, photon, constants);
-    within("energy", v->spin, r, p.look.energy, constants[0], 1e-12 * (1 + fabs(constants[0])));
+    within("energy", v->hole.a, r, p.look.energy, constants[0], 1e-12 * (1 + fabs(constants[0])));
     const struct ks_path path = ks_follow(&at, photon, order + 1);
     assert_int_equal(path.crossings, order + 1);
-    within("r", v->spin, v->r, path.r[order], r, 1e-10 * magnified * r);
+    within("r", v->hole.a, v->r, path.r[order], r, 1e-10 * magnified * r);
 }
 
 static const double rings[][4] = {

@@ -84,7 +84,7 @@ static struct ks_frame frame_of(const struct seer *s)
 
 static struct kd_sky_view view_of(const struct seer *s)
 {
-    struct kd_sky_view view = kd_sky_view_of(&(struct kd_critical_observer) { .spin = s->spin,
+    struct kd_sky_view view = kd_sky_view_of(&(struct kd_critical_observer) { .hole = kd_hole_of(s->spin),
                                                                               .radius = s->r,
                                                                               .cos_theta = cos(s->inclination * RADIAN),
                                                                               .sin_theta = sin(s->inclination * RADIAN),
@@ -243,10 +243,13 @@ static void solid_angles(void **state)
 static void none(void **state)
 {
     (void)state;
-    assert_int_equal(kd_sky_view_of(&(struct kd_critical_observer) { .radius = INFINITY, .cos_theta = 1 }).status,
-                     KD_CRITICAL_BAD_INPUT);
-    assert_int_equal(kd_sky_view_of(&(struct kd_critical_observer) { .radius = 1.9, .sin_theta = 1 }).status,
-                     KD_CRITICAL_BAD_INPUT);
+    assert_int_equal(
+        kd_sky_view_of(&(struct kd_critical_observer) { .hole = kd_hole_of(0), .radius = INFINITY, .cos_theta = 1 })
+            .status,
+        KD_CRITICAL_BAD_INPUT);
+    assert_int_equal(
+        kd_sky_view_of(&(struct kd_critical_observer) { .hole = kd_hole_of(0), .radius = 1.9, .sin_theta = 1 }).status,
+        KD_CRITICAL_BAD_INPUT);
 }
 
 int main(void)

@@ -184,7 +184,7 @@ static struct ks_path seen_by(const struct kd_rays_params *p, const double *look
 {
     const double theta = p->inclination_deg * M_PI / 180, yaw = look[0] * M_PI / 180, pitch = look[1] * M_PI / 180;
     const struct ks_place at = { p->spin, p->r, theta };
-    const struct kd_vantage here = { p->spin, p->r, cos(theta), sin(theta) };
+    const struct kd_vantage here = { kd_hole_of(p->spin), p->r, cos(theta), sin(theta) };
     const struct kd_observer_motion motion = { (enum kd_observer)(p->observer - 1),
                                                { p->velocity[0], p->velocity[1], p->velocity[2] },
                                                p->fall_from,

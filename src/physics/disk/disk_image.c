@@ -37,7 +37,7 @@ static struct ellipse around(const struct kd_disk_image *image, double r)
 {
     double flat = r * image->cos_i, s2 = image->sin_i * image->sin_i;
     double up = 1 + 0.5 * (flat + sqrt(flat * flat + 16 * r * s2 * s2)), down = 1 + flat;
-    return (struct ellipse) { image->spin * image->sin_i, LIFTED * (up - down), r + 1, 0.5 * (up + down) };
+    return (struct ellipse) { image->hole.a * image->sin_i, LIFTED * (up - down), r + 1, 0.5 * (up + down) };
 }
 
 static double radius_of_node(const struct kd_disk_image *image, int k)
@@ -53,7 +53,7 @@ static double node_of_radius(const struct kd_disk_image *image, double r)
 
 double kd_disk_image_radius(const struct kd_disk_image *image, double alpha, double beta)
 {
-    struct kd_null_motion m = kd_null_motion_of(kd_hole(image->spin), image->cos_i, image->sin_i, alpha, beta);
+    struct kd_null_motion m = kd_null_motion_of(&image->hole, image->cos_i, image->sin_i, alpha, beta);
     if (!(m.eta > 0))
         return m.k > 27 ? INFINITY : 0; /* vortical: the ray never meets the plane */
     struct kd_null_roots roots = kd_null_roots_of(&m);
@@ -209,7 +209,7 @@ bool kd_disk_image_init(struct kd_disk_image *image, const struct kd_hole *hole,
 {
     double c = fabs(cos(inclination));
     memset(image, 0, sizeof *image);
-    image->spin = hole->a, image->cos_i = c, image->sin_i = sin(inclination);
+    image->hole = *hole, image->cos_i = c, image->sin_i = sin(inclination);
     image->isco = kd_kerr_isco(hole), image->horizon = hole->outer;
     image->origin = fmin(image->horizon, image->isco - NEAREST);
     image->angles = c > 0.3 ? 64 : c > 0.15 ? 128 : c > 0.08 ? 256 : KD_DISK_IMAGE_ANGLES;
@@ -302,13 +302,13 @@ void kd_disk_image_ring(const struct kd_disk_image *image, double r, int skip, i
 
 struct kd_disk_ring kd_disk_image_gas(const struct kd_disk_image *image, double r)
 {
-    return (struct kd_disk_ring) { r, kd_kerr_ut(kd_hole(image->spin), r), kd_kerr_omega(kd_hole(image->spin), r) };
+    return (struct kd_disk_ring) { r, kd_kerr_ut(&image->hole, r), kd_kerr_omega(&image->hole, r) };
 }
 
 struct kd_disk_light kd_disk_image_light(const struct kd_disk_image *image, const struct kd_disk_ring *gas,
                                          double alpha, double beta)
 {
-    double a = image->spin, c = image->cos_i, eta = (alpha - a) * (alpha + a) * c * c + beta * beta;
+    double a = image->hole.a, c = image->cos_i, eta = (alpha - a) * (alpha + a) * c * c + beta * beta;
     double g = kd_disk_image_redshift(image, gas, alpha);
     return (struct kd_disk_light) { g, fmin(1, g * sqrt(fmax(eta, 0)) / gas->r) };
 }

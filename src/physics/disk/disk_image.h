@@ -27,7 +27,8 @@ enum {
     3 /* degrees from edge-on within which there is no table, because the image of the far side is not resolved */
 
 struct kd_disk_image {
-    double spin, cos_i, sin_i; /* cos_i > 0, because the disk looks the same from below as from above */
+    struct kd_hole hole;
+    double cos_i, sin_i; /* cos_i > 0, because the disk looks the same from below as from above */
     double isco, horizon, origin;
     int angles;                                                      /* 64 to 512: more towards edge-on */
     double cosine[KD_DISK_IMAGE_ANGLES], sine[KD_DISK_IMAGE_ANGLES]; /* of directions */

@@ -46,8 +46,7 @@ static void add_ring(const struct kd_disk_image *image, const struct kd_disk_spe
                      double weight, int skip, int n, const double *frequencies, int n_f, struct ring *ring, double *sum)
 {
     struct kd_disk_ring gas = kd_disk_image_gas(image, r);
-    double t = kd_disk_temperature(kd_disk_flux_page_thorne(kd_hole(image->spin), r), kd_hole(image->spin),
-                                   p->mass_msun, p->mdot_edd) *
+    double t = kd_disk_temperature(kd_disk_flux_page_thorne(&image->hole, r), &image->hole, p->mass_msun, p->mdot_edd) *
                p->colour_correction;
     if (!(t > 0))
         return;
@@ -111,7 +110,7 @@ enum kd_status kd_disk_spectrum(const struct kd_disk_image *image, const struct 
         if (!isfinite(flux[i]) || !isfinite(other[i]) || !isfinite(rough[i]))
             status = kd_error_field(error, "/spin",
                                     "spin is %.17g: the sum is no number at %.9g Hz, so near an extremal hole",
-                                    image->spin, frequencies[i]);
+                                    image->hole.a, frequencies[i]);
     }
     *error_out = 0;
     const double sure = image->cos_i < EDGE_ON ? 4 : 1;

@@ -336,8 +336,8 @@ enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct k
 {
     struct kd_lamppost lamp;
     struct sum sums[LEVELS + 1];
-    if (params->emissivity == KD_LINE_LAMPPOST && !kd_lamppost_init(&lamp, kd_hole(image->spin), params->height,
-                                                                    params->photon_index, params->inner, params->outer))
+    if (params->emissivity == KD_LINE_LAMPPOST &&
+        !kd_lamppost_init(&lamp, &image->hole, params->height, params->photon_index, params->inner, params->outer))
         return kd_error_field(error, "/height", "height is %.9g: its light is not found on the whole disk",
                               params->height);
     struct work *work = malloc(sizeof *work);
@@ -356,7 +356,7 @@ enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct k
         gather(&all, &sums[n], share);
         if (!(sums[n].total > 0 && isfinite(profile->total)))
             status = kd_error_field(error, "/spin", "spin is %.17g: the sum is no number, so near an extremal hole",
-                                    image->spin);
+                                    image->hole.a);
     }
     free(work);
     free(in);

@@ -85,8 +85,9 @@ static double along(const struct kd_critical *c, double at)
 
 static bool valid(const struct kd_critical_observer *o)
 {
-    return fabs(o->spin) < 1 && fabs(o->cos_theta) <= 1 && o->sin_theta >= 0 && o->sin_theta <= 1 &&
-           o->radius > (o->motion.observer == KD_OBSERVER_INFALL ? kd_hole(o->spin)->inner : kd_hole(o->spin)->outer) &&
+    return kd_hole_exists(&o->hole) && o->hole.q == 0 && fabs(o->cos_theta) <= 1 && o->sin_theta >= 0 &&
+           o->sin_theta <= 1 &&
+           o->radius > (o->motion.observer == KD_OBSERVER_INFALL ? o->hole.inner : o->hole.outer) &&
            (unsigned)o->motion.observer < KD_OBSERVER_COUNT;
 }
 
@@ -95,12 +96,12 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
     struct kd_critical c = { .observer = *o, .status = KD_CRITICAL_BAD_INPUT };
     if (!valid(o))
         return c;
-    double a = o->spin, u = o->cos_theta;
+    double u = o->cos_theta;
     c.status = KD_CRITICAL_OK;
     c.sine = o->sin_theta > 0 ? o->sin_theta : sqrt((1 - u) * (1 + u));
-    c.shell = kd_shell_of(kd_hole(a));
+    c.shell = kd_shell_of(&o->hole);
     if (isfinite(o->radius)) {
-        const struct kd_vantage at = { a, o->radius, u, c.sine };
+        const struct kd_vantage at = { o->hole, o->radius, u, c.sine };
         double bound;
         if (!kd_observer_exists(o->motion.observer, &at) || kd_observer_check(&o->motion, &at, &bound))
             c.status = KD_CRITICAL_NO_OBSERVER;
@@ -114,7 +115,7 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
     }
     c.low = end(&c, c.shell.prograde);
     c.high = end(&c, c.shell.retrograde);
-    if (signbit(a)) { /* the mirror image: retrograde orbits appear on the left */
+    if (signbit(o->hole.a)) { /* the mirror image: retrograde orbits appear on the left */
         double swap = c.low;
         c.low = c.high, c.high = swap;
     }

@@ -40,7 +40,7 @@
 #include <stdbool.h>
 
 struct kd_critical_observer {
-    double spin;                      /* |spin| < 1                                                      */
+    struct kd_hole hole;              /* uncharged */
     double radius;                    /* outside the horizon, for a falling observer outside the inner one; INFINITY */
     double cos_theta;                 /* [-1, 1], exact 0 and +-1 included                               */
     double sin_theta;                 /* 0: taken from cos_theta, as in null_geodesic.h                  */

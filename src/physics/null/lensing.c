@@ -27,12 +27,13 @@ struct ray {
 
 static struct ray ray_at(const struct kd_critical *c, const struct kd_critical_point *p, int n, double d)
 {
-    double u = c->observer.cos_theta, a = c->observer.spin;
+    const struct kd_hole *hole = &c->observer.hole;
+    double u = c->observer.cos_theta;
     double dalpha = d * (p->alpha - c->centre), dbeta = d * p->beta;
-    struct kd_null_motion m = kd_null_motion_of(kd_hole(a), u, c->sine, p->alpha + dalpha, p->beta + dbeta);
+    struct kd_null_motion m = kd_null_motion_of(hole, u, c->sine, p->alpha + dalpha, p->beta + dbeta);
     struct kd_null_roots roots;
     if (fabs(d) < NEAR) {
-        struct kd_null_motion critical = kd_null_motion_of(kd_hole(a), u, c->sine, p->alpha, p->beta);
+        struct kd_null_motion critical = kd_null_motion_of(hole, u, c->sine, p->alpha, p->beta);
         struct kd_null_displacement by =
             kd_null_displacement_of(&critical, p->orbit.r, kd_shell_bend(&p->orbit), dalpha, dbeta);
         roots = kd_null_roots_beside(&m, &by);
@@ -106,7 +107,7 @@ static double solve(kd_root_fn f, const struct search *q, double expected, doubl
 
 double kd_lensing_edge(const struct kd_critical *c, const struct kd_critical_point *p, int n, double source)
 {
-    if (!(n >= 1 && source >= kd_hole(c->observer.spin)->outer))
+    if (!(n >= 1 && source >= c->observer.hole.outer))
         return NAN;
     struct search q = { .curve = c, .point = p, .n = n, .source = source };
     struct ray on = ray_at(c, p, n, -ON_CURVE);

@@ -28,7 +28,7 @@ static bool swing_of(const struct kd_null_motion *m, struct swing *o, struct kd_
     kd_null_polar_gap(m, &disc, &gap, &weight);
     o->s = disc;
     o->z = m->c * m->c + gap;
-    o->full = sqrt(weight + m->a * m->a * m->s * m->s);
+    o->full = sqrt(weight + m->hole.a * m->hole.a * m->s * m->s);
     const double speed = sqrt(weight);
     if (!(weight > 0) || !(o->full > 0))
         return false;
@@ -37,7 +37,7 @@ static bool swing_of(const struct kd_null_motion *m, struct swing *o, struct kd_
     if (!(m->eta > 0) || !(o->z > 0))
         return false;
     o->n = m->eta / o->z;
-    o->kappa = m->a * m->a * o->z / o->s;
+    o->kappa = m->hole.a * m->hole.a * o->z / o->s;
     o->at = copysign(atan2(sqrt(gap), m->c), -m->beta);
     return true;
 }
@@ -84,7 +84,7 @@ static double dragged(const struct swing *w, double from, double to)
 
 static struct kd_null_motion motion_of(const struct kd_null_ray *ray)
 {
-    return kd_null_motion_of(kd_hole(ray->spin), ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
+    return kd_null_motion_of(&ray->hole, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
 }
 
 void kd_null_bend_tangent(const struct kd_null_ray *ray, struct kd_null_bend *out)
@@ -117,7 +117,7 @@ bool kd_null_bend_of(const struct kd_null_ray *ray, struct kd_null_bend *out)
                  phi = ray->outward ? start.phi : 2 * q.turn.phi - start.phi;
     const double to = swung(&w, tau);
     out->turn = to - w.at;
-    out->drag = -(phi + m.a * m.a * m.lambda / w.full * dragged(&w, w.at, to));
+    out->drag = -(phi + m.hole.a * m.hole.a * m.lambda / w.full * dragged(&w, w.at, to));
     return true;
 }
 

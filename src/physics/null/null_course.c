@@ -36,7 +36,7 @@ struct course {
 static double gone(const struct course *c, double w, double dw, double d)
 {
     const struct kd_null_motion *m = &c->m;
-    const double all = 1 + m->a * (m->a - m->lambda) * w * w, along = all + c->ingoing * dw,
+    const double all = 1 + m->hole.a * (m->hole.a - m->lambda) * w * w, along = all + c->ingoing * dw,
                  against = all - c->ingoing * dw;
     return fabs(against) >= fabs(along) ? m->k * w * w / against : along / d;
 }
@@ -44,8 +44,9 @@ static double gone(const struct course *c, double w, double dw, double d)
 static struct state rates(const struct course *c, const struct state *s)
 {
     const struct kd_null_motion *m = &c->m;
-    const double w = s->y[W], dw = s->y[DW], u = s->y[NZ], a = m->a, a2 = a * a, d = 1 - 2 * w + a2 * w * w;
+    const double w = s->y[W], dw = s->y[DW], u = s->y[NZ], a = m->hole.a, a2 = a * a, d = kd_hole_delta_w(&m->hole, w);
     const double pull = m->eta + m->lambda * m->lambda + 2 * a2 * u * u;
+    const double q2 = m->hole.q * m->hole.q, al = a * m->lambda;
     const double g = c->ingoing != 0 && w != 0 ? gone(c, w, dw, d) : 0;
     return (struct state) { {
         [W] = dw,
@@ -56,10 +57,11 @@ static struct state rates(const struct course *c, const struct state *s)
         [VX] = -pull * s->y[NX],
         [VY] = -pull * s->y[NY],
         [VZ] = (a2 - pull) * u,
-        [CHI] = c->ingoing != 0 ? a * (g - 1) : a * w * (2 - a * m->lambda * w) / d,
-        [T] = c->ingoing != 0 ? w * (m->k + m->constant * w) + a2 * u * u + (w != 0 ? 2 * g / w : 0)
-                              : w * (m->k + m->constant * w) * (1 + 2 * w / (1 + c->way * dw)) + 4 +
-                                    ((8 - 2 * a * m->lambda) * w - 4 * a2 * w * w) / d + a2 * u * u,
+        [CHI] = c->ingoing != 0 ? a * (g - 1) : a * w * (2 - (q2 + al) * w) / d,
+        [T] = c->ingoing != 0
+                  ? w * (m->k + m->constant * w) + a2 * u * u + (w != 0 ? (2 / w - q2) * g : 0)
+                  : w * (m->k + m->constant * w) * (1 + 2 * w / (1 + c->way * dw)) + (4 - q2) +
+                        ((8 - 4 * q2 - 2 * al) * w + (q2 * (q2 + al - 4) - 4 * a2) * w * w) / d + a2 * u * u,
     } };
 }
 
@@ -103,8 +105,9 @@ static double drift(const struct course *c, const struct state *s)
     for (int i = 0; i < 4; i++)
         radial += terms[i], size += fabs(terms[i]);
     const double speed2 = y[VX] * y[VX] + y[VY] * y[VY] + y[VZ] * y[VZ],
-                 polar = m->eta + l2 + m->a * m->a * u2 - speed2;
-    const double moment = y[NX] * y[VY] - y[NY] * y[VX] - m->lambda, about = sqrt(fabs(m->eta) + l2 + m->a * m->a);
+                 polar = m->eta + l2 + m->hole.a * m->hole.a * u2 - speed2;
+    const double moment = y[NX] * y[VY] - y[NY] * y[VX] - m->lambda,
+                 about = sqrt(fabs(m->eta) + l2 + m->hole.a * m->hole.a);
     double worst = fmax(fabs(radial) / size, fabs(y[NX] * y[NX] + y[NY] * y[NY] + u2 - 1));
     if (about > 0)
         worst = fmax(worst, fmax(fabs(polar) / (about * about), fabs(moment) / about));
@@ -202,7 +205,7 @@ static double length_of(const struct course *c)
 {
     const struct kd_null_motion *m = &c->m;
     const double deep = c->ingoing != 0 ? 6 * m->k * fmax(c->now.y[W], 0) : 0;
-    const double turning = sqrt(fabs(m->eta) + m->lambda * m->lambda + m->a * m->a + deep) + 1e-300;
+    const double turning = sqrt(fabs(m->eta) + m->lambda * m->lambda + m->hole.a * m->hole.a + deep) + 1e-300;
     return fmin(ANGLE / turning, SLOPE) / SUBSTEPS;
 }
 
@@ -210,7 +213,7 @@ static double length_of(const struct course *c)
  * from within. */
 static bool is_dark(const struct course *c)
 {
-    return c->ingoing * (1 + c->m.a * (c->m.a - c->m.lambda) * c->horizon * c->horizon) <= 0;
+    return c->ingoing * (1 + c->m.hole.a * (c->m.hole.a - c->m.lambda) * c->horizon * c->horizon) <= 0;
 }
 
 /* True if chi and t have a pole where the ray would reach the horizon next. */
@@ -298,8 +301,8 @@ static struct kd_null_course follow(const struct kd_null_ray *ray, double ingoin
     struct kd_null_course course = { .least_r = INFINITY };
     const double begun = isinf(ray->radius) ? 0 : 1 / ray->radius;
     struct course c = {
-        .m = kd_null_motion_of(kd_hole(ray->spin), ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta),
-        .horizon = 1 / kd_hole(ray->spin)->outer,
+        .m = kd_null_motion_of(&ray->hole, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta),
+        .horizon = 1 / ray->hole.outer,
         .ingoing = ingoing,
         .first = fmin(1 / far, begun > 0 ? begun : INFINITY),
         .out = out,

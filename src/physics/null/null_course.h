@@ -8,19 +8,19 @@
  *   w'' = A w + 3K w^2 + 2C w^3                     w'^2 = 1 + A w^2 + 2K w^3 + C w^4
  *   n'' = a^2 n_z e_z - (eta + lambda^2 + 2 a^2 n_z^2) n      n'^2 = eta + lambda^2 + a^2 n_z^2,  (n x n')_z =
  *     lambda
- *   chi' = a w (2 - a lambda w)/D,   D = 1 - 2w + a^2 w^2
+ *   chi' = a w (2 - (q^2 + a lambda) w)/D,   D = 1 - 2w + (a^2 + q^2) w^2
  *
- * (Carter 1968; A, K, C of null_quartic.h): regular on the axis and at infinity. The time t' = 1/w^2 + 2/w + 4 + ((8
- * - 2a lambda) w - 4a^2 w^2)/D + a^2 n_z^2 (Gralla & Lupsasca 2020, arXiv:1910.12881, eqs. 6-8) is integrated
- * without its first two terms, by
+ * (Carter 1968; A, K, C of null_quartic.h): regular on the axis and at infinity. The time, t'
+ * = 1/w^2 + 2/w + 4 - q^2 + ((8 - 4q^2 - 2a lambda) w + (q^2 (q^2 + a lambda - 4) - 4a^2) w^2)/D + a^2 n_z^2 (Gralla &
+ * Lupsasca 2020, arXiv:1910.12881, eqs. 6-8, with 2r - q^2 for 2r), is integrated without its first two terms, by
  *   1/w^2 = (-w'/w)' + K w + C w^2,   1/w = -s (ln((1 + s w')/w))' + w^2 (K + C w)/(1 + s w'),   s = 1 on the way
  *                                     in, -1 on the way out.
  *
  * A ray that is followed back out of the horizon has no Boyer-Lindquist azimuth and time there, but those of ingoing
- * coordinates, phi + Int a/Delta dr and t + Int 2r/Delta dr. With W = 1 + (a^2 - a lambda) w^2, w'^2 = W^2 - D k
- * w^2, k = eta + (lambda - a)^2, and s the sign of the energy at infinity,
+ * coordinates, phi + Int a/Delta dr and t + Int (2r - q^2)/Delta dr. With W = 1 + (a^2 - a lambda) w^2, w'^2 = W^2 - D
+ * k w^2, k = eta + (lambda - a)^2, and s the sign of the energy at infinity,
  *
- *   chi' = a (G - 1),   t' = 1/w^2 + a^2 n_z^2 + 2 G/w,   G = (W + s w')/D = k w^2/(W - s w'):
+ *   chi' = a (G - 1),   t' = 1/w^2 + a^2 n_z^2 + (2/w - q^2) G,   G = (W + s w')/D = k w^2/(W - s w'):
  *
  * regular at the horizon for light that comes from outside, s W > 0 there. */
 #ifndef KD_PHYSICS_NULL_NULL_COURSE_H

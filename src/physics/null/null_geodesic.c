@@ -18,10 +18,10 @@ struct motion {
 
 static bool valid(const struct kd_null_ray *ray)
 {
-    if (!(fabs(ray->spin) < 1) || !(fabs(ray->cos_theta) <= 1) || !(ray->sin_theta >= 0 && ray->sin_theta <= 1) ||
+    if (!kd_hole_exists(&ray->hole) || !(fabs(ray->cos_theta) <= 1) || !(ray->sin_theta >= 0 && ray->sin_theta <= 1) ||
         !isfinite(ray->alpha) || !isfinite(ray->beta))
         return false;
-    if (ray->orders < 0 || ray->orders > KD_NULL_ORDERS || !(ray->radius > kd_hole(ray->spin)->outer))
+    if (ray->orders < 0 || ray->orders > KD_NULL_ORDERS || !(ray->radius > ray->hole.outer))
         return false;
     return !(isinf(ray->radius) && ray->outward);
 }
@@ -112,7 +112,7 @@ static void cross(const struct motion *m, const struct kd_null_ray *ray, struct 
         if (!(p.tau < m->end) || !reach(m, p.tau, x))
             return;
         x->phi = -(x->phi + p.phi);
-        x->delay += ray->spin * ray->spin * p.u2;
+        x->delay += ray->hole.a * ray->hole.a * p.u2;
         path->crossings++;
     }
 }
@@ -146,11 +146,11 @@ static void principal(const struct kd_null_ray *ray, const struct kd_null_motion
 {
     if (!ray->outward)
         return;
-    double plus = kd_hole(k->a)->outer, minus = kd_hole(k->a)->inner;
+    double plus = k->hole.outer, minus = k->hole.inner;
     path->fate = KD_NULL_ESCAPED;
     path->sky_u = k->c;
     /* lambda dtau and frame dragging add up to a dr/Delta */
-    path->sky_phi = -k->a / (plus - minus) * log((ray->radius - minus) / (ray->radius - plus));
+    path->sky_phi = -k->hole.a / (plus - minus) * log((ray->radius - minus) / (ray->radius - plus));
 }
 
 static struct kd_null_path follow(const struct kd_null_ray *ray)
@@ -158,8 +158,7 @@ static struct kd_null_path follow(const struct kd_null_ray *ray)
     struct kd_null_path path = { .status = KD_NULL_BAD_INPUT, .fate = KD_NULL_CAPTURED, .sky_u = NAN, .sky_phi = NAN };
     if (!valid(ray))
         return path;
-    struct kd_null_motion k =
-        kd_null_motion_of(kd_hole(ray->spin), ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
+    struct kd_null_motion k = kd_null_motion_of(&ray->hole, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     struct kd_null_roots roots = kd_null_roots_of(&k);
     enum kd_null_region region = kd_null_region_of(&roots, ray->radius);
     path.status = KD_NULL_NO_RAY;
@@ -168,7 +167,7 @@ static struct kd_null_path follow(const struct kd_null_ray *ray)
     path.status = KD_NULL_OK;
     if (ray->cos_theta == 0 && k.eta == 0)
         path.status = KD_NULL_IN_PLANE;
-    else if (roots.margin < 16 * DBL_EPSILON && roots.mean > kd_hole(ray->spin)->outer)
+    else if (roots.margin < 16 * DBL_EPSILON && roots.mean > ray->hole.outer)
         path.status = KD_NULL_CRITICAL;
     if (roots.kind == KD_NULL_NO_REAL) {
         without_roots(ray, &k, &roots, &path);
@@ -227,19 +226,16 @@ static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path,
  * that were repeated with 64-bit significands: the worst error was 2.5 times its estimate, and one in ten thousand
  * exceeded it. Near maximal spin three roots crowd at the horizon, and disturbances that slopes in alpha and beta do
  * not show have the weight 1/(r+ - r-). */
-static double weight_of(const struct kd_null_ray *ray)
-{
-    return 8 + 2 / (kd_hole(ray->spin)->outer - kd_hole(ray->spin)->inner);
-}
+static double weight_of(const struct kd_null_ray *ray) { return 8 + 2 / (ray->hole.outer - ray->hole.inner); }
 
 /* Rounding as a disturbance of the labels, of the answer itself, and of r where phi and t diverge as ln(r - r+). The
  * difference of the two poles at the horizons loses 1/(r+ - r-). */
 static void estimate(const struct kd_null_ray *ray, struct kd_null_crossing *x, const struct slope *d)
 {
-    double plus = kd_hole(ray->spin)->outer, gap = plus - kd_hole(ray->spin)->inner, eps = DBL_EPSILON;
+    double plus = ray->hole.outer, gap = plus - ray->hole.inner, eps = DBL_EPSILON;
     double weight = weight_of(ray), poles = (1 + x->r / (x->r - plus)) / gap * (1 + d->r);
     x->error_r = 4 * x->error_r + eps * (4 + weight * d->r);
-    x->error_phi = 4 * x->error_phi + eps * (4 + 2 * fabs(x->phi) + weight * d->phi + 4 * fabs(ray->spin) * poles);
+    x->error_phi = 4 * x->error_phi + eps * (4 + 2 * fabs(x->phi) + weight * d->phi + 4 * fabs(ray->hole.a) * poles);
     x->error_delay =
         4 * x->error_delay + eps * (8 + 8 * x->r + 4 * fabs(x->delay) + weight * d->delay + 8 * plus * poles);
     if (isfinite(ray->radius))
@@ -251,8 +247,7 @@ struct kd_null_path kd_null_trace(const struct kd_null_ray *ray)
     struct kd_null_path path = follow(ray);
     if (path.status == KD_NULL_NO_RAY || path.status == KD_NULL_BAD_INPUT)
         return path;
-    struct kd_null_motion k =
-        kd_null_motion_of(kd_hole(ray->spin), ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
+    struct kd_null_motion k = kd_null_motion_of(&ray->hole, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     struct kd_null_roots roots = kd_null_roots_of(&k);
     /* The step is short against the distance from the critical curve and long against rounding. It leads away from
      * that curve, so that the ray stays on its side. */
@@ -265,9 +260,9 @@ struct kd_null_path kd_null_trace(const struct kd_null_ray *ray)
     add_slopes(ray, &path, step, -0.5 * step, slopes, &sky);
     for (int n = 0; n < path.crossings; n++)
         estimate(ray, &path.crossing[n], &slopes[n]);
-    double gap = kd_hole(ray->spin)->outer - kd_hole(ray->spin)->inner;
+    double gap = ray->hole.outer - ray->hole.inner;
     if (path.fate == KD_NULL_ESCAPED)
-        path.sky_error = 4 * path.sky_error +
-                         DBL_EPSILON * (4 + 2 * fabs(path.sky_phi) + weight_of(ray) * sky + 8 * fabs(ray->spin) / gap);
+        path.sky_error = 4 * path.sky_error + DBL_EPSILON * (4 + 2 * fabs(path.sky_phi) + weight_of(ray) * sky +
+                                                             8 * fabs(ray->hole.a) / gap);
     return path;
 }

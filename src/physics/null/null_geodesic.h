@@ -1,7 +1,7 @@
-/* Null geodesics of Kerr in closed form: where the ray seen at (alpha, beta) crosses the equatorial plane, when, and
- * where it came from. Double precision; pure functions, any thread. Lengths and times in M (G = c = M = 1), angles
- * in radians. It uses no integrator and shares nothing with the shaders: it is the reference that they are tested
- * against.
+/* Null geodesics of Kerr and Kerr-Newman in closed form: where the ray seen at (alpha, beta) crosses the equatorial
+ * plane, when, and where it came from. Double precision; pure functions, any thread. Lengths and times in M (G = c = M
+ * = 1), angles in radians. It uses no integrator and shares nothing with the shaders: it is the reference that they are
+ * tested against.
  *
  * Sources: Gralla & Lupsasca 2020, arXiv:1910.12881 (the motion in Mino time, four cases of roots) and 1910.12873;
  * Kapec & Lupsasca 2019, arXiv:1905.11406; Carlson 1995 and DLMF 19.29 (the integrals). The parts are
@@ -15,6 +15,8 @@
 #ifndef KD_PHYSICS_NULL_NULL_GEODESIC_H
 #define KD_PHYSICS_NULL_NULL_GEODESIC_H
 
+#include "physics/spacetime/hole.h"
+
 #include <stdbool.h>
 
 enum { KD_NULL_ORDERS = 32 };
@@ -23,7 +25,7 @@ enum { KD_NULL_ORDERS = 32 };
  * sin i, eta = Q/E^2 = (alpha^2 - a^2) cos^2 i + beta^2; the sign of the arriving photon's p^theta is that of beta.
  * E > 0. */
 struct kd_null_ray {
-    double spin;      /* |spin| < 1                                                                        */
+    struct kd_hole hole;
     double radius;    /* of the observer; outside the horizon, or INFINITY */
     double cos_theta; /* of the observer: [-1, 1], exact 0 and +-1 included                                */
     double sin_theta; /* 0: computed from cos_theta, which within 1e-5 of the axis determines it to 1e-6 only */

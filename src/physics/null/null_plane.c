@@ -19,8 +19,8 @@ struct ray {
 
 static struct ray ray_of(const struct kd_vantage *at, const struct kd_covector *p)
 {
-    const double a = at->spin, ae = a * p->energy, l = p->momentum * at->s, u2 = at->u * at->u,
-                 r_plus = kd_hole(a)->outer;
+    const double a = at->hole.a, ae = a * p->energy, l = p->momentum * at->s, u2 = at->u * at->u,
+                 r_plus = at->hole.outer;
     const double q = p->polar * p->polar + u2 * (p->momentum * p->momentum - ae * ae), k = q + (l - ae) * (l - ae);
     return (struct ray) {
         .a2 = ae * ae - q - l * l,

@@ -35,10 +35,10 @@ static double from_plane(const struct kd_null_polar *p, double eta, double gap, 
 /* Computes gap and weight from their product, which is (s beta)^2, and their difference, which is known. */
 void kd_null_polar_gap(const struct kd_null_motion *m, double *disc, double *gap, double *weight)
 {
-    double a2 = m->a * m->a, s2 = m->s * m->s;
+    double a2 = m->hole.a * m->hole.a, s2 = m->s * m->s;
     double d = a2 * s2 - m->alpha * m->alpha - m->beta * m->beta; /* a^2 gap - weight */
     double speed2 = s2 * m->beta * m->beta;
-    *disc = hypot(d, 2 * m->a * m->s * m->beta);
+    *disc = hypot(d, 2 * m->hole.a * m->s * m->beta);
     *weight = d > 0 ? 2 * a2 * speed2 / (*disc + d) : 0.5 * (*disc - d);
     *gap = d < 0 ? 2 * speed2 / (*disc - d) : a2 > 0 ? 0.5 * (*disc + d) / a2 : 0;
 }
@@ -66,8 +66,10 @@ static void set_start(struct kd_null_polar *p, const struct kd_null_motion *m, d
 
 struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m)
 {
-    struct kd_null_polar p = { .a = m->a, .u = fabs(m->c), .side = m->c < 0 || (m->c == 0 && m->beta < 0) ? -1 : 1 };
-    double disc, gap, weight, a2 = m->a * m->a;
+    struct kd_null_polar p = { .a = m->hole.a,
+                               .u = fabs(m->c),
+                               .side = m->c < 0 || (m->c == 0 && m->beta < 0) ? -1 : 1 };
+    double disc, gap, weight, a2 = m->hole.a * m->hole.a;
     kd_null_polar_gap(m, &disc, &gap, &weight);
     p.sense = m->alpha <= 0 ? 1 : -1;
     p.s = disc;

@@ -9,13 +9,13 @@ struct kd_null_motion kd_null_motion_of(const struct kd_hole *hole, double cos_t
                                         double beta)
 {
     const double a = hole->a;
-    struct kd_null_motion m = { .a = a, .c = cos_theta, .alpha = alpha, .beta = beta };
+    struct kd_null_motion m = { .hole = *hole, .c = cos_theta, .alpha = alpha, .beta = beta };
     m.s = sin_theta > 0 ? sin_theta : sqrt((1 - cos_theta) * (1 + cos_theta));
     m.lambda = -alpha * m.s;
     m.eta = (alpha - a) * (alpha + a) * m.c * m.c + beta * beta;
     m.quadratic = a * a * (1 + m.c * m.c) - alpha * alpha - beta * beta;
     m.k = (alpha + a * m.s) * (alpha + a * m.s) + beta * beta;
-    m.constant = -a * a * m.eta;
+    m.constant = -a * a * m.eta - hole->q * hole->q * m.k;
     return m;
 }
 
@@ -128,12 +128,15 @@ struct kd_null_roots kd_null_roots_of(const struct kd_null_motion *m)
 struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion *m, double r, double bend,
                                                     double dalpha, double dbeta)
 {
+    const struct kd_hole *hole = &m->hole;
     double p = dalpha * (2 * m->alpha + dalpha), q = dbeta * (2 * m->beta + dbeta); /* changes of alpha^2, beta^2 */
+    double k = p + q + 2 * hole->a * m->s * dalpha;
     return (struct kd_null_displacement) { .r = r,
                                            .bend = bend,
                                            .quadratic = -(p + q),
-                                           .k = p + q + 2 * m->a * m->s * dalpha,
-                                           .constant = -m->a * m->a * (m->c * m->c * p + q) };
+                                           .k = k,
+                                           .constant =
+                                               -hole->a * hole->a * (m->c * m->c * p + q) - hole->q * hole->q * k };
 }
 
 /* About r the quartic is x^4 + 4r x^3 + c2 x^2 + c1 x + c0 with small c1 and c0. It splits into x^2 - sum x +

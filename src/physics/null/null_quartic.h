@@ -1,7 +1,9 @@
-/* Roots of the radial potential of a null geodesic of Kerr. Units G = c = M = 1 and E = 1. Pure functions, any
- * thread.
+/* Roots of the radial potential of a null geodesic of Kerr and Kerr-Newman. Units G = c = M = 1 and E = 1. Pure
+ * functions, any thread.
  *
  *   R(r) = (r^2 + a^2 - a lambda)^2 - Delta (eta + (lambda - a)^2) = r^4 + A r^2 + 2 K r + C
+ *
+ * Charge q of the hole enters C alone, by Delta: C = -a^2 eta - q^2 K.
  *
  * Sources: Gralla & Lupsasca 2020, arXiv:1910.12881, section IV and appendix A (roots and cases). The roots are
  * found differently: r1 and r2 by Newton's method from a side where it is monotone, the other two by division. So
@@ -16,11 +18,12 @@
  *
  *   lambda = -alpha s         eta = (alpha^2 - a^2) c^2 + beta^2
  *   K = eta + (lambda - a)^2 = (alpha + a s)^2 + beta^2
- *   A = a^2 - eta - lambda^2 = a^2 (1 + c^2) - alpha^2 - beta^2            C = -a^2 eta
+ *   A = a^2 - eta - lambda^2 = a^2 (1 + c^2) - alpha^2 - beta^2            C = -a^2 eta - q^2 K
  *
  * in the forms on the right, which cancel least. */
 struct kd_null_motion {
-    double a, c, s, alpha, beta;
+    struct kd_hole hole;
+    double c, s, alpha, beta;
     double lambda, eta, quadratic, k, constant; /* A is `quadratic`, C is `constant` */
 };
 

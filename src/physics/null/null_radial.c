@@ -112,20 +112,30 @@ static double at_pole(const struct kd_null_roots *o, const struct span *s, const
     return ((2.0 / 3) * o->r21 * o->p1 / e * j + 2 * c - tau) / e;
 }
 
-/* Int (r^2 + 2r + 4) dr/sqrt(R). The square from d(sqrt(R)/(r - r2)) = (r^2 - r2^2 - r21 p2/(2(r - r2)))
+/* Int (r^2 + 2r + 4 - q^2) dr/sqrt(R). The square from d(sqrt(R)/(r - r2)) = (r^2 - r2^2 - r21 p2/(2(r - r2)))
  * dr/sqrt(R). */
-static double powers(const struct kd_null_roots *o, const struct span *s, double tau)
+static double powers(const struct kd_null_roots *o, const struct span *s, double q2, double tau)
 {
     double first = (2.0 / 3) * o->r21 * o->p2 * kd_carlson_rj_arg(s->arg, s->far) + s->log + o->r2 * tau;
     double second = (2.0 / 3) * o->p1 * kd_carlson_rd_arg(s->arg) + 2 * s->ratio - tau;
-    return s->edge + o->r2 * o->r2 * tau + 0.5 * o->p2 * second + 2 * first + 4 * tau;
+    return s->edge + o->r2 * o->r2 * tau + 0.5 * o->p2 * second + 2 * first + (4 - q2) * tau;
+}
+
+/* Numerators over Delta of the rates in azimuth, a (2r + twist), and in time, slope r + rest. */
+struct numerators { double q2, twist, slope, rest; };
+
+static struct numerators numerators_of(const struct kd_null_motion *m)
+{
+    double a = m->hole.a, al = a * m->lambda, q2 = m->hole.q * m->hole.q;
+    return (struct numerators) { q2, -(al + q2), 8 - 4 * q2 - 2 * al, q2 * (q2 + al - 4) - 4 * a * a };
 }
 
 struct kd_null_radial_sum kd_null_radial_rates(const struct kd_null_motion *m, double r)
 {
-    double a = m->a, al = a * m->lambda, delta = kd_hole_delta(kd_hole(a), r);
-    return (struct kd_null_radial_sum) { 1, a * (2 * r - al) / delta,
-                                         r * r + 2 * r + 4 + ((8 - 2 * al) * r - 4 * a * a) / delta };
+    const struct numerators n = numerators_of(m);
+    double delta = kd_hole_delta(&m->hole, r);
+    return (struct kd_null_radial_sum) { 1, m->hole.a * (2 * r + n.twist) / delta,
+                                         r * r + 2 * r + (4 - n.q2) + (n.slope * r + n.rest) / delta };
 }
 
 struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *q, const struct kd_null_radius *at,
@@ -137,14 +147,13 @@ struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *
         return sum;
     struct span s = q->inner ? span_inner(q, at) : span_outer(q, at);
     sum.tau = 2 * kd_carlson_rf_arg(s.arg);
-    double a = q->motion.a, al = a * q->motion.lambda, gap = q->r_plus - q->r_minus;
+    const struct numerators n = numerators_of(&q->motion);
+    double a = q->motion.hole.a, gap = q->r_plus - q->r_minus;
     double plus = at_pole(o, &s, &s.plus, q->r_plus, sum.tau), minus = at_pole(o, &s, &s.minus, q->r_minus, sum.tau);
-    sum.phi = a * ((2 * q->r_plus - al) * plus - (2 * q->r_minus - al) * minus) / gap;
-    if (time) {
-        double slope = 8 - 2 * al, rest = -4 * a * a;
-        sum.t =
-            powers(o, &s, sum.tau) + ((slope * q->r_plus + rest) * plus - (slope * q->r_minus + rest) * minus) / gap;
-    }
+    sum.phi = a * ((2 * q->r_plus + n.twist) * plus - (2 * q->r_minus + n.twist) * minus) / gap;
+    if (time)
+        sum.t = powers(o, &s, n.q2, sum.tau) +
+                ((n.slope * q->r_plus + n.rest) * plus - (n.slope * q->r_minus + n.rest) * minus) / gap;
     return sum;
 }
 
@@ -185,8 +194,8 @@ static struct kd_null_radial without_times(const struct kd_null_motion *m, const
                                            bool inner)
 {
     struct kd_null_radial q = { .motion = *m, .roots = *roots, .inner = inner };
-    q.r_plus = kd_hole(m->a)->outer;
-    q.r_minus = kd_hole(m->a)->inner;
+    q.r_plus = m->hole.outer;
+    q.r_minus = m->hole.inner;
     if (roots->kind == KD_NULL_FOUR_REAL)
         jacobi_four(&q);
     else
@@ -332,9 +341,10 @@ struct kd_null_radial_sum kd_null_radial_complex(const struct kd_null_motion *m,
     struct kd_carlson_arg arg = { p + pl, sqrt(both * both_left), 0 };
     /* U13 U14 = p (r - r1 + r - r2) + pl (r - r3 + r - r4) */
     arg.root = 2 * (p * xl + pl * x);
-    double plus = kd_hole(m->a)->outer, minus = kd_hole(m->a)->inner, al = m->a * m->lambda;
+    const struct numerators n = numerators_of(m);
+    double plus = m->hole.outer, minus = m->hole.inner;
     struct kd_null_radial_sum total = { .tau = 2 * kd_carlson_rf_arg(arg) };
     double i_plus = complex_pole(o, arg, r, plus, total.tau), i_minus = complex_pole(o, arg, r, minus, total.tau);
-    total.phi = m->a * ((2 * plus - al) * i_plus - (2 * minus - al) * i_minus) / (plus - minus);
+    total.phi = m->hole.a * ((2 * plus + n.twist) * i_plus - (2 * minus + n.twist) * i_minus) / (plus - minus);
     return total;
 }

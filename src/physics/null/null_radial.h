@@ -1,14 +1,14 @@
-/* Radial motion of a null geodesic of Kerr in Mino time, in closed form, outside the horizon. Units G = c = M = 1, E
- * = 1. Pure functions, any thread.
+/* Radial motion of a null geodesic of Kerr and Kerr-Newman in Mino time, in closed form, outside the horizon. Units G
+ * = c = M = 1, E = 1. Pure functions, any thread.
  *
- *   (dr/dtau)^2 = R(r)        phi' = a (2r - a lambda)/Delta        t' = r^2 + 2r + 4 + ((8 - 2 a lambda) r -
- *                             4a^2)/Delta
+ *   (dr/dtau)^2 = R(r)        phi' = a (2r - q^2 - a lambda)/Delta
+ *   t' = r^2 + 2r + 4 - q^2 + ((8 - 4q^2 - 2a lambda) r + q^2 (q^2 + a lambda - 4) - 4a^2)/Delta
  *
- * (the parts that depend on r; Gralla & Lupsasca 2020, arXiv:1910.12881, eqs. 6-8). r(tau) is theirs (section IV),
- * but time is counted from infinity or a turning point, so that addition theorems give r - r_i as products. The
- * integrals are Carlson's in terms of r itself (DLMF 19.29.4-10), with r1 or r2 as the root that is singled out.
- * Unlike the reductions to Legendre's Pi they have no removable singularities (r3 = horizon, lambda = 2 r+/a), and
- * nearly every term is positive.
+ * (the parts that depend on r; Gralla & Lupsasca 2020, arXiv:1910.12881, eqs. 6-8, with 2r - q^2 for 2r). r(tau) is
+ * theirs (section IV), but time is counted from infinity or a turning point, so that addition theorems give r - r_i as
+ * products. The integrals are Carlson's in terms of r itself (DLMF 19.29.4-10), with r1 or r2 as the root that is
+ * singled out. Unlike the reductions to Legendre's Pi they have no removable singularities (r3 = horizon, lambda = 2
+ * r+/a), and nearly every term is positive.
  *
  * Motion is possible in two regions: OUTER, from the outermost root r4 (or the horizon) to infinity; and, if r3 >
  * r+, INNER, from the horizon to r3. Times and integrals are counted from `reference`: infinity for OUTER, r3 for

@@ -53,7 +53,7 @@ static bool ray_of(const struct kd_place_view *view, const double at[2], struct 
 {
     const struct kd_vantage *v = &view->frame.at;
     *ray = (struct kd_null_ray) {
-        .spin = v->spin, .radius = v->r, .cos_theta = v->u, .sin_theta = v->s, .alpha = at[0], .beta = at[1]
+        .hole = v->hole, .radius = v->r, .cos_theta = v->u, .sin_theta = v->s, .alpha = at[0], .beta = at[1]
     };
     *look = (struct kd_look) { NAN, NAN, NAN, NAN };
     if (isinf(v->r))
@@ -317,7 +317,7 @@ bool kd_place_image_seen(const struct kd_place_view *view, double r, double u, d
     struct miss m = { .size = INFINITY };
     double at[2] = { 0, 0 };
     *out = (struct kd_place_image) { NAN, NAN, false, { NAN, NAN, NAN, NAN }, NAN, NAN, { NAN, NAN } };
-    if (!(r > KD_PLACE_LEAST * kd_hole(view->frame.at.spin)->outer) || !isfinite(u) || !isfinite(phi))
+    if (!(r > KD_PLACE_LEAST * view->frame.at.hole.outer) || !isfinite(u) || !isfinite(phi))
         return false;
     bool found = false;
     if (near && isfinite(near->off)) {

@@ -23,7 +23,7 @@ static void place(const struct kd_ring_image *ring, double chi, double log_rho, 
 /* ln(r_n/r); -INFINITY for a ray captured before its crossing n, INFINITY for one that escapes. */
 static double mismatch(const struct kd_ring_image *ring, double chi, double log_rho, struct kd_null_crossing *crossing)
 {
-    struct kd_null_ray ray = { .spin = ring->spin,
+    struct kd_null_ray ray = { .hole = ring->hole,
                                .radius = INFINITY,
                                .cos_theta = ring->cos_theta,
                                .sin_theta = ring->sin_theta,
@@ -98,7 +98,7 @@ static bool add_node(struct kd_ring_image *ring, double *step)
 
 struct kd_ring_image kd_ring_image_plain(const struct kd_hole *hole, double inclination, double r, int order)
 {
-    return (struct kd_ring_image) { .spin = hole->a,
+    return (struct kd_ring_image) { .hole = *hole,
                                     .cos_theta = cos(inclination),
                                     .sin_theta = sin(inclination),
                                     .flatten = cos(inclination),

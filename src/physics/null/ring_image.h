@@ -15,7 +15,8 @@
 enum { KD_RING_NODES = 320 };
 
 struct kd_ring_image {
-    double spin, cos_theta, sin_theta, radius, flatten;
+    struct kd_hole hole;
+    double cos_theta, sin_theta, radius, flatten;
     int order, nodes;
     double chi[KD_RING_NODES], log_rho[KD_RING_NODES], phi[KD_RING_NODES]; /* phi is continuous, one turn in all */
 };

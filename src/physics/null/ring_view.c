@@ -61,9 +61,9 @@ static void add_place(const struct kd_ring_view *view, const struct kd_covector 
 {
     const struct kd_vantage *at = &view->rain.at;
     out->phi = out->delay = NAN;
-    if (!(photon->energy > 0) || !(at->r > kd_hole(at->spin)->outer))
+    if (!(photon->energy > 0) || !(at->r > at->hole.outer))
         return;
-    const struct kd_null_ray ray = { .spin = at->spin,
+    const struct kd_null_ray ray = { .hole = at->hole,
                                      .radius = at->r,
                                      .cos_theta = at->u,
                                      .sin_theta = at->s,

@@ -32,7 +32,7 @@ static double integral_pole(struct phase at, double rest)
 static struct kd_orbit_sums radial_sums(const struct kd_orbit_bound *b, double u, struct phase at)
 {
     const struct kd_orbit *o = &b->orbit;
-    double a = o->a, plus = kd_hole(a)->outer, minus = kd_hole(a)->inner, gap = plus - minus;
+    double a = o->hole.a, plus = o->hole.outer, minus = o->hole.inner, gap = plus - minus;
     double r1 = b->r[0], r2 = b->r[1], r3 = b->r[2], r4 = b->r[3], s2 = at.s * at.s, h1 = (r2 - r3) / (r1 - r3);
     if (o->circular)
         h1 = 1;
@@ -64,7 +64,7 @@ static bool through_axis(const struct kd_orbit *o) { return o->momentum == 0 && 
 static struct kd_orbit_sums polar_sums(const struct kd_orbit_bound *b, double u, struct phase at)
 {
     const struct kd_orbit *o = &b->orbit;
-    double a2 = o->a * o->a, u2 = a2 * o->z * integral_s2(at) / b->pace_z, azimuth = 0;
+    double a2 = o->hole.a * o->hole.a, u2 = a2 * o->z * integral_s2(at) / b->pace_z, azimuth = 0;
     if (o->momentum != 0)
         azimuth = o->momentum * (u + o->z * integral_pole(at, at.c2 + o->axis_gap * at.s * at.s)) / b->pace_z;
     return (struct kd_orbit_sums) { .proper = u2, .t = o->energy * u2, .phi = azimuth };
@@ -126,8 +126,8 @@ static void set_radial(struct kd_orbit_bound *b)
     b->k_r = b->h * (r[2] - r[3]) / deep;
     b->k1_r = o->circular ? 1 : (r[0] - r[3]) * (r[1] - r[2]) / (wide * deep);
     b->pace_r = 0.5 * sqrt(o->binding * wide * deep);
-    b->h_plus = b->h * (r[2] - kd_hole(o->a)->outer) / (r[1] - kd_hole(o->a)->outer);
-    b->h_minus = b->h * (r[2] - kd_hole(o->a)->inner) / (r[1] - kd_hole(o->a)->inner);
+    b->h_plus = b->h * (r[2] - o->hole.outer) / (r[1] - o->hole.outer);
+    b->h_minus = b->h * (r[2] - o->hole.inner) / (r[1] - o->hole.inner);
     b->unit_r = o->circular ? 1 : b->pace_r;
     b->quarter_r = o->circular ? 1 : kd_carlson_rf(0, b->k1_r, 1);
     b->half_r =
@@ -138,7 +138,7 @@ static void set_polar(struct kd_orbit_bound *b)
 {
     const struct kd_orbit *o = &b->orbit;
     b->pace_z = sqrt(o->n);
-    b->k_z = o->n > 0 ? o->a * o->a * o->binding * o->z / o->n : 0;
+    b->k_z = o->n > 0 ? o->hole.a * o->hole.a * o->binding * o->z / o->n : 0;
     b->k1_z = 1 - b->k_z;
     b->quarter_z = kd_carlson_rf(0, b->k1_z, 1);
     b->half_z = polar_sums(b, b->quarter_z, (struct phase) { 1, 0, b->k1_z });
@@ -232,7 +232,7 @@ static double complete_excess(double k)
 double kd_orbit_periastron_advance(const struct kd_orbit_bound *b)
 {
     const struct kd_orbit *o = &b->orbit;
-    if (o->a ==
+    if (o->hole.a ==
         0) { /* 4 K(k) sqrt(p/(p - 6 + 2e)) - 2 pi, k = 4e/(p - 6 + 2e): C. Darwin 1961, Proc. R. Soc. A 263, 39 */
         double less = 2 * o->w_high + 4 * o->w_low; /* (6 - 2e)/p */
         double pace = expm1(-0.5 * log1p(-less)), excess = complete_excess(2 * (o->w_high - o->w_low) / (1 - less));
@@ -244,7 +244,7 @@ double kd_orbit_periastron_advance(const struct kd_orbit_bound *b)
 
 double kd_orbit_nodal_advance(const struct kd_orbit_bound *b)
 {
-    if (b->orbit.a == 0) /* the orbital plane is fixed */
+    if (b->orbit.hole.a == 0) /* the orbital plane is fixed */
         return 0;
     struct kd_orbit_frequencies f = kd_orbit_frequencies_of(b);
     return 2 * M_PI * (fabs(f.mino_phi) / f.mino_theta - 1);

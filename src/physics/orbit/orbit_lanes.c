@@ -27,7 +27,7 @@ struct exact { lane value, rest; };
 struct spring { lane strength, centre, kick[4], drift[4]; };
 
 struct state {
-    lane a, a2, energy, momentum, binding, z, n, axis_gap, total, w_low, w_high, g[3], c[5], horizon;
+    lane a, a2, root, energy, momentum, binding, z, n, axis_gap, total, w_low, w_high, g[3], c[5], horizon;
     lane twist, nu, stiff, h;
     struct spring spring[KD_PATH_PLACES];
     struct exact place[KD_PATH_PLACES], rate[KD_PATH_RATES], mino;
@@ -58,6 +58,13 @@ INLINE void radial_force(const struct state *s, const lane *w, const lane *rest,
     *force = 0.5 * ((right - left) * g + left * right * slope);
 }
 
+/* As kd_hole_delta_w. */
+INLINE void delta_w(const struct state *s, const lane *w, lane *delta)
+{
+    lane d = 1 - *w, h = s->root * *w;
+    *delta = (d - h) * (d + h);
+}
+
 INLINE void kick(struct state *s, double weight)
 {
     lane w = s->place[KD_PATH_W].value, y = s->place[KD_PATH_Y].value, rest = s->place[KD_PATH_W].rest,
@@ -68,7 +75,9 @@ INLINE void kick(struct state *s, double weight)
     f[KD_PATH_W] += s->spring[KD_PATH_W].strength * ((w - s->spring[KD_PATH_W].centre) + rest);
     f[KD_PATH_Y] = y * (2 * flat * s->z * y2 + s->stiff);
     f[KD_PATH_PROPER] = far + up;
-    lane turn = s->twist * (1 - y2) / (1 - s->nu * y2), hole = 1 / (1 - 2 * w + a2w2);
+    lane turn = s->twist * (1 - y2) / (1 - s->nu * y2), hole;
+    delta_w(s, &w, &hole);
+    hole = 1 / hole;
     f[KD_PATH_CHI] = turn + s->a * (2 * s->energy * w - s->a * s->momentum * w2) * hole;
     f[KD_PATH_T] = s->energy * (far + 2 * w * far + 4 + up) +
                    ((8 * s->energy - 2 * s->a * s->momentum) * w - 4 * a2w2 * s->energy) * hole;
@@ -100,7 +109,9 @@ INLINE void look(struct state *s)
     lane steep = s->n - s->a2 * s->binding * s->z * y * y, polar = s->z * (u * u - (1 - y) * (1 + y) * steep);
     lane sine2 = s->axis_gap + s->z * (1 - y) * (1 + y), u2 = s->z * y * y;
     lane energy = radial / (by_energy * s->energy), carter = polar / s->total;
-    lane mass = (radial / (w * w * (1 - 2 * w + s->a2 * w * w)) + polar / sine2) / (1 / (w * w) + s->a2 * u2);
+    lane delta;
+    delta_w(s, &w, &delta);
+    lane mass = (radial / (w * w * delta) + polar / sine2) / (1 / (w * w) + s->a2 * u2);
     mask all = { -1, -1, -1, -1, -1, -1, -1, -1 }, regular = (w * s->horizon < 0.99) & (sine2 > 0.01);
     keep_greater(&s->worst_energy, &energy, &all);
     keep_greater(&s->worst_carter, &carter, &all);
@@ -152,10 +163,10 @@ static struct kd_exact get_exact(const struct exact *from, int i)
 static void load(struct state *s, int i, const struct kd_orbit_path *p, double h)
 {
     const struct kd_orbit *o = &p->orbit;
-    s->a[i] = o->a, s->a2[i] = o->a * o->a, s->energy[i] = o->energy, s->momentum[i] = o->momentum,
-    s->binding[i] = o->binding;
+    s->a[i] = o->hole.a, s->a2[i] = o->hole.a * o->hole.a, s->root[i] = o->hole.root, s->energy[i] = o->energy,
+    s->momentum[i] = o->momentum, s->binding[i] = o->binding;
     s->z[i] = o->z, s->n[i] = o->n, s->axis_gap[i] = o->axis_gap, s->total[i] = o->total;
-    s->w_low[i] = o->w_low, s->w_high[i] = o->w_high, s->horizon[i] = kd_hole(o->a)->outer;
+    s->w_low[i] = o->w_low, s->w_high[i] = o->w_high, s->horizon[i] = o->hole.outer;
     for (int k = 0; k < 3; k++)
         s->g[k][i] = p->g[k];
     for (int k = 0; k < 5; k++)

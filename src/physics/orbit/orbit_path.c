@@ -35,7 +35,7 @@ static double pull_of_spring(const struct kd_spring *s, double q, double rest)
 static void pull(const struct kd_orbit_path *p, const double *q, double rest, double *f)
 {
     const struct kd_orbit *o = &p->orbit;
-    double a = o->a, w = q[KD_PATH_W], y = q[KD_PATH_Y], w2 = w * w, a2w2 = a * a * w2, y2 = y * y;
+    double a = o->hole.a, w = q[KD_PATH_W], y = q[KD_PATH_Y], w2 = w * w, a2w2 = a * a * w2, y2 = y * y;
     double flat = a * a * o->binding, up = a * a * o->z * y2, far = 1 / w2;
     f[KD_PATH_W] = radial_force(p, w, rest) + pull_of_spring(&p->spring[KD_PATH_W], w, rest);
     f[KD_PATH_Y] = y * (2 * flat * o->z * y2 + p->stiff);
@@ -48,7 +48,7 @@ static void pull(const struct kd_orbit_path *p, const double *q, double rest, do
         f[KD_PATH_CHI] = turn + a * slow - a * o->energy;
         return;
     }
-    double hole = 1 / (1 - 2 * w + a2w2);                                          /* r^2/Delta */
+    double hole = 1 / kd_hole_delta_w(&o->hole, w);                                /* r^2/Delta */
     f[KD_PATH_CHI] = turn + a * (2 * o->energy * w - a * o->momentum * w2) * hole; /* a (2Er - aL)/Delta */
     /* E r^2 + 2 E r + 4 E + [(8E - 2aL) r - 4 a^2 E]/Delta + a^2 E u^2 */
     f[KD_PATH_T] = o->energy * (far + 2 * w * far + 4 + up) +
@@ -153,10 +153,10 @@ static void albrecht(struct kd_orbit_path *p, double h)
 /* Int (r^2 + a^2)/Delta dr and Int a/Delta dr: the difference between ingoing time and azimuth and t, phi. */
 static void ahead(const struct kd_orbit *o, double w, double *t, double *phi)
 {
-    double plus = kd_hole(o->a)->outer, minus = kd_hole(o->a)->inner, gap = plus - minus, r = 1 / w;
-    double near = log(r - plus), inner = o->a == 0 ? 0 : log(r - minus);
+    double plus = o->hole.outer, minus = o->hole.inner, gap = plus - minus, r = 1 / w;
+    double near = log(r - plus), inner = o->hole.a == 0 ? 0 : log(r - minus);
     *t = r + 2 * (plus * near - minus * inner) / gap;
-    *phi = o->a * (near - inner) / gap;
+    *phi = o->hole.a * (near - inner) / gap;
 }
 
 /* Switches to ingoing coordinates when the fall is final: there is no turning point further in, and W is no longer
@@ -164,7 +164,7 @@ static void ahead(const struct kd_orbit *o, double w, double *t, double *phi)
 static void enter(struct kd_orbit_path *p)
 {
     const struct kd_orbit *o = &p->orbit;
-    double w = p->place[KD_PATH_W].value, horizon = 1 / kd_hole(o->a)->outer;
+    double w = p->place[KD_PATH_W].value, horizon = 1 / o->hole.outer;
     if (p->ingoing || o->fate != KD_ORBIT_PLUNGE || p->rate[KD_PATH_W].value <= 0 || w >= horizon)
         return;
     if (kd_orbit_radial(o, w) < 1e-3 * kd_orbit_radial(o, horizon))
@@ -178,7 +178,7 @@ static double steep(const struct kd_orbit_path *p)
 {
     const struct kd_orbit *o = &p->orbit;
     double y = p->place[KD_PATH_Y].value;
-    return o->n - o->a * o->a * o->binding * o->z * y * y;
+    return o->n - o->hole.a * o->hole.a * o->binding * o->z * y * y;
 }
 
 /* The part of the azimuth that changes fast next to the axis, for L > 0. */
@@ -193,7 +193,7 @@ static double swing(const struct kd_orbit_path *p)
 void kd_orbit_path_init(struct kd_orbit_path *p, const struct kd_orbit *o, const struct kd_orbit_state *start,
                         enum kd_orbit_method method)
 {
-    double flat = o->a * o->a * o->binding, sum = o->total + flat, root = sqrt(o->z);
+    double flat = o->hole.a * o->hole.a * o->binding, sum = o->total + flat, root = sqrt(o->z);
     *p = (struct kd_orbit_path) { .orbit = *o, .method = method, .factored = o->turns_in && o->turns_out };
     if (p->factored)
         kd_orbit_factor(o, p->g);
@@ -251,7 +251,7 @@ struct kd_orbit_place kd_orbit_path_place(const struct kd_orbit_path *p)
     };
     if (p->ingoing) {
         double t = NAN, phi = NAN;
-        if (at.r > kd_hole(o->a)->outer * (1 + 1e-14))
+        if (at.r > o->hole.outer * (1 + 1e-14))
             ahead(o, w, &t, &phi);
         at.t -= t - p->entry_t;
         at.phi -= phi - p->entry_phi;
@@ -262,7 +262,7 @@ struct kd_orbit_place kd_orbit_path_place(const struct kd_orbit_path *p)
 struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *p)
 {
     const struct kd_orbit *o = &p->orbit;
-    double a2 = o->a * o->a, w = p->place[KD_PATH_W].value, rate = p->rate[KD_PATH_W].value;
+    double a2 = o->hole.a * o->hole.a, w = p->place[KD_PATH_W].value, rate = p->rate[KD_PATH_W].value;
     double y = p->place[KD_PATH_Y].value, y_rate = p->rate[KD_PATH_Y].value, u2 = o->z * y * y;
     double radial = rate * rate - kd_orbit_radial(o, w);
     double polar = o->z * (y_rate * y_rate - (1 - y) * (1 + y) * steep(p)),
@@ -274,8 +274,8 @@ struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *p)
         .binet = a2 == 0 ? radial : NAN,
     };
     /* mass^2 Sigma = (P^2 - r'^2)/Delta - u'^2/sin^2 theta - ...: both residuals have the weight of their term */
-    if (w * kd_hole(o->a)->outer < 0.99 && sine2 > 0.01)
-        d.mass = -(radial / (w * w * (1 - 2 * w + a2 * w * w)) + polar / sine2) / (1 / (w * w) + a2 * u2);
+    if (w * o->hole.outer < 0.99 && sine2 > 0.01)
+        d.mass = -(radial / (w * w * kd_hole_delta_w(&o->hole, w)) + polar / sine2) / (1 / (w * w) + a2 * u2);
     return d;
 }
 

@@ -42,7 +42,8 @@ static double root_at(const struct column *v, double ax, double r, double a2, do
 /* b from W(w) = 0, with Q = z (a^2 b + l^2) and K = Q + (L - aE)^2. */
 static double binding_at(const struct kd_orbit *o, double x, double l, double w)
 {
-    double a2 = o->a * o->a, z = (1 - x) * (1 + x), l2 = x * l * x * l, q0 = z * l * l, rest = x * l - o->a * o->energy;
+    double a2 = o->hole.a * o->hole.a, z = (1 - x) * (1 + x), l2 = x * l * x * l, q0 = z * l * l,
+           rest = x * l - o->hole.a * o->energy;
     double fixed = w * (2 + w * (-(l2 + q0) + w * (2 * (q0 + rest * rest) - w * a2 * q0)));
     return fixed / (1 + a2 * w * w * (1 + z * (1 - 2 * w + a2 * w * w)));
 }
@@ -53,7 +54,7 @@ static double binding_at(const struct kd_orbit *o, double x, double l, double w)
  * b = 2w. */
 static void energy_and_momentum(struct kd_orbit *o, double x, double r1, double r2, double *l)
 {
-    double a2 = o->a * o->a, z = (1 - x) * (1 + x), ax = o->a * x;
+    double a2 = o->hole.a * o->hole.a, z = (1 - x) * (1 + x), ax = o->hole.a * x;
     struct column v = values(a2, z, r2), s = differences(a2, z, r1, r2);
     double kappa = v.d * s.h - v.h * s.d, epsilon = v.d * s.g - v.g * s.d, rho = v.f * s.h - v.h * s.f;
     double eta = v.f * s.g - v.g * s.f, sigma = v.g * s.h - v.h * s.g;
@@ -83,12 +84,15 @@ void kd_orbit_factor(const struct kd_orbit *o, double g[3])
 }
 
 /* The orbit of a shape, without checking that it exists. */
-static struct kd_orbit of_shape(double a, double p, double e, double x)
+static struct kd_orbit of_shape(const struct kd_hole *hole, double p, double e, double x)
 {
-    double l, z = (1 - x) * (1 + x);
-    struct kd_orbit o = {
-        .a = a, .w_low = (1 - e) / p, .w_high = (1 + e) / p, .turns_out = true, .turns_in = true, .circular = e == 0
-    };
+    double a = hole->a, l, z = (1 - x) * (1 + x);
+    struct kd_orbit o = { .hole = *hole,
+                          .w_low = (1 - e) / p,
+                          .w_high = (1 + e) / p,
+                          .turns_out = true,
+                          .turns_in = true,
+                          .circular = e == 0 };
     energy_and_momentum(&o, x, p / (1 - e), p / (1 + e), &l);
     o.momentum = x * l;
     o.carter = z * (a * a * o.binding + l * l);
@@ -100,7 +104,7 @@ static struct kd_orbit of_shape(double a, double p, double e, double x)
 static bool stable(const struct kd_orbit *o)
 {
     double g[3], w = o->w_high;
-    if (!(o->energy > 0 && o->binding > 0 && o->carter >= 0 && w < 1 / kd_hole(o->a)->outer))
+    if (!(o->energy > 0 && o->binding > 0 && o->carter >= 0 && w < 1 / o->hole.outer))
         return false;
     kd_orbit_factor(o, g);
     return g[0] + w * (g[1] + w * g[2]) >= 0;
@@ -117,7 +121,7 @@ double kd_orbit_separatrix(const struct kd_hole *hole, double e, double x)
         double p = 0.5 * (low + high);
         if (p <= low || p >= high)
             break;
-        struct kd_orbit o = of_shape(a, p, e, x);
+        struct kd_orbit o = of_shape(hole, p, e, x);
         if (stable(&o))
             high = p;
         else
@@ -135,7 +139,7 @@ double kd_orbit_least_circle(const struct kd_hole *hole, double x)
         const double r = 0.5 * (low + high);
         if (r <= low || r >= high)
             break;
-        const struct kd_orbit o = of_shape(hole->a, r, 0, x);
+        const struct kd_orbit o = of_shape(hole, r, 0, x);
         *(exists(&o) ? &high : &low) = r;
     }
     return high;
@@ -144,15 +148,14 @@ double kd_orbit_least_circle(const struct kd_hole *hole, double x)
 enum kd_status kd_orbit_from_shape(const struct kd_hole *hole, double p, double e, double x, struct kd_orbit *o,
                                    struct kd_error *error)
 {
-    const double a = hole->a;
-    enum kd_status status = kd_orbit_check_spin(a, error);
+    enum kd_status status = kd_orbit_check_hole(hole, error);
     if (status)
         return status;
     if (!(e >= 0 && e < 1))
         return kd_error_field(error, "/e", "e is %.16g; it must be 0 up to, not including, 1: a bound orbit", e);
     if (!(p > hole->outer) || !isfinite(p))
         return kd_error_field(error, "/p", "p is %.16g; it must be above the horizon at %.9g", p, hole->outer);
-    *o = of_shape(a, p, e, x);
+    *o = of_shape(hole, p, e, x);
     double least = p < 12.5 ? kd_orbit_separatrix(hole, e, x) : 0;
     if (p < least && (e > 0 || !exists(o)))
         return kd_error_field(error, "/p",

@@ -11,21 +11,20 @@
  *   1/(r - r_h) = (1 + r0/((r0 - r_h) (y^2 - p^2)))/(r0 - r_h),     p^2 = r_h/(r0 - r_h). */
 static struct kd_plunge_pole pole_of(const struct kd_plunge *o, double r, double other)
 {
-    double gap = o->isco - r, e = o->energy, al = o->a * o->momentum;
+    double gap = o->isco - r, e = o->energy, al = o->hole.a * o->momentum;
     struct kd_plunge_pole p = { .pole = sqrt(r / gap) };
-    p.phi = o->a * (2 * e * r - al) / (r - other) / gap;
-    p.t = (2 * (4 * e - al) * r - 4 * o->a * o->a * e) / (r - other) / gap;
+    p.phi = o->hole.a * (2 * e * r - al) / (r - other) / gap;
+    p.t = (2 * (4 * e - al) * r - 4 * o->hole.a * o->hole.a * e) / (r - other) / gap;
     return p;
 }
 
 struct kd_plunge kd_plunge_of(const struct kd_hole *hole)
 {
-    struct kd_plunge o = { .a = hole->a, .isco = kd_kerr_isco(hole), .horizon = hole->outer };
-    double inner = hole->inner;
+    struct kd_plunge o = { .hole = *hole, .isco = kd_kerr_isco(hole) };
     o.energy = 1 - kd_kerr_efficiency(hole);
     o.momentum = kd_kerr_momentum(hole, o.isco);
-    o.outer = pole_of(&o, o.horizon, inner);
-    o.inner = pole_of(&o, inner, o.horizon);
+    o.outer = pole_of(&o, hole->outer, hole->inner);
+    o.inner = pole_of(&o, hole->inner, hole->outer);
     /* r^2 u^t d(tau)/dy at the ISCO, where it is that of the circular orbit. */
     double rate = sqrt(6 / o.isco) * o.isco * o.isco * kd_kerr_ut(hole, o.isco);
     o.t_rate = -rate;
@@ -39,8 +38,8 @@ static double artanh_over(double p, double y) { return p > 1e-8 * y ? atanh(p / 
 struct kd_plunge_event kd_plunge_at(const struct kd_plunge *o, double r)
 {
     double r0 = o->isco, y = sqrt(r / (r0 - r)), scale = sqrt(6 / r0);
-    double outer = artanh_over(o->outer.pole, y) * r0 / (r0 - o->horizon);
-    double inner = artanh_over(o->inner.pole, y) * r0 / (r0 - kd_hole(o->a)->inner);
+    double outer = artanh_over(o->outer.pole, y) * r0 / (r0 - o->hole.outer);
+    double inner = artanh_over(o->inner.pole, y) * r0 / (r0 - o->hole.inner);
     /* Integrals of r^2/r0^2 and r/r0 over y, less y. */
     double square = 0.5 * y / (1 + y * y) - 1.5 * atan(y), line = -atan(y);
     return (struct kd_plunge_event) {
@@ -52,8 +51,8 @@ struct kd_plunge_event kd_plunge_at(const struct kd_plunge *o, double r)
 
 struct kd_plunge_velocity kd_plunge_velocity(const struct kd_plunge *o, double r)
 {
-    double a = o->a, gap = fmax(0, o->isco / r - 1), j = o->momentum - a * o->energy;
-    double delta = kd_hole_delta(kd_hole(a), r), u = o->energy * r * r - a * j;
+    double a = o->hole.a, gap = fmax(0, o->isco / r - 1), j = o->momentum - a * o->energy;
+    double delta = kd_hole_delta(&o->hole, r), u = o->energy * r * r - a * j;
     return (struct kd_plunge_velocity) {
         .ur = -sqrt(2 / (3 * o->isco) * gap) * gap,
         .ut = ((r * r + a * a) * u / delta + a * j) / (r * r),

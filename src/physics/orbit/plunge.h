@@ -12,7 +12,8 @@
 #include "physics/spacetime/hole.h"
 
 struct kd_plunge {
-    double a, isco, horizon;
+    struct kd_hole hole;
+    double isco;
     double energy, momentum; /* of the orbit at the ISCO */
     /* The partial fractions of t and phi, at the outer and the inner horizon. With y = sqrt(r/(isco - r)): the
      * position of the pole, and the coefficients of artanh(pole/y)/pole, without the factor isco/(isco - r_horizon). */

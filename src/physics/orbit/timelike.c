@@ -24,14 +24,15 @@ double kd_orbit_radial_slope(const struct kd_orbit *o, double w)
 
 double kd_orbit_radial_by_energy(const struct kd_orbit *o, double w)
 {
-    return 2 * o->energy * (1 + o->a * o->a * w * w) - 4 * o->a * (o->momentum - o->a * o->energy) * w * w * w;
+    return 2 * o->energy * (1 + o->hole.a * o->hole.a * w * w) -
+           4 * o->hole.a * (o->momentum - o->hole.a * o->energy) * w * w * w;
 }
 
 /* z is the root, in u^2, that the motion reaches. 1 - z follows from the product L^2 = (1 - z)(n - a^2 b) or from z
  * n = Q, whichever avoids subtraction. */
 static void set_polar(struct kd_orbit *o)
 {
-    double flat = o->a * o->a * o->binding, l2 = o->momentum * o->momentum, sum = o->total + flat;
+    double flat = o->hole.a * o->hole.a * o->binding, l2 = o->momentum * o->momentum, sum = o->total + flat;
     double disc = sqrt(fmax((o->total - flat) * (o->total - flat) + 4 * flat * l2, 0));
     if (sum > 0 || flat >= 0) {
         o->n = 0.5 * (sum + disc);
@@ -49,7 +50,7 @@ static void set_polar(struct kd_orbit *o)
 
 void kd_orbit_set_constants(struct kd_orbit *o)
 {
-    double a2 = o->a * o->a, rest = o->momentum - o->a * o->energy;
+    double a2 = o->hole.a * o->hole.a, rest = o->momentum - o->hole.a * o->energy;
     o->k = o->carter + rest * rest;
     o->total = o->momentum * o->momentum + o->carter;
     o->w[0] = -o->binding;
@@ -63,7 +64,7 @@ void kd_orbit_set_constants(struct kd_orbit *o)
 /* The range between roots that contains w, or the outermost one if w is NAN. */
 static bool find_range(struct kd_orbit *o, double w)
 {
-    double roots[KD_POLYNOMIAL_DEGREE + 2], horizon = 1 / kd_hole(o->a)->outer;
+    double roots[KD_POLYNOMIAL_DEGREE + 2], horizon = 1 / o->hole.outer;
     int n = kd_polynomial_roots(o->w, 4, 0, horizon, roots);
     double low = 0, high = horizon;
     for (int i = 0; i <= n; i++) {
@@ -97,25 +98,24 @@ static void set_fate(struct kd_orbit *o)
     o->fate = !o->turns_in ? KD_ORBIT_PLUNGE : o->turns_out ? KD_ORBIT_BOUND : KD_ORBIT_ESCAPE;
 }
 
-enum kd_status kd_orbit_check_spin(double a, struct kd_error *error)
+enum kd_status kd_orbit_check_hole(const struct kd_hole *hole, struct kd_error *error)
 {
-    if (fabs(a) < 1)
+    if (fabs(hole->a) < 1)
         return KD_OK;
-    return kd_error_field(error, "/spin", "spin is %.16g; it must be a number above -1 and below 1", a);
+    return kd_error_field(error, "/spin", "spin is %.16g; it must be a number above -1 and below 1", hole->a);
 }
 
 /* True if E(r^2 + a^2) - aL > 0: the particle moves towards the future. */
 static bool to_the_future(const struct kd_orbit *o)
 {
     double w = o->turns_out ? o->w_low : 0.5 * (o->w_low + o->w_high);
-    return o->energy * (1 + o->a * o->a * w * w) - o->a * o->momentum * w * w > 0;
+    return o->energy * (1 + o->hole.a * o->hole.a * w * w) - o->hole.a * o->momentum * w * w > 0;
 }
 
 enum kd_status kd_orbit_from_constants(const struct kd_hole *hole, double energy, double momentum, double carter,
                                        double r, struct kd_orbit *o, struct kd_error *error)
 {
-    const double a = hole->a;
-    enum kd_status status = kd_orbit_check_spin(a, error);
+    enum kd_status status = kd_orbit_check_hole(hole, error);
     if (status)
         return status;
     if (!(carter >= 0))
@@ -127,7 +127,7 @@ enum kd_status kd_orbit_from_constants(const struct kd_hole *hole, double energy
     if (!isnan(r) && !(r > hole->outer))
         return kd_error_field(error, "/r", "r is %.16g; it must be above the horizon at %.9g", r, hole->outer);
     *o = (struct kd_orbit) {
-        .a = a, .energy = energy, .binding = (1 - energy) * (1 + energy), .momentum = momentum, .carter = carter
+        .hole = *hole, .energy = energy, .binding = (1 - energy) * (1 + energy), .momentum = momentum, .carter = carter
     };
     kd_orbit_set_constants(o);
     if (!find_range(o, 1 / r) && !isnan(r))
@@ -166,9 +166,9 @@ double kd_orbit_whirl(const struct kd_orbit *o, const struct kd_orbit_state *s, 
 {
     /* W falls for large w, or is a rising cubic, so that there is at most one minimum. */
     double slope[4] = { o->w[1], 2 * o->w[2], 3 * o->w[3], 4 * o->w[4] }, turns[KD_POLYNOMIAL_DEGREE + 2];
-    int n = kd_polynomial_roots(slope, 3, 0, 1 / kd_hole(o->a)->outer, turns);
+    int n = kd_polynomial_roots(slope, 3, 0, 1 / o->hole.outer, turns);
     for (int i = 0; i < n && !o->circular; i++) {
-        double w = turns[i], w3 = w * w * w, rest = fabs(o->momentum) + fabs(o->a * o->energy);
+        double w = turns[i], w3 = w * w * w, rest = fabs(o->momentum) + fabs(o->hole.a * o->energy);
         bool ahead = s->w <= w ? s->w_rate > 0 || o->turns_out : s->w_rate < 0 || o->turns_in;
         if (!ahead || o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]) <= 0)
             continue;
@@ -181,24 +181,23 @@ double kd_orbit_whirl(const struct kd_orbit *o, const struct kd_orbit_state *s, 
     return 0;
 }
 
-static enum kd_status check_state(double a, double r, double theta_deg, enum kd_observer frame, const double v[3],
-                                  struct kd_error *error)
+static enum kd_status check_state(const struct kd_hole *hole, double r, double theta_deg, enum kd_observer frame,
+                                  const double v[3], struct kd_error *error)
 {
-    const struct kd_vantage at = { a, r, kd_cos_deg(theta_deg), kd_sin_deg(theta_deg) };
+    const struct kd_vantage at = { *hole, r, kd_cos_deg(theta_deg), kd_sin_deg(theta_deg) };
     const struct kd_observer_row *row = &kd_observers[frame];
     char others[KD_OBSERVER_TEXT];
-    enum kd_status status = kd_orbit_check_spin(a, error);
+    enum kd_status status = kd_orbit_check_hole(hole, error);
     double speed = hypot(hypot(v[0], v[1]), v[2]);
     if (status)
         return status;
-    if (!(r > kd_hole(a)->outer) || !isfinite(r))
-        return kd_error_field(error, "/position/r", "r is %.16g; it must be above the horizon at %.9g", r,
-                              kd_hole(a)->outer);
+    if (!(r > hole->outer) || !isfinite(r))
+        return kd_error_field(error, "/position/r", "r is %.16g; it must be above the horizon at %.9g", r, hole->outer);
     if (!(theta_deg >= 0 && theta_deg <= 180))
         return kd_error_field(error, "/position/theta_deg", "theta_deg is %.16g; it must be 0 to 180", theta_deg);
     if (!kd_observer_exists(frame, &at))
         return kd_error_field(error, "/velocity/frame", "%s at r = %.16g, inside %s, which ends at %.9g here: use %s",
-                              row->why, r, row->edge, row->outside(kd_hole(a), at.u), kd_observer_others(&at, others));
+                              row->why, r, row->edge, row->outside(hole, at.u), kd_observer_others(&at, others));
     if (!(speed < 1))
         return kd_error_field(error, "/velocity", "the speed is %.16g; it must be below 1, that of light", speed);
     return KD_OK;
@@ -257,16 +256,16 @@ enum kd_status kd_orbit_from_state(const struct kd_hole *hole, double r, double 
                                    struct kd_error *error)
 {
     const double a = hole->a;
-    enum kd_status status = check_state(a, r, theta_deg, frame, v, error);
+    enum kd_status status = check_state(hole, r, theta_deg, frame, v, error);
     if (status)
         return status;
-    const struct kd_vantage at = { a, r, kd_cos_deg(theta_deg), kd_sin_deg(theta_deg) };
+    const struct kd_vantage at = { *hole, r, kd_cos_deg(theta_deg), kd_sin_deg(theta_deg) };
     const struct kd_observer_motion motion = kd_observer_motion_of(frame);
     const struct kd_tetrad tetrad = kd_observer_tetrad(&motion, &at);
     double gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
     const struct kd_covector p =
         kd_tetrad_covector(&tetrad, (double[]) { gamma, gamma * v[0], gamma * v[1], gamma * v[2] });
-    *o = (struct kd_orbit) { .a = a, .energy = p.energy, .binding = (1 - p.energy) * (1 + p.energy) };
+    *o = (struct kd_orbit) { .hole = *hole, .energy = p.energy, .binding = (1 - p.energy) * (1 + p.energy) };
     o->momentum = p.momentum * at.s;
     o->carter = p.polar * p.polar + at.u * at.u * (a * a * o->binding + p.momentum * p.momentum);
     kd_orbit_set_constants(o);

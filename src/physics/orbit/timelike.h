@@ -22,10 +22,11 @@ enum kd_orbit_fate { KD_ORBIT_BOUND, KD_ORBIT_PLUNGE, KD_ORBIT_ESCAPE };
 const char *kd_orbit_fate_name(enum kd_orbit_fate fate); /* "bound", "plunge", "escape" */
 
 struct kd_orbit {
-    double a, energy, binding; /* E, and 1 - E^2, which is accurate where E is close to 1 */
-    double momentum, carter;   /* L and Q */
-    double k, total;           /* K, and L^2 + Q */
-    double w[5];               /* coefficients of W, ascending powers */
+    struct kd_hole hole;
+    double energy, binding;  /* E, and 1 - E^2, which is accurate where E is close to 1 */
+    double momentum, carter; /* L and Q */
+    double k, total;         /* K, and L^2 + Q */
+    double w[5];             /* coefficients of W, ascending powers */
     /* u'^2 = (z - u^2)(n - a^2 b u^2), z n = Q: u oscillates between -sqrt(z) and sqrt(z), for Q < 0 on one side of
      * the equator. */
     double z, n, axis_gap; /* axis_gap is 1 - z */
@@ -83,7 +84,7 @@ double kd_orbit_radial_by_energy(const struct kd_orbit *orbit, double w);
 
 /* Shared by the files of this folder: sets K, L^2 + Q and the coefficients of W from a, E, b, L and Q. */
 void kd_orbit_set_constants(struct kd_orbit *orbit);
-enum kd_status kd_orbit_check_spin(double a, struct kd_error *error);
+enum kd_status kd_orbit_check_hole(const struct kd_hole *hole, struct kd_error *error);
 
 /* W = (w - w_low)(w_high - w)(g[0] + g[1] w + g[2] w^2), if both ends are turning points. */
 void kd_orbit_factor(const struct kd_orbit *orbit, double g[3]);

@@ -1,5 +1,20 @@
 #include "physics/spacetime/hole.h"
 
+struct kd_hole kd_hole_charged(double a, double q)
+{
+    double a2 = a * a, q2 = q * q;
+    if (q2 == 0) {
+        struct kd_hole hole = kd_hole_of(a);
+        hole.q = q;
+        return hole;
+    }
+    double lost = fma(a, a, -a2) + fma(q, q, -q2);
+    double larger = fmax(a2, q2), smaller = fmin(a2, q2), first = 1 - larger, rest = (1 - first) - larger;
+    double sum = first - smaller, part = sum - first, rest2 = (first - (sum - part)) - (smaller + part);
+    double root = sqrt(sum + (rest + rest2 - lost)), outer = 1 + root;
+    return (struct kd_hole) { a, q, root, outer, (a2 + q2) / outer };
+}
+
 struct kd_metric_scalars kd_metric_at(const struct kd_hole *hole, double r, double cos_theta)
 {
     double a = hole->a, w = r * r + a * a, s2 = (1 - cos_theta) * (1 + cos_theta);

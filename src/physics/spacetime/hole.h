@@ -8,10 +8,11 @@
 #define KD_PHYSICS_SPACETIME_HOLE_H
 
 #include <math.h>
+#include <stdbool.h>
 
 struct kd_hole {
     double a;     /* spin */
-    double q;     /* charge; always 0 so far */
+    double q;     /* charge in M */
     double root;  /* half the distance between the horizons; to an ulp or two, also as |a| -> 1 */
     double outer; /* r+; to a few ulp up to |a| = 1 - 1e-15 */
     double inner; /* r- */
@@ -23,6 +24,17 @@ static inline struct kd_hole kd_hole_of(double a)
 {
     double root = sqrt((1 - a) * (1 + a)), outer = 1 + root;
     return (struct kd_hole) { a, 0, root, outer, a * a / outer };
+}
+
+/* A hole of charge q, a^2 + q^2 < 1. 1 - a^2 - q^2 is summed with the rounding errors of its terms (Dekker 1971), so
+ * that root keeps its digits as a^2 + q^2 -> 1. If q^2 is 0 or underflows, the horizons are
+ * those of kd_hole_of to the bit. */
+struct kd_hole kd_hole_charged(double a, double q);
+
+/* False for a struct of zeros and outside the domain. */
+static inline bool kd_hole_exists(const struct kd_hole *hole)
+{
+    return hole->a * hole->a + hole->q * hole->q <= 1 && hole->root > 0 && hole->outer > 1;
 }
 
 /* A hole from its spin, to be used as an argument: kd_kerr_isco(kd_hole(0.9)). It lives until the end of the enclosing
@@ -42,6 +54,14 @@ static inline struct kd_hole kd_hole_turned_of(const struct kd_hole *hole, doubl
 static inline double kd_hole_delta(const struct kd_hole *hole, double r)
 {
     return (r - hole->outer) * (r - hole->inner);
+}
+
+/* Delta/r^2 = 1 - 2w + (a^2 + q^2) w^2 at w = 1/r, as (1 - w)^2 - (root w)^2. 1 - w is exact near the horizon of a
+ * fast hole, and the two factors keep their accuracy where the horizons almost coincide. The error is that of w. */
+static inline double kd_hole_delta_w(const struct kd_hole *hole, double w)
+{
+    double d = 1 - w, h = hole->root * w;
+    return (d - h) * (d + h);
 }
 
 /* The metric in Boyer-Lindquist coordinates (Bardeen, Press & Teukolsky 1972, ApJ 178, 347, eqs 2.1 to 2.5; with

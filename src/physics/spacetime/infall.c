@@ -8,24 +8,25 @@
 
 bool kd_infall_is_level(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
-    return at->spin == 0 || at->u == 0 || at->s == 0 || (m->fall_momentum == 0 && kd_observer_energy(m, at) == 1);
+    return at->hole.a == 0 || at->u == 0 || at->s == 0 || (m->fall_momentum == 0 && kd_observer_energy(m, at) == 1);
 }
 
 /* (Sigma r')^2 = c[4] r^4 + ... + c[0]. If fall_from is finite, this polynomial has been divided by fall_from - r, a
  * factor that vanishes at fall_from. */
 struct fall {
-    double c[5], spin, u, low, span, above; /* above: from the upper end to fall_from */
+    struct kd_hole hole;
+    double c[5], u, low, span, above;       /* above: from the upper end to fall_from */
     double energy, momentum, swing, carter; /* E; L; L/sin^2; K = Q + (L - a E)^2 */
     bool from_rest;
 };
 
 static struct fall fall_of(const struct kd_observer_motion *m, const struct kd_vantage *at, double r)
 {
-    double a = at->spin, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
+    double a = at->hole.a, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
     double ls = l == 0 ? 0 : l / at->s, q = at->u * at->u * (ls * ls - a * a * bound), rest = l - a * e;
     struct fall f = {
         .c = { -a * a * q, 2 * (q + rest * rest), a * a * bound - l * l - q, 2, bound },
-        .spin = a,
+        .hole = at->hole,
         .u = at->u,
         .low = r,
         .span = at->r - r,
@@ -42,10 +43,20 @@ static struct fall fall_of(const struct kd_observer_motion *m, const struct kd_v
     return f;
 }
 
-/* -Sigma r'; y: distance from the upper end over the span. */
+/* P = E (r^2 + a^2) - a L. */
+static double momentum_inwards(const struct fall *f, double r)
+{
+    double a = f->hole.a;
+    return f->energy * (r * r + a * a) - a * f->momentum;
+}
+
+/* -Sigma r'; y: distance from the upper end over the span. Between the horizons (Sigma r')^2 = P^2 - Delta (r^2 + K) is
+ * a sum of positive terms; the polynomial cancels there where the horizons almost coincide. */
 static double speed(const struct fall *f, double r, double y)
 {
-    double speed2 = 0;
+    double speed2 = 0, delta = kd_hole_delta(&f->hole, r), p = momentum_inwards(f, r);
+    if (delta < 0)
+        return sqrt(p * p - delta * (r * r + f->carter));
     for (int i = f->from_rest ? 3 : 4; i >= 0; i--)
         speed2 = speed2 * r + f->c[i];
     if (f->from_rest)
@@ -57,7 +68,7 @@ static double pace(double x, double y, const void *user)
 {
     const struct fall *f = user;
     double r = f->low + f->span * x;
-    return f->span * (r * r + f->spin * f->spin * f->u * f->u) / speed(f, r, y);
+    return f->span * (r * r + f->hole.a * f->hole.a * f->u * f->u) / speed(f, r, y);
 }
 
 double kd_infall_proper_time(const struct kd_observer_motion *m, const struct kd_vantage *at, double r)
@@ -66,12 +77,12 @@ double kd_infall_proper_time(const struct kd_observer_motion *m, const struct kd
     return f.span > 0 ? kd_quadrature(pace, &f) : 0;
 }
 
-/* (P + Sigma r')/Delta with P = E (r^2 + a^2) - a L. Because of P^2 - (Sigma r')^2 = Delta (r^2 + K) it is regular
+/* (P + Sigma r')/Delta. Because of P^2 - (Sigma r')^2 = Delta (r^2 + K) it is regular
  * at the horizon. */
 static double ingoing(const struct fall *f, double r, double speed)
 {
-    double a = f->spin, p = f->energy * (r * r + a * a) - a * f->momentum;
-    return p > 0 ? (r * r + f->carter) / (p + speed) : (p - speed) / (r * r - 2 * r + a * a);
+    double p = momentum_inwards(f, r);
+    return p > 0 ? (r * r + f->carter) / (p + speed) : (p - speed) / kd_hole_delta(&f->hole, r);
 }
 
 /* Sigma dphi/dtau in ingoing Kerr-Schild coordinates, phi + integral of a/Delta dr (Carter 1968 for
@@ -80,14 +91,14 @@ static double turning(double x, double y, const void *user)
 {
     const struct fall *f = user;
     double r = f->low + f->span * x, v = speed(f, r, y);
-    return f->span * (f->swing - f->spin * f->energy + f->spin * ingoing(f, r, v)) / v;
+    return f->span * (f->swing - f->hole.a * f->energy + f->hole.a * ingoing(f, r, v)) / v;
 }
 
 /* Sigma dt/dtau of those coordinates, t + integral of 2r/Delta dr. */
 static double ageing(double x, double y, const void *user)
 {
     const struct fall *f = user;
-    double a = f->spin, r = f->low + f->span * x, v = speed(f, r, y), s2 = (1 - f->u) * (1 + f->u);
+    double a = f->hole.a, r = f->low + f->span * x, v = speed(f, r, y), s2 = (1 - f->u) * (1 + f->u);
     return f->span * (a * (f->momentum - a * f->energy * s2) + (r * r + a * a) * ingoing(f, r, v) + v) / v;
 }
 
@@ -106,8 +117,7 @@ struct kd_infall_way kd_infall_way(const struct kd_observer_motion *m, const str
         return way;
     way.azimuth = kd_quadrature(turning, &f);
     way.time = kd_quadrature(ageing, &f);
-    const struct kd_hole hole = kd_hole_of(at->spin);
-    way.far_time = r > hole.outer ? way.time + delay(&hole, at->r) - delay(&hole, r) : INFINITY;
+    way.far_time = r > f.hole.outer ? way.time + delay(&f.hole, at->r) - delay(&f.hole, r) : INFINITY;
     return way;
 }
 
@@ -133,7 +143,7 @@ struct kd_infall_way kd_infall_after(const struct kd_observer_motion *m, const s
                                      double proper_time)
 {
     const struct clock clock = { m, at, proper_time };
-    double last = fmin(kd_infall_last(kd_hole(at->spin)), at->r);
+    double last = fmin(kd_infall_last(&at->hole), at->r);
     bool ends = !(too_far(&clock, last) > 0);
     struct kd_infall_way way = kd_infall_way(m, at, ends ? last : kd_root(too_far, &clock, last, at->r));
     way.ended = ends;

@@ -96,9 +96,7 @@ double kd_kerr_efficiency(const struct kd_hole *hole)
 
 double kd_kerr_dragging(const struct kd_hole *hole, double r, double cos_theta)
 {
-    const double a = hole->a;
-    double delta = r * r - 2 * r + a * a, s2 = (1 - cos_theta) * (1 + cos_theta), w = r * r + a * a;
-    return 2 * a * r / (w * w - a * a * delta * s2);
+    return kd_metric_at(hole, r, cos_theta).omega;
 }
 
 double kd_kerr_rotation_reach(const struct kd_hole *hole, double r, double cos_theta, double sin_theta)

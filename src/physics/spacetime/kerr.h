@@ -1,5 +1,6 @@
 /* Scalars of the Kerr hole that depend on its spin, and circular equatorial orbits. Double precision, pure
- * functions, any thread. Units G = c = M = 1; for the sign of the spin and the domain see hole.h.
+ * functions, any thread. Units G = c = M = 1; for the sign of the spin and the domain see hole.h. The hole must be
+ * uncharged, except for kd_kerr_twist and kd_kerr_dragging.
  *
  * Sources: Bardeen, Press & Teukolsky 1972, ApJ 178, 347 [BPT]; Chandrasekhar 1983. */
 #ifndef KD_PHYSICS_SPACETIME_KERR_H

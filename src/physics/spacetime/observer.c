@@ -7,14 +7,14 @@
 #include <math.h>
 #include <stdio.h>
 
-static double delta_of(const struct kd_vantage *at) { return kd_hole_delta(kd_hole(at->spin), at->r); }
+static double delta_of(const struct kd_vantage *at) { return kd_hole_delta(&at->hole, at->r); }
 
 /* g_phiphi = big sin^2 / sigma. */
 struct shape { double sigma, delta, big; };
 
 static struct shape shape_of(const struct kd_vantage *at)
 {
-    double a = at->spin, r = at->r, w2 = r * r + a * a, delta = delta_of(at);
+    double a = at->hole.a, r = at->r, w2 = r * r + a * a, delta = delta_of(at);
     return (struct shape) { r * r + a * a * at->u * at->u, delta, w2 * w2 - a * a * delta * at->s * at->s };
 }
 
@@ -29,7 +29,7 @@ static struct kd_tetrad frame_zamo(const struct kd_observer_motion *motion, cons
         .t = { .energy = sqrt(k.sigma * k.delta / k.big) },
         .r = { .radial = sqrt(k.sigma) * sqrt(k.delta) },
         .theta = { .polar = sqrt(k.sigma) },
-        .phi = { .energy = kd_kerr_dragging(kd_hole(at->spin), at->r, at->u) * root * at->s, .momentum = root },
+        .phi = { .energy = kd_kerr_dragging(&at->hole, at->r, at->u) * root * at->s, .momentum = root },
     };
 }
 
@@ -37,7 +37,7 @@ static struct kd_tetrad frame_zamo(const struct kd_observer_motion *motion, cons
 static struct kd_tetrad frame_static(const struct kd_observer_motion *motion, const struct kd_vantage *at)
 {
     (void)motion;
-    double a = at->spin, r = at->r, u = at->u, s = at->s;
+    double a = at->hole.a, r = at->r, u = at->u, s = at->s;
     double sigma = r * r + a * a * u * u, delta = delta_of(at);
     double lapse = sqrt((sigma - 2 * r) / sigma); /* sqrt(-g_tt) */
     return (struct kd_tetrad) {
@@ -55,10 +55,11 @@ static struct kd_tetrad frame_static(const struct kd_observer_motion *motion, co
  * In Mino time r'' depends on r alone, so that r is constant. In the equatorial plane Omega = +-1/(r^(3/2) +- a);
  * elsewhere the orbit is spherical (Wilkins 1972, Phys. Rev. D 5, 814). Returns sin * (Omega - omega), which is
  * regular on the axis. */
-static double circling(double a, double r, double u, double s, int sense)
+static double circling(const struct kd_hole *hole, double r, double u, double s, int sense)
 {
+    double a = hole->a;
     double g = sqrt((r - a * u) * (r + a * u) / r) / (r * r + a * a * u * u);
-    return sense * g / (1 + sense * a * s * g) - s * kd_kerr_dragging(kd_hole(a), r, u);
+    return sense * g / (1 + sense * a * s * g) - s * kd_kerr_dragging(hole, r, u);
 }
 
 /* Frame that moves along e_phi, relative to the observer of zero angular momentum, at sqrt(g_phiphi) (Omega -
@@ -66,7 +67,7 @@ static double circling(double a, double r, double u, double s, int sense)
 static struct kd_tetrad circular(const struct kd_vantage *at, int sense)
 {
     const struct shape k = shape_of(at);
-    double v = k.big / k.sigma * circling(at->spin, at->r, at->u, at->s, sense) / sqrt(k.delta),
+    double v = k.big / k.sigma * circling(&at->hole, at->r, at->u, at->s, sense) / sqrt(k.delta),
            gamma = 1 / sqrt((1 - v) * (1 + v));
     const struct kd_tetrad zamo = frame_zamo(NULL, at);
     return kd_tetrad_boosted(&zamo, (double[]) { gamma, 0, 0, gamma * v });
@@ -90,13 +91,13 @@ static struct kd_tetrad frame_retrograde(const struct kd_observer_motion *motion
 static struct kd_tetrad rain(const struct kd_vantage *at)
 {
     const struct shape k = shape_of(at);
-    double root = sqrt(k.big / k.sigma), fall = sqrt(2 * at->r * (at->r * at->r + at->spin * at->spin));
+    double root = sqrt(k.big / k.sigma), fall = sqrt(2 * at->r * (at->r * at->r + at->hole.a * at->hole.a));
     return (struct kd_tetrad) {
         .at = *at,
         .t = { .energy = 1, .radial = -fall },
         .r = { .energy = -fall / sqrt(k.big), .radial = sqrt(k.big) },
         .theta = { .polar = sqrt(k.sigma) },
-        .phi = { .energy = kd_kerr_dragging(kd_hole(at->spin), at->r, at->u) * root * at->s, .momentum = root },
+        .phi = { .energy = kd_kerr_dragging(&at->hole, at->r, at->u) * root * at->s, .momentum = root },
     };
 }
 
@@ -111,7 +112,7 @@ static double swing(double momentum, const struct kd_vantage *at)
 static double rest_energy(double momentum, const struct kd_vantage *at)
 {
     const struct shape k = shape_of(at);
-    return kd_kerr_dragging(kd_hole(at->spin), at->r, at->u) * momentum +
+    return kd_kerr_dragging(&at->hole, at->r, at->u) * momentum +
            sqrt(k.sigma * k.delta / k.big) * hypot(1, swing(momentum, at));
 }
 
@@ -131,7 +132,7 @@ static struct kd_tetrad frame_infall(const struct kd_observer_motion *m, const s
     const struct kd_tetrad base = rain(at);
     const struct shape k = shape_of(at);
     double x = swing(m->fall_momentum, at), one = 1 + x * x, root = sqrt(k.big);
-    double energy = kd_observer_energy(m, at) - kd_kerr_dragging(kd_hole(at->spin), at->r, at->u) * m->fall_momentum;
+    double energy = kd_observer_energy(m, at) - kd_kerr_dragging(&at->hole, at->r, at->u) * m->fall_momentum;
     double speed = sqrt(fmax(0, k.big * energy * energy - k.sigma * k.delta * one));
     double less = (root * energy + speed) / (root - base.t.radial), more = one / less;
     const double velocity[4] = { 0.5 * (more + less), 0.5 * (more - less), 0, x };
@@ -150,7 +151,8 @@ static struct kd_tetrad frame_velocity(const struct kd_observer_motion *m, const
 }
 
 struct round {
-    double a, u, s;
+    const struct kd_hole *hole;
+    double u, s;
     int sense;
 };
 
@@ -158,14 +160,14 @@ struct round {
 static double slower_than_light(const void *user, double r)
 {
     const struct round *o = user;
-    const struct kd_vantage at = { o->a, r, o->u, o->s };
+    const struct kd_vantage at = { *o->hole, r, o->u, o->s };
     const struct shape k = shape_of(&at);
-    return sqrt(fmax(0, k.delta)) * k.sigma / k.big - fabs(circling(o->a, r, o->u, o->s, o->sense));
+    return sqrt(fmax(0, k.delta)) * k.sigma / k.big - fabs(circling(o->hole, r, o->u, o->s, o->sense));
 }
 
 double kd_observer_light_orbit(const struct kd_hole *hole, double u, int sense)
 {
-    const struct round o = { hole->a, u, sqrt((1 - u) * (1 + u)), sense };
+    const struct round o = { hole, u, sqrt((1 - u) * (1 + u)), sense };
     return u == 0 ? kd_kerr_photon_orbit(kd_hole_turned(hole, sense))
                   : kd_root(slower_than_light, &o, hole->outer, 4.01);
 }
@@ -188,7 +190,7 @@ KD_OBSERVERS(FITS)
 
 bool kd_observer_exists(enum kd_observer observer, const struct kd_vantage *at)
 {
-    return at->r > kd_observers[observer].outside(kd_hole(at->spin), at->u);
+    return at->r > kd_observers[observer].outside(&at->hole, at->u);
 }
 
 struct kd_observer_motion kd_observer_motion_of(enum kd_observer observer)
@@ -200,10 +202,10 @@ struct kd_observer_motion kd_observer_motion_of(enum kd_observer observer)
  * mu = 1). */
 static bool turns_on_its_way(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
-    double a = at->spin, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
+    double a = at->hole.a, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
     double ls = l == 0 ? 0 : l / at->s, q = at->u * at->u * (ls * ls - a * a * bound), rest = l - a * e, roots[4];
     const double c[] = { bound, 2, a * a * bound - l * l - q, 2 * (q + rest * rest), -a * a * q };
-    double last = fmin(1 / at->r, 1 / kd_hole(a)->outer);
+    double last = fmin(1 / at->r, 1 / at->hole.outer);
     return last > 1 / m->fall_from * (1 + 1e-9) &&
            kd_polynomial_roots(c, 4, 1 / m->fall_from * (1 + 1e-9) + 1e-12, last, roots) > 0;
 }
@@ -216,7 +218,7 @@ static enum kd_observer_fault check_fall(const struct kd_observer_motion *m, con
     if (m->fall_from < at->r)
         return KD_OBSERVER_FROM_INSIDE;
     struct kd_vantage here = *at; /* within the horizon every body falls if it came through it */
-    here.r = fmax(at->r, kd_hole(at->spin)->outer);
+    here.r = fmax(at->r, at->hole.outer);
     *bound = rest_energy(m->fall_momentum, &here);
     if (!(kd_observer_energy(m, at) >= *bound) || (!isfinite(m->fall_energy) && turns_on_its_way(m, at)))
         return KD_OBSERVER_TURNS;

@@ -97,9 +97,9 @@ struct kd_look kd_tetrad_look_past_rain(const struct kd_tetrad *frame, double en
  * norm gives x_t + x_r. */
 struct kd_look kd_tetrad_look_inwards(const struct kd_tetrad *frame, const struct kd_covector *photon, double polar2)
 {
-    const double a = frame->at.spin, r = frame->at.r, s = frame->at.s,
+    const double a = frame->at.hole.a, r = frame->at.r, s = frame->at.s,
                  sigma = r * r + a * a * frame->at.u * frame->at.u, w2 = r * r + a * a;
-    const double delta = kd_hole_delta(kd_hole(a), r), big = w2 * w2 - a * a * delta * s * s;
+    const double delta = kd_hole_delta(&frame->at.hole, r), big = w2 * w2 - a * a * delta * s * s;
     const double round = photon->momentum * sqrt(sigma / big), up = photon->polar / sqrt(sigma);
     const double energy = photon->energy - 2 * a * r / big * photon->momentum * s;
     const double less = (sqrt(big) * energy - photon->radial) / (sqrt(big) + sqrt(2 * r * w2)),
@@ -120,8 +120,8 @@ struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, const struct kd_cov
 /* R = ((r^2 + a^2) E - a L)^2 - Delta (p_theta^2 + (L/sin(theta) - a E sin(theta))^2), from the norm of a photon. */
 struct kd_covector kd_tetrad_outgoing(const struct kd_vantage *at, double alpha, double beta)
 {
-    double a = at->spin, r = at->r, across = alpha + a * at->s, along = r * r + a * a + a * alpha * at->s;
-    double delta = kd_hole_delta(kd_hole(a), r);
+    double a = at->hole.a, r = at->r, across = alpha + a * at->s, along = r * r + a * a + a * alpha * at->s;
+    double delta = kd_hole_delta(&at->hole, r);
     return (struct kd_covector) { 1, -alpha, beta,
                                   sqrt(fmax(0, along * along - delta * (beta * beta + across * across))) };
 }

@@ -12,12 +12,18 @@
 #ifndef KD_PHYSICS_SPACETIME_TETRAD_H
 #define KD_PHYSICS_SPACETIME_TETRAD_H
 
+#include "physics/spacetime/hole.h"
+
 #include <stdbool.h>
 
 struct kd_covector { double energy, momentum, polar, radial; /* E, L/sin(theta), p_theta, Delta p_r */ };
 
-/* Position of a frame: spin, |spin| < 1; radius; cosine and sine of the polar angle, one of which may be 0. */
-struct kd_vantage { double spin, r, u, s; };
+/* Position of a frame: the hole, which must be uncharged; radius; cosine and sine of the polar angle, one of which may
+ * be 0. */
+struct kd_vantage {
+    struct kd_hole hole;
+    double r, u, s;
+};
 
 /* falls: the frame is regular at a horizon. past_rain: velocity of the frame relative to rain (observer.c): gamma, and
  * gamma v along e_r, e_theta, e_phi. */

@@ -23,13 +23,13 @@ static void pace(const struct kd_observer_motion *m, const struct kd_vantage *at
 {
     const int sense = kd_observer_sense(m->observer);
     if (sense) {
-        *time = kd_kerr_ut(kd_hole(sense * at->spin), at->r);
-        *azimuth = sense * kd_kerr_omega(kd_hole(sense * at->spin), at->r) * *time;
+        *time = kd_kerr_ut(kd_hole_turned(&at->hole, sense), at->r);
+        *azimuth = sense * kd_kerr_omega(kd_hole_turned(&at->hole, sense), at->r) * *time;
         return;
     }
     const struct kd_tetrad frame = kd_observer_tetrad(m, at);
     *time = 1 / frame.t.energy; /* static: E = sqrt(-g_tt) = 1/u^t */
-    *azimuth = m->observer == KD_OBSERVER_ZAMO ? kd_kerr_dragging(kd_hole(at->spin), at->r, at->u) * *time : 0;
+    *azimuth = m->observer == KD_OBSERVER_ZAMO ? kd_kerr_dragging(&at->hole, at->r, at->u) * *time : 0;
 }
 
 struct kd_worldline_place kd_worldline_after(const struct kd_observer_motion *m, const struct kd_vantage *at,
@@ -47,5 +47,5 @@ struct kd_worldline_place kd_worldline_after(const struct kd_observer_motion *m,
 
 bool kd_worldline_goes_on(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
-    return m->observer != KD_OBSERVER_INFALL || at->r > kd_infall_last(kd_hole(at->spin));
+    return m->observer != KD_OBSERVER_INFALL || at->r > kd_infall_last(&at->hole);
 }

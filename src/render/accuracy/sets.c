@@ -53,7 +53,7 @@ static double second_of(size_t k) { return fraction(k, 0.5698402909980532); }
 static struct kd_critical curve_of(const struct kd_accuracy_view *view)
 {
     double i = view->inclination_deg * (M_PI / 180);
-    return kd_critical_of(&(struct kd_critical_observer) { .spin = view->spin,
+    return kd_critical_of(&(struct kd_critical_observer) { .hole = kd_hole_of(view->spin),
                                                            .radius = INFINITY,
                                                            .cos_theta = view->inclination_deg == 90 ? 0 : cos(i),
                                                            .sin_theta = sin(i) });

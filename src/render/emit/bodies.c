@@ -24,8 +24,8 @@ static double motion_of(const struct kd_body *body, const struct kd_vantage *at,
         velocity[i] = x[i + 1] / x[0];
     const int sense = kd_observer_sense(motion.observer);
     if (sense)
-        return sense * kd_kerr_omega(kd_hole(sense * at->spin), at->r);
-    return motion.observer == KD_OBSERVER_ZAMO ? kd_kerr_dragging(kd_hole(at->spin), at->r, at->u) : 0;
+        return sense * kd_kerr_omega(kd_hole_turned(&at->hole, sense), at->r);
+    return motion.observer == KD_OBSERVER_ZAMO ? kd_kerr_dragging(&at->hole, at->r, at->u) : 0;
 }
 
 static double omega_of(const struct kd_scene *scene, const struct kd_body *body)

@@ -19,20 +19,20 @@
 
 bool kd_illumination_of(const struct kd_scene *scene, struct kd_illumination *out)
 {
-    const double a = scene->spacetime.spin, inner = kd_disk_inner(scene), outer = scene->disk.outer,
-                 step = log(outer / inner) / KD_LIT_RINGS;
+    const struct kd_hole hole = kd_hole_of(scene->spacetime.spin);
+    const double inner = kd_disk_inner(scene), outer = scene->disk.outer, step = log(outer / inner) / KD_LIT_RINGS;
     if (scene->disk.model == KD_DISK_NONE || scene->disk.height > 0)
         return false;
     for (int i = 0; i < KD_LIT_RINGS; i++) {
-        const double r = inner * exp(step * (i + 0.5)), delta = r * r - 2 * r + a * a,
-                     area = (r * r + a * a) * (r * r + a * a) - a * a * delta;
-        const double t = kd_disk_heat(scene, r), along = sqrt(area) / r, lapse = r * sqrt(delta / area);
+        const double r = inner * exp(step * (i + 0.5)), t = kd_disk_heat(scene, r);
+        const struct kd_metric_scalars m = kd_metric_at(&hole, r, 0);
+        const double along = sqrt(m.area) / r, lapse = sqrt(m.lapse2);
         out->rings[i] = (struct kd_illumination_ring) {
             .r = r,
             .t = t,
             .light = t * t * t * t * r * r * step * (2 * M_PI / KD_LIT_PLACES),
             .lapse = lapse,
-            .velocity = (kd_kerr_omega(kd_hole(a), r) - kd_kerr_dragging(kd_hole(a), r, 0)) * along / lapse,
+            .velocity = (kd_kerr_omega(&hole, r) - m.omega) * along / lapse,
         };
     }
     return true;

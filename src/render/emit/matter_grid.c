@@ -258,15 +258,15 @@ static enum kd_status take_number(struct kd_matter_reader *r, size_t i, struct k
 static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struct kd_error *error)
 {
     const struct kd_matter_grid *g = &r->grid;
-    const double a = g->spin, edge = 1.001 * kd_hole(a)->outer, t = kd_matter_array_at(&r->array, i);
+    const struct kd_hole hole = kd_hole_of(g->spin);
+    const double edge = 1.001 * hole.outer, t = kd_matter_array_at(&r->array, i);
     const double radius = r->r[i / g->layers / g->columns], theta = r->theta[i / g->layers % g->columns],
-                 s2 = sin(theta) * sin(theta), r2 = radius * radius;
-    const double sigma = r2 + a * a * (1 - s2), delta = r2 - 2 * radius + a * a,
-                 area = (r2 + a * a) * (r2 + a * a) - a * a * delta * s2;
+                 s2 = sin(theta) * sin(theta);
+    const struct kd_metric_scalars m = kd_metric_at(&hole, radius, cos(theta));
     const float *n = g->nodes + KD_MATTER_FLOATS * i;
     const double out = n[VELOCITY], down = n[VELOCITY + 1] / radius, round = n[VELOCITY + 2] * radius;
-    const double norm = out * out * sigma / delta + down * down * sigma + round * round * sigma / (area * s2) -
-                        t * t * sigma * delta / area;
+    const double norm = out * out * m.sigma / m.delta + down * down * m.sigma +
+                        round * round * m.sigma / (m.area * s2) - t * t * m.lapse2;
     if (!(radius > edge && s2 > AXIS) || fabs(norm + 1) <= UNIT)
         return KD_OK;
     return refuse_number(g, "the velocity's u.u at u_con_t", i, norm,

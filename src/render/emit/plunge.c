@@ -18,7 +18,7 @@ static uint32_t needs(const struct kd_scene *scene) { return kd_orbit_needs(scen
 struct range { double first, last; };
 static struct range range_of(const struct kd_plunging *p)
 {
-    double r0 = p->curve.isco, r_h = p->curve.horizon;
+    double r0 = p->curve.isco, r_h = p->curve.hole.outer;
     return (struct range) { log2((r0 - p->start) / (p->start - r_h)), log2((r0 - p->end) / (p->end - r_h)) };
 }
 
@@ -52,7 +52,8 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
     const struct range range = range_of(&p);
     for (int i = 0; i < KD_PLUNGE_TABLE; i++) {
         double ratio = exp2(range.first + (range.last - range.first) * i / (KD_PLUNGE_TABLE - 1));
-        const struct kd_plunging_place at = kd_plunging_at(&p, (p.curve.isco + ratio * p.curve.horizon) / (1 + ratio));
+        const struct kd_plunging_place at =
+            kd_plunging_at(&p, (p.curve.isco + ratio * p.curve.hole.outer) / (1 + ratio));
         out->plunge[i][0] = (float)at.phase;
         out->plunge[i][1] = (float)at.turns;
     }
@@ -61,7 +62,7 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 static void reach(const struct kd_scene *scene, double radii[2])
 {
     const struct kd_plunging p = kd_plunging_of(scene);
-    radii[0] = p.curve.horizon;
+    radii[0] = p.curve.hole.outer;
     radii[1] = p.curve.isco;
 }
 

@@ -15,9 +15,9 @@ struct kd_plunging kd_plunging_of(const struct kd_scene *scene)
 {
     double a = scene->spacetime.spin;
     struct kd_plunging o = { .curve = kd_plunge_of(kd_hole(a)) };
-    double way = o.curve.isco - o.curve.horizon;
+    double way = o.curve.isco - o.curve.hole.outer;
     o.start = o.curve.isco - way / 32;
-    o.end = o.curve.horizon + way / 64;
+    o.end = o.curve.hole.outer + way / 64;
     o.omega = kd_kerr_omega(kd_hole(a), o.curve.isco);
     o.first = kd_plunge_at(&o.curve, o.start);
     o.time = kd_plunge_at(&o.curve, o.end).t - o.first.t;

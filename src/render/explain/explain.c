@@ -19,7 +19,7 @@ static struct kd_null_ray null_ray(const struct kd_explained *x)
 {
     const struct kd_vantage at = kd_scene_vantage(&x->scene);
     return (struct kd_null_ray) {
-        .spin = at.spin,
+        .hole = at.hole,
         .radius = at.r,
         .cos_theta = at.u,
         .sin_theta = at.s,

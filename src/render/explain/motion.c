@@ -55,9 +55,9 @@ static void name_polar(struct kd_ray_motion *m, const struct kd_null_motion *con
 
 struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray)
 {
-    struct kd_ray_motion m = { .ray = *ray, .horizon = kd_hole(ray->spin)->outer, .turning_r = NAN };
+    struct kd_ray_motion m = { .ray = *ray, .horizon = ray->hole.outer, .turning_r = NAN };
     const struct kd_null_motion constants =
-        kd_null_motion_of(kd_hole(ray->spin), ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
+        kd_null_motion_of(&ray->hole, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     m.within = !(ray->radius > m.horizon);
     m.lambda = constants.lambda, m.eta = constants.eta;
     m.roots = kd_null_roots_of(&constants);
@@ -119,7 +119,7 @@ enum kd_status kd_ray_path_draw(const struct kd_ray_motion *m, const struct kd_r
         if (crossings[i].r > m->horizon)
             near = fmin(near, 0.5 * (crossings[i].r - m->horizon));
     }
-    *path = (struct kd_ray_path) { .frame = *frame, .spin = m->ray.spin, .ingoing = m->within, .error = NAN };
+    *path = (struct kd_ray_path) { .frame = *frame, .spin = m->ray.hole.a, .ingoing = m->within, .error = NAN };
     if (!(path->places = malloc(KD_PATH_PLACES * sizeof *path->places)))
         return kd_error_set(error, KD_ENOMEM, "out of memory for the path of a ray");
     path->course = m->within ? kd_null_course_ingoing(&m->ray, frame->reversed, far, near, path->places, KD_PATH_PLACES)

@@ -15,7 +15,7 @@
  * there. */
 static double redshift(const struct kd_ray_motion *m, double r, bool outwards)
 {
-    const double a = m->ray.spin;
+    const double a = m->ray.hole.a;
     return r >= kd_kerr_isco(kd_hole(a)) ? kd_disk_redshift(kd_hole(a), r, m->lambda)
                                          : kd_disk_redshift_plunging(kd_hole(a), r, m->lambda, m->eta, outwards);
 }
@@ -25,7 +25,7 @@ static struct kd_ray_crossing crossing_of(const struct kd_ray_motion *m, bool re
                                           bool inwards)
 {
     const bool outside = p->r > m->horizon;
-    const double twist = outside ? kd_kerr_twist(kd_hole(m->ray.spin), p->r) : 0;
+    const double twist = outside ? kd_kerr_twist(&m->ray.hole, p->r) : 0;
     return (struct kd_ray_crossing) {
         .r = p->r,
         .phi = p->phi + (reversed ? -twist : twist),

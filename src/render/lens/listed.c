@@ -246,11 +246,11 @@ enum { PLACES = 2048 };
 static void follow_within(struct work *w, const struct kd_scene *scene, size_t i, struct kd_null_place *places)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
-    const double horizon = kd_hole(at.spin)->outer;
+    const double horizon = at.hole.outer;
     const uint32_t orders = w->plan->orders ? w->plan->orders : 1;
     const bool reversed = w->energy[i] < 0;
     const struct kd_null_ray ray = {
-        .spin = at.spin,
+        .hole = at.hole,
         .radius = at.r,
         .cos_theta = at.u,
         .sin_theta = at.s,
@@ -270,7 +270,7 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
         const bool inwards = places[k + 1].r < p->r;
         if (p->crossing < 0 || (uint32_t)p->crossing >= orders || (inwards && p->r <= horizon))
             continue; /* as in the kernel, a ray on its way out may be inside the horizon */
-        const double twist = p->r > horizon ? kd_kerr_twist(kd_hole(at.spin), p->r) : 0;
+        const double twist = p->r > horizon ? kd_kerr_twist(&at.hole, p->r) : 0;
         w->crossings[i * orders + (uint32_t)p->crossing] =
             (struct kd_ray_crossing) { .r = p->r, .phi = p->phi + (reversed ? -twist : twist), .delay = p->delay };
         w->inwards[i * orders + (uint32_t)p->crossing] = inwards;

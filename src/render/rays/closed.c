@@ -18,7 +18,7 @@ _Static_assert(KD_NULL_ORDERS >= KD_RAYS_MAX_ORDERS, "the closed form gives too 
 
 static struct kd_null_ray ray_of(const struct kd_rays_params *p, const double *alpha_beta, bool outward)
 {
-    return (struct kd_null_ray) { .spin = p->spin,
+    return (struct kd_null_ray) { .hole = kd_hole_of(p->spin),
                                   .radius = p->r,
                                   .cos_theta = kd_cos_deg(p->inclination_deg),
                                   .sin_theta = kd_sin_deg(p->inclination_deg),

@@ -1,12 +1,15 @@
 #include "render/rays/start.h"
 
-#include "physics/spacetime/hole.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 
 /* The ray in Mino time. y: n = (sin theta cos psi, sin theta sin psi, cos theta) and w = 1/r; v: their derivatives;
  * chi: Boyer-Lindquist azimuth minus psi. The equations are those of shaders/ray/escape.glsl. */
-struct motion { double a, l, q, k; };
+struct motion {
+    const struct kd_hole *hole;
+    double a, l, q, k;
+};
 struct point { double y[4], v[4], chi; };
 
 static void pull(const struct motion *m, const double y[4], double f[4])
@@ -20,7 +23,7 @@ static void pull(const struct motion *m, const double y[4], double f[4])
 
 static double drag(const struct motion *m, double w)
 {
-    return m->a * w * (2 - m->a * m->l * w) / (1 + w * (m->a * m->a * w - 2));
+    return m->a * w * (2 - m->a * m->l * w) / kd_hole_delta_w(m->hole, w);
 }
 
 /* A step of Nystroem's method of order 4, as in nystroem.glsl. Frame dragging is integrated by Simpson's rule, with the
@@ -73,26 +76,20 @@ static struct point approach(const struct motion *m, struct point p, double t, s
     return p;
 }
 
-/* Kerr-Schild minus Boyer-Lindquist azimuth at r: the integral of a/Delta from infinity. */
-static double twist(double a, double r)
-{
-    double root = sqrt((1 - a) * (1 + a));
-    return a / (2 * root) * log1p(2 * root / (r - 1 - root));
-}
-
 /* Converts to Cartesian coordinates: x + iy = (r + ia)(n_x + i n_y), z = r n_z, with n rotated to the Kerr-Schild
  * azimuth. The momentum is p_r dr + n'.dn: n' has the components p_theta and L/sin(theta) along the unit vectors of
  * the sphere, so it is regular on the axis. */
 static void cartesian(const struct motion *m, const struct point *p, bool outward, struct kd_rays_origin *out)
 {
-    double a = m->a, r = 1 / p->y[3], q = r * r + a * a, turn = p->chi - twist(a, r), c = cos(turn), s = sin(turn);
+    double a = m->a, r = 1 / p->y[3], q = r * r + a * a, turn = p->chi - kd_kerr_twist(m->hole, r), c = cos(turn),
+           s = sin(turn);
     double n[3] = { c * p->y[0] - s * p->y[1], s * p->y[0] + c * p->y[1], p->y[2] };
     double v[3] = { c * p->v[0] - s * p->v[1], s * p->v[0] + c * p->v[1], p->v[2] };
     double x[3] = { r * n[0] - a * n[1], r * n[1] + a * n[0], r * n[2] }, k = r / (r * r * r * r + a * a * x[2] * x[2]);
     double dr[3] = { r * r * x[0] * k, r * r * x[1] * k, q * x[2] * k };
     /* p_r = (2r - aL -+ sqrt(R))/Delta, R = W^2 - Delta K, W = r^2 + a^2 - aL. For inward rays it is computed in a form
      * without cancellation. */
-    double big = q - a * m->l, delta = r * (r - 2) + a * a, radial = sqrt(fmax(big * big - delta * m->k, 0));
+    double big = q - a * m->l, delta = kd_hole_delta(m->hole, r), radial = sqrt(fmax(big * big - delta * m->k, 0));
     double p_r = (outward ? (big + radial) / delta : m->k / (big + radial)) - 1;
     p_r += (v[0] * (x[0] - 2 * r * n[0]) + v[1] * (x[1] - 2 * r * n[1])) / q - v[2] * n[2] / r;
     const double along[3] = { (r * v[0] - a * v[1]) / q, (r * v[1] + a * v[0]) / q, v[2] / r };
@@ -106,7 +103,7 @@ void kd_rays_start(const struct kd_hole *hole, double r, double u, double s, dou
                    double far, struct kd_rays_origin *out)
 {
     const double a = hole->a;
-    struct motion m = { .a = a, .l = -alpha * s, .q = (alpha * alpha - a * a) * u * u + beta * beta };
+    struct motion m = { .hole = hole, .a = a, .l = -alpha * s, .q = (alpha * alpha - a * a) * u * u + beta * beta };
     m.k = m.q + (m.l - a) * (m.l - a);
     struct point p = { { s, 0, u, isinf(r) ? 0 : 1 / r }, { -u * beta, -alpha, s * beta, 1 }, 0 };
     out->w = out->phi = 0;

@@ -79,7 +79,7 @@ static void end_in_closed_form(const struct kd_null_ray *ray, double s, struct k
         double r = path.crossing[k].r;
         bool sure = isfinite(path.crossing[k].error_r);
         crossings[k] = (struct kd_ray_crossing) { sure ? r : NAN, path.crossing[k].phi, path.crossing[k].delay,
-                                                  kd_disk_redshift(kd_hole(ray->spin), r, -ray->alpha * s) };
+                                                  kd_disk_redshift(&ray->hole, r, -ray->alpha * s) };
     }
 }
 
@@ -88,7 +88,7 @@ static void reference_of(const struct kd_accuracy_view *view, const double *rays
                          struct kd_ray_crossing *crossings, struct kd_ray_end *ends, double *s)
 {
     double sine = kd_sin_deg(view->inclination_deg), begun = seconds_of(CLOCK_THREAD_CPUTIME_ID);
-    struct kd_null_ray ray = { .spin = view->spin,
+    struct kd_null_ray ray = { .hole = kd_hole_of(view->spin),
                                .radius = INFINITY,
                                .cos_theta = kd_cos_deg(view->inclination_deg),
                                .sin_theta = sine,

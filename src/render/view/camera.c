@@ -46,8 +46,8 @@ static void near(struct kd_camera_exact *o, const struct kd_camera *c, double st
 double kd_camera_twist(const struct kd_scene *scene)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
-    bool falls = scene->camera.observer == KD_OBSERVER_INFALL && isfinite(at.r) && at.r > kd_hole(at.spin)->outer;
-    return falls ? kd_kerr_twist(kd_hole(at.spin), at.r) : 0;
+    bool falls = scene->camera.observer == KD_OBSERVER_INFALL && isfinite(at.r) && at.r > at.hole.outer;
+    return falls ? kd_kerr_twist(&at.hole, at.r) : 0;
 }
 
 /* Sets the axes of the observer's frame. A valid scene has no observer where the frame does not exist. */

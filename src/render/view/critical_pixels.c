@@ -2,6 +2,7 @@
 
 #include "physics/null/critical.h"
 #include "render/view/camera.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -203,7 +204,7 @@ enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_cri
         .whole = (uint32_t)scene->image.width,
     };
     const struct kd_critical_observer observer = {
-        .spin = scene->spacetime.spin,
+        .hole = *kd_scene_hole(scene),
         .radius = scene->camera.r,
         .cos_theta = w.camera.u,
         .sin_theta = w.camera.s,
@@ -213,7 +214,7 @@ enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_cri
     *out = (struct kd_critical_pixels) { 0 };
     w.curve = kd_critical_of(&observer);
     if (w.curve.status) /* cannot happen for a valid scene */
-        return kd_error_set(error, KD_EINVAL, "no critical curve for spin %.16g, camera.r %.16g", observer.spin,
+        return kd_error_set(error, KD_EINVAL, "no critical curve for spin %.16g, camera.r %.16g", observer.hole.a,
                             observer.radius);
     w.across = (w.width + TILE - 1) / TILE;
     w.down = (w.height + TILE - 1) / TILE;

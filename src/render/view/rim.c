@@ -2,6 +2,7 @@
 
 #include "physics/spacetime/kerr.h"
 #include "render/view/sky_ray.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <string.h>
@@ -191,7 +192,7 @@ bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
     const struct kd_critical_observer observer = {
-        .spin = scene->spacetime.spin,
+        .hole = *kd_scene_hole(scene),
         .radius = scene->camera.r,
         .cos_theta = at.u,
         .sin_theta = at.s,

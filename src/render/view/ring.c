@@ -1,5 +1,7 @@
 #include "render/view/ring.h"
 
+#include "scene/hole.h"
+
 #include <math.h>
 
 struct kd_ring kd_ring_of(const struct kd_scene *scene)
@@ -7,7 +9,7 @@ struct kd_ring kd_ring_of(const struct kd_scene *scene)
     const struct kd_camera *c = &scene->camera;
     const struct kd_camera_exact camera = kd_camera_exact(scene);
     const struct kd_critical_observer observer = {
-        .spin = scene->spacetime.spin,
+        .hole = *kd_scene_hole(scene),
         .radius = INFINITY,
         .cos_theta = camera.u,
         .sin_theta = camera.s,

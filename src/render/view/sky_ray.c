@@ -11,7 +11,7 @@ struct kd_sky_rays kd_sky_rays_of(const struct kd_scene *scene)
 bool kd_sky_ray_bend(const struct kd_sky_rays *rays, const double look[3], struct kd_null_bend *out)
 {
     const struct kd_vantage *at = &rays->at;
-    struct kd_null_ray ray = { .spin = at->spin, .radius = at->r, .cos_theta = at->u, .sin_theta = at->s };
+    struct kd_null_ray ray = { .hole = at->hole, .radius = at->r, .cos_theta = at->u, .sin_theta = at->s };
     struct kd_camera_label label = { .alpha = look[0], .beta = look[1] };
     if (isfinite(at->r))
         kd_camera_label_towards(&rays->camera, look, &label);
