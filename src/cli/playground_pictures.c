@@ -35,12 +35,11 @@ enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct k
                        : asked->memory         ? "--memory"
                                                : NULL;
     if (!asked->path)
-        return idle ? kd_error_set(error, KD_EINVAL, "for --picture FILE, which is missing: %s", idle) : KD_OK;
+        return idle ? kd_error_set(error, KD_EINVAL, "--picture FILE is missing; it is needed by %s", idle) : KD_OK;
     if (asked->every > 0 && !number_in(asked->path, &length))
-        return kd_error_set(
-            error, KD_EINVAL,
-            "--picture is \"%s\", and must, with --every, be a name with one %%d in it, as film/%%05d.png",
-            asked->path);
+        return kd_error_set(error, KD_EINVAL,
+                            "--picture is \"%s\"; with --every it must contain one %%d, as in film/%%05d.png",
+                            asked->path);
     return KD_OK;
 }
 

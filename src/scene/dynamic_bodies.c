@@ -19,7 +19,7 @@ enum kd_status kd_dynamic_bodies_create(size_t n, uint32_t rows, uint32_t column
     const size_t nodes = (size_t)rows * columns;
     struct kd_dynamic_bodies *crowd = calloc(1, sizeof *crowd);
     if (!crowd)
-        return kd_error_set(error, KD_ENOMEM, "out of memory for what is shown of a playground");
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the bodies of a playground");
     crowd->bodies = calloc(n ? n : 1, sizeof *crowd->bodies);
     crowd->debris.nodes = calloc(nodes ? nodes : 1, KD_CROWD_NODE * sizeof(float));
     if (!crowd->bodies || !crowd->debris.nodes) {

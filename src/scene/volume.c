@@ -46,7 +46,7 @@ enum kd_status kd_asset_check_grid(double spin, const struct kd_scene *scene, st
         return KD_OK;
     kd_number_format(made, spin);
     kd_number_format(here, scene->spacetime.spin);
-    return kd_error_field(
-        error, "/volume/grid",
-        "volume.grid is matter round a hole of the spin %s, and spacetime.spin is %s; it must be the same", made, here);
+    return kd_error_field(error, "/volume/grid",
+                          "volume.grid has matter for a hole of spin %s; spacetime.spin is %s and must be the same",
+                          made, here);
 }

@@ -58,8 +58,8 @@ static void refuse(struct kd_server *server, double *since)
     const unsigned n = unfinished(server);
     if (n && !cut_short(server))
         kd_log(KD_LOG_WARN,
-               "stopping: %u accepted works are unfinished, about %.0f s of the device by their estimates; "
-               "what is left after %u s is ended (--drain-seconds)",
+               "stopping: %u accepted requests are unfinished, with an estimated device time of %.0f s; after %u s the "
+               "rest is cancelled (--drain-seconds)",
                n, kd_render_queue_backlog_ms(server->renders) * 1e-3, server->drain_s);
     enter(server, KD_REFUSING, since);
 }
@@ -75,7 +75,7 @@ static void cancel_all(struct kd_server *server)
 static void end_the_rest(struct kd_server *server)
 {
     if (!atomic_load(&server->ended))
-        kd_log(KD_LOG_WARN, "stopping: %u works are not done after %u s and are ended", unfinished(server),
+        kd_log(KD_LOG_WARN, "stopping: %u requests are unfinished after %u s and are cancelled", unfinished(server),
                server->drain_s);
     atomic_store(&server->ended, true);
     cancel_all(server);

@@ -54,7 +54,7 @@ static enum kd_status collect_hosts(struct kd_server *server, const char *listen
         names[3] = bracketed;
     }
     if (kd_names_any(listen) && !(server->own = kd_names_own(listen)))
-        return kd_error_set(error, KD_ENOMEM, "no memory for the machine's own addresses, or they cannot be listed");
+        return kd_error_set(error, KD_ENOMEM, "cannot list the addresses of this machine");
     while (more && more[n_more])
         n_more++;
     while (server->own && server->own[n_own])
@@ -227,7 +227,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         clients, KD_REPLIES_MAX, share_of(params, KD_REPLIES_MAX), KD_REPLIES_RESERVE, KD_REPLIES_SMALL, true });
     server->measures = kd_measures_create();
     if (server->stop_fd < 0 || !server->connections || !server->bodies || !server->replies || !server->measures)
-        return kd_error_set(error, KD_ENOMEM, "no memory or descriptor for the server");
+        return kd_error_set(error, KD_ENOMEM, "no memory or no descriptor for the server");
     enum kd_status status;
     KD_TRY(kd_base_path_init(&server->base, params->base_path, error));
     if (params->token_file)

@@ -183,8 +183,8 @@ class Assets(Case):
             (good.replace(header, header[:-1] + b"?"), "damaged PNG file"),
             (good.replace(b"IHDR", b"JHDR"), "damaged PNG file"),
             (good.replace(b"IDAT", b"IDBT"), "damaged PNG file"),
-            (huge(32769, 1), "each side is 1 to 32768"),
-            (huge(0, 5), "each side is"),
+            (huge(32769, 1), "each side must be 1 to 32768"),
+            (huge(0, 5), "each side must be"),
             (huge(30000, 30000), "too short for its width and height"),
             (png(depth=8, before=chunk(b"ABCD", b"x")), "damaged PNG file"),
         ):
@@ -229,7 +229,7 @@ class Assets(Case):
         self.assertEqual(self.daemon.post("/v1/plan", scene).status, 200)
         scene["spacetime"]["spin"] = 0.6
         self.assertIn(
-            "of the spin 0.5, and spacetime.spin is 0.6",
+            "of spin 0.5; spacetime.spin is 0.6",
             self.assertProblem(self.daemon.post("/v1/plan", scene), 422, pointer="/volume/grid")["detail"],
         )
         self.assertIn(
@@ -256,7 +256,7 @@ class Assets(Case):
             self.assertProblem(self.put(png(8, 4), "application/x-npz"), 422, "invalid-asset")["detail"],
         )
         self.assertIn(
-            "header.spin is no number",
+            "header.spin is not a number",
             self.assertProblem(self.put(grid(2), "application/x-npz"), 422, "invalid-asset")["detail"],
         )
         self.assertIn(
@@ -269,7 +269,7 @@ class Assets(Case):
             # front
         )
         self.assertIn(
-            "its directory lies on several disks",
+            "it is split over several disks",
             self.assertProblem(self.put(elsewhere, "application/x-npz"), 422, "invalid-asset")["detail"],
         )
         self.assertEqual(self.delete(asset).status, 204)
@@ -582,7 +582,7 @@ class Scenes(Case):
             for answer, at in self.answers(image):
                 problem = self.assertProblem(answer, 422, pointer=at)
                 self.assertIn(
-                    f'sky.image is "{image}", and there is no such asset here; it must be null and the SHA-256 of an asset that PUT /v1/assets has taken',
+                    f'sky.image is "{image}", which is not a known asset; it must be null, or the SHA-256 of an asset that PUT /v1/assets has stored',
                     problem["detail"],
                 )
 

@@ -154,7 +154,7 @@ class NewKernels(unittest.TestCase):
             self.assertEqual(server.get(self.WARM % (60 + i)).status, 200)
         self.assertEqual(server.stop(), 0)
         log.seek(0)
-        self.assertEqual(log.read().count("keeps no compiled kernels here"), 1)
+        self.assertEqual(log.read().count("stores no compiled kernels"), 1)
 
 
 if __name__ == "__main__":

@@ -62,13 +62,15 @@ class Stop(unittest.TestCase):
                 told = answer()
                 self.assertEqual((told.status, told.json()["type"]), (503, "urn:kerrd:problem:stopping"))
                 self.assertTrue(told.header("Retry-After"))
-                self.assertIn("before this was done", told.json()["detail"])
+                self.assertIn("before the request was finished", told.json()["detail"])
             self.assertEqual(server.wait(30), 0)
             self.assertGreater(time.monotonic() - begun, 0.9)
             log.seek(0)
             said = log.read()
-        self.assertRegex(said, r"stopping: \d accepted works are unfinished.* after 1 s is ended \(--drain-seconds\)")
-        self.assertIn("are not done after 1 s and are ended", said)
+        self.assertRegex(
+            said, r"stopping: \d accepted requests are unfinished.* after 1 s the rest is cancelled \(--drain-seconds\)"
+        )
+        self.assertIn("are unfinished after 1 s and are cancelled", said)
 
     def test_idle(self):
         server = daemon.Daemon("--drain-ms", 100)

@@ -23,9 +23,8 @@ static enum kd_status read_asset(const struct kd_assets *assets, const char *has
     struct kd_asset_bytes bytes;
     struct kd_error why = { 0 };
     if (!assets || !assets->take(assets->user, hash, &bytes))
-        return kd_error_field(error, "/volume/grid",
-                              "volume.grid is \"%s\", and the bytes of this asset are not here; it must be %s", hash,
-                              assets ? assets->allowed : "none where there are no assets");
+        return kd_error_field(error, "/volume/grid", "volume.grid is \"%s\", whose file is missing; it must be %s",
+                              hash, assets ? assets->allowed : "null, because there are no assets");
     enum kd_status status = kd_matter_grid_read(bytes.data, bytes.size, out, &why);
     assets->give_back(assets->user, &bytes);
     if (status == KD_EINVAL)

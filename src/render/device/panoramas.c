@@ -12,9 +12,8 @@ static enum kd_status take(const struct kd_assets *assets, const char *hash, str
 {
     if (assets && assets->take(assets->user, hash, out))
         return KD_OK;
-    return kd_error_field(error, "/sky/image",
-                          "sky.image is \"%s\", and the bytes of this asset are not here; it must be %s", hash,
-                          assets ? assets->allowed : "none where there are no assets");
+    return kd_error_field(error, "/sky/image", "sky.image is \"%s\", whose file is missing; it must be %s", hash,
+                          assets ? assets->allowed : "null, because there are no assets");
 }
 
 static enum kd_status fill(struct kd_panorama *p, struct kd_sky_picture *picture, struct kd_error *error)

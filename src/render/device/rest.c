@@ -117,7 +117,7 @@ enum kd_status kd_renderer_rest(struct kd_renderer *r, struct kd_error *error)
     const uint64_t sum = kd_renderer_kept_sum(r);
     if (sum <= KD_REST_BYTES)
         return KD_OK;
-    kd_log(KD_LOG_INFO, "%.0f MiB are kept at rest: the device is opened again", (double)sum / 0x1p20);
+    kd_log(KD_LOG_INFO, "%.0f MiB remain in use at rest; the device is reopened", (double)sum / 0x1p20);
     return open_again(r, error);
 done:
     return status;

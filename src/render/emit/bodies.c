@@ -100,7 +100,8 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
         used += (size_t)snprintf(out + used, KD_EMIT_TOLD - used, "%s%zu %s of a playground at %.6g M of its time.",
                                  n ? " " : "", others, others > 1 ? "bodies" : "body", scene->crowd.at->time);
     if (unseen_of(scene) && used < KD_EMIT_TOLD)
-        snprintf(out + used, KD_EMIT_TOLD - used, " Not shown, as they have no radius or are at the horizon: %zu.",
+        snprintf(out + used, KD_EMIT_TOLD - used,
+                 " Bodies that are not shown, because they have no radius or are at the horizon: %zu.",
                  unseen_of(scene));
 }
 
@@ -264,39 +265,37 @@ WHEN(unseen, unseen_of(scene))
 
 static const struct kd_sentence sentences[] = {
     { "bodies.flat",
-      "bodies: opaque spheres in their own frames; near a body space is taken as flat and light as straight: no "
-      "tides, no gravity of its own, no shadows",
+      "bodies: opaque spheres in their own frames; space near a body is taken as flat, and light there as straight; no "
+      "tides, no gravity of the body, no shadows",
       NULL },
     { "bodies.unlit", "bodies: no light of the disk falls on them", dark },
     { "bodies.lit",
-      "bodies: they scatter, evenly to all sides, the light of an unobscured smooth disk, taken along straight "
-      "lines from 16 rings of 24 places; three moments of its direction are kept",
+      "bodies: they scatter light of the disk isotropically; this light comes along straight lines from 16 rings of 24 "
+      "points of an unobscured smooth disk, reduced to three moments of its direction",
       lit_ones },
     { "bodies.large",
-      "bodies: one whose radius exceeds a tenth of its distance from the hole is drawn in the flat space of its "
-      "centre, where its shape is not the true one",
+      "bodies: a body whose radius exceeds a tenth of its distance from the hole is drawn in the flat space of its "
+      "centre, so that its shape is wrong",
       large },
     { "bodies.black-body",
-      "bodies: they shine as black bodies of one temperature, with a chosen linear law of limb darkening", NULL },
-    { "bodies.fast", "bodies: fast light: shown where they are at one coordinate time; the light's delay is ignored",
-      NULL },
+      "bodies: each shines as a black body of one temperature, with a chosen linear law of limb darkening", NULL },
+    { "bodies.fast", "bodies: fast light: all are shown at one coordinate time; the light's delay is ignored", NULL },
     { "bodies.still",
-      "bodies: those that fall or have a chosen velocity stay where they are placed; the velocity only shifts "
-      "their light",
+      "bodies: a falling body, or one with a chosen velocity, stays at its place; its velocity only shifts its light",
       stands },
     { "bodies.playground",
-      "bodies: those of a playground are shown at its time, with velocities relative to observers of zero "
-      "angular momentum",
+      "bodies: bodies of a playground are shown at its time, with velocities relative to observers of zero angular "
+      "momentum",
       shown },
     { "bodies.potential",
-      "bodies: those of a playground move in a potential; its r is taken as the Boyer-Lindquist radius, its "
-      "velocity as gamma v",
+      "bodies: bodies of a playground move in a potential; its r is taken as the Boyer-Lindquist radius, its velocity "
+      "as gamma v",
       by_potential },
-    { "bodies.not-shown", "bodies: some of a playground are not shown: they have no radius, or are at the horizon",
-      unseen },
+    { "bodies.not-shown",
+      "bodies: some bodies of a playground are not shown, because they have no radius or are at the horizon", unseen },
     { "bodies.bolometric", "bodies: brightness is bolometric (g^4), colour is that of the visible part of the spectrum",
       bolometric },
-    { "bodies.small", "bodies: one that is smaller than a pixel may lie between its rays", NULL },
+    { "bodies.small", "bodies: rays may miss a body that is smaller than a pixel", NULL },
 };
 
 const struct kd_emitter kd_emit_bodies = {

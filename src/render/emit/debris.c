@@ -110,20 +110,19 @@ WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
 
 static const struct kd_sentence sentences[] = {
     { "debris.plane",
-      "debris: projected onto the disk's plane at its r and azimuth, as a density of pieces on a grid: a stream "
-      "is at least one cell wide",
+      "debris: projected onto the disk's plane at its r and azimuth, as a density on a grid; a stream is at least one "
+      "cell wide",
       NULL },
-    { "debris.no-height",
-      "debris: it lies more than a fiftieth of r off that plane in the mean; its height is not shown", thick },
+    { "debris.no-height", "debris: its mean distance from that plane exceeds r/50; its height is not shown", thick },
     { "debris.black-body",
-      "debris: a black body of one chosen temperature; its optical depth is a chosen number times its column "
-      "density, at any angle",
+      "debris: a black body of one chosen temperature; its optical depth is a chosen number times its column density, "
+      "independent of angle",
       NULL },
     { "debris.mean",
-      "debris: its light is shifted by the mean velocity within the plane at each place; no heating by shocks, "
-      "no spread of velocities",
+      "debris: its light is shifted by the local mean velocity within the plane; no heating by shocks, no spread of "
+      "velocities",
       NULL },
-    { "debris.fast", "debris: fast light: shown where it is at one coordinate time; the light's delay is ignored",
+    { "debris.fast", "debris: fast light: all of it is shown at one coordinate time; the light's delay is ignored",
       NULL },
     { "debris.potential",
       "debris: it moves in a potential; its r is taken as the Boyer-Lindquist radius, its velocity as gamma v",

@@ -8,17 +8,12 @@
 #include <string.h>
 
 static const char introduction[] =
-    "# What is approximated\n"
-    "\n"
-    "A plan lists the sentences that are in force in its scene (`kerrd plan`), and every picture carries them. The "
-    "header `Kerrd-Approximations`\n"
-    "has their names, and `GET /v1/approximations` the sentence of each name. These are all of them. This page is "
-    "generated from the emitters\n"
-    "(`src/render/emit/emitter.h`), `src/render/plan/plan.c` and `src/render/rays/answer.c`; do not edit it.\n"
-    "The chapters on the [physics](physics/README.md) say what stands behind them.\n"
-    "\n"
-    "Not modelled, and so not in the list of any picture: the motion of gas by its own forces, magnetic fields that "
-    "are carried along by gas, light that is scattered on its way.\n";
+    "# What is approximated\n\nEvery plan (`kerrd plan`) and every picture lists the approximations of its scene. The "
+    "header `Kerrd-Approximations` has\ntheir names, and `GET /v1/approximations` the sentence of each name. This page "
+    "has all of them. It is generated from the emitters\n(`src/render/emit/emitter.h`), `src/render/plan/plan.c` and "
+    "`src/render/rays/answer.c`; do not edit it.\nThe chapters on the [physics](physics/README.md) explain them.\n\nNo "
+    "scene models these, so that no list has them: the motion of gas by its own forces, magnetic fields that gas "
+    "carries along, and scattering of light on its way.\n";
 
 static const char present[] = "in each scene that has it", sometimes[] = "in some scenes";
 
@@ -43,7 +38,7 @@ static enum kd_status add_emitter(struct kd_buffer *page, const struct kd_emitte
         KD_TRY(add_row(page, emitter->sentences[i].name, emitter->sentences[i].text,
                        emitter->sentences[i].in_force ? sometimes : present));
     if (emitter->kind)
-        KD_TRY(kd_buffer_printf(page, "\nThe sentences of the %s hold as well.\n", emitter->kind->name));
+        KD_TRY(kd_buffer_printf(page, "\nThe sentences of the %s apply as well.\n", emitter->kind->name));
 done:
     return status;
 }

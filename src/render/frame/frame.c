@@ -229,7 +229,7 @@ done:
 /* Drops all cached buffers after a defect of the program, which may have corrupted them. The device is idle. */
 static void begin_anew(struct kd_frame_job *job)
 {
-    kd_log(KD_LOG_ERROR, "a defect of kerrd: %s", job->error ? job->error->message : "no word of what it is");
+    kd_log(KD_LOG_ERROR, "a fault in kerrd: %s", job->error ? job->error->message : "no details");
     kd_store_empty(job->store);
     kd_prepared_finish(job->prepared, job->r->vk);
 }

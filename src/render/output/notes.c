@@ -122,9 +122,8 @@ enum kd_status kd_notes_scene(const char *text, size_t length, struct kd_scene *
 {
     if (length && memmem(text, length, ",\"" PLAYGROUND "\":{", sizeof PLAYGROUND + 4))
         return kd_error_set(error, KD_EINVAL,
-                            "the picture shows a playground, which its scene does not hold: make it again of the "
-                            "playground's snapshot, by "
-                            "kerrd playground SNAPSHOT.json --picture FILE");
+                            "the picture shows a playground, which is not part of its scene: render it from the "
+                            "playground's snapshot with kerrd playground SNAPSHOT.json --picture FILE");
     struct kd_scene scene;   /* *out must not change if the document is refused */
     kd_scene_smooth(&scene); /* for fields that this complete document lacks, because they did not exist when it was
                               * written */

@@ -166,11 +166,11 @@ static bool wrong_type(const struct kd_request *request, char text[200])
     const bool observed = said && (!strcmp(said, KD_ASSET_UVFITS_TYPE) || !strcmp(said, KD_ASSET_CSV_TYPE)),
                begins = begin && body->size >= strlen(begin) && !memcmp(body->data, begin, strlen(begin));
     if (!is && observed && !begins) {
-        snprintf(text, 200, "the asset is said to be %s by its Content-Type; it must begin with \"%s\"", said, begin);
+        snprintf(text, 200, "the asset is %s by its Content-Type; it must begin with \"%s\"", said, begin);
         return true;
     }
     if (said && is)
-        snprintf(text, 200, "the asset is said to be %s by its Content-Type, and its bytes are those of %s", said, is);
+        snprintf(text, 200, "the asset is %s by its Content-Type, but its bytes are those of %s", said, is);
     return said && is;
 }
 
@@ -289,9 +289,9 @@ static const struct kd_task_kind REMOVAL = { "assets", sizeof(struct removing), 
 
 static enum MHD_Result refuse_unknown(struct kd_request *request)
 {
-    return kd_reply_problem(request,
-                            &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
-                                                   .detail = "there is no asset of this SHA-256, or no longer" });
+    return kd_reply_problem(
+        request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
+                                        .detail = "there is no asset with this SHA-256, or it was deleted" });
 }
 
 static enum MHD_Result deliver_removal(struct kd_request *request)
@@ -340,5 +340,5 @@ enum MHD_Result kd_handle_asset(struct kd_request *request)
         return kd_reply_unmatched(request);
     return kd_reply_problem(
         request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
-                                        .detail = "deleting an asset takes its token: Authorization: Bearer TOKEN" });
+                                        .detail = "deleting an asset needs its token: Authorization: Bearer TOKEN" });
 }

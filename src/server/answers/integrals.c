@@ -61,8 +61,8 @@ static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_er
     }
     if (ms > server->longest_s * 1e3)
         return kd_error_set(error, KD_ETOOBIG,
-                            "%u pictures and what is made of them would take about %.0f s, more than the %u s that an "
-                            "answer may take: fewer pixels, frequencies or baselines, or check \"none\", take less",
+                            "%u pictures and their evaluation would take about %.0f s; it must be at most %u s: reduce "
+                            "pixels, frequencies or baselines, or set check \"none\"",
                             n, ms * 1e-3, server->longest_s);
     return KD_OK;
 }
@@ -205,11 +205,11 @@ enum MHD_Result kd_handle_integral(struct kd_request *request)
     if (format >= 3)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
                                                                 .offered = OFFERED,
-                                                                .detail = "integrals are offered as " OFFERED });
+                                                                .detail = "integrals are available as " OFFERED });
     if (request->target.n_pairs)
         return kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS,
-                                            .detail = "parameters belong to the document, not to the query" });
+                                            .detail = "parameters must be in the document, not in the query" });
     struct job *job = kd_task_begin(request, request->server->turns, &KIND, &refused);
     if (!job)
         return refused;

@@ -327,11 +327,11 @@ enum MHD_Result kd_handle_orbits(struct kd_request *request)
     if (format < 0)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
                                                                 .offered = OFFERED,
-                                                                .detail = "orbits are offered as " OFFERED });
+                                                                .detail = "orbits are available as " OFFERED });
     if (request->target.n_pairs)
         return kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_ORBIT,
-                                            .detail = "parameters belong to the document, not to the query" });
+                                            .detail = "parameters must be in the document, not in the query" });
     if (!kd_task_admit(request, request->server->turns, "orbits", &refused))
         return refused;
     return submit(request, (enum kd_orbit_format)format);

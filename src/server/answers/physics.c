@@ -189,7 +189,7 @@ enum MHD_Result kd_handle_quantity(struct kd_request *request)
         return refuse(request, &error);
     if (form == FORM_NONE) {
         char detail[80];
-        snprintf(detail, sizeof detail, "%s is offered as %s", quantity->name, offered(quantity));
+        snprintf(detail, sizeof detail, "%s is available as %s", quantity->name, offered(quantity));
         return kd_reply_problem(
             request,
             &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = offered(quantity), .detail = detail });

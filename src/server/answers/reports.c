@@ -21,9 +21,9 @@ enum MHD_Result kd_handle_ready(struct kd_request *request)
     if (kd_render_queue_lost(request->server->renders, &error))
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .detail = error.message });
     if (atomic_load(&request->server->phase) != KD_SERVING)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
-                                                                .retry_after = 1,
-                                                                .detail = "the server has been asked to stop" });
+        return kd_reply_problem(
+            request,
+            &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1, .detail = "the server is stopping" });
     return kd_reply_send(request, MHD_HTTP_OK, kd_reply_static(ready, sizeof ready - 1, request->route->answer));
 }
 

@@ -320,9 +320,9 @@ enum kd_status kd_scheduler_admit(struct kd_scheduler *turns, const char *client
     pthread_mutex_unlock(&turns->lock);
     *quota = n < turns->limit && own >= turns->share;
     if (n >= turns->limit)
-        return kd_error_set(error, KD_EBUSY, "too many such requests are under way (limit %u)", n);
-    return *quota ? kd_error_set(error, KD_EBUSY, "you have too many such requests under way (limit %u for one client)",
-                                 own)
+        return kd_error_set(error, KD_EBUSY, "too many such requests are in progress (limit %u)", n);
+    return *quota ? kd_error_set(error, KD_EBUSY,
+                                 "you have too many such requests in progress (limit %u for one client)", own)
                   : KD_OK;
 }
 

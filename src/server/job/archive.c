@@ -243,7 +243,7 @@ static enum kd_slice_result encode(struct kd_task *task, double until_ms)
     struct kd_error error = { 0 };
     enum kd_status status;
     if (atomic_load(&w->server->phase) >= KD_REFUSING)
-        KD_TRY(kd_error_set(&error, KD_ECANCELLED, "the server stops: a film can be asked for again when it is back"));
+        KD_TRY(kd_error_set(&error, KD_ECANCELLED, "the server is stopping; request the film again when it is back"));
     if (!l->writer.claimed && open_film(l))
         return KD_SLICE_LAST;
     if (!l->writer.claimed && !kd_job_film_claim(&l->writer, w->job, l->format->name, w->source.rate))

@@ -95,7 +95,7 @@ static enum kd_slice_result turn(struct kd_scheduler_job *turns)
     film->spent_ms += kd_clock_ms() - begun;
     if (goes && !status && !there && film->spent_ms > 1e3 * all->params.longest_job_s)
         status = kd_error_set(&error, KD_ETOOBIG,
-                              "its bodies have moved for %.0f s, as long as a job may take, up to frame %u",
+                              "the simulation of its bodies reached the time limit of a job, %.0f s, at frame %u",
                               all->params.longest_job_s, film->at);
     if (goes && !status && !there)
         return KD_SLICE_MORE;

@@ -67,7 +67,7 @@ static enum kd_status begin(struct kd_job_film_writer *w, struct kd_error *error
     kd_job_folder_new_film(w->film.name.format, w->film.name.rate, name);
     w->folder = kd_job_store_folder(w->job->all->store, w->job->record.id);
     w->begun = w->folder >= 0 && kd_replace_begin(w->folder, name, &w->file);
-    return w->begun ? KD_OK : kd_job_store_failed(error, "the film cannot be kept");
+    return w->begun ? KD_OK : kd_job_store_failed(error, "the film cannot be stored");
 }
 
 enum kd_status kd_job_film_append(struct kd_job_film_writer *w, const void *data, size_t size, struct kd_error *error)
@@ -76,7 +76,7 @@ enum kd_status kd_job_film_append(struct kd_job_film_writer *w, const void *data
     if (!w->begun)
         KD_TRY(begin(w, error));
     if (!kd_replace_append(&w->file, data, size))
-        KD_TRY(kd_job_store_failed(error, "the film cannot be kept"));
+        KD_TRY(kd_job_store_failed(error, "the film cannot be stored"));
     sha256_update(&w->hash, size, data);
     w->film.bytes += size;
 done:
@@ -92,11 +92,9 @@ static enum kd_status reserve(const struct kd_job_film_writer *w, struct kd_erro
     if (!w->job->listed)
         status = kd_error_set(error, KD_EIO, "the job has been deleted");
     else if (w->film.bytes > all->params.bytes || all->bytes > all->params.bytes - w->film.bytes)
-        status =
-            kd_error_set(error, KD_EFULL,
-                         "the film has %.1f MB, and the files of all jobs have %.1f of the %.1f MB that this "
-                         "server keeps",
-                         1e-6 * (double)w->film.bytes, 1e-6 * (double)all->bytes, 1e-6 * (double)all->params.bytes);
+        status = kd_error_set(
+            error, KD_EFULL, "the film has %.1f MB, too many beside the %.1f MB of all jobs (limit %.1f MB)",
+            1e-6 * (double)w->film.bytes, 1e-6 * (double)all->bytes, 1e-6 * (double)all->params.bytes);
     else {
         all->bytes += w->film.bytes;
         w->job->bytes += w->film.bytes;
@@ -139,7 +137,7 @@ enum kd_status kd_job_film_keep(struct kd_job_film_writer *w, struct kd_error *e
     KD_TRY(reserve(w, error));
     w->begun = false;
     if (!kd_replace_commit(&w->file, name)) {
-        status = kd_job_store_failed(error, "the film cannot be kept");
+        status = kd_job_store_failed(error, "the film cannot be stored");
         unlinkat(w->folder, name, 0);
         give_back(w);
         return status;

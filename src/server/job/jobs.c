@@ -298,7 +298,7 @@ enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, con
     struct kd_job *job = kd_job_make(all, &draft->spec);
     if (!job || !kd_secret_make(job->record.id, sizeof job->record.id) ||
         !kd_secret_make(job->record.token, sizeof job->record.token)) {
-        status = kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a job");
+        status = kd_error_set(error, KD_ENOMEM, "no memory or no random numbers for a job");
     } else {
         job->order = draft->cost.order;
         draft->cost.order = (struct kd_sweep_order) { 0 };
@@ -450,7 +450,7 @@ void kd_job_status(struct kd_job *job, struct kd_job_status *out)
     snprintf(out->error, sizeof out->error, "%s", job->record.error);
     memcpy(out->delayed, job->delayed, sizeof out->delayed);
     if (job->unordered && kd_job_is_active(job) && !*out->delayed)
-        snprintf(out->delayed, sizeof out->delayed, "its frames are put in order");
+        snprintf(out->delayed, sizeof out->delayed, "its frames are being sorted");
     pthread_mutex_unlock(&all->lock);
 }
 

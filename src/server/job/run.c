@@ -269,7 +269,7 @@ static void finished(struct kd_job *job, unsigned number, uint64_t size)
     if (job->finished == job->frames)
         kd_job_end(job, KD_JOB_DONE, "");
     else if (job->all->bytes > job->all->params.bytes)
-        kd_job_end(job, KD_JOB_FAILED, "the frames of all jobs are more bytes than this server keeps");
+        kd_job_end(job, KD_JOB_FAILED, "the frames of all jobs exceed the limit of this server");
 }
 
 /* The render queue calls the three functions below, without the lock. */
@@ -364,13 +364,12 @@ static enum kd_status afford(const struct kd_jobs *all, const struct kd_job_draf
     const double s = 1e-3 * (cost->ms - not_spent), bytes = (double)all->params.bytes;
     if (s > all->params.longest_job_s)
         return kd_error_set(error, KD_ETOOBIG,
-                            "%s%u frames would take about %.3g s, more than the %.0f s a job may take",
+                            "%s%u frames would take about %.3g s; for one job it must be at most %.0f s",
                             cost->frames < frames ? "some of the " : "the ", frames, s, all->params.longest_job_s);
     if (cost->file_bytes > bytes)
-        return kd_error_set(
-            error, KD_ETOOBIG,
-            "%u of %u frames would be %.4g GB, more than the %.4g GB that this server keeps of all jobs", cost->frames,
-            frames, 1e-9 * cost->file_bytes, 1e-9 * bytes);
+        return kd_error_set(error, KD_ETOOBIG,
+                            "%u of %u frames would have %.4g GB; all jobs together must have at most %.4g GB",
+                            cost->frames, frames, 1e-9 * cost->file_bytes, 1e-9 * bytes);
     return KD_OK;
 }
 

@@ -109,7 +109,7 @@ enum kd_status kd_cached_documents_create(const char *base_path, bool closed, st
     if (!status)
         return *out = kept, KD_OK;
     kd_cached_documents_destroy(kept);
-    return kd_error_set(error, KD_ENOMEM, "out of memory for the documents that are kept");
+    return kd_error_set(error, KD_ENOMEM, "out of memory for the cached documents");
 }
 
 void kd_cached_documents_destroy(struct kd_cached_documents *kept)

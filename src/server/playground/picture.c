@@ -45,7 +45,7 @@ void kd_playground_session_hide(struct kd_playground_session *play)
 static enum kd_status take_bytes(struct kd_playground_session *play, bool *quota, struct kd_error *error)
 {
     if (kd_bytes_take(play->all->bytes, play->turns.client, CROWD_BYTES, CROWD_BYTES, quota))
-        return kd_error_set(error, KD_EBUSY, "a picture of a playground takes %zu MiB, more than is left %s",
+        return kd_error_set(error, KD_EBUSY, "a picture of a playground needs %zu MiB, more than is free %s",
                             CROWD_BYTES >> 20, *quota ? "of your share" : "on this server");
     play->crowd_bytes = CROWD_BYTES;
     return KD_OK;

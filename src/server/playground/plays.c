@@ -139,7 +139,7 @@ static enum kd_status admit(struct kd_playground_sessions *all, const char *clie
     if (all->closed || all->count >= all->params.limit)
         return kd_error_set(error, KD_EBUSY, "too many open playgrounds (limit %u)", all->count);
     if (kd_bytes_take(all->bytes, client, bytes, bytes, quota))
-        return kd_error_set(error, KD_EBUSY, "this playground's debris takes %zu MiB, more than is left %s",
+        return kd_error_set(error, KD_EBUSY, "the debris of this playground needs %zu MiB, more than is free %s",
                             bytes >> 20, *quota ? "of your share" : "on this server");
     return KD_OK;
 }
@@ -153,7 +153,7 @@ enum kd_status kd_playground_sessions_open(struct kd_playground_sessions *all, s
     struct kd_playground_session *play = make(all, pace, client);
     *quota = false;
     if (!play)
-        return kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a playground");
+        return kd_error_set(error, KD_ENOMEM, "no memory or no random numbers for a playground");
     pthread_mutex_lock(&all->lock);
     enum kd_status status = admit(all, client, bytes, quota, error);
     if (!status) {
@@ -289,8 +289,9 @@ enum kd_status kd_playground_session_room(struct kd_playground_session *play, ui
     pthread_mutex_lock(&all->lock);
     if (bytes > play->bytes &&
         kd_bytes_take(all->bytes, play->turns.client, bytes - play->bytes, bytes - play->bytes, quota))
-        status = kd_error_field(error, "/debris_capacity", "so many pieces take %zu MiB, more than is left %s",
-                                bytes >> 20, *quota ? "of your share" : "on this server");
+        status =
+            kd_error_field(error, "/debris_capacity", "debris of this capacity needs %zu MiB, more than is free %s",
+                           bytes >> 20, *quota ? "of your share" : "on this server");
     else if (bytes < play->bytes)
         kd_bytes_give(all->bytes, play->turns.client, play->bytes - bytes);
     if (!status)

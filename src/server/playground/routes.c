@@ -135,7 +135,8 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
     enum kd_status status = KD_OK;
     t->conflict = state.stepping;
     if (t->conflict)
-        KD_TRY(kd_error_set(error, KD_EINVAL, "the playground is being stepped: it is changed before or after that"));
+        KD_TRY(kd_error_set(error, KD_EINVAL,
+                            "the playground cannot change during a step; repeat the request after the step"));
     KD_TRY(kd_playground_session_read_pace(tree, &pace, error));
     kd_playground_session_scene(t->play, &scene);
     KD_TRY(kd_playground_session_read_scene(look, *p, kd_asset_store_assets(server->assets), &scene, error));
@@ -183,7 +184,8 @@ static enum kd_slice_result step(struct play_task *t, struct kd_playground *p, d
         t->steps = kd_playground_session_step(t->play);
         t->conflict = !t->steps;
         if (t->conflict) {
-            kd_error_set(error, KD_EINVAL, "a playground is stepped while it is paused, and by one request at a time");
+            kd_error_set(error, KD_EINVAL,
+                         "a step needs a paused playground, and only one request may step it at a time");
             return KD_SLICE_LAST;
         }
     }
@@ -309,7 +311,7 @@ static enum MHD_Result forbid(struct kd_request *request)
     return kd_reply_problem(
         request,
         &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
-                               .detail = "changing a playground takes its token: Authorization: Bearer TOKEN" });
+                               .detail = "changing a playground needs its token: Authorization: Bearer TOKEN" });
 }
 
 static enum MHD_Result begin_opening(struct kd_request *request)
@@ -394,7 +396,7 @@ static enum MHD_Result table(struct kd_request *request, enum what what, const c
             request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
                                             .offered = n == 3 ? CSV_TYPE ", " KD_NPY_TYPE ", " JSON_TYPE
                                                               : CSV_TYPE ", " KD_NPY_TYPE,
-                                            .detail = "a table is given as one of the types that are offered" });
+                                            .detail = "a table is available only as the listed media types" });
     return begin_reading(request, what, types[i]);
 }
 

@@ -212,7 +212,7 @@ static void render(struct kd_render_queue *queue, struct kd_render_job *job)
     job->more = false;
     job->status = kd_render_queue_lost(queue, &job->error) ? KD_EDEVICE : KD_OK;
     if (!job->status && kd_render_unwanted(queue, job))
-        job->status = kd_error_set(&job->error, KD_ECANCELLED, "the render was dropped before it began");
+        job->status = kd_error_set(&job->error, KD_ECANCELLED, "the render was cancelled before it began");
     if (job->status)
         return;
     const bool aside = job->stage == KD_RENDER_WORKS_IN_LANE;

@@ -12,9 +12,9 @@ enum kd_status kd_task_over(struct kd_server *server, struct kd_scheduler *queue
                             struct kd_error *error)
 {
     if (gone || kd_scheduler_cancelled(queue))
-        return kd_error_set(error, KD_ECANCELLED, "the client has gone, or the server stops");
+        return kd_error_set(error, KD_ECANCELLED, "the client has disconnected, or the server is stopping");
     if (kd_clock_ms() > deadline_ms)
-        return kd_error_set(error, KD_ETOOBIG, "this was given up after %u s, as long as this server lets it take",
+        return kd_error_set(error, KD_ETOOBIG, "the request exceeded the time limit of this server, %u s",
                             server->longest_s);
     return KD_OK;
 }
@@ -91,7 +91,7 @@ bool kd_task_admit(struct kd_request *request, struct kd_scheduler *queue, const
     struct kd_problem problem;
     bool quota;
     char stopping[80];
-    snprintf(stopping, sizeof stopping, "the server is stopping and takes no new %s", what);
+    snprintf(stopping, sizeof stopping, "the server is stopping and accepts no new %s", what);
     if (atomic_load(&request->server->phase) >= KD_REFUSING)
         *refused = kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1, .detail = stopping });
@@ -121,8 +121,8 @@ enum kd_status kd_task_hold(struct kd_server *server, const char *client, size_t
 {
     if (kd_bytes_take(server->replies, client, bytes, bytes, quota))
         return kd_error_set(error, KD_EBUSY,
-                            *quota ? "too many bytes of answers wait for you to read them (limit for one client)"
-                                   : "too many bytes of answers wait for their clients to read them");
+                            *quota ? "too many bytes of your answers are waiting to be read (limit for one client)"
+                                   : "too many bytes of answers are waiting to be read");
     *held = bytes;
     return KD_OK;
 }

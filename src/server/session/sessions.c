@@ -83,17 +83,16 @@ enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_
 {
     if (plan->n_layers + plan->picture > 1)
         return kd_error_field(error, "/image/layers",
-                              "image.layers holds %zu; in a session, which shows a picture, it must hold one",
+                              "image.layers has %zu layers; in a session, which shows one picture, it must have one",
                               plan->n_layers + plan->picture);
     if (plan->cut.width)
         return kd_error_field(
             error, "/image/tile/width",
-            "image.tile.width is %u; it must be 0 in a session, which shows whole pictures of any size",
+            "image.tile.width is %u; in a session, which shows whole pictures of any size, it must be 0",
             plan->cut.width);
     if (plan->estimate_ms <= all->params.longest_s * 1e3)
         return KD_OK;
-    return kd_error_set(error, KD_ETOOBIG,
-                        "a frame of this scene would take about %.0f s, more than the %u s a render may take",
+    return kd_error_set(error, KD_ETOOBIG, "a frame of this scene would take about %.0f s; it must be at most %u s",
                         plan->estimate_ms * 1e-3, all->params.longest_s);
 }
 
@@ -116,7 +115,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
     struct kd_session *s = calloc(1, sizeof *s);
     if (!s || !kd_secret_make(s->id, sizeof s->id) || !kd_secret_make(s->token, sizeof s->token)) {
         free(s);
-        return kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a session");
+        return kd_error_set(error, KD_ENOMEM, "no memory or no random numbers for a session");
     }
     s->all = all;
     s->references = 2; /* one for the list, one for the caller */
