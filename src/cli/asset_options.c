@@ -129,7 +129,7 @@ static void give_back(void *user, struct kd_asset_bytes *bytes)
 
 struct kd_assets kd_asset_options_assets(struct kd_asset_options *options)
 {
-    return (struct kd_assets) { find, take, give_back, "null and names of --asset NAME=FILE", options };
+    return (struct kd_assets) { find, take, give_back, "null, or the NAME of an --asset NAME=FILE", options };
 }
 
 enum kd_status kd_asset_options_resolve(struct kd_asset_options *options, struct kd_scene *scene,

@@ -305,7 +305,7 @@ class Grid(Case):
             (array(numpy.inf, "b_con_r"), "b_con_r[2, 1] is inf"),
             (array(-1e9, "u_con_theta"), "u_con_theta[2, 1] is -1e+09; it must be -1e+06 to 1e+06 c/M over r"),
             ({"u_con_t": numpy.ones((6, 4))}, "the velocity's u.u at u_con_t"),
-            ({"phi": numpy.linspace(0, 6.28, 4), **round_}, "phi does not go round once"),
+            ({"phi": numpy.linspace(0, 6.28, 4), **round_}, "phi must cover a full turn"),
             ({"phi": numpy.arange(4) * numpy.pi / 2}, "it must have the shape (6, 4, 4) of r, theta and phi"),
             (
                 {"r": numpy.geomspace(2, 20, 4096), "theta": (numpy.arange(1024) + 0.5) * numpy.pi / 1024},

@@ -162,8 +162,8 @@ class Usage(Case):
                 reason,
                 *([] if "absent" in reason else ["--base-path", "x/"]),
             )
-        self.bad(2, "excludes SCENE", "scene", "--from", "a.png", "b.json")
-        self.bad(2, "excludes --preset", "scene", "--from", "a.png", "--preset", "m87")
+        self.bad(2, "--from cannot be used with SCENE", "scene", "--from", "a.png", "b.json")
+        self.bad(2, "--from cannot be used with --preset", "scene", "--from", "a.png", "--preset", "m87")
 
 
 class Names(Case):

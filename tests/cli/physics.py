@@ -46,7 +46,7 @@ class Physics(Case):
             self.assertEqual((file.getframerate(), file.getnframes(), file.readframes(1)), (48000, 12000, b"\xff\x7f"))
         with open(path, "rb") as file:
             self.assertEqual(self.good("physics", "qnm", "--mass-msun", "62", "--format", "wav"), file.read())
-        self.bad(2, "20 to 20000 Hz can be heard", "physics", "qnm", "--mass-msun", "4e6", "-o", path)
+        self.bad(2, "for an audible 20 to 20000 Hz", "physics", "qnm", "--mass-msun", "4e6", "-o", path)
         self.bad(
             2,
             "spin is a range of 3 values; for a sound it must be one value",

@@ -125,7 +125,7 @@ class Pictures(Case):
         self.assertEqual(again, self.read("a.png"))
         self.bad(
             2,
-            'sky.image is "orion", which is not a known asset; it must be null and names of --asset NAME=FILE',
+            'sky.image is "orion", which is not a known asset; it must be null, or the NAME of an --asset NAME=FILE',
             "render",
             *named,
             "-o",
@@ -133,7 +133,7 @@ class Pictures(Case):
         )
         self.bad(
             2,
-            f'sky.image is "{one}", and there is no such asset here',
+            f'sky.image is "{one}", which is not a known asset',
             "render",
             "--from",
             self.path("a.png"),

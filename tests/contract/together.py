@@ -33,7 +33,7 @@ SCENE = (
     "camera.r is %s M; it must be more than %s M, the horizon of spacetime.spin %s",
     *OBSERVER,
     'camera.%s is %s; it must be %s unless camera.observer is "%s" at a finite camera.r',
-    "motion.proper_time_rate is %s; it must be 0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
+    "motion.proper_time_rate is %s; it must be 0 unless camera.observer stays, orbits in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
     "disk.slow_light is true; with motion.proper_time_rate %s of a falling observer it must be false, because the fall enters the ergosphere, where slow light is not computed",
     "motion.%s is %s; with motion.proper_time_rate %s it must be 0, because the observer's path determines time and azimuth",
     'camera.stereo is "pair"; it must be "none" unless camera.r is finite and the projection is pinhole',
@@ -137,7 +137,7 @@ TIMELINE = (
     "keyframes/%zu/frame is %s; it must be |a whole number from %u to %u",
     "frames is %s; it must be |a whole number from %u to %u",
     'keyframes/%zu/proper_time is %s; it must be |0 to 1000000000000 M, or "horizon" or "end" of an observer that falls from further out without leaving its latitude',
-    "keyframes/%zu/proper_time is %s; it must be |0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
+    "keyframes/%zu/proper_time is %s; it must be |0 unless camera.observer stays, orbits in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
 )
 RADII = (
     'inner is %.9g, within the ISCO of this spin, %.9g M; it must be at least that, or "isco"',

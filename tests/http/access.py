@@ -446,7 +446,7 @@ class Files(daemon.unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for mode in (0o604, 0o602, 0o644, 0o660):
                 self.assertIn(
-                    f"by others (mode {mode:o}): chmod 600", self.start("--token-file", token_file(folder, LINES, mode))
+                    f"has mode {mode:o}: use chmod 600", self.start("--token-file", token_file(folder, LINES, mode))
                 )
             for mode in (0o600, 0o400, 0o640):
                 server = daemon.Daemon("--drain-ms", 10, "--token-file", token_file(folder, LINES, mode))

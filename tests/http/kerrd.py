@@ -98,7 +98,9 @@ class Stop(unittest.TestCase):
             self.assertEqual((answer.status, answer.json()["type"]), (503, "urn:kerrd:problem:stopping"))
             self.assertIn("before the request was finished", answer.json()["detail"])
             self.assertTrue(answer.header("Retry-After"))
-        told = re.search(r"stopping: (\d) accepted works are unfinished.* after 1 s is ended \(--drain-seconds\)", said)
+        told = re.search(
+            r"stopping: (\d) accepted requests are unfinished.* after 1 s the rest is cancelled \(--drain-seconds\)", said
+        )
         self.assertTrue(told, said)
         over = re.search(r"stopping: (\d) requests are unfinished after 1 s and are cancelled", said)
         self.assertTrue(over, said)

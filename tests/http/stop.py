@@ -115,7 +115,7 @@ class Stop(unittest.TestCase):
         self.assertTrue(daemon.eventually(lambda: server.get(f"/v1/jobs/{job['id']}").json()["state"] == "done"))
         for told in (
             "missed its deadline",
-            "opened again 3 times",
+            "reopened 3 times",
         ):  # a request that loses the device twice gets an error; and the fourth loss is one too many
             answer = server.get(RENDER + "&time=-1")
             self.assertEqual((answer.status, answer.json()["type"]), (500, "urn:kerrd:problem:device-lost"))

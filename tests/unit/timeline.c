@@ -149,7 +149,7 @@ static void what_is_no_path_is_refused(void **state)
           "/keyframes/0/proper_time", "one of them" },
         { RAIN, "[{\"at\":1,\"scene\":{}},{\"at\":1,\"scene\":{}}]", "/keyframes/1/at", "a number above 1 to 100" },
         { RAIN, "[{\"at\":100,\"scene\":{}},{\"at\":100,\"scene\":{}}]", "/keyframes/1/at",
-          "follows a keyframe at 100, the last place" },
+          "follows a keyframe at 100, which must be the last" },
         { RAIN, "[{\"at\":101,\"scene\":{}}]", "/keyframes/0/at", "0 to 100" },
         { RAIN, "[{\"at\":1,\"frame\":2,\"scene\":{}}]", "/keyframes/0/frame",
           "known are at, scene, proper_time, ease, look_at" },

@@ -269,7 +269,7 @@ static void finished(struct kd_job *job, unsigned number, uint64_t size)
     if (job->finished == job->frames)
         kd_job_end(job, KD_JOB_DONE, "");
     else if (job->all->bytes > job->all->params.bytes)
-        kd_job_end(job, KD_JOB_FAILED, "the frames of all jobs exceed the limit of this server");
+        kd_job_end(job, KD_JOB_FAILED, "the frames of all jobs have too many bytes (limit of this server)");
 }
 
 /* The render queue calls the three functions below, without the lock. */
