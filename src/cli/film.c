@@ -131,7 +131,7 @@ struct work {
     struct kd_playground *bodies; /* playground of a film, in its state at the next frame */
     struct kd_encoder encoder;
     struct kd_progress progress;
-    unsigned kept, done, measured, traced; /* kept: number of frames found in the folder */
+    unsigned reused, done, measured, traced; /* kept: number of frames found in the folder */
 };
 
 static enum kd_status change(void *user, struct kd_scene *scene, struct kd_error *error)
@@ -250,8 +250,8 @@ static enum kd_status open_frames(struct work *w, struct kd_error *error)
         return kd_frames_open(&w->frames, error);
     KD_TRY(kd_frames_open_folder(&w->frames, path, w->arguments->only, error));
     KD_TRY(kd_film_state_read(w->frames.folder, path, &w->state, &there, error));
-    KD_TRY(kd_frames_find(&w->frames, &w->kept, error));
-    if (w->kept && !there)
+    KD_TRY(kd_frames_find(&w->frames, &w->reused, error));
+    if (w->reused && !there)
         KD_TRY(kd_error_set(
             error, KD_EINVAL,
             "%.200s has pictures with names of frames, but no record of their film: name another folder by --state",
@@ -322,7 +322,7 @@ static enum kd_status move(struct work *w, unsigned number, double begin, struct
     return kd_frames_has(&w->frames, number) ? KD_OK : kd_playground_show_named(w->bodies, out, error);
 }
 
-static enum kd_status render(struct work *w, unsigned number, const struct kd_dynamic_bodies *crowd,
+static enum kd_status render(struct work *w, unsigned number, const struct kd_dynamic_bodies *dynamic,
                              struct kd_error *error)
 {
     const struct kd_blur blur = kd_job_frame_blur(&w->spec, number);
@@ -333,7 +333,7 @@ static enum kd_status render(struct work *w, unsigned number, const struct kd_dy
     struct kd_buffer file = { 0 };
     enum kd_status status;
     kd_renderer_capacity(w->renderer, &capacity);
-    KD_TRY(kd_job_frame_plan(&w->spec, number, crowd, 0, INFINITY, &capacity, &scene, &plan, error));
+    KD_TRY(kd_job_frame_plan(&w->spec, number, dynamic, 0, INFINITY, &capacity, &scene, &plan, error));
     KD_TRY(blur.samples ? kd_render_blurred(&(struct kd_blurred) { w->renderer, &blur, &scene, &plan,
                                                                    .progress = progress, .user = w },
                                             &frame, error)
@@ -350,24 +350,24 @@ done:
 
 static enum kd_status render_all(struct work *w, struct kd_error *error)
 {
-    struct kd_dynamic_bodies *crowd = NULL;
+    struct kd_dynamic_bodies *dynamic = NULL;
     enum kd_status status;
     kd_progress_init(&w->progress);
     kd_progress_catch_signals();
     KD_TRY(expose(w, error));
-    if (w->spec.every > 0 && w->kept < w->spec.frames)
+    if (w->spec.every > 0 && w->reused < w->spec.frames)
         KD_TRY(kd_job_spec_playground((const char *)w->text.data, w->text.size, &w->bodies, error));
     const double begin = w->bodies ? w->bodies->t : 0;
     for (w->done = w->arguments->first; w->done <= w->arguments->last; w->done++) {
         if (w->bodies)
-            KD_TRY(move(w, w->done, begin, &crowd, error));
+            KD_TRY(move(w, w->done, begin, &dynamic, error));
         if (!kd_frames_has(&w->frames, w->done))
-            KD_TRY(render(w, w->done, crowd, error));
-        kd_dynamic_bodies_release(crowd);
-        crowd = NULL;
+            KD_TRY(render(w, w->done, dynamic, error));
+        kd_dynamic_bodies_release(dynamic);
+        dynamic = NULL;
     }
 done:
-    kd_dynamic_bodies_release(crowd);
+    kd_dynamic_bodies_release(dynamic);
     kd_progress_finish(&w->progress);
     if (status == KD_EDEVICE)
         kd_cli_device_lost(error);
@@ -380,7 +380,7 @@ static enum kd_status print_stats(const struct work *w, double render_s, double 
     struct kd_json json = kd_json_begin(&line);
     kd_json_object(&json, NULL);
     kd_json_number(&json, "frames", w->spec.frames);
-    kd_json_number(&json, "frames_kept", w->kept);
+    kd_json_number(&json, "frames_kept", w->reused);
     kd_json_number(&json, "lens_maps_traced", w->traced);
     kd_json_number(&json, "exposure", w->spec.exposure);
     kd_json_number(&json, "exposure_frames", w->measured);

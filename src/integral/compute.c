@@ -1,7 +1,7 @@
 /* Computes the integrals that need no pictures, and fills the columns of their answers. */
 #include "base/pause.h"
 #include "integral/answer.h"
-#include "integral/kept.h"
+#include "integral/image_cache.h"
 #include "physics/disk/disk_spectrum.h"
 #include "physics/disk/thin_disk.h"
 #include "physics/disk/transfer_function.h"

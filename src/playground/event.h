@@ -36,7 +36,7 @@ struct kd_playground_event {
 };
 
 struct kd_playground_events {
-    struct kd_playground_event kept[KD_PLAYGROUND_EVENTS]; /* number k at k % KD_PLAYGROUND_EVENTS */
+    struct kd_playground_event ring[KD_PLAYGROUND_EVENTS]; /* number k at k % KD_PLAYGROUND_EVENTS */
     uint64_t last;                                         /* number of the newest; 0: none yet */
 };
 

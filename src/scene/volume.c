@@ -34,7 +34,7 @@ bool kd_scene_is_radio_alone(const struct kd_scene *scene)
     const struct kd_body *bodies[KD_SCENE_BODIES];
     return kd_scene_is_radio(scene) && scene->disk.model == KD_DISK_NONE && scene->jets.brightness == 0 &&
            scene->sky.model == KD_SKY_NONE && !kd_scene_spots(scene, on) && !kd_scene_bodies(scene, bodies) &&
-           !scene->crowd.at;
+           !scene->dynamic.at;
 }
 
 #define SAME_SPIN 1e-6

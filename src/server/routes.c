@@ -96,7 +96,7 @@ const struct kd_route kd_routes[] = {
       .also = "application/x-kerrd-frames" },
     { "/v1/sessions/{id}/events", KD_GET, kd_handle_session_events, "text/event-stream",
       "Numbers of each frame: quality in force, times, accuracy" },
-    { "/v1/playground", KD_GET | KD_POST, kd_handle_plays, JSON,
+    { "/v1/playground", KD_GET | KD_POST, kd_handle_playgrounds, JSON,
       "Presets, settings and fields of a body; POST: opens a playground, and the answer has its id and the token for "
       "changes",
       KD_TAKES_PLAYGROUND, .status = { 200, 201 }, .once = true },

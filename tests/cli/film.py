@@ -139,7 +139,8 @@ class Shares(Case):
             self.assertIn("it must be FIRST:LAST", self.only(TURN, "--state", state, f"--only={wrong}", code=2))
         self.assertIn("--state is missing", self.only(TURN, "--only", "0:1", code=2))
         self.assertIn(
-            "--only cannot be used with -o", self.only(TURN, "--state", state, "--only", "0:1", "-o", self.path("x.zip"), code=2)
+            "--only cannot be used with -o",
+            self.only(TURN, "--state", state, "--only", "0:1", "-o", self.path("x.zip"), code=2),
         )
         self.assertIn(
             "/playground",

@@ -42,7 +42,15 @@ class Pictures(Case):
             "--scene-set",
             "spacetime.spin=0.5",
         )
-        self.bad(2, "--picture FILE is missing; it is needed by --scene-set and --size", "playground", "-p", "emri", "--size", "64x36")
+        self.bad(
+            2,
+            "--picture FILE is missing; it is needed by --scene-set and --size",
+            "playground",
+            "-p",
+            "emri",
+            "--size",
+            "64x36",
+        )
         for words, *arguments in [
             (b"PATH=VALUE", "--scene-set", "camera"),
             (b"WIDTHxHEIGHT", "--size", "640"),

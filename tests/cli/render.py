@@ -132,13 +132,7 @@ class Pictures(Case):
             "-",
         )
         self.bad(
-            2,
-            f'sky.image is "{one}", which is not a known asset',
-            "render",
-            "--from",
-            self.path("a.png"),
-            "-o",
-            "-",
+            2, f'sky.image is "{one}", which is not a known asset', "render", "--from", self.path("a.png"), "-o", "-"
         )
         self.bad(
             2,

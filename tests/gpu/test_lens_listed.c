@@ -275,7 +275,7 @@ static void test_refused(void **state)
     capacity.accuracy = kd_accuracy_built_in(); /* with a table of this device another engine might be the fastest */
     capacity.accuracy_measured = false;
     scene.accuracy.tolerance = 1e-15;
-    FAILS(KD_EINVAL, "holds 6e-08 and above", kd_plan_make(&scene, &capacity, &plan, &error));
+    FAILS(KD_EINVAL, "at least 6e-08", kd_plan_make(&scene, &capacity, &plan, &error));
     scene.accuracy.tolerance = 1e-5;
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
     assert_true(plan.setting.holds <= 1e-5 && plan.path == KD_LENS_CLOSED);

@@ -160,12 +160,12 @@ enum kd_status kd_renderer_rest(struct kd_renderer *renderer, struct kd_error *e
     return KD_OK;
 }
 
-void kd_renderer_kept(const struct kd_renderer *renderer, uint64_t out[KD_N_KEPT_KINDS])
+void kd_renderer_cached(const struct kd_renderer *renderer, uint64_t out[KD_N_CACHE_KINDS])
 {
     (void)renderer;
-    for (size_t i = 0; i < KD_N_KEPT_KINDS; i++)
+    for (size_t i = 0; i < KD_N_CACHE_KINDS; i++)
         out[i] = 0;
-    out[KD_KEPT_KERNELS] = atomic_load(&rests) + 1024 * atomic_load(&compilations);
+    out[KD_CACHE_KERNELS] = atomic_load(&rests) + 1024 * atomic_load(&compilations);
 }
 
 uint64_t kd_renderer_kept_sum(const struct kd_renderer *renderer)

@@ -99,7 +99,8 @@ class Stop(unittest.TestCase):
             self.assertIn("before the request was finished", answer.json()["detail"])
             self.assertTrue(answer.header("Retry-After"))
         told = re.search(
-            r"stopping: (\d) accepted requests are unfinished.* after 1 s the rest is cancelled \(--drain-seconds\)", said
+            r"stopping: (\d) accepted requests are unfinished.* after 1 s the rest is cancelled \(--drain-seconds\)",
+            said,
         )
         self.assertTrue(told, said)
         over = re.search(r"stopping: (\d) requests are unfinished after 1 s and are cancelled", said)

@@ -496,7 +496,7 @@ class Lensing(Browser):
         view = "lang=en&spacetime.spin=0&camera.inclination_deg=0&camera.field_m=60&disk.outer=20&disk.taper=0&over=polarization"
         page = self.open(view)
         self.open_groups(page)
-        self.there(page, "needs polarised light", "#over-polarization-words")
+        self.there(page, "no light is polarised", "#over-polarization-words")
         page = self.open(view + "&polarization.model=synchrotron")
         self.open_groups(page)
         self.there(page, "of all light", "#over-polarization-words")

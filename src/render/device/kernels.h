@@ -89,7 +89,7 @@ struct kd_kernel_requests {
 };
 struct kd_kernels {
     struct kd_kernel_entry entries[KD_KERNELS_KEPT];
-    size_t kept; /* number of entries in use; 0: all. A test sets it before the first request */
+    size_t limit; /* number of entries in use; 0: all. A test sets it before the first request */
     uint64_t clock;
     bool noting;
     struct kd_kernel_requests wishes;

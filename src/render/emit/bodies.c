@@ -38,13 +38,13 @@ static double omega_of(const struct kd_scene *scene, const struct kd_body *body)
 size_t kd_bodies_count(const struct kd_scene *scene)
 {
     const struct kd_body *on[KD_SCENE_BODIES];
-    return kd_scene_bodies(scene, on) + (scene->crowd.at ? scene->crowd.at->n : 0);
+    return kd_scene_bodies(scene, on) + (scene->dynamic.at ? scene->dynamic.at->n : 0);
 }
 
 size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body *out)
 {
     const struct kd_body *on[KD_SCENE_BODIES];
-    const size_t n = kd_scene_bodies(scene, on), others = scene->crowd.at ? scene->crowd.at->n : 0;
+    const size_t n = kd_scene_bodies(scene, on), others = scene->dynamic.at ? scene->dynamic.at->n : 0;
     const double time = scene->top.time - kd_particle_delay(scene);
     for (size_t i = 0; i < n; i++) {
         const struct kd_vantage at = kd_body_vantage(scene, on[i]);
@@ -62,7 +62,7 @@ size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body *out)
         b->phi = on[i]->phase_deg * (M_PI / 180) + remainder(motion_of(on[i], &at, b->velocity) * time, 2 * M_PI);
     }
     if (others)
-        memcpy(out + n, scene->crowd.at->bodies, others * sizeof *out);
+        memcpy(out + n, scene->dynamic.at->bodies, others * sizeof *out);
     for (size_t i = n; i < n + others; i++)
         out[i].which += KD_SCENE_BODIES;
     return n + others;
@@ -83,8 +83,8 @@ static unsigned varies(const struct kd_scene *scene)
 static size_t unseen_of(const struct kd_scene *scene)
 {
     size_t unseen = 0;
-    for (size_t i = 0; scene->crowd.at && i < scene->crowd.at->n; i++)
-        unseen += !kd_bodies_seen(&scene->crowd.at->bodies[i], kd_scene_hole(scene));
+    for (size_t i = 0; scene->dynamic.at && i < scene->dynamic.at->n; i++)
+        unseen += !kd_bodies_seen(&scene->dynamic.at->bodies[i], kd_scene_hole(scene));
     return unseen;
 }
 
@@ -98,7 +98,7 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
                                  i + 1 == n ? "." : "");
     if (others && used < KD_EMIT_TOLD)
         used += (size_t)snprintf(out + used, KD_EMIT_TOLD - used, "%s%zu %s of a playground at %.6g M of its time.",
-                                 n ? " " : "", others, others > 1 ? "bodies" : "body", scene->crowd.at->time);
+                                 n ? " " : "", others, others > 1 ? "bodies" : "body", scene->dynamic.at->time);
     if (unseen_of(scene) && used < KD_EMIT_TOLD)
         snprintf(out + used, KD_EMIT_TOLD - used,
                  " Bodies that are not shown, because they have no radius or are at the horizon: %zu.",
@@ -122,8 +122,8 @@ static struct kd_seen_body *listed(const struct kd_scene *scene, size_t *n)
 static bool is_lit(const struct kd_scene *scene)
 {
     struct kd_illumination lit;
-    for (size_t i = 0; scene->crowd.at && i < scene->crowd.at->n; i++)
-        if (scene->crowd.at->bodies[i].albedo > 0)
+    for (size_t i = 0; scene->dynamic.at && i < scene->dynamic.at->n; i++)
+        if (scene->dynamic.at->bodies[i].albedo > 0)
             return kd_illumination_of(scene, &lit);
     return false;
 }
@@ -241,21 +241,21 @@ static bool large(const struct kd_scene *scene, const struct kd_setting *rays)
     for (size_t i = kd_scene_bodies(scene, on); i; i--)
         if (on[i - 1]->radius > 0.1 * on[i - 1]->r)
             return true;
-    for (size_t i = 0; scene->crowd.at && i < scene->crowd.at->n; i++)
-        if (scene->crowd.at->bodies[i].radius > 0.1 * scene->crowd.at->bodies[i].r)
+    for (size_t i = 0; scene->dynamic.at && i < scene->dynamic.at->n; i++)
+        if (scene->dynamic.at->bodies[i].radius > 0.1 * scene->dynamic.at->bodies[i].r)
             return true;
     return false;
 }
 
 static bool shown(const struct kd_scene *scene, const struct kd_setting *rays)
 {
-    return (void)rays, scene->crowd.at && scene->crowd.at->n;
+    return (void)rays, scene->dynamic.at && scene->dynamic.at->n;
 }
 static bool lit_ones(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, is_lit(scene); }
 static bool dark(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, !is_lit(scene); }
 static bool by_potential(const struct kd_scene *scene, const struct kd_setting *rays)
 {
-    return shown(scene, rays) && scene->crowd.at->approximate;
+    return shown(scene, rays) && scene->dynamic.at->approximate;
 }
 
 #define WHEN(name, condition) \
@@ -309,7 +309,7 @@ const struct kd_emitter kd_emit_bodies = {
     .device_bytes = device_bytes,
     .fill = fill,
     .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(bodies),
-                 KD_SCENE_PART(top), KD_SCENE_PART(crowd) },
+                 KD_SCENE_PART(top), KD_SCENE_PART(dynamic) },
     .sentences = sentences,
     .n_sentences = sizeof sentences / sizeof *sentences,
     .reads = &kd_emit_disk,

@@ -89,8 +89,8 @@ static enum kd_status add(const struct kd_blurred *b, struct part *part, unsigne
         KD_TRY(kd_error_set(error, KD_ETOOBIG,
                             "a picture of the blurred frame no longer fits on the device in one piece"));
     bring_light(&plan);
-    KD_TRY(b->aside ? kd_render_in_background(b->renderer, &scene, &plan, go_on, NULL, part, &frame, error)
-                    : kd_render(b->renderer, &scene, &plan, go_on, part, &frame, error));
+    KD_TRY(b->background ? kd_render_in_background(b->renderer, &scene, &plan, go_on, NULL, part, &frame, error)
+                         : kd_render(b->renderer, &scene, &plan, go_on, part, &frame, error));
     const float *light = frame.layers[1].data;
     for (size_t i = 0; i < (size_t)3 * frame.width * frame.height; i++)
         sum->sum[i] += light[i];
@@ -112,8 +112,8 @@ enum kd_status kd_render_blurred(const struct kd_blurred *b, struct kd_frame *ou
     for (; part.done < n - 1 && !status; part.done++)
         status = add(b, &part, n - 1 - part.done, &others, error);
     if (!status)
-        status = kd_render_mean(b->renderer, b->scene, b->plan, &others, b->aside, go_on, b->preview ? &looks : NULL,
-                                &part, out, error);
+        status = kd_render_mean(b->renderer, b->scene, b->plan, &others, b->background, go_on,
+                                b->preview ? &looks : NULL, &part, out, error);
     if (!status)
         out->others_traced = others.traced;
     free(others.sum);

@@ -12,8 +12,8 @@ struct kd_compilation {
     struct kd_renderer *renderer;
     bool picture; /* the kernels of a whole picture, which is rendered: the scene by its plan */
     struct kd_scene scene;
-    struct kd_dynamic_bodies *crowd; /* the scene's bodies of a playground, by a reference of our own: the requester may
-                                      * be gone by then */
+    struct kd_dynamic_bodies *dynamic; /* the scene's bodies of a playground, by a reference of our own: the requester
+                                        * may be gone by then */
     struct kd_plan plan;
     struct kd_kernel_requests wishes;
     kd_progress_fn progress;
@@ -62,8 +62,8 @@ struct kd_compilation *kd_compilation_begin(struct kd_renderer *r, const struct 
         return NULL;
     c->picture = true;
     c->scene = *scene;
-    c->crowd = (struct kd_dynamic_bodies *)scene->crowd.at;
-    kd_dynamic_bodies_keep(c->crowd);
+    c->dynamic = (struct kd_dynamic_bodies *)scene->dynamic.at;
+    kd_dynamic_bodies_keep(c->dynamic);
     c->plan = *plan;
     c->plan.audit = 0; /* a device that computes nothing has nothing to audit */
     return c;
@@ -153,7 +153,7 @@ void kd_compilation_end(struct kd_compilation *c)
 
 void kd_compilation_drop(struct kd_compilation *c)
 {
-    kd_dynamic_bodies_release(c->crowd);
+    kd_dynamic_bodies_release(c->dynamic);
     free(c);
 }
 

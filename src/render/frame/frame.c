@@ -18,7 +18,7 @@ static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacit
     enum kd_status status;
     /* A quarter of the memory is for the renderer's cached maps, so that background renders fit beside these. A
      * background render keeps its own lens map only. */
-    j->store->memory_bytes = j->aside ? j->plan->device_bytes : c->memory_bytes / 4;
+    j->store->memory_bytes = j->background ? j->plan->device_bytes : c->memory_bytes / 4;
     KD_TRY(kd_store_lens_map(j->store, j->plan, &j->lens, reused, j->error));
     KD_TRY(kd_store_frame(j->store, j->plan, j->plan->adaptive ? 16 : kd_frame_bit_depth(j->frame), j->error));
     kd_emit_update(r->emit, j->scene, j->plan->width * j->plan->band_rows);

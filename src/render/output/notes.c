@@ -78,7 +78,7 @@ static enum kd_status join_approximations(const struct kd_plan *plan, struct kd_
  * is shown, and cannot be read back as a scene. */
 static enum kd_status put_scene(const struct kd_picture *picture, struct kd_notes *notes)
 {
-    const struct kd_dynamic_bodies *crowd = picture->scene->crowd.at;
+    const struct kd_dynamic_bodies *dynamic = picture->scene->dynamic.at;
     struct kd_buffer *out = &notes->scene;
     enum kd_status status = kd_scene_to_json(picture->scene, out);
     if (status)
@@ -87,11 +87,11 @@ static enum kd_status put_scene(const struct kd_picture *picture, struct kd_note
         snprintf(notes->hash, sizeof notes->hash, "%s", picture->hash);
     else
         kd_sha256(out->data, out->size, notes->hash);
-    if (!crowd)
+    if (!dynamic)
         return KD_OK;
     out->size--; /* removes the last brace */
     return kd_buffer_printf(out, ",\"" PLAYGROUND "\":{\"t\":%.17g,\"bodies\":%zu,\"debris\":%u,\"snapshot\":\"%s\"}}",
-                            crowd->time, crowd->n, crowd->debris.pieces, crowd->snapshot);
+                            dynamic->time, dynamic->n, dynamic->debris.pieces, dynamic->snapshot);
 }
 
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error)

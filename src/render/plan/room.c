@@ -6,7 +6,7 @@
 
 #include "interface.h"
 #include "render/plan/photometry.h"
-#include "render/view/critical_kept.h"
+#include "render/view/critical_cache.h"
 #include "render/view/layout.h"
 #include "render/view/rim_grid.h"
 
@@ -135,7 +135,7 @@ enum kd_status kd_plan_critical(struct kd_plan *plan, const struct kd_scene *sce
     if (plan->ring || side <= plan->side ||
         !(plan->orders > 1 || plan->ends || plan->march.steps)) /* the direct image is not thin anywhere */
         return KD_OK;
-    enum kd_status status = kd_critical_kept(scene, &list, error);
+    enum kd_status status = kd_critical_cache(scene, &list, error);
     uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->planes * side * side + 2));
     kd_critical_pixels_finish(&list);
     if (status || !n)

@@ -6,7 +6,7 @@
 #include "server/render/queue.h"
 #include "server/render/thumbnails.h"
 #include "server/job/jobs.h"
-#include "server/playground/plays.h"
+#include "server/playground/sessions.h"
 #include "server/session/sessions.h"
 
 static enum kd_status add(struct kd_buffer *out, const char *name, const char *type, const char *help, double value)
@@ -38,7 +38,7 @@ static enum kd_status add_jobs(struct kd_buffer *out, const struct kd_jobs_count
 struct counts {
     struct kd_sessions_counts sessions;
     struct kd_jobs_counts jobs;
-    struct kd_playground_sessions_counts plays;
+    struct kd_playground_sessions_counts playgrounds;
 };
 
 /* Runs on the thread of the health routes, which must not block. If a lock is held for long, for example while a job is
@@ -47,15 +47,15 @@ static struct counts count(struct kd_server *server)
 {
     struct counts now;
     bool sessions = kd_sessions_counts(server->sessions, &now.sessions), jobs = kd_jobs_counts(server->jobs, &now.jobs);
-    const bool plays = kd_playground_sessions_counts(server->plays, &now.plays);
+    const bool playgrounds = kd_playground_sessions_counts(server->playgrounds, &now.playgrounds);
     pthread_mutex_lock(&server->lock);
     if (sessions)
         server->sessions_counts = now.sessions;
     if (jobs)
         server->jobs_counts = now.jobs;
-    if (plays)
-        server->plays_counts = now.plays;
-    now = (struct counts) { server->sessions_counts, server->jobs_counts, server->plays_counts };
+    if (playgrounds)
+        server->playgrounds_counts = now.playgrounds;
+    now = (struct counts) { server->sessions_counts, server->jobs_counts, server->playgrounds_counts };
     pthread_mutex_unlock(&server->lock);
     return now;
 }
@@ -81,7 +81,7 @@ enum MHD_Result kd_handle_metrics(struct kd_request *request)
           1e-3 * kd_render_queue_backlog_ms(s->renders) },
         { "rays_unfinished", "gauge", "Requests for rays in progress.", kd_scheduler_unfinished(s->rays) },
         { "turns_unfinished", "gauge", "Orbits, long quantities and checks of jobs in progress.",
-          kd_scheduler_unfinished(s->turns) },
+          kd_scheduler_unfinished(s->scheduler) },
         { "sessions", "gauge", "Live sessions.", now.sessions.sessions },
         { "session_viewers", "gauge", "Requests and streams that wait for frames of sessions.", now.sessions.viewers },
         { "thumbnails_rendered_total", "counter", "Small pictures of presets rendered, each once.",
@@ -89,12 +89,12 @@ enum MHD_Result kd_handle_metrics(struct kd_request *request)
         { "session_frames_total", "counter", "Frames of sessions encoded.", (double)now.sessions.frames },
         { "session_bytes_total", "counter", "Bytes of these frames, independent of the number of viewers.",
           (double)now.sessions.bytes },
-        { "playgrounds", "gauge", "Live playgrounds.", now.plays.plays },
+        { "playgrounds", "gauge", "Live playgrounds.", now.playgrounds.open },
         { "playground_watchers", "gauge", "Requests and streams that wait for changes of playgrounds.",
-          now.plays.watchers },
-        { "playground_bytes", "gauge", "Reserved memory of the playgrounds.", (double)now.plays.bytes },
-        { "playground_steps_total", "counter", "Sub-steps of running playgrounds.", (double)now.plays.steps },
-        { "playground_events_total", "counter", "Events in playgrounds.", (double)now.plays.events },
+          now.playgrounds.watchers },
+        { "playground_bytes", "gauge", "Reserved memory of the playgrounds.", (double)now.playgrounds.bytes },
+        { "playground_steps_total", "counter", "Sub-steps of running playgrounds.", (double)now.playgrounds.steps },
+        { "playground_events_total", "counter", "Events in playgrounds.", (double)now.playgrounds.events },
         { "job_frames_total", "counter", "Frames of jobs finished.", (double)now.jobs.frames },
         { "job_bytes", "gauge", "Bytes of the frames of all jobs on disk.", (double)now.jobs.bytes },
         { "assets", "gauge", "Stored assets.", assets },

@@ -36,11 +36,11 @@ enum MHD_Result kd_handle_device(struct kd_request *request)
 
 enum MHD_Result kd_handle_cached_document(struct kd_request *request)
 {
-    const struct kd_served *document = kd_cached_documents_find(request->server->kept, request->target.path);
+    const struct kd_served *document = kd_cached_documents_find(request->server->documents, request->target.path);
     char preset[128];
     if (!document && request->rest &&
         snprintf(preset, sizeof preset, "/v1/presets/%s", kd_scene_preset_name_now(request->rest)) < (int)sizeof preset)
-        document = kd_cached_documents_find(request->server->kept, preset);
+        document = kd_cached_documents_find(request->server->documents, preset);
     struct kd_scene scene;
     struct kd_error error = { 0 };
     if (document)

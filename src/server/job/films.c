@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 /* Returns NULL if the film is not in the list. Called with the lock. */
-static struct kd_job_kept_film *find(struct kd_job *job, const char *format, unsigned rate)
+static struct kd_job_stored_film *find(struct kd_job *job, const char *format, unsigned rate)
 {
     for (unsigned i = 0; i < job->n_films; i++)
         if (job->films[i].name.rate == rate && !strcmp(job->films[i].name.format, format))
@@ -20,7 +20,7 @@ static struct kd_job_kept_film *find(struct kd_job *job, const char *format, uns
 }
 
 /* Removes a film from the list. Called with the lock. */
-static void drop(struct kd_job *job, struct kd_job_kept_film *film)
+static void drop(struct kd_job *job, struct kd_job_stored_film *film)
 {
     job->bytes -= film->bytes;
     job->all->bytes -= film->bytes;
@@ -33,7 +33,7 @@ bool kd_job_film_open(struct kd_job *job, const char *format, unsigned rate, str
     char name[KD_JOB_FILM_NAME];
     struct kd_job_film_name film = { 0 };
     pthread_mutex_lock(&job->all->lock);
-    const struct kd_job_kept_film *kept = find(job, format, rate);
+    const struct kd_job_stored_film *kept = find(job, format, rate);
     if (kept)
         film = kept->name;
     pthread_mutex_unlock(&job->all->lock);
@@ -165,7 +165,7 @@ void kd_job_film_end(struct kd_job_film_writer *w)
     pthread_mutex_unlock(&w->job->all->lock);
 }
 
-static bool is_kept(int folder, const char *name, struct kd_job_kept_film *out)
+static bool is_kept(int folder, const char *name, struct kd_job_stored_film *out)
 {
     struct stat about;
     if (!kd_job_folder_read_film(name, &out->name) || fstatat(folder, name, &about, AT_SYMLINK_NOFOLLOW) ||
@@ -177,7 +177,7 @@ static bool is_kept(int folder, const char *name, struct kd_job_kept_film *out)
 
 void kd_job_films_find(struct kd_job *job)
 {
-    struct kd_job_kept_film film;
+    struct kd_job_stored_film film;
     int folder = kd_job_store_folder(job->all->store, job->record.id);
     DIR *d = folder < 0 ? NULL : fdopendir(folder);
     for (struct dirent *entry; d && (entry = readdir(d));) {

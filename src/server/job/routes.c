@@ -181,7 +181,7 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request)
         return refuse(request, &error, false);
     if (made_before(request, &refused))
         return refused;
-    struct draft *d = kd_task_begin(request, request->server->turns, &kind, &refused);
+    struct draft *d = kd_task_begin(request, request->server->scheduler, &kind, &refused);
     if (!d)
         return refused;
     d->draft.once = request->once;
@@ -228,7 +228,7 @@ static enum MHD_Result begin_removal(struct kd_request *request, struct kd_job *
 {
     enum MHD_Result refused = MHD_NO;
     struct removing *r =
-        request->connection ? kd_task_create(request, request->server->turns, &REMOVAL, &refused) : NULL;
+        request->connection ? kd_task_create(request, request->server->scheduler, &REMOVAL, &refused) : NULL;
     if (r) {
         r->job = job;
         return kd_task_submit(&r->task);

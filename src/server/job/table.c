@@ -81,7 +81,7 @@ static enum MHD_Result write_table(struct kd_request *request, struct kd_job *jo
 {
     static const struct kd_task_kind kind = { "tables", sizeof(struct table), work, finish, .answer = answer };
     enum MHD_Result refused;
-    struct table *t = kd_task_begin(request, request->server->turns, &kind, &refused);
+    struct table *t = kd_task_begin(request, request->server->scheduler, &kind, &refused);
     if (!t) {
         kd_job_release(job);
         return refused;

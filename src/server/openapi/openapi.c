@@ -20,7 +20,7 @@
 #include "server/openapi/sessions.h"
 #include "server/openapi/share.h"
 #include "server/openapi/strict.h"
-#include "server/playground/plays.h"
+#include "server/playground/sessions.h"
 #include "server/http/query.h"
 #include "server/http/request.h"
 #include "scene/scene.h"

@@ -3,7 +3,7 @@
 #include "playground/preset.h"
 #include "server/openapi/media.h"
 #include "server/openapi/strict.h"
-#include "server/playground/plays.h"
+#include "server/playground/sessions.h"
 
 #include <string.h>
 

@@ -34,10 +34,10 @@ done:
 
 static enum kd_status add_kept(struct kd_buffer *out, const struct kd_renderer *renderer)
 {
-    uint64_t bytes[KD_N_KEPT_KINDS];
+    uint64_t bytes[KD_N_CACHE_KINDS];
     enum kd_status status =
         kd_buffer_printf(out, "# HELP kerrd_kept_bytes Bytes in caches, by kind.\n# TYPE kerrd_kept_bytes gauge\n");
-    kd_renderer_kept(renderer, bytes);
+    kd_renderer_cached(renderer, bytes);
     for (size_t i = 0; kd_cached_documents_word(i) && !status; i++)
         status = kd_buffer_printf(out, "kerrd_kept_bytes{kind=\"%s\"} %llu\n", kd_cached_documents_word(i),
                                   (unsigned long long)bytes[i]);

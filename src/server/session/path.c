@@ -131,7 +131,7 @@ static enum MHD_Result begin(struct kd_request *request, struct kd_session *sess
     static const struct kd_task_kind kind = { "paths", sizeof(struct path_task), work, finish };
     struct kd_session_state state;
     enum MHD_Result refused;
-    struct path_task *p = kd_task_begin(request, request->server->turns, &kind, &refused);
+    struct path_task *p = kd_task_begin(request, request->server->scheduler, &kind, &refused);
     if (!p)
         return refused;
     kd_session_state(session, &state);

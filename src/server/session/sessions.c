@@ -29,7 +29,7 @@ void kd_session_unref(struct kd_session *s)
     if (--s->references)
         return;
     kd_live_frame_release(s->latest);
-    kd_dynamic_bodies_release(s->crowd);
+    kd_dynamic_bodies_release(s->dynamic);
     kd_timeline_finish(&s->path);
     free(s);
 }
@@ -292,12 +292,12 @@ void kd_session_put(struct kd_session *s, const struct kd_scene *scene, const st
     pthread_mutex_unlock(&s->all->lock);
 }
 
-void kd_session_show(struct kd_session *s, struct kd_dynamic_bodies *crowd)
+void kd_session_show(struct kd_session *s, struct kd_dynamic_bodies *dynamic)
 {
     pthread_mutex_lock(&s->all->lock);
-    struct kd_dynamic_bodies *old = s->crowd;
-    s->crowd = crowd;
-    s->crowd_moved = true;
+    struct kd_dynamic_bodies *old = s->dynamic;
+    s->dynamic = dynamic;
+    s->dynamic_moved = true;
     kd_session_drop_refinement(s);
     kd_session_pump(s);
     pthread_mutex_unlock(&s->all->lock);
@@ -325,7 +325,7 @@ bool kd_session_over(struct kd_session *s)
 bool kd_session_hungry(struct kd_session *s)
 {
     pthread_mutex_lock(&s->all->lock);
-    const bool hungry = !s->crowd_moved;
+    const bool hungry = !s->dynamic_moved;
     pthread_mutex_unlock(&s->all->lock);
     return hungry;
 }

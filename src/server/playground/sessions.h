@@ -9,8 +9,8 @@
  * A playground belongs to one thread at a time: the thread that has taken it, which is always a worker. The HTTP thread
  * reads the snapshot that the workers publish after each tick. Any thread; functions on watchers belong to the HTTP
  * thread. */
-#ifndef KD_SERVER_PLAYGROUND_PLAYS_H
-#define KD_SERVER_PLAYGROUND_PLAYS_H
+#ifndef KD_SERVER_PLAYGROUND_SESSIONS_H
+#define KD_SERVER_PLAYGROUND_SESSIONS_H
 
 #include "playground/playground.h"
 #include "server/http/counts.h"
@@ -78,7 +78,7 @@ void kd_playground_session_end(struct kd_playground_session *play, const char *w
  * KD_SLICE_AWAY; it is woken when the playground is returned. A slice that has taken the playground may be suspended
  * (base/pause.h), because no thread blocks for it. For workers. */
 struct kd_playground_session_waiter {
-    struct kd_scheduler *turns;
+    struct kd_scheduler *scheduler;
     struct kd_scheduler_job *job;
     /* private to the session */
     struct kd_playground_session_waiter *next;

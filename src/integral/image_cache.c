@@ -1,4 +1,4 @@
-#include "integral/kept.h"
+#include "integral/image_cache.h"
 
 #include "physics/spacetime/hole.h"
 
