@@ -12,7 +12,7 @@
 #define DEFAULT_PERIODS 10
 /* after this many samples in a row without an image, a full search is no longer made for each, ... */
 #define SEARCHES 3
-#define SEARCH_EVERY 64 /* ... but only for one sample in so many */
+#define SEARCH_EVERY 64 /* ... but only for one sample of 64 */
 /* halvings of the step in the search for an end; each gains a factor of 64, from 1e-10 to rounding */
 #define HALVINGS 6
 

@@ -299,8 +299,8 @@ class Assets(Case):
         self.assertProblem(self.put(png(), **{"Sec-Fetch-Site": "cross-site"}), 403, "cross-site")
 
     def test_many_at_once(self):
-        """A client that uploads the same bytes as others at the same time is told that it was the first, or waits, or
-        is told that they exist."""
+        """A client that uploads the same bytes as others at the same time gets 201 for the first upload, or waits, or
+        gets 200 for existing bytes."""
         picture, answers = png(300, 300, seed=9), []
         threads = [threading.Thread(target=lambda: answers.append(self.put(picture))) for _ in range(6)]
         for thread in threads:
@@ -334,7 +334,7 @@ class Limits(Case):
         kept = [self.made(png(seed=i)) for i in range(3)]
         problem = self.assertProblem(self.put(png(seed=3)), 429, "quota")
         self.assertIn("you have stored too many assets", problem["detail"])
-        self.assertEqual(self.put(png(seed=1)).status, 200, "what is there is told")
+        self.assertEqual(self.put(png(seed=1)).status, 200, "an existing asset is reported")
         self.delete(kept.pop())
         self.assertProblem(self.put(png(200, 100)), 429, "quota")  # 60 kB
         kept.append(self.made(png(100, 100)))

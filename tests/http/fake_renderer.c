@@ -375,7 +375,7 @@ static enum kd_status draw(struct kd_renderer *renderer, const struct kd_scene *
     if (plan->told.on &&
         (!out->told || !out->told->each || (plan->told.steps && (!out->told->steps || !out->told->steps->steps)))) {
         kd_frame_finish(out);
-        return kd_error_set(error, KD_ENOMEM, "out of memory for what is told of a pixel");
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the report on a pixel");
     }
     if (kd_frame_add_layer(out, "rgb", 3, scene->image.bit_depth > 8 ? KD_LAYER_U16 : KD_LAYER_U8, error)) {
         kd_frame_finish(out);

@@ -263,7 +263,7 @@ class Share(Case):
 
 
 class Proxied(Case):
-    """The server is behind a proxy that terminates TLS and removes a prefix, of which it knows only by its option."""
+    """The server is behind a proxy that terminates TLS and removes a prefix, which the server knows only by its option."""
 
     options = ("--public-url", "https://holes.example/kerrd")
 

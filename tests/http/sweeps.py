@@ -108,7 +108,7 @@ class Sweeps(Case):
         )
 
     def test_how_many_cubes_are_fetched_at_once(self):
-        """One client may fetch three. One that was told to wait may fetch when one of the three has finished."""
+        """One client may fetch three. A client that was refused may fetch when one of the three has finished."""
         job = self.make(
             {
                 "scene": {"image": {"width": 1000, "height": 1000, "layers": ["rgb"]}},

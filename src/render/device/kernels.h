@@ -31,7 +31,7 @@ enum kd_kernel {
     KD_KERNEL_STAR_IMAGES_TEXELS,
     KD_KERNEL_TRANSFER,
     KD_KERNEL_TRANSFER_TEXELS, /* the transfer kernel, reading texels */
-    KD_KERNEL_TRANSFER_PROBE,  /* for a single ray, of which each emitter is reported; the next one: through volumes */
+    KD_KERNEL_TRANSFER_PROBE,  /* for a single ray, with a report of each emitter; the next one: through volumes */
     KD_KERNEL_MARCH_PROBE,
     KD_KERNEL_LAYERS,
     KD_KERNEL_MARCH,        /* the transfer and layers kernels for scenes with volumes */

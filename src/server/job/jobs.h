@@ -17,7 +17,7 @@
 struct kd_jobs;
 struct kd_job;
 
-/* A job is delayed after so many crashes without a new frame, because it may be their cause. */
+/* Number of crashes without a new frame after which a job is delayed, because it may be their cause. */
 #define KD_JOB_ATTEMPTS 3
 #define KD_JOB_WAIT_MS 30e3 /* length of the first delay; it doubles with each further crash, up to ... */
 #define KD_JOB_WAIT_MAX_MS 3600e3

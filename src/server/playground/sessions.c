@@ -8,7 +8,7 @@
 #include <string.h>
 
 #define COUNTS_MS 20.   /* how long a reader of counts waits for the lock */
-#define SLOWED_MS 1000. /* for how long clients are told that time was skipped */
+#define SLOWED_MS 1000. /* for how long the state reports skipped time */
 /* Memory of a session with a given debris capacity. The debris counts twice, because changes work on a copy; so does
  * all else. */
 #define BASE_BYTES ((size_t)6 << 20)

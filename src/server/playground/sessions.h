@@ -4,7 +4,7 @@
  * It runs while a client watches or sends requests, and pauses KD_PLAY_REST_MS after the last request. After
  * params.idle_ms without any client it ends. Each session is one job of the scheduler (http/task_scheduler.h), with
  * slices of some 10 ms. A sub-step is never divided. It takes tens of milliseconds with 4096 bodies or a million pieces
- * of debris. If the processor cannot keep up, simulated time slows down, and clients are told so.
+ * of debris. If the processor cannot keep up, simulated time slows down, and the state reports it.
  *
  * A playground belongs to one thread at a time: the thread that has taken it, which is always a worker. The HTTP thread
  * reads the snapshot that the workers publish after each tick. Any thread; functions on watchers belong to the HTTP

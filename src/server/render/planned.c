@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 #define SMALL (64u << 10) /* a body of this size is parsed in 2 ms or less */
-/* A picture of so many pixels is planned in 2 ms or less. Planning follows the critical curve from pixel to pixel. */
+/* Largest number of pixels whose plan takes 2 ms or less. Planning follows the critical curve from pixel to pixel. */
 #define FEW_PIXELS (4u << 20)
 
 /* Copies the texts into the task, because the problem outlives the call. */
