@@ -146,7 +146,7 @@ static void what_is_no_path_is_refused(void **state)
         { RAIN, "[{\"at\":1,\"scene\":{\"camera\":{\"r\":1}},\"proper_time\":\"horizon\"}]", "/keyframes/0/proper_time",
           "from further out" },
         { RAIN, "[{\"at\":1,\"scene\":{\"motion\":{\"proper_time_rate\":1}},\"proper_time\":1}]",
-          "/keyframes/0/proper_time", "one of them" },
+          "/keyframes/0/proper_time", "cannot be used with motion.proper_time_rate" },
         { RAIN, "[{\"at\":1,\"scene\":{}},{\"at\":1,\"scene\":{}}]", "/keyframes/1/at", "a number above 1 to 100" },
         { RAIN, "[{\"at\":100,\"scene\":{}},{\"at\":100,\"scene\":{}}]", "/keyframes/1/at",
           "follows a keyframe at 100, which must be the last" },
