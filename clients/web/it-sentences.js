@@ -259,7 +259,7 @@ export const sentences = {
   'rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md gives the cost':
     'raggi: seguiti in coordinate di Kerr–Schild per confronto; docs/accuracy.md dice quanto costa',
   'the server is stopping and accepts no new sessions': 'il server si sta fermando e non apre nuove sessioni',
-  'one image of each point, followed from that of the point before: the direct one, but next to a hole that spins and is seen nearly edge on it may pass onto one that has gone round it; none is told from within 1.2 horizons':
+  'each point has one image, continued from that of the point before: the direct image, but close to a spinning hole seen nearly edge on it may change to an image that has gone round the hole; points within 1.2 horizon radii have none':
     'una sola immagine di ogni punto, seguita da quella del punto prima: la diretta, ma accanto a un buco in rotazione visto quasi di taglio può passare a una che gli ha girato attorno; nessuna da entro 1,2 orizzonti',
   'the body is a test particle: no gravity of its own, no radiation, no tidal disruption':
     'una particella di prova: non ha massa propria, non irradia e non si spezza',

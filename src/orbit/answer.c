@@ -95,7 +95,7 @@ const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index)
     const char *const all[] = {
         "the body is a test particle: no gravity of its own, no radiation, no tidal disruption",
         run->orbit.fate == KD_ORBIT_PLUNGE
-            ? "Boyer-Lindquist t and phi grow without bound towards the horizon; a path ends before it"
+            ? "Boyer-Lindquist t and phi grow without bound towards the horizon, at which a path ends"
             : NULL,
         kd_orbit_is_seen(run->params) ? "each point has one image, continued from that of the point before: the direct "
                                         "image, but close to a spinning hole seen nearly edge on it may change to an "
