@@ -137,7 +137,7 @@ def main():
     p.add_argument("--repeat", type=int, default=5, help="runs of each pair in a round; the least of all counts (5)")
     p.add_argument("--profiles", type=int, default=400, help="that the server is asked for, of each kind (400)")
     p.add_argument(
-        "--directions", type=int, default=0, help="of the oracle that the true error is told by; 0: it is not (0)"
+        "--directions", type=int, default=0, help="directions of the oracle for the true error; 0: no comparison (0)"
     )
     p.add_argument("--before", type=pathlib.Path, help="another build directory")
     o = p.parse_args()

@@ -22,7 +22,7 @@ import simpy
 WEIGHTS = {"live": 8, "picture": 4, "rays": 4, "refinement": 2, "job": 1}  # KD_CLASSES
 CREDIT = 0.2  # CREDIT_MS of shares.c
 MOMENT, SLICE = 0.1, 0.04  # KD_MOMENT_MS; a submission of a long picture
-BRIEF, BRIEF_LANES, LANES = 3.0, 2, 8  # BRIEF_MS and BRIEF_LANES of turns.c, KD_BACKGROUND_RENDERS
+BRIEF, BRIEF_LANES, LANES = 3.0, 2, 8  # BRIEF_MS and BRIEF_LANES of device_scheduler.c, KD_BACKGROUND_RENDERS
 ENCODERS = 2  # KD_ENCODERS
 
 

@@ -159,8 +159,8 @@ async def ask(port, target):
 
 
 async def closed(port, asked, at_once):
-    """Requests all of these, `at_once` at a time: the results of ask(), and the answers a second while so many were
-    under way. With two for each server, one waits while the other is rendered."""
+    """Requests all of these, `at_once` at a time: the results of ask(), and the answers a second while `at_once` were
+    in progress. With two for each server, one waits while the other is rendered."""
     rest, answers, last = list(enumerate(asked)), [None] * len(asked), 0.0
     begun = time.perf_counter()
 
@@ -362,7 +362,7 @@ def tables(rows, naps):
             [name, f"{load:g}", "real", *line(row["real"])],
             *(["", "", way, *cells(row, way)] for way in ("replayed", "foretold")),
         ]
-    text = measure.table(["", *names], lines) + "\nServers of which the device sleeps, as in docs/examples:\n\n"
+    text = measure.table(["", *names], lines) + "\nServers with a device that sleeps, as in docs/examples:\n\n"
     lines = []
     for n, load in ASLEEP:
         lines += [
@@ -379,7 +379,7 @@ def main():
         "--rounds",
         type=int,
         default=3,
-        help="of each run, of which that one is told in which this script was woken least late (3)",
+        help="rounds of each run; the report has the round in which this script woke up with the smallest delay (3)",
     )
     p.add_argument("--seed", type=int, default=1)
     arguments, load = p.parse_args(), os.getloadavg()[0]

@@ -250,7 +250,7 @@ def plot(result, checked, path):
 
 def tables(r):
     ms = lambda seconds: f"{1e3 * seconds:.0f}"
-    text = f"Pictures: 95 % are answered within so many ms, by load; {EACH} a server, from when nothing was under way. From 1 on it grows as long as the load lasts.\n\n"
+    text = f"Pictures: 95th percentile of the answer time in ms, by load; {EACH} a server, from when nothing was under way. From 1 on it grows as long as the load lasts.\n\n"
     text += measure.table(
         ["servers", *(f"{load:g}" for load in LOADS)],
         [[str(n), *(ms(row[load]) if load in row else "" for load in LOADS)] for n, row in r["curves"].items()],

@@ -155,7 +155,7 @@ def main():
     )
     print(Image.open(panorama).text.get("Source", panorama))
     worst = 0
-    print("off by so many pixels to the right and down: in the file, and as kerrd shows it")
+    print("offset in pixels to the right and down: in the file, and as kerrd shows it")
     for name, (in_file, in_picture) in known(light, seen, PLACES).items():
         print(f"{name:10} {in_file[0]:+.2f} {in_file[1]:+.2f}   {in_picture[0]:+.2f} {in_picture[1]:+.2f}")
         if name in JUDGED:

@@ -5,7 +5,7 @@
     bench/soak.py --minutes 3 --clients 4 --seed 7
     bench/soak.py --minutes 30 --kills 100      and the server is killed a hundred times meanwhile, and started again
                                                 on the same folder
-    bench/soak.py --minutes 30 --faults 300     and so many faults of memory, disks, descriptors, clocks and of Vulkan
+    bench/soak.py --minutes 30 --faults 300     and 300 faults of memory, disks, descriptors, clocks and of Vulkan
                                                 are injected (soak_faults.py), none in the last minute
     bench/soak.py --build build-tsan --minutes 10      under the thread sanitizer, whose reports fail it as well, and
                                                        whose memory may grow

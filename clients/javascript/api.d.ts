@@ -34,12 +34,12 @@ export interface Scene {
      */
     mass_msun?: number;
     /**
-     * angular diameter distance of the hole; with the mass it gives the width of a picture on the sky, which a beam
-     * and a scale bar need; in pc; 0.001 to 100000000000; default 260000.
+     * angular diameter distance of the hole; with the mass it determines the width of a picture on the sky, for a
+     * beam and a scale bar; in pc; 0.001 to 100000000000; default 260000.
      */
     distance_pc?: number;
   };
-  /** where the observer is and what it looks at. */
+  /** position, motion and view of the observer. */
   camera?: {
     /** Boyer-Lindquist radius of the observer; in M; 0.01 to 10000000; default "infinity". */
     r?: 'infinity' | number;
@@ -55,10 +55,10 @@ export interface Scene {
     azimuth_deg?: number;
     /**
      * state of motion at a finite radius; static: at rest with respect to infinity; zamo: with zero angular
-     * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
-     * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
-     * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
-     * momentum; default "static".
+     * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+     * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+     * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+     * "static".
      */
     observer?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
     /**
@@ -93,10 +93,10 @@ export interface Scene {
     infall_momentum?: number;
     /**
      * plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: angle round
-     * the critical curve against the logarithm of the distance to it, at infinity only; equirectangular: all
-     * directions from a finite radius, longitude across and latitude upwards; fulldome: the angle from the middle
-     * as the distance from it, 90 degrees at the nearer edges, from a finite radius; auto: plane or pinhole,
-     * whichever fits camera.r; default "auto".
+     * the critical curve by the logarithm of the distance to it, at infinity only; equirectangular: all directions
+     * from a finite radius, longitude to the right and latitude upwards; fulldome: the angle from the middle as
+     * distance, 90 degrees at the nearer edges, from a finite radius; auto: plane at infinity, otherwise pinhole;
+     * default "auto".
      */
     projection?: 'auto' | 'plane' | 'pinhole' | 'ring' | 'equirectangular' | 'fulldome';
     /** width of the image plane (plane projection); in M; 1e-06 to 10000000; default 46. */
@@ -149,7 +149,7 @@ export interface Scene {
      * exact flux, as orbiting particles; default "novikov-thorne".
      */
     model?: 'none' | 'novikov-thorne' | 'shakura-sunyaev' | 'particles';
-    /** inner edge; never inside the ISCO; in M; 1 to 1000000; default "isco". */
+    /** inner edge; at least the ISCO; in M; 1 to 1000000; default "isco". */
     inner?: 'isco' | number;
     /** outer edge; larger than the inner one; in M; 1 to 1000000; default 22. */
     outer?: number;
@@ -226,8 +226,8 @@ export interface Scene {
      */
     epicycles?: number;
     /**
-     * show particles, gas and spots where they were when each ray's light left them, instead of all at one
-     * coordinate time; default false.
+     * show particles, gas and spots at the time when the light of each ray left them, instead of at one coordinate
+     * time; default false.
      */
     slow_light?: boolean;
     /** turbulence in the gas of the smooth disk models. */
@@ -257,7 +257,7 @@ export interface Scene {
      * to 1000000; default 0.
      */
     brightness?: number;
-    /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+    /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
     r?: number;
     /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
     phase_deg?: number;
@@ -274,7 +274,7 @@ export interface Scene {
     /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
     temperature_k?: number;
   }[];
-  /** bodies: spheres that shine, before the hole, behind it and in the disk; up to 8; default []. */
+  /** bodies: luminous spheres in front of the hole, behind it and in the disk; up to 8; default []. */
   bodies?: {
     /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
     radius?: number;
@@ -294,12 +294,12 @@ export interface Scene {
      */
     phase_deg?: number;
     /**
-     * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
-     * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
-     * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
-     * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
-     * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
-     * momentum; default "keplerian".
+     * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+     * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+     * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+     * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+     * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+     * "keplerian".
      */
     motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
     /**
@@ -332,19 +332,17 @@ export interface Scene {
      */
     limb_darkening?: number;
   }[];
-  /** matter all along the rays. */
+  /** matter along the rays. */
   volume?: {
     /**
-     * matter all along the rays: none; uniform, a shell that is the same everywhere and does not move: what light
-     * and opacity along bent rays come to; at one radio frequency gold, the analytic model of Gold et al. 2020,
-     * riaf, a hot, thin flow whose density, temperature and magnetic field are powers of r, torus, a thick one in
-     * equilibrium, and grid, numbers from a file; default "none".
+     * matter along the rays. none; uniform: a homogeneous shell at rest. At one radio frequency: gold, the analytic
+     * model of Gold et al. 2020; riaf, a hot, thin flow whose density, temperature and magnetic field are powers of
+     * r; torus, a thick disk in equilibrium; grid, numbers from a file; default "none".
      */
     model?: 'none' | 'uniform' | 'gold' | 'riaf' | 'torus' | 'grid';
     /**
-     * inner edge; horizon: as near to it as it may be, a hundredth outside it, or a two-thousandth for what is seen
-     * at a radio frequency; of a torus half of the radius of its largest pressure; in M; 1 to 30000; default
-     * "horizon".
+     * inner edge; horizon: as close to it as possible, which is 1 % outside it, or 0.05 % for the models at a radio
+     * frequency; for a torus half of volume.torus_radius; in M; 1 to 30000; default "horizon".
      */
     inner?: 'horizon' | number;
     /** outer edge of the matter; larger than the inner edge; in M; 1 to 30000; default 20. */
@@ -387,8 +385,8 @@ export interface Scene {
     /** h: density goes as exp(-(h cos(theta))^2/2); 0: round (model: gold); 0 to 10000; default 0. */
     gold_flattening?: number;
     /**
-     * l0: angular momentum, l0 R^(3/2)/(1 + R) an energy of 1, R = r sin(theta); 0: zero angular momentum (model:
-     * gold); -1 to 1; default 0.
+     * l0: angular momentum over energy is l0 R^(3/2)/(1 + R) with R = r sin(theta); 0: zero angular momentum
+     * (model: gold); -1 to 1; default 0.
      */
     gold_momentum?: number;
     /**
@@ -420,13 +418,13 @@ export interface Scene {
     /** p: magnetisation is proportional to r^-p (model: riaf); -10 to 10; default 1. */
     magnetisation_index?: number;
     /**
-     * magnetic field: round the axis, along it, or along the radius, made perpendicular to the motion (models:
-     * riaf, torus); default "toroidal".
+     * direction of the magnetic field: round the axis, along it, or radial; its part along the motion is removed
+     * (models: riaf, torus); default "toroidal".
      */
     field?: 'toroidal' | 'vertical' | 'radial';
     /**
-     * motion: with the circular orbit's angular velocity at each r, and falling in from the ISCO; or at rest for
-     * observers of zero angular momentum (model: riaf); default "orbits".
+     * motion: with the angular velocity of the circular orbit at each r, and in free fall inside the ISCO; or at
+     * rest for observers of zero angular momentum (model: riaf); default "orbits".
      */
     flow?: 'orbits' | 'rest';
     /**
@@ -458,9 +456,9 @@ export interface Scene {
      */
     gamma_max?: number;
     /**
-     * flux that the picture must have: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a
-     * number that it finds with small pictures, and reports it; 0: no change (models: gold, riaf, torus, grid); in
-     * Jy; 0 to 1e+12; default 0.
+     * flux of the picture: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a number that
+     * it determines with small pictures, and reports this number; 0: no change (models: gold, riaf, torus, grid);
+     * in Jy; 0 to 1e+12; default 0.
      */
     normalise_to_jy?: number;
     /** frequency of that flux; observed: volume.frequency_ghz; in GHz; 1e-06 to 1e+12; default "observed". */
@@ -494,14 +492,12 @@ export interface Scene {
     /** include the jet below the disk; default true. */
     counterjet?: boolean;
   };
-  /**
-   * how light is polarised: what layers and ticks show of it; of light from the disk's plane no picture does.
-   */
+  /** polarisation of light, as layers and ticks show it; in a picture it changes only the light of volumes. */
   polarization?: {
     /**
-     * of light from the disk's plane: none; synchrotron, across polarization.field and the light, in the gas's
-     * frame; or scattering, of a deep atmosphere of free electrons, across the normal and the light; transfer: of a
-     * volume at a radio frequency, Stokes I, Q, U and V all along the rays; default "none".
+     * polarisation. none. Of light from the disk's plane: synchrotron, perpendicular to polarization.field and the
+     * ray in the gas's frame; scattering, in a deep atmosphere of free electrons, perpendicular to the normal and
+     * the ray. transfer: of a volume at a radio frequency, Stokes I, Q, U and V along the rays; default "none".
      */
     model?: 'none' | 'synchrotron' | 'scattering' | 'transfer';
     /**
@@ -514,7 +510,7 @@ export interface Scene {
      * 7/3) (model: synchrotron); 1 to 10; default 3.
      */
     electron_index?: number;
-    /** share of that polarisation which remains when the field is disordered within a pixel; 0 to 1; default 1. */
+    /** factor on that polarisation for a field that is disordered within a pixel; 0 to 1; default 1. */
     order?: number;
     /**
      * include Faraday rotation, and conversion between linear and circular polarisation, by the electrons (model:
@@ -527,36 +523,36 @@ export interface Scene {
      */
     rotation?: 'shcherbakov' | 'dexter';
   };
-  /** what lies at infinity. */
+  /** the sky at infinity. */
   sky?: {
     /**
-     * what lies at infinity: nothing; a celestial grid that shows the lensing; stars and a Milky Way that are made
-     * up; the stars of the Hipparcos catalogue over that Milky Way; or sky.image without stars; default "none".
+     * sky at infinity: none; a celestial grid that shows the lensing; generated stars and a generated Milky Way;
+     * the stars of the Hipparcos catalogue over that Milky Way; or sky.image without stars; default "none".
      */
     model?: 'none' | 'grid' | 'stars' | 'catalogue' | 'image';
     /**
-     * brightness of the sky in units of the disk's brightest surface brightness at g = 1: of the grid; of 21
-     * magnitudes a square arcsecond, by which stars and the Milky Way keep their true ratio; auto: 0.2, or 0.01 of
-     * stars and the Milky Way where something shines before them; 0 to 100; default "auto".
+     * brightness of the sky in units of the disk's brightest surface brightness at g = 1: that of the grid, or of
+     * 21 magnitudes per square arcsecond for stars and the Milky Way, whose ratio is real; auto: 0.2, or 0.01 for
+     * stars and the Milky Way behind something that shines; 0 to 100; default "auto".
      */
     brightness?: 'auto' | number;
     /** spacing of the celestial grid; in degrees; 1 to 90; default 15. */
     grid_deg?: number;
-    /** brightness of the Milky Way, or of sky.image, over its natural one; 0: stars alone; 0 to 100; default 1. */
+    /** factor on the natural brightness of the Milky Way or of sky.image; 0: only stars; 0 to 100; default 1. */
     milky_way?: number;
     /**
-     * picture of the whole sky in the place of the Milky Way that is made up (model: stars, catalogue, image):
-     * twice as wide as high, galactic longitude across, growing to the left from 0 in the middle, latitude upwards;
-     * its white is 21 magnitudes a square arcsecond; default null.
+     * picture of the whole sky instead of the generated Milky Way (model: stars, catalogue, image): twice as wide
+     * as high, with galactic longitude 0 in the middle and rising to the left, latitude rising upwards; its white
+     * is 21 magnitudes per square arcsecond; default null.
      */
     image?: null | string;
-    /** stars fainter than this are left out; in magnitudes; -2 to 14; default 14. */
+    /** magnitude of the faintest stars; in magnitudes; -2 to 14; default 14. */
     limit_mag?: number;
     /** seed of the random numbers: another seed gives another generated sky; 0 to 2147483647; default 1. */
     seed?: number;
     /**
      * galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra,
-     * m87: from azimuth 0 the hole stands before that one, as seen from the Earth, with the galactic or the
+     * m87: seen from azimuth 0 the hole is in front of that source as seen from the Earth, with the galactic or the
      * celestial pole above; default "galactic".
      */
     orientation?: 'galactic' | 'equatorial' | 'sgra' | 'm87';
@@ -566,8 +562,8 @@ export interface Scene {
      */
     turn_deg?: number;
     /**
-     * then, rotation of the sky about the horizontal axis of the picture from azimuth 0; in degrees; -180 to 180;
-     * default 0.
+     * a second rotation of the sky, about the horizontal axis of the picture from azimuth 0; in degrees; -180 to
+     * 180; default 0.
      */
     tilt_deg?: number;
   };
@@ -578,8 +574,8 @@ export interface Scene {
     /** height of the picture; in pixels; 1 to 32768; default 720. */
     height?: number;
     /**
-     * rays along each side of a pixel: n gives n x n rays, averaged; auto: one, and 16 where the picture shows that
-     * one was not enough; 1 to 8; default 1.
+     * rays along each side of a pixel: n gives the mean of n x n rays; auto: one ray, and 16 for pixels that differ
+     * from their neighbours; 1 to 8; default 1.
      */
     samples?: 'auto' | number;
     /**
@@ -595,9 +591,9 @@ export interface Scene {
     /** bits a channel: 8 or 16; in bits; 8 to 16; default 8. */
     bit_depth?: number;
     /**
-     * what the file holds: the picture, or maps of the rays (docs/layers.md); of the first crossing on the disk, or
-     * behind _N of image order N; a PNG shows one in false colour, FITS, EXR, NPZ and NPY hold several as numbers;
-     * up to 16; default ["rgb"].
+     * contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing on the disk,
+     * or with the suffix _N for image order N; a PNG shows one map in false colour, FITS, EXR, NPZ and NPY have
+     * several as numbers; up to 16; default ["rgb"].
      */
     layers?: string[];
     /**
@@ -612,7 +608,7 @@ export interface Scene {
     layer_max?: 'auto' | number;
     /** draw a colour bar in the lower left corner of a layer in false colour; default true. */
     legend?: boolean;
-    /** a part of the picture, made by itself, the same to the byte as there. */
+    /** a part of the picture, rendered alone, with the same bytes as in the whole. */
     tile?: {
       /** columns of the picture to the left of the tile; in pixels; 0 to 32767; default 0. */
       left?: number;
@@ -626,14 +622,12 @@ export interface Scene {
   };
   /** from brightness to the colours of the file. */
   style?: {
-    /**
-     * style that sets all fields of the look, except those that the document sets itself; none: no style; default
-     * "film".
-     */
+    /** style that sets all fields of the look, except those in the document; none: no style; default "film". */
     name?: 'none' | 'film' | 'raw' | 'dngr' | 'eht' | 'starless';
     /**
-     * brightness as a power of two over the disk's brightest surface brightness at g = 1; auto: by what shines, and
-     * stars alone no further than that space is black; in stops; -40 to 40; default "auto".
+     * exposure as a power of two, relative to the disk's brightest surface brightness at g = 1; auto: from the
+     * light in the picture, limited for stars alone so that empty space is black; in stops; -40 to 40; default
+     * "auto".
      */
     exposure?: 'auto' | number;
     /**
@@ -647,8 +641,8 @@ export interface Scene {
      */
     bloom?: number;
     /**
-     * full width at half maximum of the round Gaussian beam of a telescope that sees the picture from
-     * spacetime.distance_pc; 0: none; in microarcseconds; 0 to 1e+12; default 0.
+     * full width at half maximum of a round Gaussian telescope beam, seen from spacetime.distance_pc; 0: none; in
+     * microarcseconds; 0 to 1e+12; default 0.
      */
     beam_uas?: number;
     /**
@@ -664,16 +658,16 @@ export interface Scene {
     /** add half a step of ordered noise before rounding, against banding; default true. */
     dither?: boolean;
     /**
-     * a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * e^(-t/tau)
-     * cos(w t), with the hole's quasi-normal mode l = m = 2, n = 0; 0: none; 0 to 1; default 0.
+     * illustration of a struck hole: light of image orders 1 and up is multiplied by 1 + ringdown e^(-t/tau) cos(w
+     * t), with the hole's quasi-normal mode l = m = 2, n = 0; 0: none; 0 to 1; default 0.
      */
     ringdown?: number;
-    /** time at which the hole was struck; before it nothing rings; in M; -1e+12 to 1e+12; default 0. */
+    /** time at which the hole was struck, and the ringing begins; in M; -1e+12 to 1e+12; default 0. */
     ringdown_time?: number;
   };
-  /** the source on the sky that the hole stands for: FITS files tell it, and no pixel depends on it. */
+  /** the source on the sky that the hole represents, for FITS files; it changes no pixel. */
   source?: {
-    /** the source on the sky that the hole stands for; default "none". */
+    /** the source on the sky that the hole represents; default "none". */
     name?: 'none' | 'm87' | 'sgra';
     /** right ascension of the hole (ICRS); in degrees; 0 to 360; default 0. */
     ra_deg?: number;
@@ -682,37 +676,37 @@ export interface Scene {
     /** date of the picture, as a modified Julian date; in days; 0 to 1000000; default "none". */
     mjd?: 'none' | number;
   };
-  /** what goes on by itself in a live session; a still picture knows none of it. */
+  /** motion in a live session; a still picture ignores it. */
   motion?: {
     /** rate at which the observer goes round the axis; in degrees per second; -360 to 360; default 0. */
     azimuth_rate_deg?: number;
-    /** rate at which coordinate time goes on; in M per second; -1000000 to 1000000; default 0. */
+    /** rate of coordinate time; in M per second; -1000000 to 1000000; default 0. */
     time_rate?: number;
     /**
-     * rate of the observer's own clock: it falls, to the last place a camera can be at, or goes round; coordinate
-     * time goes on accordingly; in M per second; 0 to 1000000; default 0.
+     * rate of the observer's proper time: the observer falls, to the last possible position, or orbits; coordinate
+     * time follows; in M per second; 0 to 1000000; default 0.
      */
     proper_time_rate?: number;
   };
-  /** how closely the rays are followed. */
+  /** accuracy of the rays. */
   accuracy?: {
     /**
      * accuracy with which rays are traced, from coarse to fine; reference: double precision; default "balanced".
      */
     profile?: 'draft' | 'interactive' | 'balanced' | 'high' | 'reference';
     /**
-     * largest relative error of the crossing radii, by the accuracy table of the device; profile: what the profile
-     * means; 1e-18 to 0.1; default "profile".
+     * largest relative error of the crossing radii, by the accuracy table of the device; profile: the error of
+     * accuracy.profile; 1e-18 to 0.1; default "profile".
      */
     tolerance?: 'profile' | number;
     /**
-     * method that traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6; default
+     * method that traces the rays; auto: the closed form outside the photon orbits, otherwise mino-rkn6; default
      * "auto".
      */
     engine?: 'auto' | 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
-    /** precision of the arithmetic; auto: what the profile means; default "auto". */
+    /** precision of the arithmetic; auto: chosen by accuracy.profile; default "auto". */
     precision?: 'auto' | 'f32' | 'f64';
-    /** integrator steps for a half turn, a multiple of 4; 0: what the profile means; 0 to 2048; default 0. */
+    /** integrator steps for a half turn, a multiple of 4; 0: chosen by accuracy.profile; 0 to 2048; default 0. */
     steps?: number;
     /** equatorial crossings kept for each ray: image orders 0 to n - 1; 1 to 8; default 3. */
     orders?: number;
@@ -793,43 +787,43 @@ export type FieldPath =
   | 'accuracy.steps' | 'accuracy.orders' | 'time';
 
 export interface RaysRequest {
-  /** of the hole, a/M; -1 to 1. */
+  /** spin of the hole, a/M; -1 to 1. */
   spin?: number;
-  /** crossings of the equatorial plane that are wanted; 1 to 16. */
+  /** number of equatorial crossings in the answer; 1 to 16. */
   orders?: number;
   observer?: {
-    /** from which the rays are followed back, M: outside the horizon; 1 to 10000000. */
+    /** radius of the observer, M; outside the horizon; 1 to 10000000. */
     r?: 'infinity' | number;
-    /** from the hole's axis; 0 to 180. */
+    /** polar angle of the observer, from the hole's axis; 0 to 180. */
     inclination_deg?: number;
     /**
-     * as camera.observer of a scene, at a finite r: rays are then directions in the observer's frame, [yaw, pitch]
-     * in degrees.
+     * motion of an observer at a finite r, as camera.observer of a scene; a ray is then a direction in the
+     * observer's frame, [yaw, pitch] in degrees.
      */
     motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-    /** motion velocity: as camera.velocity_r; -1 to 1. */
+    /** as camera.velocity_r (motion: velocity); -1 to 1. */
     velocity_r?: number;
-    /** motion velocity: as camera.velocity_theta; -1 to 1. */
+    /** as camera.velocity_theta (motion: velocity); -1 to 1. */
     velocity_theta?: number;
-    /** motion velocity: as camera.velocity_phi; -1 to 1. */
+    /** as camera.velocity_phi (motion: velocity); -1 to 1. */
     velocity_phi?: number;
-    /** motion infall: as camera.infall_from, M; 1 to 10000000. */
+    /** as camera.infall_from, M (motion: infall); 1 to 10000000. */
     infall_from?: 'infinity' | number;
-    /** motion infall: as camera.infall_energy; -100 to 1000. */
+    /** as camera.infall_energy (motion: infall); -100 to 1000. */
     infall_energy?: 'rest' | number;
-    /** motion infall: as camera.infall_momentum, M; -10000 to 10000. */
+    /** as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
     infall_momentum?: number;
   };
   accuracy?: {
-    /** as in a scene; without it, and without an engine, the closed form. */
+    /** as accuracy.profile of a scene; without profile and engine, the closed form is used. */
     profile?: 'draft' | 'interactive' | 'balanced' | 'high' | 'reference';
-    /** relative error of the crossing radii to be held, instead of the profile; 0 to 1. */
+    /** largest relative error of the crossing radii, instead of the profile; 0 to 1. */
     tolerance?: 'profile' | number;
-    /** auto: by profile or tolerance. */
+    /** method that traces the rays; auto: by profile or tolerance. */
     engine?: 'auto' | 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
-    /** of the arithmetic; the closed form has f64 alone. */
+    /** precision of the arithmetic; the closed form has only f64. */
     precision?: 'auto' | 'f32' | 'f64';
-    /** a half period of the radial motion; some engines take fewer; 0 to 2048. */
+    /** integrator steps for a half period of the radial motion; some engines take fewer; 0 to 2048. */
     steps?: number;
   };
   /** pairs [alpha, beta], in M; with observer.motion [yaw, pitch], in degrees; up to 1000000. */
@@ -837,26 +831,26 @@ export interface RaysRequest {
 }
 
 export interface RaysObserver {
-  /** from which the rays are followed back, M: outside the horizon; 1 to 10000000. */
+  /** radius of the observer, M; outside the horizon; 1 to 10000000. */
   r: 'infinity' | number;
-  /** from the hole's axis; 0 to 180. */
+  /** polar angle of the observer, from the hole's axis; 0 to 180. */
   inclination_deg: number;
   /**
-   * as camera.observer of a scene, at a finite r: rays are then directions in the observer's frame, [yaw, pitch]
-   * in degrees.
+   * motion of an observer at a finite r, as camera.observer of a scene; a ray is then a direction in the
+   * observer's frame, [yaw, pitch] in degrees.
    */
   motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-  /** motion velocity: as camera.velocity_r; -1 to 1. */
+  /** as camera.velocity_r (motion: velocity); -1 to 1. */
   velocity_r?: number;
-  /** motion velocity: as camera.velocity_theta; -1 to 1. */
+  /** as camera.velocity_theta (motion: velocity); -1 to 1. */
   velocity_theta?: number;
-  /** motion velocity: as camera.velocity_phi; -1 to 1. */
+  /** as camera.velocity_phi (motion: velocity); -1 to 1. */
   velocity_phi?: number;
-  /** motion infall: as camera.infall_from, M; 1 to 10000000. */
+  /** as camera.infall_from, M (motion: infall); 1 to 10000000. */
   infall_from?: 'infinity' | number;
-  /** motion infall: as camera.infall_energy; -100 to 1000. */
+  /** as camera.infall_energy (motion: infall); -100 to 1000. */
   infall_energy?: 'rest' | number;
-  /** motion infall: as camera.infall_momentum, M; -10000 to 10000. */
+  /** as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
   infall_momentum?: number;
 }
 
@@ -915,33 +909,33 @@ export interface RaysAnswer {
 }
 
 export interface OrbitByShape {
-  /** of the hole, a/M; -1 to 1. */
+  /** spin of the hole, a/M; -1 to 1. */
   spin?: number;
-  /** a bound orbit between the radii p/(1+e) and p/(1-e) [M]; 1 to 1e+20. */
+  /** semi-latus rectum of a bound orbit; its radii are between p/(1+e) and p/(1-e) [M]; 1 to 1e+20. */
   p: number;
-  /** its eccentricity; 0 to 1. */
+  /** eccentricity; 0 to 1. */
   e: number;
-  /** its inclination; above 90 is retrograde [deg]; 0 to 180. */
+  /** inclination; above 90 is retrograde [deg]; 0 to 180. */
   inclination_deg?: number;
 }
 
 export interface OrbitByConstants {
-  /** of the hole, a/M; -1 to 1. */
+  /** spin of the hole, a/M; -1 to 1. */
   spin?: number;
-  /** per rest mass; -1000000 to 1000000. */
+  /** energy per rest mass; -1000000 to 1000000. */
   energy: number;
-  /** about the axis, per rest mass [M]; -1e+20 to 1e+20. */
+  /** angular momentum about the axis, per rest mass [M]; -1e+20 to 1e+20. */
   angular_momentum: number;
   /** Carter's constant, per rest mass [M^2]; 0 in the equatorial plane; 0 to 1e+30. */
   carter?: number;
-  /** a radius on its way [M]; 1 to 1e+20. */
+  /** radius where the path starts [M]; 1 to 1e+20. */
   r?: number;
-  /** whether it moves outwards there. */
+  /** whether the path starts outwards. */
   outward?: boolean;
 }
 
 export interface OrbitByState {
-  /** of the hole, a/M; -1 to 1. */
+  /** spin of the hole, a/M; -1 to 1. */
   spin?: number;
   position: {
     /** radius [M]; 1 to 1e+20. */
@@ -952,7 +946,7 @@ export interface OrbitByState {
     phi_deg?: number;
   };
   velocity?: {
-    /** whose velocity it is. */
+    /** observer whose frame the velocity refers to. */
     frame?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall';
     /** component along r [c]; -1 to 1. */
     v_r?: number;
@@ -964,49 +958,49 @@ export interface OrbitByState {
 }
 
 export interface OrbitByCase {
-  /** of the hole, a/M; -1 to 1. */
+  /** spin of the hole, a/M; -1 to 1. */
   spin?: number;
-  /** an orbit that is known by name. */
+  /** an orbit by name. */
   case: 'mercury' | 'zoom-whirl' | 'plunge' | 'isco' | 'spherical';
 }
 
 export type Orbit = OrbitByShape | OrbitByConstants | OrbitByState | OrbitByCase;
 
 export interface OrbitsRequest {
-  /** of the hole, a/M; -1 to 1. */
+  /** spin of the hole, a/M; -1 to 1. */
   spin?: number;
-  /** of the path, both ends counted; 0 for none; of an orbit that is seen at most 20000; 0 to 200000. */
+  /** number of samples of the path, both ends included; 0 for none; at most 20000 with seen; 0 to 200000. */
   samples?: number;
   /** significant digits of the series as text; 1 to 17. */
   digits?: number;
-  /** in a radial period, instead of a tolerance; 0: by that; 0 to 100000000. */
+  /** steps per radial period, instead of a tolerance; 0: by tolerance; 0 to 100000000. */
   steps?: number;
-  /** relative error after a period, which chooses the step; 1e-14 to 0.001. */
+  /** largest relative error after a period; it determines the step; 1e-14 to 0.001. */
   tolerance?: number;
-  /** how it is followed. */
+  /** method of integration. */
   method?: 'yoshida6' | 'rkn6' | 'closed';
-  /** where what escapes is let go [M]; 2 to 1000000. */
+  /** radius at which an escaping orbit ends [M]; 2 to 1000000. */
   r_max?: number;
-  /** of the hole [solar masses]: frequencies in Hz, the advance per century; 1e-20 to 1e+20. */
+  /** mass of the hole [solar masses]; adds frequencies in Hz and the advance per century; 1e-20 to 1e+20. */
   mass_msun?: number;
-  /** of a list: the samples of each, too. */
+  /** for a list: whether the answer has the samples of each orbit. */
   series?: boolean;
   duration?: {
-    /** radial periods, turns where r is constant; 0 to 1000000000. */
+    /** duration in radial periods, or in revolutions if r is constant; 0 to 1000000000. */
     periods?: number;
     /** coordinate time [M]; 0 to 1e+30. */
     time?: number;
-    /** what plunges or escapes, and has no periods, is followed to its end instead. */
+    /** follow an orbit that plunges or escapes to its end, because it has no periods. */
     or_end?: boolean;
   };
   seen?: {
-    /** of who sees it [M]; without it infinity; 1 to 10000000. */
+    /** radius of the observer [M]; default infinity; 1 to 10000000. */
     observer_r?: number;
-    /** of who sees it, off the axis [deg]; 0 to 180. */
+    /** polar angle of the observer [deg]; 0 to 180. */
     observer_inclination_deg?: number;
-    /** of who sees it [deg]; -1000000 to 1000000. */
+    /** azimuth of the observer [deg]; -1000000 to 1000000. */
     observer_azimuth_deg?: number;
-    /** how who sees it moves. */
+    /** motion of the observer. */
     observer?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall';
   };
   orbit?: Orbit;
@@ -1130,36 +1124,39 @@ export interface OrbitPaths {
 }
 
 export interface LineRequest {
-  /** spin of the hole, below 0 for a disk that turns against it [M]; -1 to 1. */
+  /** spin of the hole; below 0 the disk rotates against the hole [M]; -1 to 1. */
   spin?: number;
-  /** of the observer, who is at infinity, off the axis; not 87 to 93 [deg]; 0 to 87; 93 to 180. */
+  /** angle between the axis and the observer, who is at infinity; not 87 to 93 [deg]; 0 to 87; 93 to 180. */
   inclination_deg?: number;
   /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
   inner?: 'isco' | number;
   /** outer edge of the disk [M]; 1 to 1000000. */
   outer?: number;
-  /** how the line's light falls off with radius. */
+  /** emissivity of the line as a function of radius. */
   emissivity?: 'power' | 'broken' | 'lamppost';
-  /** power and broken: the light per area across it goes as r^-index; -10 to 20. */
+  /** power and broken: the light per area falls as r^-index; -10 to 20. */
   index?: number;
-  /** broken: the index beyond break_r; -10 to 20. */
+  /** broken: index beyond break_r; -10 to 20. */
   outer_index?: number;
-  /** broken: where the index changes [M]; 1 to 1000000. */
+  /** broken: radius at which the index changes [M]; 1 to 1000000. */
   break_r?: number;
   /** lamppost: height of the source on the axis [M]; 1 to 10000. */
   height?: number;
   /** lamppost: photon index of the source's power law; 0 to 10. */
   photon_index?: number;
-  /** light by the angle off the disk's normal: even, 1 + 2.06 mu, or ln(1 + 1/mu). */
+  /**
+   * dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, or ln(1 +
+   * 1/mu).
+   */
   limb?: 'isotropic' | 'laor' | 'haardt';
   /**
-   * error of the cumulative share that will do: sums are made closer until it is reached, or as close as there
-   * is; 0: as close as there is; 0 to 0.1.
+   * accepted error of the cumulative share: sums are refined until they meet it, or to the finest level; 0:
+   * always to the finest level; 0 to 0.1.
    */
   tolerance?: number;
-  /** what a bin counts. */
+  /** quantity that a bin counts. */
   counts?: 'photons' | 'energy';
-  /** energy of the line where the gas is at rest, in any unit: edges are in the same; 1e-09 to 1000000000. */
+  /** energy of the line in the gas's frame, in any unit; edges have the same unit; 1e-09 to 1000000000. */
   rest_energy?: number;
   /** first edge of bins of equal width; 0 to 1000000000. */
   energy_min?: number;
@@ -1167,7 +1164,7 @@ export interface LineRequest {
   energy_max?: 'auto' | number;
   /** number of bins of equal width; 1 to 20000. */
   bins?: number;
-  /** edges of the bins, instead of energy_min, energy_max and bins; each above the one before; up to 20001. */
+  /** edges of the bins in ascending order, instead of energy_min, energy_max and bins; up to 20001. */
   edges?: number[];
 }
 
@@ -1195,11 +1192,14 @@ export interface LineProfile {
   values: {
     /** innermost stable circular orbit. */
     isco: number | null;
-    /** all photons, or energies: the integral of g^3 epsilon f, or g^4, over the image plane. */
+    /**
+     * all photons, or with count energy all energy: the integral of g^3 epsilon f, or of g^4 epsilon f, over the
+     * image plane.
+     */
     total: number | null;
-    /** share of them between the first and the last edge. */
+    /** share of the line between the first and the last edge. */
     inside: number | null;
-    /** estimated, of the cumulative share at any edge. */
+    /** estimated largest error of the cumulative share at any edge. */
     error: number | null;
   };
   columns: {
@@ -1207,9 +1207,9 @@ export interface LineProfile {
     energy_low: (number | null)[];
     /** edge of the bin. */
     energy_high: (number | null)[];
-    /** of all photons, or energies, of the line that arrive in the bin. */
+    /** share of the line's photons, or of its energy, in the bin. */
     share: (number | null)[];
-    /** share up to energy_high from the first edge. */
+    /** share of the line from the first edge to energy_high. */
     cumulative: (number | null)[];
   };
   units: Record<string, string>;
@@ -1218,9 +1218,9 @@ export interface LineProfile {
 }
 
 export interface TransferFunctionRequest {
-  /** spin of the hole, below 0 for a disk that turns against it [M]; -1 to 1. */
+  /** spin of the hole; below 0 the disk rotates against the hole [M]; -1 to 1. */
   spin?: number;
-  /** of the observer, who is at infinity, off the axis; not 87 to 93 [deg]; 0.1 to 87; 93 to 179.9. */
+  /** angle between the axis and the observer, who is at infinity; not 87 to 93 [deg]; 0.1 to 87; 93 to 179.9. */
   inclination_deg?: number;
   /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
   inner?: 'isco' | number;
@@ -1230,9 +1230,12 @@ export interface TransferFunctionRequest {
   rings?: number;
   /** radii, instead of rings; between inner and outer [M]; up to 20001. */
   radii?: number[];
-  /** number of g* at each radius, the middles of as many equal parts of 0 to 1; 1 to 1000. */
+  /** number of values of g* at each radius: the centres of equal parts of 0 to 1; 1 to 1000. */
   g_stars?: number;
-  /** numbers between 0, the reddest light of the ring, and 1, the bluest, instead of g_stars; up to 20001. */
+  /**
+   * values of g* instead of g_stars, each between 0 (the reddest light of the ring) and 1 (the bluest); up to
+   * 20001.
+   */
   g_star?: number[];
 }
 
@@ -1255,15 +1258,15 @@ export interface TransferFunction {
     r: (number | null)[];
     /** (g - g_min)/(g_max - g_min). */
     g_star: (number | null)[];
-    /** energy at infinity over that for the gas. */
+    /** redshift factor: energy at infinity over energy in the gas's frame. */
     g: (number | null)[];
-    /** f of the side that is nearer to the observer. */
+    /** f of the side that is closer to the observer. */
     f_near: (number | null)[];
     /** f of the far side. */
     f_far: (number | null)[];
-    /** cosine off the disk's normal at which the light leaves the gas there. */
+    /** near side: cosine of the angle between the emitted light and the disk's normal in the gas's frame. */
     mu_near: (number | null)[];
-    /** the same of the far side. */
+    /** the same for the far side. */
     mu_far: (number | null)[];
     /** of the ring. */
     g_min: (number | null)[];
@@ -1276,53 +1279,57 @@ export interface TransferFunction {
 }
 
 export interface SpectrumRequest {
-  /** preset that the scene begins with. */
+  /** preset to which the scene is merged. */
   preset?:
     | 'smooth' | 'schwarzschild' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on' | 'face-on' | 'photon-rings'
     | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk' | 'star-behind' | 'companions'
     | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4'
     | 'gold-5' | 'riaf' | 'torus';
   scene?: Scene;
-  /** spin of the hole, below 0 for a disk that turns against it [M]; -1 to 1. */
+  /** spin of the hole; below 0 the disk rotates against the hole [M]; -1 to 1. */
   spin?: number;
-  /** of the observer, who is at infinity, off the axis; not 87 to 93 [deg]; 0 to 87; 93 to 180. */
+  /** angle between the axis and the observer, who is at infinity; not 87 to 93 [deg]; 0 to 87; 93 to 180. */
   inclination_deg?: number;
   /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
   inner?: 'isco' | number;
   /** outer edge of the disk [M]; 1 to 1000000. */
   outer?: number;
-  /** light by the angle off the disk's normal: even, 1 + 2.06 mu, or ln(1 + 1/mu). */
+  /**
+   * dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, or ln(1 +
+   * 1/mu).
+   */
   limb?: 'isotropic' | 'laor' | 'haardt';
   /** mass of the hole [solar masses]; 1e-05 to 1e+12. */
   mass_msun?: number;
-  /** how far away it is [pc]; 0.001 to 1e+12. */
+  /** distance of the hole [pc]; 0.001 to 1e+12. */
   distance_pc?: number;
   /**
-   * accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin [Eddington rates];
-   * 1e-12 to 1000.
+   * accretion rate as luminosity over the Eddington luminosity, with the efficiency of this spin [Eddington
+   * rates]; 1e-12 to 1000.
    */
   mdot_edd?: number;
   /** colour temperature over effective temperature; 1 to 10. */
   colour_correction?: number;
   /**
-   * first frequency; auto: 0.001 k/h times the hottest ring's colour temperature; of a volume a thirtieth of
+   * first frequency; auto: 0.001 k/h times the hottest ring's colour temperature; for a volume 1/30 of
    * volume.frequency_ghz [Hz]; 0.001 to 1e+25.
    */
   frequency_min_hz?: 'auto' | number;
   /**
-   * last frequency; auto: 30 k/h times the same; of a volume 30 times volume.frequency_ghz [Hz]; 0.001 to 1e+25.
+   * last frequency; auto: 30 k/h times the hottest ring's colour temperature; for a volume 30 times
+   * volume.frequency_ghz [Hz]; 0.001 to 1e+25.
    */
   frequency_max_hz?: 'auto' | number;
-  /** number of frequencies, at equal ratios: 200; of a volume 13, and 200 at most; 2 to 1000. */
+  /** number of frequencies, at equal ratios; default 200, for a volume 13 and at most 200; 2 to 1000. */
   frequencies?: number;
-  /** frequencies, instead of the three before [Hz]; up to 20001. */
+  /** frequencies, instead of frequency_min_hz, frequency_max_hz and frequencies [Hz]; up to 20001. */
   frequencies_hz?: number[];
   /**
-   * pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility and of a comparison; 16 to
-   * 2048.
+   * pixels along the longer side of a picture; default 128 for a spectrum, 256 for visibilities and a comparison;
+   * 16 to 2048.
    */
   pixels?: number;
-  /** what tells the error: the same picture with half as many pixels more along each side, or nothing. */
+  /** estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none. */
   check?: 'finer' | 'none';
 }
 
@@ -1349,7 +1356,7 @@ export interface DiskSpectrum {
     t_max_k: number | null;
     /** efficiency times Mdot c^2. */
     luminosity_w: number | null;
-    /** estimated, relative, of the flux where it is above a millionth of its maximum. */
+    /** estimated relative error of the flux where it exceeds a millionth of its maximum. */
     error: number | null;
   };
   columns: {
@@ -1359,7 +1366,7 @@ export interface DiskSpectrum {
     flux_w_m2_hz: (number | null)[];
     /** F_nu. */
     flux_jy: (number | null)[];
-    /** 4 pi D^2 nu F_nu, as if it shone evenly. */
+    /** 4 pi D^2 nu F_nu, the luminosity of an isotropic source with this flux. */
     nu_l_nu_w: (number | null)[];
   };
   units: Record<string, string>;
@@ -1381,7 +1388,7 @@ export interface VolumeSpectrum {
     width: number | null;
     /** of each picture. */
     height: number | null;
-    /** largest of the column error. */
+    /** largest value of the column error. */
     error: number | null;
   };
   columns: {
@@ -1391,9 +1398,12 @@ export interface VolumeSpectrum {
     flux_w_m2_hz: (number | null)[];
     /** F_nu. */
     flux_jy: (number | null)[];
-    /** 4 pi D^2 nu F_nu, as if it shone evenly. */
+    /** 4 pi D^2 nu F_nu, the luminosity of an isotropic source with this flux. */
     nu_l_nu_w: (number | null)[];
-    /** estimated, relative, of the flux: by that of a picture 1.5 times as fine; 1: of its own size or more. */
+    /**
+     * estimated relative error of the flux, from a picture 1.5 times as fine; 1: the error is at least as large as
+     * the flux.
+     */
     error: (number | null)[];
   };
   units: Record<string, string>;
@@ -1403,36 +1413,40 @@ export interface VolumeSpectrum {
 }
 
 export interface VisibilityRequest {
-  /** preset that the scene begins with. */
+  /** preset to which the scene is merged. */
   preset?:
     | 'smooth' | 'schwarzschild' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on' | 'face-on' | 'photon-rings'
     | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk' | 'star-behind' | 'companions'
     | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4'
     | 'gold-5' | 'riaf' | 'torus';
   scene?: Scene;
-  /** baselines to the east, in units of 1e9 wavelengths; as many as v [Gl]; up to 20001. */
+  /** eastward components of the baselines, in units of 1e9 wavelengths; as many as v [Gl]; up to 20001. */
   u?: number[];
-  /** baselines to the north [Gl]; up to 20001. */
+  /** northward components of the baselines [Gl]; up to 20001. */
   v?: number[];
-  /** lengths of baselines, instead of u and v; each with each of angles_deg [Gl]; up to 20001. */
+  /**
+   * lengths of baselines, instead of u and v; each length is combined with each of angles_deg [Gl]; up to 20001.
+   */
   lengths?: number[];
   /**
-   * baselines from 0 to this length, instead of lengths; auto: half of the longest that the map's pixels tell
-   * [Gl]; 1e-09 to 1e+15.
+   * longest baseline, for lengths from 0 to it instead of lengths; auto: half of the longest baseline that the
+   * map's pixels resolve [Gl]; 1e-09 to 1e+15.
    */
   length_max?: 'auto' | number;
   /** number of lengths from 0 to length_max; 2 to 20000. */
   baselines?: number;
-  /** position angles of baselines with lengths, from the north to the east; 0 and 90 [deg]; up to 20001. */
+  /**
+   * position angles of the baselines given by lengths, from north to east; default 0 and 90 [deg]; up to 20001.
+   */
   angles_deg?: number[];
-  /** number of image orders, from 0 on, whose visibilities are also given separately; 0 to 8. */
+  /** number of image orders, from order 0, whose visibilities are also given separately; 0 to 8. */
   orders?: number;
   /**
-   * pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility and of a comparison; 16 to
-   * 2048.
+   * pixels along the longer side of a picture; default 128 for a spectrum, 256 for visibilities and a comparison;
+   * 16 to 2048.
    */
   pixels?: number;
-  /** what tells the error: the same picture with half as many pixels more along each side, or nothing. */
+  /** estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none. */
   check?: 'finer' | 'none';
 }
 
@@ -1446,21 +1460,21 @@ export interface Visibilities {
     check: string;
   };
   values: {
-    /** of the whole map; null where its light is of no frequency. */
+    /** flux of the whole map; null if its light has no frequency. */
     flux_jy: number | null;
-    /** from a pixel to the next. */
+    /** distance from one pixel to the next. */
     pixel_uas: number | null;
     /** of the map. */
     width_uas: number | null;
     /** of the map. */
     height_uas: number | null;
-    /** longest baseline that pixels so wide tell. */
+    /** longest baseline that the width of the pixels resolves. */
     nyquist_gl: number | null;
-    /** what a sky as bright as the map's border would send over all of the map, of what the map sends. */
+    /** flux of a sky as bright as the map's border over the whole map, as a share of the map's flux. */
     edge_share: number | null;
-    /** whose light was no number, and counts as none. */
+    /** number of pixels whose light is not a number; they count as dark. */
     undefined: number | null;
-    /** largest of the column error. */
+    /** largest value of the column error. */
     error: number | null;
   };
   columns: {
@@ -1476,11 +1490,11 @@ export interface Visibilities {
     re: (number | null)[];
     /** imaginary part. */
     im: (number | null)[];
-    /** of all light in Jy, or as a share of its flux. */
+    /** amplitude, in Jy or as a share of the flux of all light. */
     amplitude: (number | null)[];
-    /** about where the hole is, from -180 to 180. */
+    /** phase about the position of the hole, from -180 to 180. */
     phase_deg: (number | null)[];
-    /** estimated, of re and im: by a map 1.5 times as fine. */
+    /** estimated error of re and im, from a map 1.5 times as fine. */
     error: (number | null)[];
   };
   units: Record<string, string>;
@@ -1490,7 +1504,7 @@ export interface Visibilities {
 }
 
 export interface CompareRequest {
-  /** preset that the scene begins with. */
+  /** preset to which the scene is merged. */
   preset?:
     | 'smooth' | 'schwarzschild' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on' | 'face-on' | 'photon-rings'
     | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk' | 'star-behind' | 'companions'
@@ -1499,49 +1513,50 @@ export interface CompareRequest {
   scene?: Scene;
   /** SHA-256 of an asset of the server: uvfits, or the EHT's CSV. */
   observation: string;
-  /** what is compared. */
+  /** quantities that are compared. */
   products?: ('amplitude' | 'closure_phase' | 'log_closure_amplitude')[];
   /**
-   * visibilities are averaged in bins of so many seconds, counted from 1960-01-01; 0: they are not [s]; 0 to
-   * 86400.
+   * length in seconds of the bins in which visibilities are averaged, counted from 1960-01-01; 0: no averaging
+   * [s]; 0 to 86400.
    */
   average_s?: number;
   /**
-   * baselines shorter than this are left out, in units of 1e9 wavelengths: those within one site, which see light
-   * that the map has not [Gl]; 0 to 1000000.
+   * shortest baseline that is compared, in units of 1e9 wavelengths; shorter ones, within one site, see light
+   * from outside the map [Gl]; 0 to 1000000.
    */
   uv_min_gl?: number;
-  /** amplitudes and closures of less signal over noise are left out; 0 to 1000000. */
+  /** lowest signal-to-noise ratio of amplitudes and closures that are compared; 0 to 1000000. */
   snr_cut?: number;
   systematic?: {
-    /** share of each visibility's amplitude that is added to its error in quadrature, before all else; 0 to 1. */
+    /**
+     * share of each visibility's amplitude that is added to its error in quadrature, before all other steps; 0 to
+     * 1.
+     */
     visibility?: number;
-    /** share of each station, sqrt(2) of which is added to an amplitude's error in quadrature; 0 to 1. */
+    /** relative error of a station; sqrt(2) times it is added to an amplitude's error in quadrature; 0 to 1. */
     amplitude?: number;
-    /** added to the error of a closure phase in quadrature [deg]; 0 to 180. */
+    /** systematic error that is added to the error of a closure phase in quadrature [deg]; 0 to 180. */
     closure_phase_deg?: number;
   };
-  /** yes: amplitudes are sqrt(|V|^2 - sigma^2), and closures are made of such; no: as they are measured. */
+  /** yes: amplitudes are sqrt(|V|^2 - sigma^2), also in closures; no: as measured. */
   debias?: 'yes' | 'no';
-  /**
-   * minimal: triangles and quadrangles that others do not follow from, about the first station; maximal: all.
-   */
+  /** minimal: independent triangles and quadrangles with the first station; maximal: all. */
   closures?: 'minimal' | 'maximal';
-  /** what light a pixel of the map stands for. */
+  /** shape of a pixel's light. */
   pulse?: 'triangle' | 'rectangle' | 'point';
   /**
-   * of the whole map, which is made brighter or darker; auto: as the scene is, or, where its light is of no
-   * frequency, as amplitudes fit best [Jy]; 1e-12 to 1e+12.
+   * flux to which the whole map is scaled; auto: the scene's flux, or the best fit to the amplitudes if the
+   * scene's light has no frequency [Jy]; 1e-12 to 1e+12.
    */
   flux_jy?: 'auto' | number;
-  /** what is chosen so that chi^2 of the amplitudes is least. */
+  /** quantities that are fitted for the smallest chi^2 of the amplitudes. */
   solve?: 'flux'[];
   /**
-   * pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility and of a comparison; 16 to
-   * 2048.
+   * pixels along the longer side of a picture; default 128 for a spectrum, 256 for visibilities and a comparison;
+   * 16 to 2048.
    */
   pixels?: number;
-  /** what tells the error: the same picture with half as many pixels more along each side, or nothing. */
+  /** estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none. */
   check?: 'finer' | 'none';
 }
 
@@ -1566,60 +1581,60 @@ export interface Comparison {
     check: string;
   };
   values: {
-    /** of the whole map as it is compared; null: nothing tells it. */
+    /** flux of the whole compared map; null if nothing determines it. */
     flux_jy: number | null;
-    /** from a pixel to the next. */
+    /** distance from one pixel to the next. */
     pixel_uas: number | null;
     /** of the map. */
     width_uas: number | null;
     /** of the map. */
     height_uas: number | null;
-    /** longest baseline that pixels so wide tell. */
+    /** longest baseline that the width of the pixels resolves. */
     nyquist_gl: number | null;
-    /** what a sky as bright as the map's border would send over all of the map, of what the map sends. */
+    /** flux of a sky as bright as the map's border over the whole map, as a share of the map's flux. */
     edge_share: number | null;
-    /** whose light was no number, and counts as none. */
+    /** number of pixels whose light is not a number; they count as dark. */
     undefined: number | null;
-    /** estimated, the largest of the models of amplitudes: by a map 1.5 times as fine. */
+    /** largest estimated error of the amplitudes' models, from a map 1.5 times as fine. */
     model_error: number | null;
   };
   columns: {
     /** amplitude, closure_phase or log_closure_amplitude. */
     product: (string | null)[];
-    /** UTC, from the observation's mjd on. */
+    /** UTC, hours since the start of the observation's mjd. */
     hour: (number | null)[];
-    /** of the baseline, triangle or quadrangle. */
+    /** station of the baseline, triangle or quadrangle. */
     station_1: (string | null)[];
     /** the same. */
     station_2: (string | null)[];
-    /** of a triangle or quadrangle. */
+    /** station of a triangle or quadrangle. */
     station_3: (string | null)[];
-    /** of a quadrangle, of 12 34 / 14 23. */
+    /** station of a quadrangle: the log closure amplitude is that of 12 34 / 14 23. */
     station_4: (string | null)[];
-    /** of an amplitude's baseline, in units of 1e9 wavelengths. */
+    /** baseline of an amplitude, in units of 1e9 wavelengths. */
     u_gl: (number | null)[];
     /** the same. */
     v_gl: (number | null)[];
-    /** of an amplitude, a closure phase, a log closure amplitude. */
+    /** observed amplitude, closure phase or log closure amplitude. */
     data: (number | null)[];
-    /** of the datum, with what is systematic. */
+    /** error of the datum, with systematic errors. */
     error: (number | null)[];
-    /** of the scene. */
+    /** value of the scene. */
     model: (number | null)[];
-    /** data less model, over the error. */
+    /** difference of data and model over the error. */
     residual: (number | null)[];
   };
   units: Record<string, string>;
   sources: string[];
   approximations: string[];
   scene: Scene;
-  /** chi^2 over the number of data; null of a product that has none. */
+  /** chi^2 over the number of data; null for a product without data. */
   chi2: {
     amplitude: number | null;
     closure_phase: number | null;
     log_closure_amplitude: number | null;
   };
-  /** the same of a map 1.5 times as fine; null with check none. */
+  /** the same for a map 1.5 times as fine; null with check none. */
   chi2_finer: {
     amplitude: number | null;
     closure_phase: number | null;
@@ -1654,15 +1669,15 @@ export interface Comparison {
 
 export interface PlaygroundBody {
   name?: string;
-  /** in masses of the hole, at least 1e-30; 0: it pulls nothing; 0 to 1e+12. */
+  /** mass in units of the hole's mass, at least 1e-30; 0: a test body that attracts nothing; 0 to 1e+12. */
   mass?: number;
-  /** in M, at least 1e-30; 0: a point, which touches nothing and has no tides; 0 to 1000000. */
+  /** radius in M, at least 1e-30; 0: a point without collisions and tides; 0 to 1000000. */
   radius?: number;
-  /** of its surface; 0: it is dark; 0 to 10000000000. */
+  /** temperature of the surface in K; 0: dark; 0 to 10000000000. */
   temperature_k?: number;
   /** x, y, z in M; the hole is at the origin, its axis along z; up to 3. */
   position: number[];
-  /** in c, and in all no faster; up to 3. */
+  /** velocity in c; the speed must be at most 1; up to 3. */
   velocity?: number[];
 }
 
@@ -1670,115 +1685,119 @@ export interface PlaygroundBodyChange {
   /** 1 to 4294967295. */
   id: number;
   name?: string;
-  /** in masses of the hole, at least 1e-30; 0: it pulls nothing; 0 to 1e+12. */
+  /** mass in units of the hole's mass, at least 1e-30; 0: a test body that attracts nothing; 0 to 1e+12. */
   mass?: number;
-  /** in M, at least 1e-30; 0: a point, which touches nothing and has no tides; 0 to 1000000. */
+  /** radius in M, at least 1e-30; 0: a point without collisions and tides; 0 to 1000000. */
   radius?: number;
-  /** of its surface; 0: it is dark; 0 to 10000000000. */
+  /** temperature of the surface in K; 0: dark; 0 to 10000000000. */
   temperature_k?: number;
   /** x, y, z in M; the hole is at the origin, its axis along z; up to 3. */
   position?: number[];
-  /** in c, and in all no faster; up to 3. */
+  /** velocity in c; the speed must be at most 1; up to 3. */
   velocity?: number[];
 }
 
 export interface Playground {
-  /** M a second of the clock; a preset has one of its own; 0 to 1000000000. */
+  /** pace in M per second of real time; a preset has its own default; 0 to 1000000000. */
   rate?: number;
   /** default false. */
   paused?: boolean;
   scene?: Scene;
   /**
-   * the pull of the hole: a potential, in which bodies also pull one another; or exact geodesics of test bodies.
+   * gravity of the hole: a potential, in which bodies also attract one another, or exact geodesics of test
+   * bodies.
    */
   gravity?: 'paczynski-wiita' | 'kerr';
-  /** spin of the hole, which gravity "kerr" knows and the potential does not; -0.999 to 0.999. */
+  /** spin of the hole (gravity "kerr" only); -0.999 to 0.999. */
   spin?: number;
-  /** length in M within which the pull of bodies on one another is softened; 0.0001 to 1000. */
+  /** softening length in M of the bodies' mutual attraction; 0.0001 to 1000. */
   softening?: number;
-  /** longest sub-step in M; debris moves on so often; 1e-06 to 1000000. */
+  /** longest sub-step in M, and the interval at which debris is advanced; 1e-06 to 1000000. */
   h_max?: number;
-  /** C of the sub-step's bound C (r - 2), and of the same for two bodies; 0.0001 to 0.2. */
+  /** factor C of the limit C (r - 2) of the sub-step, and of the like limit for two bodies; 0.0001 to 0.2. */
   safety?: number;
   /**
-   * most sub-steps of one advance; when they are spent, less time has gone by than was asked for; 1 to 100000000.
+   * limit of the sub-steps of one advance; if it is reached, the advance is shorter than requested; 1 to
+   * 100000000.
    */
   budget?: number;
-  /** bodies that touch become one. */
+  /** bodies that touch merge. */
   mergers?: boolean;
   /** the hole's tide sheds a star's mass, and tears it apart. */
   tides?: boolean;
   /** bodies lose energy to gravitational waves. */
   waves?: boolean;
-  /** by how much that loss is exaggerated; 1 is the real one; 0 to 1000000000. */
+  /** factor on that loss; 1: the physical value; 0 to 1000000000. */
   amplification?: number;
-  /** debris that has come back is counted and leaves, as part of the disk; else it goes on. */
+  /** debris that has returned is counted as accreted and removed; otherwise it moves on. */
   feeds?: boolean;
-  /** pieces of debris there may be; a new one takes the place of the oldest; 0 to 1000000. */
+  /** largest number of pieces of debris; beyond it, a new piece replaces the oldest; 0 to 1000000. */
   debris_capacity?: number;
   /** pieces that a body falls into when it is torn apart; 16 to 1000000. */
   debris_per_body?: number;
-  /** temperature in K of the black body that debris shines as in pictures; 300 to 1000000000. */
+  /** temperature in K of the debris, a black body in pictures; 300 to 1000000000. */
   debris_temperature_k?: number;
   /** optical depth in pictures of the debris of one body, spread over 1000 M^2; 0 to 1000000. */
   debris_depth?: number;
-  /** share of the disk's light that bodies throw back in pictures; 0: that is not looked for; 0 to 1. */
+  /** share of the disk's light that bodies reflect in pictures; 0: reflection is not computed; 0 to 1. */
   albedo?: number;
-  /** of the directions that debris takes; 0 to 4294967295. */
+  /** seed of the random directions of debris; 0 to 4294967295. */
   seed?: number;
   preset?: 'disruption' | 'white-dwarf' | 'system' | 'binary' | 'emri' | 'swarm' | 'figure-eight';
   /** up to 4096. */
   bodies?: PlaygroundBody[];
   /**
-   * of a snapshot: all that the motion depends on besides. To be given back as it came: it differs between
-   * versions.
+   * further state of a snapshot, on which the motion depends. Return it unchanged; its form depends on the
+   * version.
    */
   state?: Record<string, unknown>;
 }
 
 export interface PlaygroundChange {
-  /** M a second of the clock; a preset has one of its own; 0 to 1000000000. */
+  /** pace in M per second of real time; a preset has its own default; 0 to 1000000000. */
   rate?: number;
   /** default false. */
   paused?: boolean;
   scene?: Scene;
   /**
-   * the pull of the hole: a potential, in which bodies also pull one another; or exact geodesics of test bodies.
+   * gravity of the hole: a potential, in which bodies also attract one another, or exact geodesics of test
+   * bodies.
    */
   gravity?: 'paczynski-wiita' | 'kerr';
-  /** spin of the hole, which gravity "kerr" knows and the potential does not; -0.999 to 0.999. */
+  /** spin of the hole (gravity "kerr" only); -0.999 to 0.999. */
   spin?: number;
-  /** length in M within which the pull of bodies on one another is softened; 0.0001 to 1000. */
+  /** softening length in M of the bodies' mutual attraction; 0.0001 to 1000. */
   softening?: number;
-  /** longest sub-step in M; debris moves on so often; 1e-06 to 1000000. */
+  /** longest sub-step in M, and the interval at which debris is advanced; 1e-06 to 1000000. */
   h_max?: number;
-  /** C of the sub-step's bound C (r - 2), and of the same for two bodies; 0.0001 to 0.2. */
+  /** factor C of the limit C (r - 2) of the sub-step, and of the like limit for two bodies; 0.0001 to 0.2. */
   safety?: number;
   /**
-   * most sub-steps of one advance; when they are spent, less time has gone by than was asked for; 1 to 100000000.
+   * limit of the sub-steps of one advance; if it is reached, the advance is shorter than requested; 1 to
+   * 100000000.
    */
   budget?: number;
-  /** bodies that touch become one. */
+  /** bodies that touch merge. */
   mergers?: boolean;
   /** the hole's tide sheds a star's mass, and tears it apart. */
   tides?: boolean;
   /** bodies lose energy to gravitational waves. */
   waves?: boolean;
-  /** by how much that loss is exaggerated; 1 is the real one; 0 to 1000000000. */
+  /** factor on that loss; 1: the physical value; 0 to 1000000000. */
   amplification?: number;
-  /** debris that has come back is counted and leaves, as part of the disk; else it goes on. */
+  /** debris that has returned is counted as accreted and removed; otherwise it moves on. */
   feeds?: boolean;
-  /** pieces of debris there may be; a new one takes the place of the oldest; 0 to 1000000. */
+  /** largest number of pieces of debris; beyond it, a new piece replaces the oldest; 0 to 1000000. */
   debris_capacity?: number;
   /** pieces that a body falls into when it is torn apart; 16 to 1000000. */
   debris_per_body?: number;
-  /** temperature in K of the black body that debris shines as in pictures; 300 to 1000000000. */
+  /** temperature in K of the debris, a black body in pictures; 300 to 1000000000. */
   debris_temperature_k?: number;
   /** optical depth in pictures of the debris of one body, spread over 1000 M^2; 0 to 1000000. */
   debris_depth?: number;
-  /** share of the disk's light that bodies throw back in pictures; 0: that is not looked for; 0 to 1. */
+  /** share of the disk's light that bodies reflect in pictures; 0: reflection is not computed; 0 to 1. */
   albedo?: number;
-  /** of the directions that debris takes; 0 to 4294967295. */
+  /** seed of the random directions of debris; 0 to 4294967295. */
   seed?: number;
   /** up to 4096. */
   add?: PlaygroundBody[];
@@ -1813,8 +1832,8 @@ export interface PlaygroundSettings {
 }
 
 /**
- * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
- * clock.
+ * lengths and times in M, masses and energies in units of the hole's mass, speeds in c; rates in M per second
+ * of real time.
  */
 export interface PlaygroundBodyState {
   /** at least 1. */
@@ -1830,8 +1849,8 @@ export interface PlaygroundBodyState {
 }
 
 /**
- * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
- * clock.
+ * lengths and times in M, masses and energies in units of the hole's mass, speeds in c; rates in M per second
+ * of real time.
  */
 export interface PlaygroundTotals {
   mass: number;
@@ -1845,8 +1864,8 @@ export interface PlaygroundTotals {
 }
 
 /**
- * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
- * clock.
+ * lengths and times in M, masses and energies in units of the hole's mass, speeds in c; rates in M per second
+ * of real time.
  */
 export interface PlaygroundSpent {
   captured_mass: number;
@@ -1863,8 +1882,8 @@ export interface PlaygroundSpent {
 }
 
 /**
- * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
- * clock.
+ * lengths and times in M, masses and energies in units of the hole's mass, speeds in c; rates in M per second
+ * of real time.
  */
 export interface PlaygroundSource {
   /** at least 0. */
@@ -1884,8 +1903,8 @@ export interface PlaygroundSource {
 }
 
 /**
- * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
- * clock.
+ * lengths and times in M, masses and energies in units of the hole's mass, speeds in c; rates in M per second
+ * of real time.
  */
 export interface PlaygroundDebris {
   t: number;
@@ -1895,8 +1914,8 @@ export interface PlaygroundDebris {
 }
 
 /**
- * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
- * clock.
+ * lengths and times in M, masses and energies in units of the hole's mass, speeds in c; rates in M per second
+ * of real time.
  */
 export interface PlaygroundStatus {
   id: string;
@@ -1956,8 +1975,8 @@ export interface PlaygroundCatalogue {
 }
 
 /**
- * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
- * clock.
+ * lengths and times in M, masses and energies in units of the hole's mass, speeds in c; rates in M per second
+ * of real time.
  */
 export interface PlaygroundColumns {
   t: (number | null)[];
@@ -1981,8 +2000,8 @@ export interface PlaygroundSeries {
 }
 
 /**
- * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
- * clock.
+ * lengths and times in M, masses and energies in units of the hole's mass, speeds in c; rates in M per second
+ * of real time.
  */
 export interface PlaygroundHappened {
   /** at least 0. */
@@ -2005,8 +2024,8 @@ export interface PlaygroundHappened {
 }
 
 /**
- * lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the
- * clock.
+ * lengths and times in M, masses and energies in units of the hole's mass, speeds in c; rates in M per second
+ * of real time.
  */
 export interface PlaygroundTick {
   /** at least 0. */
@@ -2039,9 +2058,9 @@ export interface PlaygroundTick {
 }
 
 export interface Asset {
-  /** of the bytes; what a scene names. */
+  /** SHA-256 of the bytes; the name of the asset in a scene. */
   sha256: string;
-  /** deletes it. */
+  /** token that deletes the asset. */
   token?: string;
   type: 'image/png' | 'application/x-npz' | 'application/x-uvfits' | 'text/csv';
   /** at least 0. */
@@ -2056,9 +2075,9 @@ export interface Asset {
   bytes: number;
   /** seconds since 1970. */
   created: number;
-  /** in r, theta and phi; up to 3. */
+  /** numbers of nodes in r, theta and phi; up to 3. */
   nodes?: number[];
-  /** of the hole that it is made for. */
+  /** spin of the hole that the grid is for. */
   spin?: number;
   /** at least 0. */
   visibilities?: number;
@@ -2333,7 +2352,7 @@ export interface AccuracyTable {
   rows: AccuracyRow[];
 }
 
-/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+/** lengths and times in M, angles in radians; frequencies relative to those that the observer measures. */
 export interface RayConstants {
   alpha: number;
   beta: number;
@@ -2345,7 +2364,7 @@ export interface RayConstants {
   outward: boolean;
 }
 
-/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+/** lengths and times in M, angles in radians; frequencies relative to those that the observer measures. */
 export interface RayRadial {
   case: 'I' | 'II' | 'III' | 'IV';
   /** at least 0. */
@@ -2355,7 +2374,7 @@ export interface RayRadial {
   turning_r: number | null;
 }
 
-/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+/** lengths and times in M, angles in radians; frequencies relative to those that the observer measures. */
 export interface RayPolar {
   case: 'ordinary' | 'vortical' | 'fixed';
   roots: number[];
@@ -2376,14 +2395,14 @@ export interface PixelGlow {
   points?: boolean;
 }
 
-/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+/** lengths and times in M, angles in radians; frequencies relative to those that the observer measures. */
 export interface PixelPictured {
   r: number;
   g: number;
   footprint?: number;
 }
 
-/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+/** lengths and times in M, angles in radians; frequencies relative to those that the observer measures. */
 export interface PixelCrossing {
   /** at least 0. */
   order: number;
@@ -2415,7 +2434,7 @@ export interface PixelVolume {
   optical_depth: number | null;
 }
 
-/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+/** lengths and times in M, angles in radians; frequencies relative to those that the observer measures. */
 export interface PixelStretch {
   /** at least 0. */
   order: number;
@@ -2431,7 +2450,7 @@ export interface PixelStretch {
   optical_depth: number | null;
 }
 
-/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+/** lengths and times in M, angles in radians; frequencies relative to those that the observer measures. */
 export interface PixelAlong {
   names: string[];
   /** at least 0. */
@@ -2447,7 +2466,7 @@ export interface PixelAlong {
   stretches?: PixelStretch[];
 }
 
-/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+/** lengths and times in M, angles in radians; frequencies relative to those that the observer measures. */
 export interface PixelMet {
   name:
     | 'disk' | 'particles' | 'plunge' | 'spots' | 'ringdown' | 'sky' | 'gas' | 'volume' | 'jets' | 'thick' | 'bodies'
@@ -2470,7 +2489,7 @@ export interface PixelMet {
   through: number;
 }
 
-/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+/** lengths and times in M, angles in radians; frequencies relative to those that the observer measures. */
 export interface PixelPolarization {
   /** up to 4. */
   stokes: number[];
@@ -2478,7 +2497,7 @@ export interface PixelPolarization {
   polarization_fraction: number | null;
 }
 
-/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+/** lengths and times in M, angles in radians; frequencies relative to those that the observer measures. */
 export interface PixelEnd {
   fate: 'captured' | 'escaped' | 'undecided';
   why: string;
@@ -2491,7 +2510,7 @@ export interface PixelEnd {
   emitters: PixelGlow[];
 }
 
-/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+/** lengths and times in M, angles in radians; frequencies relative to those that the observer measures. */
 export interface PixelPath {
   /** at least 0. */
   steps: number;
@@ -2540,7 +2559,7 @@ export interface PixelColour {
   exposure: number;
 }
 
-/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+/** lengths and times in M, angles in radians; frequencies relative to those that the observer measures. */
 export interface PixelRay {
   /** up to 2. */
   ray_at: number[];
@@ -2562,7 +2581,7 @@ export interface PixelRay {
   picture: number | null;
 }
 
-/** lengths and times in M, angles in radians; frequencies over those that the observer measures. */
+/** lengths and times in M, angles in radians; frequencies relative to those that the observer measures. */
 export interface Pixel {
   /** up to 2. */
   ray_at: number[];
@@ -2749,9 +2768,9 @@ export interface Problem {
   /** 400 to 599. */
   status: number;
   detail: string;
-  /** into the request (RFC 6901). */
+  /** JSON pointer into the request (RFC 6901). */
   pointer?: string;
-  /** media types that would do. */
+  /** accepted media types. */
   offered?: string;
   /** as in the header X-Request-Id. */
   request_id?: string;
@@ -2772,8 +2791,8 @@ export interface SceneQuery {
    */
   'spacetime.mass_msun'?: number;
   /**
-   * angular diameter distance of the hole; with the mass it gives the width of a picture on the sky, which a beam
-   * and a scale bar need; in pc; 0.001 to 100000000000; default 260000.
+   * angular diameter distance of the hole; with the mass it determines the width of a picture on the sky, for a
+   * beam and a scale bar; in pc; 0.001 to 100000000000; default 260000.
    */
   'spacetime.distance_pc'?: number;
   /** Boyer-Lindquist radius of the observer; in M; 0.01 to 10000000; default "infinity". */
@@ -2790,10 +2809,10 @@ export interface SceneQuery {
   'camera.azimuth_deg'?: number;
   /**
    * state of motion at a finite radius; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
-   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
-   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
-   * momentum; default "static".
+   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+   * "static".
    */
   'camera.observer'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -2828,10 +2847,10 @@ export interface SceneQuery {
   'camera.infall_momentum'?: number;
   /**
    * plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: angle round
-   * the critical curve against the logarithm of the distance to it, at infinity only; equirectangular: all
-   * directions from a finite radius, longitude across and latitude upwards; fulldome: the angle from the middle
-   * as the distance from it, 90 degrees at the nearer edges, from a finite radius; auto: plane or pinhole,
-   * whichever fits camera.r; default "auto".
+   * the critical curve by the logarithm of the distance to it, at infinity only; equirectangular: all directions
+   * from a finite radius, longitude to the right and latitude upwards; fulldome: the angle from the middle as
+   * distance, 90 degrees at the nearer edges, from a finite radius; auto: plane at infinity, otherwise pinhole;
+   * default "auto".
    */
   'camera.projection'?: 'auto' | 'plane' | 'pinhole' | 'ring' | 'equirectangular' | 'fulldome';
   /** width of the image plane (plane projection); in M; 1e-06 to 10000000; default 46. */
@@ -2881,7 +2900,7 @@ export interface SceneQuery {
    * exact flux, as orbiting particles; default "novikov-thorne".
    */
   'disk.model'?: 'none' | 'novikov-thorne' | 'shakura-sunyaev' | 'particles';
-  /** inner edge; never inside the ISCO; in M; 1 to 1000000; default "isco". */
+  /** inner edge; at least the ISCO; in M; 1 to 1000000; default "isco". */
   'disk.inner'?: 'isco' | number;
   /** outer edge; larger than the inner one; in M; 1 to 1000000; default 22. */
   'disk.outer'?: number;
@@ -2958,8 +2977,8 @@ export interface SceneQuery {
    */
   'disk.epicycles'?: number;
   /**
-   * show particles, gas and spots where they were when each ray's light left them, instead of all at one
-   * coordinate time; default false.
+   * show particles, gas and spots at the time when the light of each ray left them, instead of at one coordinate
+   * time; default false.
    */
   'disk.slow_light'?: boolean;
   /**
@@ -2983,7 +3002,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.0.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.0.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.0.phase_deg'?: number;
@@ -3004,7 +3023,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.1.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.1.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.1.phase_deg'?: number;
@@ -3025,7 +3044,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.2.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.2.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.2.phase_deg'?: number;
@@ -3046,7 +3065,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.3.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.3.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.3.phase_deg'?: number;
@@ -3067,7 +3086,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.4.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.4.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.4.phase_deg'?: number;
@@ -3088,7 +3107,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.5.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.5.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.5.phase_deg'?: number;
@@ -3109,7 +3128,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.6.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.6.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.6.phase_deg'?: number;
@@ -3130,7 +3149,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.7.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.7.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.7.phase_deg'?: number;
@@ -3151,7 +3170,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.8.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.8.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.8.phase_deg'?: number;
@@ -3172,7 +3191,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.9.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.9.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.9.phase_deg'?: number;
@@ -3193,7 +3212,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.10.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.10.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.10.phase_deg'?: number;
@@ -3214,7 +3233,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.11.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.11.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.11.phase_deg'?: number;
@@ -3235,7 +3254,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.12.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.12.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.12.phase_deg'?: number;
@@ -3256,7 +3275,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.13.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.13.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.13.phase_deg'?: number;
@@ -3277,7 +3296,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.14.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.14.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.14.phase_deg'?: number;
@@ -3298,7 +3317,7 @@ export interface SceneQuery {
    * to 1000000; default 0.
    */
   'spots.15.brightness'?: number;
-  /** radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9. */
+  /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
   'spots.15.r'?: number;
   /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
   'spots.15.phase_deg'?: number;
@@ -3332,12 +3351,12 @@ export interface SceneQuery {
    */
   'bodies.0.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
-   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
-   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
-   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
-   * momentum; default "keplerian".
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+   * "keplerian".
    */
   'bodies.0.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -3387,12 +3406,12 @@ export interface SceneQuery {
    */
   'bodies.1.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
-   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
-   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
-   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
-   * momentum; default "keplerian".
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+   * "keplerian".
    */
   'bodies.1.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -3442,12 +3461,12 @@ export interface SceneQuery {
    */
   'bodies.2.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
-   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
-   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
-   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
-   * momentum; default "keplerian".
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+   * "keplerian".
    */
   'bodies.2.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -3497,12 +3516,12 @@ export interface SceneQuery {
    */
   'bodies.3.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
-   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
-   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
-   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
-   * momentum; default "keplerian".
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+   * "keplerian".
    */
   'bodies.3.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -3552,12 +3571,12 @@ export interface SceneQuery {
    */
   'bodies.4.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
-   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
-   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
-   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
-   * momentum; default "keplerian".
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+   * "keplerian".
    */
   'bodies.4.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -3607,12 +3626,12 @@ export interface SceneQuery {
    */
   'bodies.5.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
-   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
-   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
-   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
-   * momentum; default "keplerian".
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+   * "keplerian".
    */
   'bodies.5.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -3662,12 +3681,12 @@ export interface SceneQuery {
    */
   'bodies.6.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
-   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
-   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
-   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
-   * momentum; default "keplerian".
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+   * "keplerian".
    */
   'bodies.6.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -3717,12 +3736,12 @@ export interface SceneQuery {
    */
   'bodies.7.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the
-   * last two in the disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
-   * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; infall: in
-   * free fall, by default from rest at infinity; velocity: with any velocity past the one of zero angular
-   * momentum; default "keplerian".
+   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+   * "keplerian".
    */
   'bodies.7.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -3755,16 +3774,14 @@ export interface SceneQuery {
    */
   'bodies.7.limb_darkening'?: number;
   /**
-   * matter all along the rays: none; uniform, a shell that is the same everywhere and does not move: what light
-   * and opacity along bent rays come to; at one radio frequency gold, the analytic model of Gold et al. 2020,
-   * riaf, a hot, thin flow whose density, temperature and magnetic field are powers of r, torus, a thick one in
-   * equilibrium, and grid, numbers from a file; default "none".
+   * matter along the rays. none; uniform: a homogeneous shell at rest. At one radio frequency: gold, the analytic
+   * model of Gold et al. 2020; riaf, a hot, thin flow whose density, temperature and magnetic field are powers of
+   * r; torus, a thick disk in equilibrium; grid, numbers from a file; default "none".
    */
   'volume.model'?: 'none' | 'uniform' | 'gold' | 'riaf' | 'torus' | 'grid';
   /**
-   * inner edge; horizon: as near to it as it may be, a hundredth outside it, or a two-thousandth for what is seen
-   * at a radio frequency; of a torus half of the radius of its largest pressure; in M; 1 to 30000; default
-   * "horizon".
+   * inner edge; horizon: as close to it as possible, which is 1 % outside it, or 0.05 % for the models at a radio
+   * frequency; for a torus half of volume.torus_radius; in M; 1 to 30000; default "horizon".
    */
   'volume.inner'?: 'horizon' | number;
   /** outer edge of the matter; larger than the inner edge; in M; 1 to 30000; default 20. */
@@ -3807,8 +3824,8 @@ export interface SceneQuery {
   /** h: density goes as exp(-(h cos(theta))^2/2); 0: round (model: gold); 0 to 10000; default 0. */
   'volume.gold_flattening'?: number;
   /**
-   * l0: angular momentum, l0 R^(3/2)/(1 + R) an energy of 1, R = r sin(theta); 0: zero angular momentum (model:
-   * gold); -1 to 1; default 0.
+   * l0: angular momentum over energy is l0 R^(3/2)/(1 + R) with R = r sin(theta); 0: zero angular momentum
+   * (model: gold); -1 to 1; default 0.
    */
   'volume.gold_momentum'?: number;
   /**
@@ -3840,13 +3857,13 @@ export interface SceneQuery {
   /** p: magnetisation is proportional to r^-p (model: riaf); -10 to 10; default 1. */
   'volume.magnetisation_index'?: number;
   /**
-   * magnetic field: round the axis, along it, or along the radius, made perpendicular to the motion (models:
-   * riaf, torus); default "toroidal".
+   * direction of the magnetic field: round the axis, along it, or radial; its part along the motion is removed
+   * (models: riaf, torus); default "toroidal".
    */
   'volume.field'?: 'toroidal' | 'vertical' | 'radial';
   /**
-   * motion: with the circular orbit's angular velocity at each r, and falling in from the ISCO; or at rest for
-   * observers of zero angular momentum (model: riaf); default "orbits".
+   * motion: with the angular velocity of the circular orbit at each r, and in free fall inside the ISCO; or at
+   * rest for observers of zero angular momentum (model: riaf); default "orbits".
    */
   'volume.flow'?: 'orbits' | 'rest';
   /**
@@ -3878,9 +3895,9 @@ export interface SceneQuery {
    */
   'volume.gamma_max'?: number;
   /**
-   * flux that the picture must have: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a
-   * number that it finds with small pictures, and reports it; 0: no change (models: gold, riaf, torus, grid); in
-   * Jy; 0 to 1e+12; default 0.
+   * flux of the picture: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a number that
+   * it determines with small pictures, and reports this number; 0: no change (models: gold, riaf, torus, grid);
+   * in Jy; 0 to 1e+12; default 0.
    */
   'volume.normalise_to_jy'?: number;
   /** frequency of that flux; observed: volume.frequency_ghz; in GHz; 1e-06 to 1e+12; default "observed". */
@@ -3911,9 +3928,9 @@ export interface SceneQuery {
   /** include the jet below the disk; default true. */
   'jets.counterjet'?: boolean;
   /**
-   * of light from the disk's plane: none; synchrotron, across polarization.field and the light, in the gas's
-   * frame; or scattering, of a deep atmosphere of free electrons, across the normal and the light; transfer: of a
-   * volume at a radio frequency, Stokes I, Q, U and V all along the rays; default "none".
+   * polarisation. none. Of light from the disk's plane: synchrotron, perpendicular to polarization.field and the
+   * ray in the gas's frame; scattering, in a deep atmosphere of free electrons, perpendicular to the normal and
+   * the ray. transfer: of a volume at a radio frequency, Stokes I, Q, U and V along the rays; default "none".
    */
   'polarization.model'?: 'none' | 'synchrotron' | 'scattering' | 'transfer';
   /**
@@ -3926,7 +3943,7 @@ export interface SceneQuery {
    * 7/3) (model: synchrotron); 1 to 10; default 3.
    */
   'polarization.electron_index'?: number;
-  /** share of that polarisation which remains when the field is disordered within a pixel; 0 to 1; default 1. */
+  /** factor on that polarisation for a field that is disordered within a pixel; 0 to 1; default 1. */
   'polarization.order'?: number;
   /**
    * include Faraday rotation, and conversion between linear and circular polarisation, by the electrons (model:
@@ -3939,33 +3956,33 @@ export interface SceneQuery {
    */
   'polarization.rotation'?: 'shcherbakov' | 'dexter';
   /**
-   * what lies at infinity: nothing; a celestial grid that shows the lensing; stars and a Milky Way that are made
-   * up; the stars of the Hipparcos catalogue over that Milky Way; or sky.image without stars; default "none".
+   * sky at infinity: none; a celestial grid that shows the lensing; generated stars and a generated Milky Way;
+   * the stars of the Hipparcos catalogue over that Milky Way; or sky.image without stars; default "none".
    */
   'sky.model'?: 'none' | 'grid' | 'stars' | 'catalogue' | 'image';
   /**
-   * brightness of the sky in units of the disk's brightest surface brightness at g = 1: of the grid; of 21
-   * magnitudes a square arcsecond, by which stars and the Milky Way keep their true ratio; auto: 0.2, or 0.01 of
-   * stars and the Milky Way where something shines before them; 0 to 100; default "auto".
+   * brightness of the sky in units of the disk's brightest surface brightness at g = 1: that of the grid, or of
+   * 21 magnitudes per square arcsecond for stars and the Milky Way, whose ratio is real; auto: 0.2, or 0.01 for
+   * stars and the Milky Way behind something that shines; 0 to 100; default "auto".
    */
   'sky.brightness'?: 'auto' | number;
   /** spacing of the celestial grid; in degrees; 1 to 90; default 15. */
   'sky.grid_deg'?: number;
-  /** brightness of the Milky Way, or of sky.image, over its natural one; 0: stars alone; 0 to 100; default 1. */
+  /** factor on the natural brightness of the Milky Way or of sky.image; 0: only stars; 0 to 100; default 1. */
   'sky.milky_way'?: number;
   /**
-   * picture of the whole sky in the place of the Milky Way that is made up (model: stars, catalogue, image):
-   * twice as wide as high, galactic longitude across, growing to the left from 0 in the middle, latitude upwards;
-   * its white is 21 magnitudes a square arcsecond; default null.
+   * picture of the whole sky instead of the generated Milky Way (model: stars, catalogue, image): twice as wide
+   * as high, with galactic longitude 0 in the middle and rising to the left, latitude rising upwards; its white
+   * is 21 magnitudes per square arcsecond; default null.
    */
   'sky.image'?: null | string;
-  /** stars fainter than this are left out; in magnitudes; -2 to 14; default 14. */
+  /** magnitude of the faintest stars; in magnitudes; -2 to 14; default 14. */
   'sky.limit_mag'?: number;
   /** seed of the random numbers: another seed gives another generated sky; 0 to 2147483647; default 1. */
   'sky.seed'?: number;
   /**
    * galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra,
-   * m87: from azimuth 0 the hole stands before that one, as seen from the Earth, with the galactic or the
+   * m87: seen from azimuth 0 the hole is in front of that source as seen from the Earth, with the galactic or the
    * celestial pole above; default "galactic".
    */
   'sky.orientation'?: 'galactic' | 'equatorial' | 'sgra' | 'm87';
@@ -3975,8 +3992,8 @@ export interface SceneQuery {
    */
   'sky.turn_deg'?: number;
   /**
-   * then, rotation of the sky about the horizontal axis of the picture from azimuth 0; in degrees; -180 to 180;
-   * default 0.
+   * a second rotation of the sky, about the horizontal axis of the picture from azimuth 0; in degrees; -180 to
+   * 180; default 0.
    */
   'sky.tilt_deg'?: number;
   /** width of the picture; in pixels; 1 to 32768; default 1280. */
@@ -3984,8 +4001,8 @@ export interface SceneQuery {
   /** height of the picture; in pixels; 1 to 32768; default 720. */
   'image.height'?: number;
   /**
-   * rays along each side of a pixel: n gives n x n rays, averaged; auto: one, and 16 where the picture shows that
-   * one was not enough; 1 to 8; default 1.
+   * rays along each side of a pixel: n gives the mean of n x n rays; auto: one ray, and 16 for pixels that differ
+   * from their neighbours; 1 to 8; default 1.
    */
   'image.samples'?: 'auto' | number;
   /**
@@ -4001,9 +4018,9 @@ export interface SceneQuery {
   /** bits a channel: 8 or 16; in bits; 8 to 16; default 8. */
   'image.bit_depth'?: number;
   /**
-   * what the file holds: the picture, or maps of the rays (docs/layers.md); of the first crossing on the disk, or
-   * behind _N of image order N; a PNG shows one in false colour, FITS, EXR, NPZ and NPY hold several as numbers;
-   * up to 16; default ["rgb"].
+   * contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing on the disk,
+   * or with the suffix _N for image order N; a PNG shows one map in false colour, FITS, EXR, NPZ and NPY have
+   * several as numbers; up to 16; default ["rgb"].
    */
   'image.layers'?: string[];
   /**
@@ -4026,14 +4043,12 @@ export interface SceneQuery {
   'image.tile.width'?: number;
   /** height of the tile; 0: no tile, the whole picture is rendered; in pixels; 0 to 32768; default 0. */
   'image.tile.height'?: number;
-  /**
-   * style that sets all fields of the look, except those that the document sets itself; none: no style; default
-   * "film".
-   */
+  /** style that sets all fields of the look, except those in the document; none: no style; default "film". */
   'style.name'?: 'none' | 'film' | 'raw' | 'dngr' | 'eht' | 'starless';
   /**
-   * brightness as a power of two over the disk's brightest surface brightness at g = 1; auto: by what shines, and
-   * stars alone no further than that space is black; in stops; -40 to 40; default "auto".
+   * exposure as a power of two, relative to the disk's brightest surface brightness at g = 1; auto: from the
+   * light in the picture, limited for stars alone so that empty space is black; in stops; -40 to 40; default
+   * "auto".
    */
   'style.exposure'?: 'auto' | number;
   /**
@@ -4047,8 +4062,8 @@ export interface SceneQuery {
    */
   'style.bloom'?: number;
   /**
-   * full width at half maximum of the round Gaussian beam of a telescope that sees the picture from
-   * spacetime.distance_pc; 0: none; in microarcseconds; 0 to 1e+12; default 0.
+   * full width at half maximum of a round Gaussian telescope beam, seen from spacetime.distance_pc; 0: none; in
+   * microarcseconds; 0 to 1e+12; default 0.
    */
   'style.beam_uas'?: number;
   /**
@@ -4064,13 +4079,13 @@ export interface SceneQuery {
   /** add half a step of ordered noise before rounding, against banding; default true. */
   'style.dither'?: boolean;
   /**
-   * a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * e^(-t/tau)
-   * cos(w t), with the hole's quasi-normal mode l = m = 2, n = 0; 0: none; 0 to 1; default 0.
+   * illustration of a struck hole: light of image orders 1 and up is multiplied by 1 + ringdown e^(-t/tau) cos(w
+   * t), with the hole's quasi-normal mode l = m = 2, n = 0; 0: none; 0 to 1; default 0.
    */
   'style.ringdown'?: number;
-  /** time at which the hole was struck; before it nothing rings; in M; -1e+12 to 1e+12; default 0. */
+  /** time at which the hole was struck, and the ringing begins; in M; -1e+12 to 1e+12; default 0. */
   'style.ringdown_time'?: number;
-  /** the source on the sky that the hole stands for; default "none". */
+  /** the source on the sky that the hole represents; default "none". */
   'source.name'?: 'none' | 'm87' | 'sgra';
   /** right ascension of the hole (ICRS); in degrees; 0 to 360; default 0. */
   'source.ra_deg'?: number;
@@ -4080,11 +4095,11 @@ export interface SceneQuery {
   'source.mjd'?: 'none' | number;
   /** rate at which the observer goes round the axis; in degrees per second; -360 to 360; default 0. */
   'motion.azimuth_rate_deg'?: number;
-  /** rate at which coordinate time goes on; in M per second; -1000000 to 1000000; default 0. */
+  /** rate of coordinate time; in M per second; -1000000 to 1000000; default 0. */
   'motion.time_rate'?: number;
   /**
-   * rate of the observer's own clock: it falls, to the last place a camera can be at, or goes round; coordinate
-   * time goes on accordingly; in M per second; 0 to 1000000; default 0.
+   * rate of the observer's proper time: the observer falls, to the last possible position, or orbits; coordinate
+   * time follows; in M per second; 0 to 1000000; default 0.
    */
   'motion.proper_time_rate'?: number;
   /**
@@ -4092,18 +4107,18 @@ export interface SceneQuery {
    */
   'accuracy.profile'?: 'draft' | 'interactive' | 'balanced' | 'high' | 'reference';
   /**
-   * largest relative error of the crossing radii, by the accuracy table of the device; profile: what the profile
-   * means; 1e-18 to 0.1; default "profile".
+   * largest relative error of the crossing radii, by the accuracy table of the device; profile: the error of
+   * accuracy.profile; 1e-18 to 0.1; default "profile".
    */
   'accuracy.tolerance'?: 'profile' | number;
   /**
-   * method that traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6; default
+   * method that traces the rays; auto: the closed form outside the photon orbits, otherwise mino-rkn6; default
    * "auto".
    */
   'accuracy.engine'?: 'auto' | 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
-  /** precision of the arithmetic; auto: what the profile means; default "auto". */
+  /** precision of the arithmetic; auto: chosen by accuracy.profile; default "auto". */
   'accuracy.precision'?: 'auto' | 'f32' | 'f64';
-  /** integrator steps for a half turn, a multiple of 4; 0: what the profile means; 0 to 2048; default 0. */
+  /** integrator steps for a half turn, a multiple of 4; 0: chosen by accuracy.profile; 0 to 2048; default 0. */
   'accuracy.steps'?: number;
   /** equatorial crossings kept for each ray: image orders 0 to n - 1; 1 to 8; default 3. */
   'accuracy.orders'?: number;
@@ -4126,7 +4141,7 @@ export interface Operations {
       };
     };
   };
-  /** 200 while renders are taken, 503 on the way down. */
+  /** 200 while renders are accepted, 503 during shutdown. */
   'GET /readyz': {
     takes: {};
     gives: {
@@ -4174,7 +4189,7 @@ export interface Operations {
       'application/json': Scene;
     };
   };
-  /** A small picture of a preset, 192 by 120 pixels, rendered when it is first asked for and then kept. */
+  /** A small picture of a preset, 192 by 120 pixels, rendered at the first request and then cached. */
   'GET /v1/presets/{name}/thumbnail.png': {
     takes: {
       path: {
@@ -4200,8 +4215,7 @@ export interface Operations {
     };
   };
   /**
-   * What a scene requires: passes, rays, bytes, estimated time, approximations; or, with axes, what all scenes of
-   * a sweep take together.
+   * Cost of a scene: passes, rays, bytes, estimated time, approximations; with axes, the total cost of a sweep.
    */
   'POST /v1/plan': {
     takes: {
@@ -4224,80 +4238,80 @@ export interface Operations {
   'POST /v1/rays': {
     takes: {
       query?: {
-        /** of the hole, a/M; -1 to 1. */
+        /** spin of the hole, a/M; -1 to 1. */
         spin?: number;
-        /** from which the rays are followed back, M: outside the horizon; 1 to 10000000. */
+        /** radius of the observer, M; outside the horizon; 1 to 10000000. */
         r?: 'infinity' | number;
-        /** from the hole's axis; 0 to 180. */
+        /** polar angle of the observer, from the hole's axis; 0 to 180. */
         inclination_deg?: number;
         /**
-         * as camera.observer of a scene, at a finite r: rays are then directions in the observer's frame, [yaw, pitch]
-         * in degrees.
+         * motion of an observer at a finite r, as camera.observer of a scene; a ray is then a direction in the
+         * observer's frame, [yaw, pitch] in degrees.
          */
         motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-        /** motion velocity: as camera.velocity_r; -1 to 1. */
+        /** as camera.velocity_r (motion: velocity); -1 to 1. */
         velocity_r?: number;
-        /** motion velocity: as camera.velocity_theta; -1 to 1. */
+        /** as camera.velocity_theta (motion: velocity); -1 to 1. */
         velocity_theta?: number;
-        /** motion velocity: as camera.velocity_phi; -1 to 1. */
+        /** as camera.velocity_phi (motion: velocity); -1 to 1. */
         velocity_phi?: number;
-        /** motion infall: as camera.infall_from, M; 1 to 10000000. */
+        /** as camera.infall_from, M (motion: infall); 1 to 10000000. */
         infall_from?: 'infinity' | number;
-        /** motion infall: as camera.infall_energy; -100 to 1000. */
+        /** as camera.infall_energy (motion: infall); -100 to 1000. */
         infall_energy?: 'rest' | number;
-        /** motion infall: as camera.infall_momentum, M; -10000 to 10000. */
+        /** as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
         infall_momentum?: number;
-        /** crossings of the equatorial plane that are wanted; 1 to 16. */
+        /** number of equatorial crossings in the answer; 1 to 16. */
         orders?: number;
-        /** as in a scene; without it, and without an engine, the closed form. */
+        /** as accuracy.profile of a scene; without profile and engine, the closed form is used. */
         profile?: 'draft' | 'interactive' | 'balanced' | 'high' | 'reference';
-        /** relative error of the crossing radii to be held, instead of the profile; 0 to 1. */
+        /** largest relative error of the crossing radii, instead of the profile; 0 to 1. */
         tolerance?: 'profile' | number;
-        /** auto: by profile or tolerance. */
+        /** method that traces the rays; auto: by profile or tolerance. */
         engine?: 'auto' | 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
-        /** of the arithmetic; the closed form has f64 alone. */
+        /** precision of the arithmetic; the closed form has only f64. */
         precision?: 'auto' | 'f32' | 'f64';
-        /** a half period of the radial motion; some engines take fewer; 0 to 2048. */
+        /** integrator steps for a half period of the radial motion; some engines take fewer; 0 to 2048. */
         steps?: number;
       };
       body: RaysRequest;
       type?: 'application/json';
     } | {
       query?: {
-        /** of the hole, a/M; -1 to 1. */
+        /** spin of the hole, a/M; -1 to 1. */
         spin?: number;
-        /** from which the rays are followed back, M: outside the horizon; 1 to 10000000. */
+        /** radius of the observer, M; outside the horizon; 1 to 10000000. */
         r?: 'infinity' | number;
-        /** from the hole's axis; 0 to 180. */
+        /** polar angle of the observer, from the hole's axis; 0 to 180. */
         inclination_deg?: number;
         /**
-         * as camera.observer of a scene, at a finite r: rays are then directions in the observer's frame, [yaw, pitch]
-         * in degrees.
+         * motion of an observer at a finite r, as camera.observer of a scene; a ray is then a direction in the
+         * observer's frame, [yaw, pitch] in degrees.
          */
         motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-        /** motion velocity: as camera.velocity_r; -1 to 1. */
+        /** as camera.velocity_r (motion: velocity); -1 to 1. */
         velocity_r?: number;
-        /** motion velocity: as camera.velocity_theta; -1 to 1. */
+        /** as camera.velocity_theta (motion: velocity); -1 to 1. */
         velocity_theta?: number;
-        /** motion velocity: as camera.velocity_phi; -1 to 1. */
+        /** as camera.velocity_phi (motion: velocity); -1 to 1. */
         velocity_phi?: number;
-        /** motion infall: as camera.infall_from, M; 1 to 10000000. */
+        /** as camera.infall_from, M (motion: infall); 1 to 10000000. */
         infall_from?: 'infinity' | number;
-        /** motion infall: as camera.infall_energy; -100 to 1000. */
+        /** as camera.infall_energy (motion: infall); -100 to 1000. */
         infall_energy?: 'rest' | number;
-        /** motion infall: as camera.infall_momentum, M; -10000 to 10000. */
+        /** as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
         infall_momentum?: number;
-        /** crossings of the equatorial plane that are wanted; 1 to 16. */
+        /** number of equatorial crossings in the answer; 1 to 16. */
         orders?: number;
-        /** as in a scene; without it, and without an engine, the closed form. */
+        /** as accuracy.profile of a scene; without profile and engine, the closed form is used. */
         profile?: 'draft' | 'interactive' | 'balanced' | 'high' | 'reference';
-        /** relative error of the crossing radii to be held, instead of the profile; 0 to 1. */
+        /** largest relative error of the crossing radii, instead of the profile; 0 to 1. */
         tolerance?: 'profile' | number;
-        /** auto: by profile or tolerance. */
+        /** method that traces the rays; auto: by profile or tolerance. */
         engine?: 'auto' | 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
-        /** of the arithmetic; the closed form has f64 alone. */
+        /** precision of the arithmetic; the closed form has only f64. */
         precision?: 'auto' | 'f32' | 'f64';
-        /** a half period of the radial motion; some engines take fewer; 0 to 2048. */
+        /** integrator steps for a half period of the radial motion; some engines take fewer; 0 to 2048. */
         steps?: number;
       };
       body: Binary;
@@ -4325,9 +4339,9 @@ export interface Operations {
         theta_deg?: number | string;
         /** radius of the circular orbit whose frequencies are given [M]; 1 to 1000000000; default 10. */
         r?: 'isco' | number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -4411,7 +4425,7 @@ export interface Operations {
       'text/csv': string;
     };
   };
-  /** the critical curve, edge of the shadow, for any observer, with its size and shape. */
+  /** the critical curve, which is the edge of the shadow, for any observer, with its size and shape. */
   'GET /v1/physics/shadow': {
     takes: {
       query?: {
@@ -4423,33 +4437,36 @@ export interface Operations {
         observer_r?: 'infinity' | number | string;
         /**
          * state of motion at a finite radius; static: at rest with respect to infinity; zamo: with zero angular
-         * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
-         * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; i; default
-         * "static".
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in fre; default "static".
          */
         observer?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-        /** outwards, past one of zero angular momentum (observer velocity) [c]; -1 to 1; default 0. */
+        /**
+         * velocity outwards, relative to the observer of zero angular momentum (observer velocity) [c]; -1 to 1;
+         * default 0.
+         */
         velocity_r?: number | string;
-        /** away from the north pole, likewise [c]; -1 to 1; default 0. */
+        /** velocity away from the north pole, likewise [c]; -1 to 1; default 0. */
         velocity_theta?: number | string;
-        /** towards +phi, likewise [c]; -1 to 1; default 0. */
+        /** velocity towards +phi, likewise [c]; -1 to 1; default 0. */
         velocity_phi?: number | string;
         /**
-         * radius from which the observer falls, at rest there but for its angular momentum (observer infall) [M]; 1 to
-         * 10000000; default "infinity".
+         * radius at which the observer's fall begins, at rest except for its angular momentum (observer infall) [M]; 1
+         * to 10000000; default "infinity".
          */
         infall_from?: 'infinity' | number | string;
-        /** its energy per mass; rest: as infall_from has it; -100 to 1000; default "rest". */
-        infall_energy?: 'rest' | number | string;
-        /** its angular momentum per mass [M]; -10000 to 10000; default 0. */
-        infall_momentum?: number | string;
         /**
-         * where on the curve: about its centre, from the right over the top [degrees]; -360 to 720; default "0:355:72".
+         * energy per mass of the falling observer; rest: the energy that follows from infall_from; -100 to 1000;
+         * default "rest".
          */
+        infall_energy?: 'rest' | number | string;
+        /** angular momentum per mass of the falling observer [M]; -10000 to 10000; default 0. */
+        infall_momentum?: number | string;
+        /** angle about the curve's centre, from the right over the top [degrees]; -360 to 720; default "0:355:72". */
         angle_deg?: number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -4472,33 +4489,35 @@ export interface Operations {
         ranges?: string[];
         shape?: number[];
         values: {
-          /** the curve on the image plane, to the right; at any distance it labels the constants of motion. */
+          /**
+           * coordinate of the curve on the image plane, to the right; at any distance it labels the constants of motion.
+           */
           alpha: number | null | (number | null)[];
-          /** the curve on the image plane, along the projected spin; likewise. */
+          /** coordinate of the curve on the image plane, along the projected spin; likewise. */
           beta: number | null | (number | null)[];
-          /** distance from the centre: in M for an observer at infinity, else an angle on the sky. */
+          /** distance from the centre, in M for an observer at infinity, otherwise an angle on the sky. */
           rho: number | null | (number | null)[];
-          /** direction in which it is seen at a finite radius, a unit vector: towards +phi; null at infinity. */
+          /** unit vector of the viewing direction at a finite radius: component towards +phi; null at infinity. */
           right: number | null | (number | null)[];
-          /** its component up, towards -theta. */
+          /** component up, towards -theta. */
           up: number | null | (number | null)[];
-          /** its component inwards, towards -r. */
+          /** component inwards, towards -r. */
           inwards: number | null | (number | null)[];
           /** radius of the photon orbit that is seen there. */
           orbit_r: number | null | (number | null)[];
           /** gamma of that orbit: images of order n lie closer by e^-gamma each half turn. */
           lyapunov: number | null | (number | null)[];
-          /** of the shadow: in M^2, or the solid angle. */
+          /** area of the shadow in M^2, or its solid angle. */
           area: number | null | (number | null)[];
-          /** mean of rho about the middle of the two ends. */
+          /** mean of rho about the midpoint of the left and right ends. */
           mean_radius: number | null | (number | null)[];
-          /** of that middle from the hole's centre, to the right. */
+          /** displacement of that midpoint from the hole's centre, to the right. */
           displacement: number | null | (number | null)[];
-          /** twice the root mean square of rho less its mean. */
+          /** twice the root mean square of the difference of rho and its mean. */
           asymmetry: number | null | (number | null)[];
-          /** from left to right end. */
+          /** extent from left to right. */
           width: number | null | (number | null)[];
-          /** from bottom to top. */
+          /** extent from bottom to top. */
           height: number | null | (number | null)[];
         };
         units: {
@@ -4541,9 +4560,9 @@ export interface Operations {
         spin?: number | string;
         /** impact parameter of light in the equatorial plane, |L|/E [M]; 1 to 1e+12; default 10. */
         b?: number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -4559,7 +4578,7 @@ export interface Operations {
         values: {
           /** total bending towards +phi, whole turns included; null if captured, b < b_critical. */
           angle: number | null | (number | null)[];
-          /** the same of light that turns towards -phi. */
+          /** the same for light that turns towards -phi. */
           angle_retrograde: number | null | (number | null)[];
           /** weak field, 4/b. */
           weak: number | null | (number | null)[];
@@ -4567,7 +4586,7 @@ export interface Operations {
           weak_second: number | null | (number | null)[];
           /** the same towards -phi. */
           weak_second_retrograde: number | null | (number | null)[];
-          /** limit next to b_critical, -rate ln(b/b_critical - 1) + offset; null if captured. */
+          /** limit close to b_critical, -rate ln(b/b_critical - 1) + offset; null if captured. */
           strong: number | null | (number | null)[];
           /** the same towards -phi. */
           strong_retrograde: number | null | (number | null)[];
@@ -4576,8 +4595,8 @@ export interface Operations {
           /** the same towards -phi. */
           closest_retrograde: number | null | (number | null)[];
           /**
-           * how far light towards +phi gets that is sent out within the photon orbit, before it falls back; null if it
-           * leaves, or if no light there has so little energy for its L.
+           * largest radius of light towards +phi that is emitted inside the photon orbit and falls back; null if it
+           * escapes, or if no light there has so small an energy for its L.
            */
           farthest: number | null | (number | null)[];
           /** the same towards -phi. */
@@ -4623,15 +4642,15 @@ export interface Operations {
         /** spin parameter a [M]; -1 to 1; default 0. */
         spin?: number | string;
         /**
-         * angular momentum, positive towards +phi: a unit of mass of matter; of the photon that V_light is for [M];
+         * angular momentum, positive towards +phi: per unit mass for matter, and of the photon for v_light [M];
          * -1000000 to 1000000; default 4.
          */
         l?: number | string;
         /** radius [M]; 1 to 1000000000; default "2:30:281". */
         r?: number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -4646,11 +4665,11 @@ export interface Operations {
         ranges?: string[];
         shape?: number[];
         values: {
-          /** least specific energy of matter with L at r. */
+          /** smallest specific energy of matter with L at r. */
           v_matter: number | null | (number | null)[];
-          /** least energy of light with L at r. */
+          /** smallest energy of light with L at r. */
           v_light: number | null | (number | null)[];
-          /** 1 - 1/r + L^2/(2 r^2), Newton's beside v_matter. */
+          /** 1 - 1/r + L^2/(2 r^2), the Newtonian counterpart of v_matter. */
           newton: number | null | (number | null)[];
           /** unstable circular orbit of matter with L; null if none. */
           r_max_matter: number | null | (number | null)[];
@@ -4660,7 +4679,7 @@ export interface Operations {
           r_min_matter: number | null | (number | null)[];
           /** v_matter there. */
           v_min_matter: number | null | (number | null)[];
-          /** circular photon orbit of the sign of L; null for L = 0. */
+          /** circular photon orbit with the sense of L; null for L = 0. */
           r_max_light: number | null | (number | null)[];
           /** v_light there, |L|/b_c. */
           v_max_light: number | null | (number | null)[];
@@ -4685,7 +4704,7 @@ export interface Operations {
       'text/csv': string;
     };
   };
-  /** redshift g and g^4 round a ring of gas, with its lensed images. */
+  /** redshift factor g and g^4 along a ring of gas, with the ring's lensed images. */
   'GET /v1/physics/redshift': {
     takes: {
       query?: {
@@ -4696,13 +4715,13 @@ export interface Operations {
         /** radius of the ring [M]; 1 to 10000; default 6. */
         r?: 'isco' | number | string;
         /**
-         * azimuth on the ring, less the observer's: 0 is the near side, 90 recedes [degrees]; -360 to 720; default
-         * "0:355:72".
+         * azimuth on the ring relative to the observer's: 0 is the near side, at 90 the gas recedes [degrees]; -360 to
+         * 720; default "0:355:72".
          */
         phi_deg?: number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -4722,28 +4741,28 @@ export interface Operations {
           g: number | null | (number | null)[];
           /** g^4: its bolometric intensity over the emitted one. */
           g4: number | null | (number | null)[];
-          /** where it is seen: to the right. */
+          /** position in the image: to the right. */
           alpha: number | null | (number | null)[];
-          /** where it is seen: along the projected spin. */
+          /** position in the image: along the projected spin. */
           beta: number | null | (number | null)[];
-          /** time of flight, less r_o + 2 ln r_o of the observer. */
+          /** time of flight minus r_o + 2 ln r_o, with r_o the observer's radius. */
           delay: number | null | (number | null)[];
           /**
-           * direct images: 1, but 3 or more beyond a caustic, next to edge-on; the first from +alpha towards +beta is
-           * given.
+           * number of direct images: 1, or 3 or more beyond a caustic, close to edge on; the answer has the first from
+           * +alpha towards +beta.
            */
           images: number | null | (number | null)[];
-          /** g of the image of order 1, seen past the other side of the hole. */
+          /** g of the image of order 1, whose light passes the other side of the hole. */
           g_1: number | null | (number | null)[];
           /** its g^4. */
           g4_1: number | null | (number | null)[];
-          /** where it is seen. */
+          /** position of that image. */
           alpha_1: number | null | (number | null)[];
-          /** where it is seen. */
+          /** position of that image. */
           beta_1: number | null | (number | null)[];
           /** time of flight, likewise. */
           delay_1: number | null | (number | null)[];
-          /** images of order 1, likewise. */
+          /** number of images of order 1, likewise. */
           images_1: number | null | (number | null)[];
           /** sqrt(1 - 3/r)/(1 - v.n), v = sqrt(1/(r - 2)), without lensing or spin; null for r <= 3. */
           g_flat: number | null | (number | null)[];
@@ -4776,7 +4795,7 @@ export interface Operations {
       'text/csv': string;
     };
   };
-  /** a ring in the equatorial plane as it is seen, direct or past the hole, from any distance. */
+  /** images of a ring in the equatorial plane, direct or past the hole, from any distance. */
   'GET /v1/physics/ring-image': {
     takes: {
       query?: {
@@ -4788,39 +4807,44 @@ export interface Operations {
         observer_r?: 'infinity' | number | string;
         /**
          * state of motion at a finite radius; static: at rest with respect to infinity; zamo: with zero angular
-         * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
-         * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; i; default
-         * "static".
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in fre; default "static".
          */
         observer?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-        /** outwards, past one of zero angular momentum (observer velocity) [c]; -1 to 1; default 0. */
+        /**
+         * velocity outwards, relative to the observer of zero angular momentum (observer velocity) [c]; -1 to 1;
+         * default 0.
+         */
         velocity_r?: number | string;
-        /** away from the north pole, likewise [c]; -1 to 1; default 0. */
+        /** velocity away from the north pole, likewise [c]; -1 to 1; default 0. */
         velocity_theta?: number | string;
-        /** towards +phi, likewise [c]; -1 to 1; default 0. */
+        /** velocity towards +phi, likewise [c]; -1 to 1; default 0. */
         velocity_phi?: number | string;
         /**
-         * radius from which the observer falls, at rest there but for its angular momentum (observer infall) [M]; 1 to
-         * 10000000; default "infinity".
+         * radius at which the observer's fall begins, at rest except for its angular momentum (observer infall) [M]; 1
+         * to 10000000; default "infinity".
          */
         infall_from?: 'infinity' | number | string;
-        /** its energy per mass; rest: as infall_from has it; -100 to 1000; default "rest". */
+        /**
+         * energy per mass of the falling observer; rest: the energy that follows from infall_from; -100 to 1000;
+         * default "rest".
+         */
         infall_energy?: 'rest' | number | string;
-        /** its angular momentum per mass [M]; -10000 to 10000; default 0. */
+        /** angular momentum per mass of the falling observer [M]; -10000 to 10000; default 0. */
         infall_momentum?: number | string;
         /** radius of the ring [M]; 1 to 10000; default 6. */
         r?: 'isco' | number | string;
-        /** of the image: 0 direct, 1 past the other side of the hole; 0 to 1; default 0. */
+        /** order of the image: 0 direct, 1 past the other side of the hole; 0 to 1; default 0. */
         order?: number | string;
         /**
-         * direction of the image plane from its origin, as (cos, cos i sin) of it: even round a ring seen unlensed; at
-         * a finite radius of the sky about -r, so in the frame of one that falls from rest at infinity [degrees]; -360
-         * to 720; default "0:355:72".
+         * angle psi in the image plane: the direction from the origin is (cos psi, cos i sin psi), uniform along an
+         * unlensed ring; at a finite radius it is about the direction -r on the sky, in the frame of an observer that
+         * falls from rest at infinity [degrees]; -360 to 720; default "0:355:72".
          */
         angle_deg?: number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -4846,24 +4870,24 @@ export interface Operations {
         shape?: number[];
         values: {
           /**
-           * the image on the image plane, to the right; at any distance it labels the constants of motion; null where
+           * coordinate on the image plane, to the right; at any distance it labels the constants of motion; null where
            * light has no energy at infinity.
            */
           alpha: number | null | (number | null)[];
-          /** the image on the image plane, along the projected spin; likewise. */
+          /** coordinate on the image plane, along the projected spin; likewise. */
           beta: number | null | (number | null)[];
-          /** direction in which it is seen at a finite radius, a unit vector: towards +phi; null at infinity. */
+          /** unit vector of the viewing direction at a finite radius: component towards +phi; null at infinity. */
           right: number | null | (number | null)[];
-          /** its component up, towards -theta. */
+          /** component up, towards -theta. */
           up: number | null | (number | null)[];
-          /** its component inwards, towards -r. */
+          /** component inwards, towards -r. */
           inwards: number | null | (number | null)[];
           /**
-           * which point of the ring is seen there: its azimuth less the observer's, not reduced to a turn; null for an
-           * observer within the horizon, and for light whose energy at infinity is not above 0.
+           * azimuth of the visible point of the ring relative to the observer's, with whole turns; null for an observer
+           * inside the horizon, and for light whose energy at infinity is not positive.
            */
           phi_deg: number | null | (number | null)[];
-          /** time of flight; of an observer at infinity less r_o + 2 ln r_o; null where phi_deg is. */
+          /** time of flight; for an observer at infinity minus r_o + 2 ln r_o; null where phi_deg is null. */
           delay: number | null | (number | null)[];
         };
         units: {
@@ -4893,10 +4917,7 @@ export interface Operations {
       'text/csv': string;
     };
   };
-  /**
-   * the rings of light that has gone round the hole: their edges beside the critical curve, and how much thinner
-   * each is.
-   */
+  /** photon rings: their edges relative to the critical curve, and their widths. */
   'GET /v1/physics/photon-rings': {
     takes: {
       query?: {
@@ -4910,15 +4931,15 @@ export interface Operations {
          * where on the critical curve: about its centre, from the right over the top [degrees]; -360 to 720; default 0.
          */
         angle_deg?: number | string;
-        /** radius in the equatorial plane from which on light is sent [M]; 1 to 1000000000; default "horizon". */
+        /** inner radius of the light's source in the equatorial plane [M]; 1 to 1000000000; default "horizon". */
         inner?: 'horizon' | number | string;
-        /** radius up to which it is [M]; 1 to 1000000000; default "infinity". */
+        /** outer radius of the light's source [M]; 1 to 1000000000; default "infinity". */
         outer?: 'infinity' | number | string;
-        /** of the ring: how many half turns round the hole its light has made; 1 to 12; default "1:6:6". */
+        /** order of the ring: number of half turns of its light round the hole; 1 to 12; default "1:6:6". */
         order?: number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -4937,15 +4958,15 @@ export interface Operations {
         shape?: number[];
         values: {
           /**
-           * distance from the critical curve along the radius about its centre, over that radius, where inner is seen;
-           * below 0 inside; null if nowhere.
+           * distance of the image of inner from the critical curve, along the curve's radius and in units of it; below 0
+           * inside the curve; null if there is no image.
            */
           inner_edge: number | null | (number | null)[];
-          /** the same of outer. */
+          /** the same for outer. */
           outer_edge: number | null | (number | null)[];
-          /** of the ring there, from edge to edge. */
+          /** width of the ring there, from edge to edge. */
           width: number | null | (number | null)[];
-          /** width of order 1 times e^(-gamma (order - 1)), which the widths tend to but for a factor. */
+          /** width of order 1 times e^(-gamma (order - 1)), to which the widths are proportional at high orders. */
           ladder: number | null | (number | null)[];
           /** Lyapunov exponent of the photon orbit that is seen there, for each half turn; pi for a = 0. */
           gamma: number | null | (number | null)[];
@@ -4990,9 +5011,9 @@ export interface Operations {
         mdot_edd?: number | string;
         /** radius in the disk [M]; 1 to 1000000000; default 20. */
         r?: number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -5014,7 +5035,7 @@ export interface Operations {
           shakura_sunyaev: number | null | (number | null)[];
           /** F. */
           page_thorne_w_m2: number | null | (number | null)[];
-          /** F in Newton's gravity, of the same accretion rate. */
+          /** F in Newton's gravity for the same accretion rate. */
           shakura_sunyaev_w_m2: number | null | (number | null)[];
           /** effective temperature, Page-Thorne. */
           t_eff_k: number | null | (number | null)[];
@@ -5028,7 +5049,7 @@ export interface Operations {
           t_peak_k: number | null | (number | null)[];
           /** luminosity over Mdot c^2, 1 - E at the ISCO. */
           efficiency: number | null | (number | null)[];
-          /** the same of the Newtonian disk, 1/(2 r_isco). */
+          /** the same for the Newtonian disk, 1/(2 r_isco). */
           efficiency_newton: number | null | (number | null)[];
           /** accretion rate. */
           mdot_kg_s: number | null | (number | null)[];
@@ -5072,9 +5093,9 @@ export interface Operations {
       query?: {
         /** temperature [K]; 100 to 1000000000; default 5772. */
         temperature_k?: number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -5109,7 +5130,7 @@ export interface Operations {
           peak_hz: number | null | (number | null)[];
           /** sigma T^4/pi. */
           radiance: number | null | (number | null)[];
-          /** of the radiance that the eye weighs: Y over radiance. */
+          /** luminous efficacy: luminance Y over radiance. */
           luminous_fraction: number | null | (number | null)[];
         };
         units: {
@@ -5144,23 +5165,23 @@ export interface Operations {
         /** overtone, counted at spin 0; 0 decays slowest; 0 to 3; default 0. */
         n?: number | string;
         /**
-         * spin parameter a; nearer to 1 damped and undamped modes crowd and l, n stop being names for them [M]; -0.9999
-         * to 0.9999; default 0.7.
+         * spin parameter a; closer to 1, damped and undamped modes crowd together and l, n no longer label them
+         * uniquely [M]; -0.9999 to 0.9999; default 0.7.
          */
         spin?: number | string;
         /** mass of the hole, with any redshift: m (1 + z) [solar masses]; 0.001 to 1e+12; default 60. */
         mass_msun?: number | string;
         /** time of the sample `wave` [M]; 0 to 1000000; default 0. */
         t?: number | string;
-        /** octaves by which the sound is higher than the ringing, and faster; -40 to 40; default 0. */
-        shift_octaves?: number | string;
         /**
-         * how many times as slowly as the ringing the sound then fades, at the same pitch; 1 to 1000000; default 1.
+         * octaves by which the sound is higher than the ringing; it is faster by the same factor; -40 to 40; default 0.
          */
+        shift_octaves?: number | string;
+        /** factor by which the shifted sound then decays more slowly, at the same pitch; 1 to 1000000; default 1. */
         stretch?: number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv' | 'wav';
       };
     };
@@ -5190,17 +5211,17 @@ export interface Operations {
           separation_im: number | null | (number | null)[];
           /** Q = omega_re/(-2 omega_im). */
           quality: number | null | (number | null)[];
-          /** 2.1 + 11.3 a^3, which circulates for l = m = 2, n = 0; null else. */
+          /** 2.1 + 11.3 a^3, a formula for l = m = 2, n = 0 in circulation; null for other modes. */
           quality_cubic: number | null | (number | null)[];
-          /** how far it is off, relative. */
+          /** its relative error. */
           quality_cubic_error: number | null | (number | null)[];
-          /** fit of Berti et al. 2006 for l = m = 2, n = 0 to 2; null else. */
+          /** fit of Berti et al. 2006 for l = m = 2, n = 0 to 2; null for other modes. */
           fit_omega_re: number | null | (number | null)[];
           /** their Q. */
           fit_quality: number | null | (number | null)[];
-          /** how far it is off, relative. */
+          /** its relative error. */
           fit_omega_re_error: number | null | (number | null)[];
-          /** how far it is off, relative. */
+          /** its relative error. */
           fit_quality_error: number | null | (number | null)[];
           /** omega_re/(2 pi) for mass_msun. */
           frequency_hz: number | null | (number | null)[];
@@ -5257,11 +5278,11 @@ export interface Operations {
         spin?: number | string;
         /** Boyer-Lindquist radius, at or outside the horizon [M]; 1 to 1000000000; default "2:20:73". */
         r?: number | string;
-        /** azimuth: a range of it and one of r make a mesh [degrees]; -360 to 360; default 0. */
+        /** azimuth; ranges of azimuth and r make a mesh [degrees]; -360 to 360; default 0. */
         phi_deg?: number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -5319,9 +5340,9 @@ export interface Operations {
         theta_deg?: number | string;
         /** radius [M]; 1 to 1000000000; default 10. */
         r?: number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -5336,13 +5357,13 @@ export interface Operations {
         ranges?: string[];
         shape?: number[];
         values: {
-          /** angular velocity of what has no angular momentum, -g_tphi/g_phiphi. */
+          /** angular velocity of an observer of zero angular momentum, -g_tphi/g_phiphi. */
           omega: number | null | (number | null)[];
           /** 2J/r^3 with J = aM. */
           far_field: number | null | (number | null)[];
-          /** least angular velocity of anything at r; positive inside the ergosphere. */
+          /** smallest angular velocity of any observer at r; positive inside the ergosphere. */
           omega_least: number | null | (number | null)[];
-          /** largest angular velocity of anything at r; null on the axis, as the least. */
+          /** largest angular velocity of any observer at r; null on the axis, as is the smallest. */
           omega_most: number | null | (number | null)[];
           /** angular velocity of the horizon, a/(2 r+). */
           horizon_omega: number | null | (number | null)[];
@@ -5366,30 +5387,33 @@ export interface Operations {
       'text/csv': string;
     };
   };
-  /** free fall into the hole by its own clock, to the horizon and to the end. */
+  /** free fall into the hole: proper time to the horizon and to the end. */
   'GET /v1/physics/infall': {
     takes: {
       query?: {
         /** spin parameter a [M]; -1 to 1; default 0. */
         spin?: number | string;
-        /** polar angle of what falls [degrees]; 0 to 180; default 90. */
+        /** polar angle of the falling observer [degrees]; 0 to 180; default 90. */
         inclination_deg?: number | string;
         /**
-         * radius from which it falls, at rest there but for its angular momentum [M]; 1 to 10000000; default
+         * radius at which the fall begins, at rest except for the angular momentum [M]; 1 to 10000000; default
          * "infinity".
          */
         infall_from?: 'infinity' | number | string;
-        /** its energy per mass; rest: as infall_from has it; -100 to 1000; default "rest". */
+        /**
+         * energy per mass of the falling observer; rest: the energy that follows from infall_from; -100 to 1000;
+         * default "rest".
+         */
         infall_energy?: 'rest' | number | string;
-        /** its angular momentum per mass [M]; -10000 to 10000; default 0. */
+        /** angular momentum per mass of the falling observer [M]; -10000 to 10000; default 0. */
         infall_momentum?: number | string;
         /** mass of the hole [solar masses]; 0.001 to 1e+12; default 100000000. */
         mass_msun?: number | string;
-        /** radius where it is [M]; 0.001 to 10000000; default "0.2:20:100". */
+        /** radius of the falling observer [M]; 0.001 to 10000000; default "0.2:20:100". */
         r?: number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -5408,21 +5432,26 @@ export interface Operations {
         ranges?: string[];
         shape?: number[];
         values: {
-          /** by its own clock, from r to the outer horizon; null within. */
+          /** proper time from r to the outer horizon; null inside it. */
           proper_time_to_horizon: number | null | (number | null)[];
-          /** by its own clock, from r to where the model ends: the inner horizon, or without spin the singularity. */
+          /** proper time from r to the end of the model: the inner horizon, or without spin the singularity. */
           proper_time_to_end: number | null | (number | null)[];
           /** the same in seconds. */
           proper_time_to_horizon_s: number | null | (number | null)[];
           /** the same in seconds. */
           proper_time_to_end_s: number | null | (number | null)[];
-          /** towards the hole past one of zero angular momentum, in units of that of light; null within the horizon. */
+          /**
+           * velocity towards the hole relative to the observer of zero angular momentum, in units of c; null inside the
+           * horizon.
+           */
           velocity: number | null | (number | null)[];
-          /** frequency of starlight from straight behind, as it measures it, over that far away. */
+          /** frequency of starlight from straight behind, measured by the falling observer over that at infinity. */
           g_behind: number | null | (number | null)[];
-          /** how far it turns until the end, in ingoing Kerr-Schild azimuth, that of camera.azimuth_deg. */
+          /** change of azimuth until the end, in ingoing Kerr-Schild azimuth, that of camera.azimuth_deg. */
           azimuth_to_end_deg: number | null | (number | null)[];
-          /** coordinate time until the end, of ingoing Kerr-Schild coordinates, which know no outer horizon. */
+          /**
+           * coordinate time until the end, in ingoing Kerr-Schild coordinates, which are regular at the outer horizon.
+           */
           time_to_end: number | null | (number | null)[];
           /** per mass. */
           energy: number | null | (number | null)[];
@@ -5454,7 +5483,7 @@ export interface Operations {
       'text/csv': string;
     };
   };
-  /** the redshift of the sky for any observer, and the black disk that the hole takes out of it. */
+  /** the redshift of the sky for any observer, and the size of the hole's black disk. */
   'GET /v1/physics/sky': {
     takes: {
       query?: {
@@ -5466,36 +5495,41 @@ export interface Operations {
         observer_r?: 'infinity' | number | string;
         /**
          * state of motion at a finite radius; static: at rest with respect to infinity; zamo: with zero angular
-         * momentum; keplerian: on a circular orbit towards +phi, as the disk, whose highest latitude is here;
-         * retrograde: on a circular orbit towards -phi, against the disk, whose highest latitude is here; i; default
-         * "static".
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in fre; default "static".
          */
         observer?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-        /** outwards, past one of zero angular momentum (observer velocity) [c]; -1 to 1; default 0. */
+        /**
+         * velocity outwards, relative to the observer of zero angular momentum (observer velocity) [c]; -1 to 1;
+         * default 0.
+         */
         velocity_r?: number | string;
-        /** away from the north pole, likewise [c]; -1 to 1; default 0. */
+        /** velocity away from the north pole, likewise [c]; -1 to 1; default 0. */
         velocity_theta?: number | string;
-        /** towards +phi, likewise [c]; -1 to 1; default 0. */
+        /** velocity towards +phi, likewise [c]; -1 to 1; default 0. */
         velocity_phi?: number | string;
         /**
-         * radius from which the observer falls, at rest there but for its angular momentum (observer infall) [M]; 1 to
-         * 10000000; default "infinity".
+         * radius at which the observer's fall begins, at rest except for its angular momentum (observer infall) [M]; 1
+         * to 10000000; default "infinity".
          */
         infall_from?: 'infinity' | number | string;
-        /** its energy per mass; rest: as infall_from has it; -100 to 1000; default "rest". */
+        /**
+         * energy per mass of the falling observer; rest: the energy that follows from infall_from; -100 to 1000;
+         * default "rest".
+         */
         infall_energy?: 'rest' | number | string;
-        /** its angular momentum per mass [M]; -10000 to 10000; default 0. */
+        /** angular momentum per mass of the falling observer [M]; -10000 to 10000; default 0. */
         infall_momentum?: number | string;
         /**
-         * direction of g: to the right of the hole, 180 straight away from it, as camera.yaw_deg [degrees]; -360 to
-         * 360; default "0:180:37".
+         * direction of g: angle to the right of the hole, as camera.yaw_deg; 180 is away from the hole [degrees]; -360
+         * to 360; default "0:180:37".
          */
         yaw_deg?: number | string;
-        /** upwards, as camera.pitch_deg [degrees]; -90 to 90; default 0. */
+        /** direction of g: angle upwards, as camera.pitch_deg [degrees]; -90 to 90; default 0. */
         pitch_deg?: number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -5520,14 +5554,14 @@ export interface Operations {
         shape?: number[];
         values: {
           /**
-           * frequency of starlight from that direction, as it is measured, over that far away; null in the dark disk.
+           * measured frequency of starlight from that direction over its frequency at infinity; null in the dark disk.
            */
           g: number | null | (number | null)[];
-          /** the same straight ahead, towards the hole. */
+          /** the same from straight ahead, towards the hole. */
           g_ahead: number | null | (number | null)[];
-          /** straight behind, away from the hole. */
+          /** the same from straight behind, away from the hole. */
           g_behind: number | null | (number | null)[];
-          /** overhead, towards -theta. */
+          /** the same from overhead, towards -theta. */
           g_above: number | null | (number | null)[];
           /** towards +theta. */
           g_below: number | null | (number | null)[];
@@ -5535,15 +5569,15 @@ export interface Operations {
           g_right: number | null | (number | null)[];
           /** towards -phi. */
           g_left: number | null | (number | null)[];
-          /** least over all the sky that is seen. */
+          /** smallest g over the visible sky. */
           g_least: number | null | (number | null)[];
-          /** largest over it. */
+          /** largest g over the visible sky. */
           g_greatest: number | null | (number | null)[];
-          /** angular radius of the black disk: of the round one of its solid angle. */
+          /** angular radius of a round disk with the solid angle of the black disk. */
           dark_radius_deg: number | null | (number | null)[];
           /** solid angle of the black disk. */
           dark_sr: number | null | (number | null)[];
-          /** the part of all directions that it takes. */
+          /** share of all directions in the black disk. */
           dark_share: number | null | (number | null)[];
         };
         units: {
@@ -5577,7 +5611,7 @@ export interface Operations {
       'text/csv': string;
     };
   };
-  /** a hole in kilometres, seconds and microarcseconds, beside the measured rings. */
+  /** scales of a hole in kilometres, seconds and microarcseconds, with the measured rings. */
   'GET /v1/physics/scale': {
     takes: {
       query?: {
@@ -5589,11 +5623,11 @@ export interface Operations {
         inclination_deg?: number | string;
         /** mass of the hole [solar masses]; 0.001 to 1e+12; default "hole". */
         mass_msun?: 'hole' | number | string;
-        /** its (angular diameter) distance [pc]; 0.001 to 100000000000; default "hole". */
+        /** angular diameter distance of the hole [pc]; 0.001 to 100000000000; default "hole". */
         distance_pc?: 'hole' | number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -5618,29 +5652,29 @@ export interface Operations {
           m_km: number | null | (number | null)[];
           /** M as a time, G m/c^3. */
           m_s: number | null | (number | null)[];
-          /** M on the sky. */
+          /** angle of M on the sky. */
           m_uas: number | null | (number | null)[];
           /** mean diameter of the shadow for this spin and inclination; 2 sqrt(27) M for a = 0. */
           shadow_uas: number | null | (number | null)[];
-          /** measured diameter of the ring; null for no hole. */
+          /** measured diameter of the ring; null if hole is none. */
           ring_uas: number | null | (number | null)[];
           /** its error, one sigma. */
           ring_error_uas: number | null | (number | null)[];
-          /** measured over computed. */
+          /** ratio of measured to computed diameter. */
           ring_over_shadow: number | null | (number | null)[];
           /** radius of the horizon r+. */
           horizon_km: number | null | (number | null)[];
           /** radius of the horizon r+. */
           horizon_au: number | null | (number | null)[];
-          /** time of light over the horizon's diameter, 2 r+/c. */
+          /** light-crossing time of the horizon, 2 r+/c. */
           light_crossing_s: number | null | (number | null)[];
           /** period of the ISCO for an observer far away. */
           isco_period_s: number | null | (number | null)[];
-          /** the same of the circular photon orbit, towards +phi. */
+          /** the same for the circular photon orbit, towards +phi. */
           photon_period_s: number | null | (number | null)[];
-          /** proper time from horizon to singularity, at rest at infinity, a = 0: 4/3 M. */
+          /** proper time from horizon to singularity of a fall from rest at infinity, a = 0: 4/3 M. */
           fall_s: number | null | (number | null)[];
-          /** the longest that there is for a = 0: pi M. */
+          /** longest proper time from horizon to singularity, a = 0: pi M. */
           fall_longest_s: number | null | (number | null)[];
         };
         units: {
@@ -5683,20 +5717,19 @@ export interface Operations {
         period_s?: number | string;
         /** eccentricity now; 0 to 0.999999; default 0.6171334. */
         eccentricity?: number | string;
-        /** a later, smaller eccentricity of the same orbit; 0 to 0.999999; default 0. */
+        /** smaller eccentricity of the same orbit at a later time; 0 to 0.999999; default 0. */
         eccentricity_later?: number | string;
         /**
          * distance (luminosity distance, with redshifted masses and times) [pc]; 0.001 to 100000000000; default 6400.
          */
         distance_pc?: number | string;
         /**
-         * time before the coalescence of a circular orbit of these masses, for the chirp [s]; 1e-09 to 1e+20; default
-         * 1.
+         * time before coalescence, for the chirp of a circular orbit of these masses [s]; 1e-09 to 1e+20; default 1.
          */
         before_s?: number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -5721,9 +5754,9 @@ export interface Operations {
           eta: number | null | (number | null)[];
           /** semi-major axis a, by Kepler's law. */
           axis_km: number | null | (number | null)[];
-          /** the same, M being both masses. */
+          /** the same, in units of the total mass M. */
           axis: number | null | (number | null)[];
-          /** power over that of a circle with the same a. */
+          /** power over that of a circular orbit with the same a. */
           enhancement: number | null | (number | null)[];
           /** radiated power. */
           power_w: number | null | (number | null)[];
@@ -5741,7 +5774,7 @@ export interface Operations {
           isco_hz: number | null | (number | null)[];
           /** time before coalescence at a = 6 M. */
           isco_before_s: number | null | (number | null)[];
-          /** a when the eccentricity is eccentricity_later; null if that is larger than now's. */
+          /** a at the time when the eccentricity is eccentricity_later; null if that is larger than the present one. */
           axis_later_km: number | null | (number | null)[];
           /** time until then; likewise. */
           time_later_yr: number | null | (number | null)[];
@@ -5749,7 +5782,7 @@ export interface Operations {
           chirp_hz: number | null | (number | null)[];
           /** its a; likewise. */
           chirp_axis: number | null | (number | null)[];
-          /** its amplitude of h+ and hx seen along the axis; likewise. */
+          /** amplitude of h+ and hx of that orbit, seen along the axis; likewise. */
           chirp_strain: number | null | (number | null)[];
         };
         units: {
@@ -5785,11 +5818,11 @@ export interface Operations {
       'text/csv': string;
     };
   };
-  /** a star torn by a hole: tidal radius, fallback, and the heaviest hole that tears it. */
+  /** tidal disruption of a star: tidal radius, fallback, and the heaviest hole that disrupts it. */
   'GET /v1/physics/tidal': {
     takes: {
       query?: {
-        /** spin parameter a; a < 0: the star comes in against the hole's spin [M]; -1 to 1; default 0. */
+        /** spin parameter a; a < 0: the star's orbit is against the hole's spin [M]; -1 to 1; default 0. */
         spin?: number | string;
         /** mass of the hole [solar masses]; 0.001 to 1e+12; default 1000000. */
         mass_msun?: number | string;
@@ -5804,9 +5837,9 @@ export interface Operations {
          * 1000000000; default "fallback".
          */
         time_days?: 'fallback' | number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -5834,7 +5867,7 @@ export interface Operations {
           marginally_bound: number | null | (number | null)[];
           /** mass of a hole whose horizon is at r_t of this star (Hills). */
           hills_msun: number | null | (number | null)[];
-          /** with the marginally bound orbit at r_t: the heaviest that tears it. */
+          /** mass of a hole whose marginally bound orbit is at r_t: the heaviest that tears this star. */
           capture_msun: number | null | (number | null)[];
           /** half the range of specific energy in the debris, M R/r_t^2. */
           energy_spread: number | null | (number | null)[];
@@ -5844,13 +5877,13 @@ export interface Operations {
           fallback_days: number | null | (number | null)[];
           /** largest rate of fallback, m/(3 t_fb). */
           peak_msun_yr: number | null | (number | null)[];
-          /** the same, with the efficiency of this spin. */
+          /** the same in units of the Eddington rate, with the efficiency of this spin. */
           peak_eddington: number | null | (number | null)[];
-          /** until the rate falls to the Eddington rate; null if it is never above. */
+          /** time until the rate falls to the Eddington rate; null if it is never above. */
           above_eddington_days: number | null | (number | null)[];
           /** r_t over penetration. */
           pericentre: number | null | (number | null)[];
-          /** over marginally_bound: below 1 the star is swallowed whole. */
+          /** pericentre over marginally_bound; below 1 the star is captured whole. */
           pericentre_over_capture: number | null | (number | null)[];
           /** rate of fallback at time_days, as t^(-5/3) after t_fb, 0 before. */
           rate_msun_yr: number | null | (number | null)[];
@@ -5884,7 +5917,7 @@ export interface Operations {
       'text/csv': string;
     };
   };
-  /** where bound orbits end: the least p of a stable one, by eccentricity and inclination. */
+  /** separatrix of bound orbits: the smallest p of a stable one, by eccentricity and inclination. */
   'GET /v1/physics/separatrix': {
     takes: {
       query?: {
@@ -5897,9 +5930,9 @@ export interface Operations {
         inclination_deg?: number | string;
         /** eccentricity; 0 to 0.999999; default 0. */
         e?: number | string;
-        /** significant digits of the numbers in lists, in CSV of all; 17: all that there are; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
-        /** instead of Accept. */
+        /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
       };
     };
@@ -5914,15 +5947,15 @@ export interface Operations {
         ranges?: string[];
         shape?: number[];
         values: {
-          /** least semi-latus rectum of a stable bound orbit. */
+          /** smallest semi-latus rectum of a stable bound orbit. */
           p: number | null | (number | null)[];
-          /** where a body on the separatrix whirls: its periapsis p/(1 + e). */
+          /** radius at which a body on the separatrix whirls: its periapsis p/(1 + e). */
           r_min: number | null | (number | null)[];
           /** its apoapsis p/(1 - e). */
           r_max: number | null | (number | null)[];
           /**
-           * radius of the orbit of light of this inclination: above it there are circles, below the separatrix unstable
-           * ones.
+           * radius of the photon orbit of this inclination; circular orbits exist above it, and are unstable below the
+           * separatrix.
            */
           circle: number | null | (number | null)[];
         };
@@ -6007,8 +6040,8 @@ export interface Operations {
     };
   };
   /**
-   * A scene beside an interferometer's observation: amplitudes, closure phases and log closure amplitudes, and
-   * chi^2 of each.
+   * Comparison of a scene with an interferometer's observation: amplitudes, closure phases and log closure
+   * amplitudes, and chi^2 of each.
    */
   'POST /v1/compare': {
     takes: {
@@ -6021,15 +6054,15 @@ export interface Operations {
       'application/x-npy': Uint8Array;
     };
   };
-  /** A live session of a scene: its id, and the token that changes it. */
+  /** Opens a live session of a scene; the answer has its id and the token for changes. */
   'POST /v1/sessions': {
     takes: {
       query?: {
-        /** the least part of image.width that a frame has while the scene changes; 0.25 without it; 0.25 to 1. */
-        least?: number;
         /**
-         * frames are narrower than that all the same where they were measured to take longer than this; 10 to 60000.
+         * smallest width of a frame while the scene changes, as a fraction of image.width; default 0.25; 0.25 to 1.
          */
+        least?: number;
+        /** limit of a frame's time in ms: frames that take longer are made narrower than least; 10 to 60000. */
         patience_ms?: number;
         preset?: PresetName;
       };
@@ -6041,8 +6074,8 @@ export interface Operations {
     };
   };
   /**
-   * A session's scene; a merge patch of it (RFC 7396), with Prefer: return=minimal answered by its revision
-   * alone; its end.
+   * The scene of a session; PATCH: a merge patch (RFC 7396), to which the answer with Prefer: return=minimal is
+   * only the revision; DELETE: ends the session.
    */
   'GET /v1/sessions/{id}': {
     takes: {
@@ -6055,8 +6088,8 @@ export interface Operations {
     };
   };
   /**
-   * A session's scene; a merge patch of it (RFC 7396), with Prefer: return=minimal answered by its revision
-   * alone; its end.
+   * The scene of a session; PATCH: a merge patch (RFC 7396), to which the answer with Prefer: return=minimal is
+   * only the revision; DELETE: ends the session.
    */
   'PATCH /v1/sessions/{id}': {
     takes: {
@@ -6064,15 +6097,15 @@ export interface Operations {
         id: string;
       };
       query?: {
-        /** the least part of image.width that a frame has while the scene changes; 0.25 without it; 0.25 to 1. */
-        least?: number;
         /**
-         * frames are narrower than that all the same where they were measured to take longer than this; 10 to 60000.
+         * smallest width of a frame while the scene changes, as a fraction of image.width; default 0.25; 0.25 to 1.
          */
+        least?: number;
+        /** limit of a frame's time in ms: frames that take longer are made narrower than least; 10 to 60000. */
         patience_ms?: number;
         /**
-         * of patches that are under way at once the one with the highest number counts: one that comes after a higher
-         * one changes nothing; 1 to 9.00719925474e+15.
+         * order of concurrent patches: the highest number counts, and a patch that arrives after a higher one has no
+         * effect; 1 to 9.00719925474e+15.
          */
         order?: number;
       };
@@ -6084,8 +6117,8 @@ export interface Operations {
     };
   };
   /**
-   * A session's scene; a merge patch of it (RFC 7396), with Prefer: return=minimal answered by its revision
-   * alone; its end.
+   * The scene of a session; PATCH: a merge patch (RFC 7396), to which the answer with Prefer: return=minimal is
+   * only the revision; DELETE: ends the session.
    */
   'DELETE /v1/sessions/{id}': {
     takes: {
@@ -6098,14 +6131,14 @@ export interface Operations {
       '': undefined;
     };
   };
-  /** Strikes the hole: style.ringdown, from now on the session's clock; the session's scene. */
+  /** Strikes the hole: sets style.ringdown, with style.ringdown_time now; the answer is the session's scene. */
   'POST /v1/sessions/{id}/ringdown': {
     takes: {
       path: {
         id: string;
       };
       body?: {
-        /** style.ringdown; without it, what that is, or 1 where it is 0; 0 to 1. */
+        /** new style.ringdown; default: the present value, or 1 if it is 0; 0 to 1. */
         amplitude?: number;
       };
       type?: 'application/json';
@@ -6114,7 +6147,7 @@ export interface Operations {
       'application/json': Session;
     };
   };
-  /** Lets a session go along keyframes, by the second; stops it where it is. */
+  /** Moves a session along keyframes, whose places are in seconds; DELETE: stops it at its present state. */
   'POST /v1/sessions/{id}/path': {
     takes: {
       path: {
@@ -6157,7 +6190,7 @@ export interface Operations {
       'application/json': Session;
     };
   };
-  /** Lets a session go along keyframes, by the second; stops it where it is. */
+  /** Moves a session along keyframes, whose places are in seconds; DELETE: stops it at its present state. */
   'DELETE /v1/sessions/{id}/path': {
     takes: {
       path: {
@@ -6169,22 +6202,22 @@ export interface Operations {
       '': undefined;
     };
   };
-  /** Where its particles are, and their constants and rates: 32-bit little-endian floats, row by row. */
+  /** Positions of the particles, their constants and rates: 32-bit little-endian floats, row by row. */
   'GET /v1/sessions/{id}/particles': {
     takes: {
       path: {
         id: string;
       };
       query?: {
-        /** number of the first particle; 0 without it; at least 0. */
+        /** number of the first particle; default 0; at least 0. */
         first?: number;
-        /** from one to the next; 1 without it; at least 1. */
+        /** step from one particle number to the next; default 1; at least 1. */
         stride?: number;
-        /** how many; without it, as many as there are; at least 1. */
+        /** number of particles; default: all; at least 1. */
         count?: number;
-        /** M; without it, the session's now; -1e+12 to 1e+12. */
+        /** time in M; default: the session's present time; -1e+12 to 1e+12. */
         time?: number;
-        /** columns of a row; x,y,z without it. */
+        /** columns of a row; default x,y,z. */
         fields?: (
             | 'x' | 'y' | 'z' | 'r' | 'phi' | 'latitude' | 'energy' | 'angular_momentum' | 'dr_dt' | 'dphi_dt'
             | 'dlatitude_dt'
@@ -6195,19 +6228,16 @@ export interface Operations {
       'application/octet-stream': Uint8Array;
     };
   };
-  /**
-   * The newest frame, as soon as it is newer than the one whose number is given as after; 204 if there is none in
-   * wait_ms.
-   */
+  /** The newest frame, as soon as its number is above after; 204 if there is none within wait_ms. */
   'GET /v1/sessions/{id}/frame.png': {
     takes: {
       path: {
         id: string;
       };
       query?: {
-        /** number of the last frame that the client has; 0 without it; 0 to 1e+18. */
+        /** number of the client's last frame; default 0; 0 to 1e+18. */
         after?: number;
-        /** how long to wait for a newer one; 0 to 60000. */
+        /** time in ms to wait for a newer one; 0 to 60000. */
         wait_ms?: number;
       };
     };
@@ -6218,8 +6248,8 @@ export interface Operations {
     };
   };
   /**
-   * The same, with lossy=Q as JPEG while it is not the last; as PATCH it is a merge patch of the scene as well
-   * (RFC 7396), and the answer what comes of it.
+   * The same; with lossy=Q, frames before the last are JPEG. PATCH: also a merge patch of the scene (RFC 7396),
+   * and the answer is a frame with it.
    */
   'GET /v1/sessions/{id}/frame': {
     takes: {
@@ -6227,15 +6257,15 @@ export interface Operations {
         id: string;
       };
       query?: {
-        /** number of the last frame that the client has; 0 without it; 0 to 1e+18. */
+        /** number of the client's last frame; default 0; 0 to 1e+18. */
         after?: number;
-        /** how long to wait for a newer one; 0 to 60000. */
+        /** time in ms to wait for a newer one; 0 to 60000. */
         wait_ms?: number;
-        /** takes frames that are not the last as JPEG of this quality; without it all are PNG; 1 to 100. */
+        /** quality of JPEG for frames before the last; without it all frames are PNG; 1 to 100. */
         lossy?: number;
         /**
-         * Kerrd-Sentences of a frame that the client has: where the newer one has the same approximations, they are
-         * left out; 0 to 4294967295.
+         * Kerrd-Sentences of the client's frame; a newer frame with the same approximations omits them; 0 to
+         * 4294967295.
          */
         sentences?: number;
       };
@@ -6248,8 +6278,8 @@ export interface Operations {
     };
   };
   /**
-   * The same, with lossy=Q as JPEG while it is not the last; as PATCH it is a merge patch of the scene as well
-   * (RFC 7396), and the answer what comes of it.
+   * The same; with lossy=Q, frames before the last are JPEG. PATCH: also a merge patch of the scene (RFC 7396),
+   * and the answer is a frame with it.
    */
   'PATCH /v1/sessions/{id}/frame': {
     takes: {
@@ -6258,19 +6288,19 @@ export interface Operations {
       };
       query?: {
         /**
-         * of patches that are under way at once the one with the highest number counts: one that comes after a higher
-         * one changes nothing; 1 to 9.00719925474e+15.
+         * order of concurrent patches: the highest number counts, and a patch that arrives after a higher one has no
+         * effect; 1 to 9.00719925474e+15.
          */
         order?: number;
-        /** number of the last frame that the client has; 0 without it; 0 to 1e+18. */
+        /** number of the client's last frame; default 0; 0 to 1e+18. */
         after?: number;
-        /** how long to wait for a newer one; 0 to 60000. */
+        /** time in ms to wait for a newer one; 0 to 60000. */
         wait_ms?: number;
-        /** takes frames that are not the last as JPEG of this quality; without it all are PNG; 1 to 100. */
+        /** quality of JPEG for frames before the last; without it all frames are PNG; 1 to 100. */
         lossy?: number;
         /**
-         * Kerrd-Sentences of a frame that the client has: where the newer one has the same approximations, they are
-         * left out; 0 to 4294967295.
+         * Kerrd-Sentences of the client's frame; a newer frame with the same approximations omits them; 0 to
+         * 4294967295.
          */
         sentences?: number;
       };
@@ -6285,8 +6315,8 @@ export interface Operations {
     };
   };
   /**
-   * Frames as they come, the newest only; with Accept: application/x-kerrd-frames length, number, revision and 0
-   * before each.
+   * Stream of the newest frames; with Accept: application/x-kerrd-frames, length, number, revision and 0 precede
+   * each frame.
    */
   'GET /v1/sessions/{id}/frames': {
     takes: {
@@ -6306,8 +6336,8 @@ export interface Operations {
     gives: {};
   };
   /**
-   * What a playground may be asked for: presets, settings, fields of a body; opens one: its id, and the token
-   * that changes it.
+   * Presets, settings and fields of a body; POST: opens a playground, and the answer has its id and the token for
+   * changes.
    */
   'GET /v1/playground': {
     takes: {};
@@ -6316,8 +6346,8 @@ export interface Operations {
     };
   };
   /**
-   * What a playground may be asked for: presets, settings, fields of a body; opens one: its id, and the token
-   * that changes it.
+   * Presets, settings and fields of a body; POST: opens a playground, and the answer has its id and the token for
+   * changes.
    */
   'POST /v1/playground': {
     takes: {
@@ -6328,7 +6358,7 @@ export interface Operations {
       'application/json': PlaygroundStatus;
     };
   };
-  /** How a playground stands; a change of its pace, its settings and its bodies; its end. */
+  /** State of a playground; PATCH: changes its pace, settings and bodies; DELETE: ends it. */
   'GET /v1/playground/{id}': {
     takes: {
       path: {
@@ -6339,7 +6369,7 @@ export interface Operations {
       'application/json': PlaygroundStatus;
     };
   };
-  /** How a playground stands; a change of its pace, its settings and its bodies; its end. */
+  /** State of a playground; PATCH: changes its pace, settings and bodies; DELETE: ends it. */
   'PATCH /v1/playground/{id}': {
     takes: {
       path: {
@@ -6352,7 +6382,7 @@ export interface Operations {
       'application/json': PlaygroundStatus;
     };
   };
-  /** How a playground stands; a change of its pace, its settings and its bodies; its end. */
+  /** State of a playground; PATCH: changes its pace, settings and bodies; DELETE: ends it. */
   'DELETE /v1/playground/{id}': {
     takes: {
       path: {
@@ -6364,7 +6394,7 @@ export interface Operations {
       '': undefined;
     };
   };
-  /** Moves a playground on that is paused: as `kerrd playground --time` does. */
+  /** Advances a paused playground, as `kerrd playground --time` does. */
   'POST /v1/playground/{id}/step': {
     takes: {
       path: {
@@ -6380,7 +6410,7 @@ export interface Operations {
       'application/json': PlaygroundStatus;
     };
   };
-  /** Its numbers as it goes on (tick), and what has happened (happened), each once and by number. */
+  /** Stream of its numbers (tick) and of its numbered events (happened), each once. */
   'GET /v1/playground/{id}/events': {
     takes: {
       path: {
@@ -6388,7 +6418,7 @@ export interface Operations {
       };
       query?: {
         /**
-         * number of the event behind which to begin, as Last-Event-ID says it; without it, all that are kept; 0 to
+         * number of the event after which the stream begins, like Last-Event-ID; default: all stored events; 0 to
          * 1e+18.
          */
         since?: number;
@@ -6397,7 +6427,8 @@ export interface Operations {
     gives: {};
   };
   /**
-   * Its bodies as packed 32-bit words: eight of header, then ten a body; 204 if there is nothing new in wait_ms.
+   * Its bodies as packed 32-bit words: a header of eight, then ten for each body; 204 if there is nothing new
+   * within wait_ms.
    */
   'GET /v1/playground/{id}/bodies': {
     takes: {
@@ -6405,9 +6436,9 @@ export interface Operations {
         id: string;
       };
       query?: {
-        /** generation that the client has; without it the answer comes at once; 0 to 1e+18. */
+        /** generation of the client's data; without it the answer is immediate; 0 to 1e+18. */
         after?: number;
-        /** how long to wait for a newer one; 0 to 60000. */
+        /** time in ms to wait for a newer one; 0 to 60000. */
         wait_ms?: number;
       };
     };
@@ -6419,8 +6450,8 @@ export interface Operations {
     };
   };
   /**
-   * Its debris, thinned, as packed 32-bit words: eight of header, then four a piece; 204 if there is nothing new
-   * in wait_ms.
+   * A subset of its debris as packed 32-bit words: a header of eight, then four for each piece; 204 if there is
+   * nothing new within wait_ms.
    */
   'GET /v1/playground/{id}/debris': {
     takes: {
@@ -6428,11 +6459,11 @@ export interface Operations {
         id: string;
       };
       query?: {
-        /** generation that the client has; without it the answer comes at once; 0 to 1e+18. */
+        /** generation of the client's data; without it the answer is immediate; 0 to 1e+18. */
         after?: number;
-        /** how long to wait for a newer one; 0 to 60000. */
+        /** time in ms to wait for a newer one; 0 to 60000. */
         wait_ms?: number;
-        /** pieces: where there are more, every k-th is given; 20000 without it; 1 to 1000000. */
+        /** largest number of pieces; of more, the answer has every k-th; default 20000; 1 to 1000000. */
         at_most?: number;
       };
     };
@@ -6443,19 +6474,16 @@ export interface Operations {
       '': undefined;
     };
   };
-  /**
-   * The newest picture of it, as soon as it is newer than the one whose number is given as after; 204 if there is
-   * none in wait_ms.
-   */
+  /** Its newest picture, as soon as its number is above after; 204 if there is none within wait_ms. */
   'GET /v1/playground/{id}/frame.png': {
     takes: {
       path: {
         id: string;
       };
       query?: {
-        /** number of the last frame that the client has; 0 without it; 0 to 1e+18. */
+        /** number of the client's last frame; default 0; 0 to 1e+18. */
         after?: number;
-        /** how long to wait for a newer one; 0 to 60000. */
+        /** time in ms to wait for a newer one; 0 to 60000. */
         wait_ms?: number;
       };
     };
@@ -6465,7 +6493,7 @@ export interface Operations {
       '': undefined;
     };
   };
-  /** Pictures of it as they come, as those of a session. */
+  /** Stream of its newest pictures, as for a session. */
   'GET /v1/playground/{id}/frames': {
     takes: {
       path: {
@@ -6474,7 +6502,7 @@ export interface Operations {
     };
     gives: {};
   };
-  /** A document from which it goes on exactly, here or on the command line. */
+  /** A snapshot, from which a playground continues exactly, here or on the command line. */
   'GET /v1/playground/{id}/snapshot': {
     takes: {
       path: {
@@ -6498,7 +6526,7 @@ export interface Operations {
       'application/json': PlaygroundSeries;
     };
   };
-  /** The rate at which debris has come back, beside the line t^(-5/3). */
+  /** Rate at which debris has returned, with the law t^(-5/3) for comparison. */
   'GET /v1/playground/{id}/fallback': {
     takes: {
       path: {
@@ -6511,8 +6539,8 @@ export interface Operations {
     };
   };
   /**
-   * How many assets there are, and may be; a picture, a grid of matter or an observation, to be named by its
-   * SHA-256, and the token that deletes it.
+   * Number of assets and its limit; PUT: stores a picture, a grid of matter or an observation, and the answer has
+   * its SHA-256 and the token that deletes it.
    */
   'GET /v1/assets': {
     takes: {};
@@ -6521,8 +6549,8 @@ export interface Operations {
     };
   };
   /**
-   * How many assets there are, and may be; a picture, a grid of matter or an observation, to be named by its
-   * SHA-256, and the token that deletes it.
+   * Number of assets and its limit; PUT: stores a picture, a grid of matter or an observation, and the answer has
+   * its SHA-256 and the token that deletes it.
    */
   'PUT /v1/assets': {
     takes: {
@@ -6533,7 +6561,7 @@ export interface Operations {
       'application/json': Asset;
     };
   };
-  /** The bytes of an asset; its end. */
+  /** The bytes of an asset; DELETE: deletes it. */
   'GET /v1/assets/{sha256}': {
     takes: {
       path: {
@@ -6547,7 +6575,7 @@ export interface Operations {
       'text/csv': string;
     };
   };
-  /** The bytes of an asset; its end. */
+  /** The bytes of an asset; DELETE: deletes it. */
   'DELETE /v1/assets/{sha256}': {
     takes: {
       path: {
@@ -6559,7 +6587,10 @@ export interface Operations {
       '': undefined;
     };
   };
-  /** A job, of one scene, of a list, or of a scene with keyframes: its id, and the token that ends it. */
+  /**
+   * Starts a job of one scene, of a list, or of a scene with keyframes; the answer has its id and the token that
+   * ends it.
+   */
   'POST /v1/jobs': {
     takes: {
       query?: {
@@ -6601,7 +6632,7 @@ export interface Operations {
         motion_blur?: {
           /** 1 to 64. */
           samples: number;
-          /** the part of a frame's time in which the shutter is open; 0 to 1; default 0.5. */
+          /** open time of the shutter over a frame's time; 0 to 1; default 0.5. */
           shutter?: number;
         };
         exposure?: 'one' | 'each';
@@ -6616,7 +6647,7 @@ export interface Operations {
          * a document of a playground, or a snapshot, as POST /v1/playground takes them, without rate, paused and scene.
          */
         playground: Playground;
-        /** M from a frame to the next; 0 to 1e+12. */
+        /** time in M from one frame to the next; 0 to 1e+12. */
         every: number;
         scene?: Scene;
         /** up to 1000. */
@@ -6664,7 +6695,7 @@ export interface Operations {
       'application/json': Job;
     };
   };
-  /** How far a job is; its end, with its files. */
+  /** Progress of a job; DELETE: ends it and deletes its files. */
   'GET /v1/jobs/{id}': {
     takes: {
       path: {
@@ -6675,7 +6706,7 @@ export interface Operations {
       'application/json': Job;
     };
   };
-  /** How far a job is; its end, with its files. */
+  /** Progress of a job; DELETE: ends it and deletes its files. */
   'DELETE /v1/jobs/{id}': {
     takes: {
       path: {
@@ -6687,7 +6718,7 @@ export interface Operations {
       '': undefined;
     };
   };
-  /** The same whenever it changes. */
+  /** Stream of its progress. */
   'GET /v1/jobs/{id}/events': {
     takes: {
       path: {
@@ -6696,10 +6727,7 @@ export interface Operations {
     };
     gives: {};
   };
-  /**
-   * The frame that is being rendered, as far as it is drawn, else the last finished one; 409 while there is
-   * nothing.
-   */
+  /** The unfinished frame as far as it is rendered, or else the last finished one; 409 while there is none. */
   'GET /v1/jobs/{id}/preview.png': {
     takes: {
       path: {
@@ -6711,9 +6739,9 @@ export interface Operations {
     };
   };
   /**
-   * The picture of a job of one, or a ZIP of all; with format=png one frame, with format=stream the frames as
-   * they come; of a sweep asked for as a cube one array a layer, as application/fits, or with format=npz; of a
-   * light curve its rows, as application/json or text/csv.
+   * The picture of a job with one frame, or a ZIP of all frames; with format=png one frame, with format=stream
+   * the frames as they finish; for a sweep with output cube one array for each layer, as application/fits or with
+   * format=npz; for a light curve its rows, as application/json or text/csv.
    */
   'GET /v1/jobs/{id}/result': {
     takes: {
@@ -6722,13 +6750,16 @@ export interface Operations {
       };
       query?: {
         /**
-         * json and csv are those of a light curve; fits and npz without a frame the cube of a sweep; the others of
-         * pictures, and of files of numbers; mp4 and webm of pictures alone, by the program ffmpeg.
+         * json and csv: a light curve; fits and npz without frame: the cube of a sweep; mp4 and webm: a film of
+         * pictures, by the program ffmpeg; the others: pictures or files of numbers.
          */
         format?: 'zip' | 'mp4' | 'webm' | 'png' | 'stream' | 'npy' | 'npz' | 'fits' | 'exr' | 'json' | 'csv';
-        /** which, by itself: with format=png, fits, npz, npy or exr; with format=stream from which on; 0 to 1e+18. */
+        /**
+         * number of a single frame, with format=png, fits, npz, npy or exr; with format=stream, number of the first
+         * frame; 0 to 1e+18.
+         */
         frame?: number;
-        /** frames a second, with format=mp4 or webm; 24 without it; 1 to 120. */
+        /** frames a second, with format=mp4 or webm; default 24; 1 to 120. */
         rate?: number;
       };
     };
@@ -6747,15 +6778,15 @@ export interface Operations {
     };
   };
   /**
-   * What one pixel of a scene's picture shows: its ray, what that crosses, what each emitter gives it, where it
-   * ends and why; with trace=steps the engine's steps along it.
+   * Explanation of one pixel of a scene's picture: its ray, what the ray crosses, the light of each emitter,
+   * where the ray ends and why; with trace=steps the engine's steps along it.
    */
   'GET /v1/pixel': {
     takes: {
       query: SceneQuery & {
-        /** the pixel: a place X,Y in the picture, in pixels from its upper left corner. */
+        /** position X,Y of the pixel, in pixels from the upper left corner. */
         at: string;
-        /** tells the engine's own steps along the middle ray, too. */
+        /** steps: the answer has the engine's steps along the middle ray. */
         trace?: 'steps';
         preset?: PresetName;
       };
@@ -6765,15 +6796,15 @@ export interface Operations {
     };
   };
   /**
-   * What one pixel of a scene's picture shows: its ray, what that crosses, what each emitter gives it, where it
-   * ends and why; with trace=steps the engine's steps along it.
+   * Explanation of one pixel of a scene's picture: its ray, what the ray crosses, the light of each emitter,
+   * where the ray ends and why; with trace=steps the engine's steps along it.
    */
   'POST /v1/pixel': {
     takes: {
       query: {
-        /** the pixel: a place X,Y in the picture, in pixels from its upper left corner. */
+        /** position X,Y of the pixel, in pixels from the upper left corner. */
         at: string;
-        /** tells the engine's own steps along the middle ray, too. */
+        /** steps: the answer has the engine's steps along the middle ray. */
         trace?: 'steps';
         preset?: PresetName;
       };
@@ -6784,7 +6815,7 @@ export interface Operations {
       'application/json': Pixel;
     };
   };
-  /** A short address of a scene, for others. */
+  /** A short address of a scene, for sharing. */
   'GET /v1/share': {
     takes: {
       query?: SceneQuery & {
@@ -6795,7 +6826,7 @@ export interface Operations {
       'application/json': Share;
     };
   };
-  /** A short address of a scene, for others. */
+  /** A short address of a scene, for sharing. */
   'POST /v1/share': {
     takes: {
       query?: {
@@ -6815,7 +6846,7 @@ export interface Operations {
         code: string;
       };
       query?: {
-        /** pixels; 1200 without it. Its height follows; 64 to 1200. */
+        /** width in pixels, from which the height follows; default 1200; 64 to 1200. */
         width?: number;
       };
     };

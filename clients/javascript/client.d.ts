@@ -151,9 +151,9 @@ export class Session {
      * @param {SessionStatus} opened
      */
     constructor(client: Client, opened: SessionStatus);
-    /** Who has it may watch. */
+    /** Everybody with the id may watch. */
     id: string;
-    /** Who has it may change the scene and end the session. */
+    /** Everybody with the token may change the scene and end the session. */
     token: string;
     /** The scene, whole, as it was at this revision. */
     scene: Scene;
@@ -212,9 +212,9 @@ export class Job {
      * @param {JobStatus} opened
      */
     constructor(client: Client, opened: JobStatus);
-    /** Who has it may watch and fetch. */
+    /** Everybody with the id may watch and fetch. */
     id: string;
-    /** Who has it may remove the job. */
+    /** Everybody with the token may remove the job. */
     token: string;
     /**
      * How far it is: state, fraction (0 to 1), remaining_s, finished of frames.

@@ -303,9 +303,9 @@ export class Session {
    */
   constructor(client, opened) {
     this.#client = client;
-    /** Who has it may watch. */
+    /** Everybody with the id may watch. */
     this.id = opened.id;
-    /** Who has it may change the scene and end the session. */
+    /** Everybody with the token may change the scene and end the session. */
     this.token = /** @type {string} */ (opened.token);
     /** The scene, whole, as it was at this revision. */
     this.scene = opened.scene;
@@ -417,9 +417,9 @@ export class Job {
    */
   constructor(client, opened) {
     this.#client = client;
-    /** Who has it may watch and fetch. */
+    /** Everybody with the id may watch and fetch. */
     this.id = opened.id;
-    /** Who has it may remove the job. */
+    /** Everybody with the token may remove the job. */
     this.token = /** @type {string} */ (opened.token);
   }
 

@@ -23,7 +23,7 @@ export function hands(stage, plane, told) {
     return [event.clientX - box.left, event.clientY - box.top];
   };
 
-  // The velocity of an arrow of so many pixels from a place.
+  // The velocity of an arrow with this length in pixels, from a place.
   function velocity(from, px, py) {
     const [x, y] = plane.project(from),
       v = told.speed(from) / arrow_px,

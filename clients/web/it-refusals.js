@@ -2,20 +2,20 @@
 // sentence: {} stands for a value with its unit, {…} for a list.
 const refusals = [
   [
-    '{} names an asset of this server, which a link does not hold; it must be null',
+    '{} names an asset of this server, which a link cannot contain; it must be null',
     '{} nomina un file di questo server, che un collegamento non contiene; deve essere null',
   ],
   [
     '{} is {}; it must be a radius outside the horizon, r = {}',
-    '{} è {}; deve essere valori fuori dall’orizzonte, r = {}',
+    '{} è {}; deve essere un raggio fuori dall’orizzonte, r = {}',
   ],
   [
-    '{} is {}, where there is no observer {}; observers there are {…}',
-    '{} è {}, dove non c’è un osservatore {}; lì gli osservatori sono {…}',
+    '{} is {}, where no observer can be {}; observer must be {…} there',
+    '{} è {}, dove nessun osservatore può essere {}; lì observer deve essere {…}',
   ],
   [
-    '{} is {}; it must be 0 but in the plane and pinhole projections: in the others pixels are not of one angle',
-    '{} è {}; deve essere 0 tranne che nelle proiezioni piana e stenopeica: nelle altre i pixel non hanno tutti lo stesso angolo',
+    '{} is {}; it must be 0 except in the plane and pinhole projections, because in the others the angle of a pixel varies',
+    '{} è {}; deve essere 0 tranne che nelle proiezioni piana e stenopeica, perché nelle altre l’angolo di un pixel varia',
   ],
   [
     '{} is {}; it must be {} to {}, camera.field_m {} to {}, at this spacetime.mass_msun and spacetime.distance_pc',
@@ -23,20 +23,20 @@ const refusals = [
   ],
   [
     '{} is {}; it must be at most {}, {} times the width of the picture at this spacetime.mass_msun and spacetime.distance_pc',
-    '{} è {}; deve essere fino a {}, {} volte la larghezza dell’immagine per questi spacetime.mass_msun e spacetime.distance_pc',
+    '{} è {}; deve essere al più {}, {} volte la larghezza dell’immagine per questi spacetime.mass_msun e spacetime.distance_pc',
   ],
   [
-    '{} is {}; it must be false unless style.palette is {} and style.tone_map {}: else brightness has no one colour, or no even scale',
-    '{} è {}; deve essere false a meno che style.palette sia {} e style.tone_map {}: altrimenti la luminosità non ha un solo colore, o non ha scala uniforme',
+    '{} is {}; it must be false unless style.palette is {} and style.tone_map {}, because otherwise a brightness has no unique colour, or the scale is not linear',
+    '{} è {}; deve essere false a meno che style.palette sia {} e style.tone_map {}, perché altrimenti una luminosità non ha un solo colore, o la scala non è lineare',
   ],
   ['{} is {}{?}; it must be a whole number from {} to {}', '{} è {}{?}; deve essere un intero da {} a {}'],
   ['{} is {}; it must be 0 or a multiple of 4 up to {}', '{} è {}; deve essere 0 o un multiplo di 4 fino a {}'],
   [
-    '{} is {}{?}; it must be {} to {}, or a range first:last:count of {} to {} of these',
+    '{} is {}{?}; it must be {} to {}, or a range first:last:count of {} to {} such values',
     '{} è {}{?}; deve essere da {} a {}, o un intervallo primo:ultimo:quanti, da {} a {}',
   ],
   [
-    '{} is {}{?}; it must be above {} and below {}, or a range first:last:count of {} to {} of these',
+    '{} is {}{?}; it must be above {} and below {}, or a range first:last:count of {} to {} such values',
     '{} è {}{?}; deve essere sopra {} e sotto {}, o un intervallo primo:ultimo:quanti, da {} a {}',
   ],
   ['{} is {}{?}; it must be a number above {} and below {}', '{} è {}{?}; deve essere un numero sopra {} e sotto {}'],
@@ -44,32 +44,32 @@ const refusals = [
   ['{} is {}{?}; it must be {} to {}, or {}', '{} è {}{?}; deve essere da {} a {}, o {}'],
   ['{} is {}{?}; it must be {} to {}', '{} è {}{?}; deve essere da {} a {}'],
   [
-    'frame {}: the picture needs {} of {} memory, {} are allowed (by {…}): lower image.width, image.height or image.samples',
-    'fotogramma {}: l’immagine vuole {} di memoria ({}); deve essere {} ({…}): riduci image.width, image.height o image.samples',
+    'frame {}: the picture needs {} of {} memory; it must be at most {} (limit: {…}): lower image.width, image.height or image.samples',
+    'fotogramma {}: l’immagine vuole {} di memoria ({}); deve essere al più {} (limite: {…}): riduci image.width, image.height o image.samples',
   ],
   [
-    '{} is {}; in a tile it must be a number: its own would not be that of the whole picture; a small picture of the same scene tells one',
-    '{} è {}; in un riquadro deve essere un numero: il suo non sarebbe quello dell’immagine intera; un’immagine piccola della stessa scena ne dice uno',
+    '{} is {}; in a tile it must be a number, because {} depends on the whole picture; a small picture of the same scene gives one',
+    '{} è {}; in un riquadro deve essere un numero, perché {} dipende dall’immagine intera; un’immagine piccola della stessa scena ne dà uno',
   ],
   [
-    '{} is {}; in a tile it must be 0: a lens spreads light over the whole picture',
-    '{} è {}; in un riquadro deve essere 0: un obiettivo sparge luce su tutta l’immagine',
+    '{} is {}; in a tile it must be 0, because a lens spreads light over the whole picture',
+    '{} è {}; in un riquadro deve essere 0, perché un obiettivo sparge luce su tutta l’immagine',
   ],
   [
-    '{} is {}; in a tile it must be 0: a beam spreads light over the whole picture',
-    '{} è {}; in un riquadro deve essere 0: un fascio sparge luce su tutta l’immagine',
+    '{} is {}; in a tile it must be 0, because a beam spreads light over the whole picture',
+    '{} è {}; in un riquadro deve essere 0, perché un fascio sparge luce su tutta l’immagine',
   ],
   [
-    '{} is {}; in a tile it must be false: the bar stands in a corner of the whole picture',
-    '{} è {}; in un riquadro deve essere false: la barra sta in un angolo dell’immagine intera',
+    '{} is {}; in a tile it must be false, because the bar is in a corner of the whole picture',
+    '{} è {}; in un riquadro deve essere false, perché la barra sta in un angolo dell’immagine intera',
   ],
   [
-    '{} is {}; in a tile it must be 1 to 8: rays are chosen by what the whole picture shows',
-    '{} è {}; in un riquadro deve essere da 1 a 8: i raggi si scelgono da ciò che mostra l’immagine intera',
+    '{} is {}; in a tile it must be 1 to 8, because {} depends on the whole picture',
+    '{} è {}; in un riquadro deve essere da 1 a 8, perché {} dipende dall’immagine intera',
   ],
   [
-    '{} is {}, and in a tile must be a number: its own would not be those of the whole picture',
-    '{} è {}; in un riquadro deve essere un numero: i suoi non sarebbero quelli dell’immagine intera',
+    '{} is {}; in a tile it must be a number, because {} depends on the whole picture',
+    '{} è {}; in un riquadro deve essere un numero, perché {} dipende dall’immagine intera',
   ],
   [
     'frame {}: it would take about {}, more than the {} a frame may take',
@@ -89,20 +89,20 @@ const refusals = [
   ['{} is {}; it must be less than {}, {}', '{} è {}; deve essere meno di {}, {}'],
   ['{} is {} with {} {}; it must be {}', '{} è {} con {} {}; deve essere {}'],
   [
-    '{} is {}; for camera.observer {} at this inclination it must be more than {}, the ergosphere; camera.observer {…} can be inside',
-    '{} è {}; per camera.observer {} a questa inclinazione deve essere più di {}, l’ergosfera; camera.observer {} può stare dentro',
+    '{} is {}; for camera.observer {} at this inclination it must be more than {}, the ergosphere; inside, camera.observer must be {…}',
+    '{} è {}; per camera.observer {} a questa inclinazione deve essere più di {}, l’ergosfera; dentro, camera.observer deve essere {}',
   ],
   [
-    '{} is {}; for camera.observer {} at this inclination it must be more than {}, the orbit of light; camera.observer {…} can be inside',
-    '{} è {}; per camera.observer {} a questa inclinazione deve essere più di {}, l’orbita della luce; camera.observer {} può stare dentro',
+    '{} is {}; for camera.observer {} at this inclination it must be more than {}, the photon orbit; inside, camera.observer must be {…}',
+    '{} è {}; per camera.observer {} a questa inclinazione deve essere più di {}, l’orbita dei fotoni; dentro, camera.observer deve essere {}',
   ],
   [
     '{} is {}; it must be a velocity of at most 0.999 together with the other two components',
     '{} è {}; deve essere una velocità di al più 0,999 insieme alle altre due componenti',
   ],
   [
-    'camera.velocity_r, velocity_theta and velocity_phi make a speed of {}; it must be less than 1, that of light',
-    'camera.velocity_r, velocity_theta e velocity_phi fanno una velocità di {}; deve essere meno di 1, quella della luce',
+    'camera.velocity_r, velocity_theta and velocity_phi make a speed of {} c; it must be less than 1',
+    'camera.velocity_r, velocity_theta e velocity_phi fanno una velocità di {} c; deve essere meno di 1',
   ],
   [
     '{} is {}; for camera.observer {} it must be more than {}, the inner horizon, where the model ends',
@@ -114,52 +114,49 @@ const refusals = [
     '{} è {}; a camera.r {} con questo momento angolare deve essere almeno {}',
   ],
   [
-    '{} is {}, with which the observer turns outside camera.r {}; it must be nearer to 0',
-    '{} è {}, con cui l’osservatore torna indietro fuori da camera.r {}; deve essere quelli più vicini a 0',
+    '{} is {}, with which the observer turns back outside camera.r {}; it must be closer to 0',
+    '{} è {}, con cui l’osservatore torna indietro fuori da camera.r {}; deve essere più vicino a 0',
   ],
   [
-    '{} is {}; it must be {} with motion.proper_time_rate {} of one who falls: the way leads into the ergosphere, where there is none',
-    '{} è {}; deve essere {} con motion.proper_time_rate {} di chi cade: il cammino porta nell’ergosfera, dove non c’è',
+    '{} is {}; with motion.proper_time_rate {} of a falling observer it must be {}, because the fall enters the ergosphere, where slow light is not computed',
+    '{} è {}; con motion.proper_time_rate {} di un osservatore che cade deve essere {}, perché la caduta entra nell’ergosfera, dove la luce lenta non si calcola',
   ],
   [
-    '{} is {}; it must be {} but from a finite camera.r in pinhole projection',
-    '{} è {}; deve essere {} salvo da un camera.r finito nella proiezione stenopeica',
+    '{} is {}; it must be {} unless camera.r is finite and the projection is pinhole',
+    '{} è {}; deve essere {} a meno che camera.r sia finito e la proiezione stenopeica',
   ],
   [
-    '{} is {}, with which an eye would be where camera.observer cannot be; it must be smaller',
-    '{} è {}, con cui un occhio starebbe dove camera.observer non può stare; deve essere valori minori',
+    "{} is {}; it must be smaller, because camera.observer cannot exist at an eye's position",
+    '{} è {}; deve essere minore, perché camera.observer non può stare al posto di un occhio',
   ],
   [
-    '{} is {}; it must be 0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a finite camera.r',
+    '{} is {}; it must be 0 unless camera.observer stays, orbits in the equatorial plane or falls without leaving its latitude, from a finite camera.r',
     '{} è {}; deve essere 0 salvo che camera.observer stia fermo, giri nel piano equatoriale o cada senza lasciare la sua latitudine, da un camera.r finito',
   ],
   [
-    "{} is {}; it must be 0 with motion.proper_time_rate {}: time and azimuth go on as they do on the observer's way",
-    '{} è {}; deve essere 0 con motion.proper_time_rate {}: tempo e azimut vanno avanti come sul cammino dell’osservatore',
+    "{} is {}; with motion.proper_time_rate {} it must be 0, because the observer's path determines time and azimuth",
+    '{} è {}; con motion.proper_time_rate {} deve essere 0, perché il cammino dell’osservatore determina tempo e azimut',
   ],
   [
     '{} is {}; it must be {} unless camera.observer is {} at a finite camera.r',
     '{} è {}; deve essere {} salvo che camera.observer sia {} a un camera.r finito',
   ],
+  ['{} is {}, which needs a finite {}; at {} it must be {}', '{} è {}, che vuole un {} finito; a {} deve essere {}'],
   [
-    '{} is {} with {} {}; it needs a finite {}, at infinity use {}',
-    '{} è {} con {} {}; vuole un {} finito, all’infinito usa {}',
+    '{} is {}, whose parallel rays need {} {}; at {} it must be {}',
+    '{} è {}, i cui raggi paralleli vogliono {} {}; a {} deve essere {}',
   ],
   [
-    '{} is {} with {} {}; parallel rays need {} {}, at a finite radius use {}',
-    '{} è {} con {} {}; raggi paralleli vogliono {} {}, a distanza finita usa {}',
+    '{} is {}; with {} {} it must be 0, because beyond {} the modes of a hole crowd together and none rings alone',
+    '{} è {}; con {} {} deve essere 0, perché oltre {} i modi di un buco si affollano e nessuno risuona da solo',
   ],
   [
-    '{} is {}; it must be 0 with {} {}: beyond {} the modes of a hole crowd and none of them rings alone',
-    '{} è {}; deve essere 0 con {} {}: oltre {} i modi di un buco si affollano e nessuno risuona da solo',
+    '{} is {}; with this spin, e and inclination_deg it must be above the separatrix at {}',
+    '{} è {}; con questi spin, e e inclination_deg deve essere sopra la separatrice, a {}',
   ],
   [
-    '{} is {}; with this spin, e and inclination_deg an orbit has its turning points there only above {}, the separatrix',
-    '{} è {}; con questi spin, e e inclination_deg un’orbita ha lì i suoi punti d’inversione solo sopra {}, la separatrice',
-  ],
-  [
-    '{} is {}; within the horizon, {} {}, it must be {}: no far clock tells when light of the gas arrives there',
-    '{} è {}; dentro l’orizzonte, {} {}, deve essere {}: nessun orologio lontano dice quando vi arriva la luce del gas',
+    "{} is {}; inside the horizon, at {} {}, it must be {}, because coordinate time does not define the light's delay there",
+    '{} è {}; dentro l’orizzonte, a {} {}, deve essere {}, perché lì il tempo coordinato non definisce il ritardo della luce',
   ],
   ['{} is {}, inside the horizon at {}; it must be outside', '{} è {}, dentro l’orizzonte, a {}; deve essere fuori'],
   ['{} is {}, not outside the horizon at {}', '{} è {}, non fuori dall’orizzonte, a {}'],
@@ -174,12 +171,12 @@ const refusals = [
   ],
   ['too many open sessions (limit {})', 'troppe sessioni aperte (limite {})'],
   [
-    '{} is {}, which follows bound orbits only, and this one is to plunge',
-    '{} è {}, che segue solo orbite legate, e questa deve cadere',
+    '{} is {}; for an orbit that will plunge it must be another, because {} follows only bound orbits',
+    '{} è {}; per un’orbita che cade deve essere un altro, perché {} segue solo orbite legate',
   ],
   [
-    'volume.grid is matter round a hole of the spin {}, and spacetime.spin is {}; it must be the same',
-    'volume.grid è materia attorno a un buco di spin {}, e spacetime.spin è {}; deve essere lo stesso',
+    'volume.grid has matter for a hole of spin {}; spacetime.spin is {} and must be the same',
+    'volume.grid è materia per un buco di spin {}; spacetime.spin è {} e deve essere lo stesso',
   ],
   [
     '{} is a picture of {} x {}; it must be a grid of matter, an NPZ file',
@@ -225,8 +222,8 @@ const refusals = [
   ['{…} bodies of a playground at {…} M of its time.', '{…} corpi di un laboratorio, a {…} M del suo tempo.'],
   ['{…} body of a playground at {…} M of its time.', '{…} corpo di un laboratorio, a {…} M del suo tempo.'],
   [
-    'Not shown, as they have no radius or are at the horizon: {…}.',
-    'Non si vedono, perché non hanno raggio o sono all’orizzonte: {…}.',
+    'Bodies that are not shown, because they have no radius or are at the horizon: {…}.',
+    'Corpi che non si vedono, perché non hanno raggio o sono all’orizzonte: {…}.',
   ],
   ['{…} pieces of debris, from {…} M to {…} M.', '{…} pezzi di detriti, da {…} M a {…} M.'],
   ['{} is {}; it must be {…} or {}', '{} è {}; deve essere {…} o {}'],
@@ -238,7 +235,7 @@ function shape([english, italian]) {
     '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc|microarcseconds|GiB|s))?)';
   return [
     new RegExp(
-      `^${escaped.replaceAll('{}', value).replace('{…}', '(.+)').replace('{?}', '(, a string where a number is wanted| where a number is wanted|)')}$`,
+      `^${escaped.replaceAll('{}', value).replace('{…}', '(.+)').replace('{?}', '(, a string where a number is needed| where a number is needed|)')}$`,
     ),
     italian.replace('{?}', '{}').replace('{…}', '{}'),
   ];
@@ -247,12 +244,12 @@ function shape([english, italian]) {
 export const learn = more => refusals.push(...more.map(shape));
 
 const amounts = {
-  ', a string where a number is wanted': ', un testo dove ci vuole un numero',
-  ' where a number is wanted': ' dove ci vuole un numero',
+  ', a string where a number is needed': ', un testo dove ci vuole un numero',
+  ' where a number is needed': ' dove ci vuole un numero',
   'solar masses': 'masse solari',
   'solar radii': 'raggi solari',
   'Eddington rates': 'tassi di Eddington',
-  'what the host has left': 'quanto resta al computer',
+  'the free memory of the host': 'quanto resta al computer',
   'the device': 'il dispositivo',
   device: 'dispositivo',
   host: 'computer',
@@ -266,7 +263,7 @@ const amounts = {
   days: 'giorni',
 };
 
-const strips = '; in strips it may fit, but ';
+const strips = '; strips might fit, but ';
 
 export function refusal(text) {
   const [whole, why] = text.split(strips);

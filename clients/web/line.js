@@ -10,14 +10,14 @@ const steep = 3; // times slow_ms: a transfer that takes longer lowers the quali
 const soon_ms = 3000; // a higher quality that is given up sooner than this is tried less often afterwards
 const busy = 0.7; // share of the time between pictures above which the transfer is what limits it
 const short_ms = 12; // transfer time, for each request under way, below which a higher quality is affordable
-const calm = 12; // so many pictures in a row must be that quick before a higher quality is tried
+const calm = 12; // number of such quick pictures in a row before a higher quality is tried
 const near_ms = 15; // round trip below which the line is not to blame
 const far_ms = 60; // round trip above which the latency counts
 const frame_ms = 75; // usual time between pictures over a line of high latency
 const most = 5; // requests for pictures: a browser opens six connections to one server
 const choked_ms = 800; // transfer time at the lowest quality; above it, more requests only make each picture older
 const most_calm = 400; // upper limit of the pictures to wait, after repeated failures
-const of_late = 4; // answers, of which the quickest gives the round trip
+const of_late = 4; // number of latest answers; the quickest gives the round trip
 
 export function buildLine() {
   let at = 0,

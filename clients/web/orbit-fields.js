@@ -17,7 +17,10 @@ export const specs = [
       isco: 'ISCO',
       mercury: t('Mercury', 'Mercurio'),
     },
-    about: t('By what the orbit is told, or one that is known', 'Da che cosa l’orbita è data, o una nota'),
+    about: t(
+      'Quantities that define the orbit, or a known orbit',
+      'Le grandezze che definiscono l’orbita, o un’orbita nota',
+    ),
   },
   {
     name: 'spin',

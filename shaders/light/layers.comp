@@ -1,5 +1,5 @@
 /* Kernel: makes one layer of a frame (shared/layers.h) from the lens map; an invocation writes a pixel's number, NaN if
- * there is none. LAYER: which layer; ORDER: of which crossing. KD_MARCH: for scenes with volumes or bodies;
+ * there is none. LAYER: which layer; ORDER: number of the crossing. KD_MARCH: for scenes with volumes or bodies;
  * transfer.comp has stored their light, followed by Stokes Q, U and V. */
 #version 450
 #extension GL_GOOGLE_include_directive : require

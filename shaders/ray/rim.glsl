@@ -48,10 +48,10 @@ kd_seen kd_camera_seen(vec3 d)
         return kd_seen(middle + angles / (quarter * vec2(cam.turn_x, cam.turn_y)),
                        solid * all / (quarter * quarter * cam.turn_x * cam.turn_y * max(level, 1e-6)));
     }
-    float aside = sqrt(right * right + up * up), off = kd_atan2(aside, depth), unit = off / (quarter * cam.turn_x);
-    vec2 towards = aside > 0.0 ? vec2(right, -up) / aside : vec2(0.0);
+    float lateral = sqrt(right * right + up * up), off = kd_atan2(lateral, depth), unit = off / (quarter * cam.turn_x);
+    vec2 towards = lateral > 0.0 ? vec2(right, -up) / lateral : vec2(0.0);
     return kd_seen(middle + unit * towards,
-                   solid * off * all / (quarter * quarter * cam.turn_x * cam.turn_x * max(aside, 1e-6)));
+                   solid * off * all / (quarter * quarter * cam.turn_x * cam.turn_x * max(lateral, 1e-6)));
 }
 
 vec3 kd_rim_ahead() { return vec3(push.ahead_x, push.ahead_y, push.ahead_z); }

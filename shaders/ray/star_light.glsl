@@ -43,7 +43,7 @@ void kd_star_spread(vec2 place, vec3 light)
         ivec2 at = ivec2(middle) + ivec2(c, r) - 1;
         if (SIGHT == KD_SIGHT_SPHERE)
             at = kd_around(at, size);
-        at += ivec2(push.aside, push.up);
+        at += ivec2(push.rightward, push.up);
         if (at.x >= 0 && at.x < pixels_x && at.y >= 0 && at.y < pixels_y) {
             uint o = KD_STAR_LIGHT * uint(at.y * pixels_x + at.x);
             vec3 part = min((r == 0   ? wy.x

@@ -33,7 +33,7 @@
 /* For between.comp. SIDE: rays along each side of a pixel; MARK: only report where interpolation is accurate. */
 #define KD_SPEC_BETWEEN(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 4) B(3, MARK, false)
 
-/* SIDE: rays along each side of a pixel. LAYER, ORDER: for layers.comp, which layer (layers.h) of which image order;
+/* SIDE: rays along each side of a pixel. LAYER, ORDER: for layers.comp, the layer (layers.h) and its image order;
  * KD_NO_ORDER: of the first crossing on the disk. INGOING: as for the lens map, for the march (light/march.glsl).
  * STOKES: for transfer.comp, whether Stokes Q, U and V are stored after the radiance. The word of each emitter
  * (emitters.h) follows from KD_SPEC_TRAITS on. */

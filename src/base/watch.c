@@ -70,7 +70,7 @@ static unsigned note(const void *lock, unsigned what)
 static void taken(const void *lock)
 {
     if (answers && note(lock, ANSWERED) & SYNCED)
-        broken("a thread that answers takes a lock that another has held while it waited for a disk", 0);
+        broken("a thread that answers clients takes a lock that another thread has held during a disk write", 0);
     if (n_held < HELD) {
         held[n_held].lock = lock;
         held[n_held].since_ms = used_ms();
@@ -103,10 +103,10 @@ static void given(const void *lock)
 static void disk(bool syncs)
 {
     if (answers)
-        broken("a thread that answers waits for a disk", 0);
+        broken("a thread that answers clients waits for a disk", 0);
     for (unsigned i = 0; syncs && i < n_held && i < HELD; i++)
         if (note(held[i].lock, SYNCED) & ANSWERED)
-            broken("a disk is waited for with a lock held that a thread which answers takes", 0);
+            broken("a thread waits for a disk and holds a lock that a thread needs to answer clients", 0);
 }
 
 void kd_watch_answers(void) { answers = true; }

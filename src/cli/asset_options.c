@@ -21,11 +21,10 @@ enum kd_status kd_asset_options_add(struct kd_asset_options *options, const char
     snprintf(asset.name, sizeof asset.name, "%.*s", (int)(length < sizeof asset.name ? length : sizeof asset.name - 1),
              text);
     if (!*asset.path || length >= sizeof asset.name || !kd_asset_is_name(asset.name))
-        return kd_error_set(
-            error, KD_EINVAL,
-            "--asset %.100s: it takes NAME=FILE, as in sky=milky-way.png; a name is a letter and up to 62 letters, "
-            "digits, dots, dashes and underscores",
-            text);
+        return kd_error_set(error, KD_EINVAL,
+                            "--asset %.100s: it must be NAME=FILE, as in sky=milky-way.png; a name is a letter and up "
+                            "to 62 letters, digits, dots, dashes and underscores",
+                            text);
     for (size_t i = 0; i < options->n; i++)
         if (!strcmp(options->list[i].name, asset.name))
             return kd_error_set(error, KD_EINVAL, "--asset %s: this name is given twice", asset.name);
@@ -43,7 +42,7 @@ static const struct {
     size_t size;
     const char *kind;
 } others[] = {
-    { "\x93NUMPY", 6, "an NPY file, which holds one array: numpy.savez writes NPZ" },
+    { "\x93NUMPY", 6, "an NPY file, which has one array; numpy.savez writes NPZ" },
     { "\x89HDF\r\n\x1a\n", 8, "an HDF5 file" },
     { "SIMPLE  =", 9, "a FITS file" },
     { "\xff\xd8\xff", 3, "a JPEG" },
@@ -51,7 +50,7 @@ static const struct {
     { "\x76\x2f\x31\x01", 4, "an OpenEXR file" },
     { "II*\0", 4, "a TIFF" },
     { "MM\0*", 4, "a TIFF" },
-    { "#?RADIANCE", 10, "a file of Radiance" },
+    { "#?RADIANCE", 10, "a Radiance file" },
     { "RIFF", 4, "a WebP or another RIFF file" },
     { "GIF8", 4, "a GIF" },
 };
@@ -65,7 +64,7 @@ static enum kd_status look(const void *data, size_t size, struct kd_asset_found 
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (size >= others[i].size && !memcmp(data, others[i].begin, others[i].size))
             return kd_error_set(error, KD_EINVAL,
-                                "this is %s; an asset must be a PNG picture, or a grid of matter as NPZ",
+                                "the file is %s; an asset must be a PNG picture, or a grid of matter as NPZ",
                                 others[i].kind);
     enum kd_status status = kd_png_look(data, size, &about, error);
     if (!status) {
@@ -130,7 +129,7 @@ static void give_back(void *user, struct kd_asset_bytes *bytes)
 
 struct kd_assets kd_asset_options_assets(struct kd_asset_options *options)
 {
-    return (struct kd_assets) { find, take, give_back, "null and names of --asset NAME=FILE", options };
+    return (struct kd_assets) { find, take, give_back, "null, or the NAME of an --asset NAME=FILE", options };
 }
 
 enum kd_status kd_asset_options_resolve(struct kd_asset_options *options, struct kd_scene *scene,

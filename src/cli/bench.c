@@ -19,10 +19,11 @@ struct arguments {
 enum { KEY_MARKDOWN = 0x100, KEY_QUICK, KEY_SECONDS };
 
 static const struct argp_option options[] = {
-    { "output", 'o', "FILE", 0, "write the table here as JSON, - for standard output", 0 },
-    { "markdown", KEY_MARKDOWN, "FILE", 0, "write it here as Markdown", 0 },
-    { "quick", KEY_QUICK, NULL, 0, "fewer rays and shorter timing: seconds instead of minutes", 0 },
-    { "seconds", KEY_SECONDS, "S", 0, "device time that each speed is measured over (default 0.5; quick 0.02)", 0 },
+    { "output", 'o', "FILE", 0, "write the table to this file as JSON; - for standard output", 0 },
+    { "markdown", KEY_MARKDOWN, "FILE", 0, "write the table to this file as Markdown", 0 },
+    { "quick", KEY_QUICK, NULL, 0, "measure with fewer rays for a shorter time: seconds instead of minutes", 0 },
+    { "seconds", KEY_SECONDS, "S", 0,
+      "seconds of device time for the measurement of each speed (default 0.5; with --quick 0.02)", 0 },
     { 0 },
 };
 
@@ -52,10 +53,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_SECONDS: arguments->params.seconds = seconds_of(state, text); return 0;
     case ARGP_KEY_ARG:
         if (arguments->subject || strcmp(text, "accuracy") != 0)
-            argp_error(state, "%s: there is one benchmark, accuracy", text);
+            argp_error(state, "there is no benchmark %s; the only one is accuracy", text);
         arguments->subject = text;
         return 0;
-    case ARGP_KEY_NO_ARGS: argp_error(state, "the benchmark is missing: accuracy"); return 0;
+    case ARGP_KEY_NO_ARGS: argp_error(state, "BENCHMARK is missing; it must be accuracy"); return 0;
     }
     return ARGP_ERR_UNKNOWN;
 }
@@ -113,10 +114,10 @@ static enum kd_status keep(const struct kd_renderer *renderer, const struct kd_a
     char *path = kd_accuracy_path(renderer);
     enum kd_status status = KD_OK, told;
     if (!path)
-        told = kd_buffer_printf(said, "\nnot kept: there is no cache directory\n");
+        told = kd_buffer_printf(said, "\nThe table is not saved: there is no cache directory.\n");
     else if (old && table->quick && !kd_accuracy_load(path, old, NULL) && !old->quick &&
              !strcmp(old->version, table->version))
-        told = kd_buffer_printf(said, "\nnot kept: %s is no quick one\n", path);
+        told = kd_buffer_printf(said, "\nThe table is not saved: %s is from a longer measurement.\n", path);
     else if (!(status = kd_accuracy_save(table, path, error)))
         told = kd_buffer_printf(said, "\nkept in %s\n", path);
     else

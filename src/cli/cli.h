@@ -19,7 +19,7 @@ enum { KD_EXIT_OK = 0, KD_EXIT_FAILURE = 1, KD_EXIT_USAGE = 2, KD_EXIT_DEVICE = 
 extern const struct argp kd_cli_log_argp, kd_cli_device_argp;
 extern const struct argp_child kd_cli_device_children[]; /* both children, the device's first */
 #define KD_CLI_LOG_LEVELS "error|warn|info|debug"
-#define KD_CLI_LOG_LEVEL_DOC "what is written to standard error (default: warn)"
+#define KD_CLI_LOG_LEVEL_DOC "lowest level of messages on standard error (default: warn)"
 #define KD_CLI_DEVICE_DOC "auto, an index of `kerrd doctor`, or part of a name (default: $KERRD_DEVICE, else auto)"
 /* Sets the log level by name. Returns false if there is no such level. */
 bool kd_cli_set_log_level(const char *word);
@@ -49,12 +49,12 @@ void kd_cli_close_stdout(void);
  * describes the accepted sizes in messages. */
 bool kd_cli_read_number(const char *text, unsigned minimum, unsigned maximum, unsigned *out);
 bool kd_cli_read_bytes(const char *text, uint64_t *out);
-#define KD_CLI_BYTES_ALLOWED "a size from 64M to 1024T, as 1536M or 2G"
+#define KD_CLI_BYTES_ALLOWED "a size from 64M to 1024T, as in 1536M or 2G"
 
 /* Parses a size such as 1536M or 2G (in powers of 1024), at least 64M. Anything else is a usage error. */
 uint64_t kd_cli_bytes(const struct argp_state *state, const char *option, const char *text);
 #define KD_CLI_MEMORY_DOC \
-    "most memory for pictures, as 1536M or 2G (default: what the device and this machine have left)"
+    "limit of the memory for pictures, as in 1536M or 2G (default: the free memory of the device and the machine)"
 #define KD_CLI_MEMORY { "memory", 'M', "SIZE", 0, KD_CLI_MEMORY_DOC, 0 }
 
 /* Appends an axis, FIELD=VALUES, to a list that the caller frees. */

@@ -10,28 +10,28 @@
  * which the subcommand's file defines. One is int kd_cli_ID(int argc, char **argv), described in cli.h. The other is
  * const struct argp *kd_cli_ID_argp(void), which returns its options, the same at each call. */
 #define KD_COMMANDS(X) \
-    X("render", render, "a scene to a PNG file") \
-    X("view", view, "a scene, or a picture that is there, in the terminal") \
-    X("light-curve", light_curve, "flux and centroid of a scene as its time goes on") \
-    X("sweep", sweep, "a scene for all values of some fields: an array, or pictures") \
-    X("film", film, "a film, or numbered pictures, of keyframes or of a playground") \
-    X("particles", particles, "where the particles of a scene are, as an array") \
+    X("render", render, "render a scene to a picture file") \
+    X("view", view, "show a scene or an existing picture in the terminal") \
+    X("light-curve", light_curve, "flux and centroid of a scene over time") \
+    X("sweep", sweep, "render a scene for all values of some fields: an array, or pictures") \
+    X("film", film, "render a film, or numbered pictures, from keyframes or a playground") \
+    X("particles", particles, "positions and velocities of a scene's particles, as an array") \
     X("rays", rays, "end points of listed rays: crossings, redshift, delay") \
-    X("pixel", pixel, "what one pixel of a picture shows: its ray, each emitter on it") \
+    X("pixel", pixel, "explain one pixel of a picture: its ray and each emitter on the ray") \
     X("orbit", orbit, "path of a body round the hole, its constants and frequencies") \
     X("line", line, "the profile of a line from a thin disk: photons by energy") \
-    X("transfer-function", transfer_function, "how rings of a thin disk are seen, by redshift") \
-    X("spectrum", spectrum, "what a thin disk, or a volume, sends, by frequency") \
-    X("visibility", visibility, "what an interferometer measures of a scene, by baseline") \
-    X("compare", compare, "a scene beside an observation of the EHT: chi^2, by baseline and closure") \
-    X("playground", playground, "bodies round the hole that pull one another, merge, are torn") \
-    X("physics", physics, "numbers of a hole, an orbit, a disk: one point or a curve") \
-    X("plan", plan, "what a scene costs on this device") \
-    X("scene", scene, "the merged scene, every field named") \
-    X("presets", presets, "the scenes known by name") \
-    X("serve", serve, "the HTTP service") \
-    X("doctor", doctor, "what this machine can do and what it lacks") \
-    X("bench", bench, "how fast and how exact each engine is on this device")
+    X("transfer-function", transfer_function, "Cunningham's transfer function of a thin disk") \
+    X("spectrum", spectrum, "spectrum of a thin disk or of a volume") \
+    X("visibility", visibility, "visibilities of a scene by baseline, as an interferometer measures them") \
+    X("compare", compare, "compare a scene with an observation of the EHT: amplitudes, closures, chi^2") \
+    X("playground", playground, "simulate bodies round the hole: attraction, mergers, tidal disruption") \
+    X("physics", physics, "compute quantities of a hole, an orbit or a disk at a point or along a curve") \
+    X("plan", plan, "estimate the time and memory of a picture on this device") \
+    X("scene", scene, "print the merged scene with every field") \
+    X("presets", presets, "list the presets") \
+    X("serve", serve, "run the HTTP server") \
+    X("doctor", doctor, "check this machine: devices, drivers, caches") \
+    X("bench", bench, "measure the speed and accuracy of each engine on this device")
 
 #define KD_COMMAND_FUNCTIONS(name, id, help) \
     int kd_cli_##id(int argc, char **argv); \
@@ -49,7 +49,7 @@ extern const size_t kd_n_commands;
 
 /* Texts about the whole program in --help and the manual. */
 #define KD_CLI_ABOUT "Pictures of black holes: a Kerr renderer on a Vulkan device."
-#define KD_CLI_EXIT_CODES "0 done, 1 failed, 2 bad input or usage, 3 a device that was lost or hangs"
+#define KD_CLI_EXIT_CODES "0 success, 1 failure, 2 bad input or usage, 3 the device was lost or hangs"
 
 /* Options of one quantity of `kerrd physics`, whose first argument is the quantity's name. The result is valid until
  * the next call. */

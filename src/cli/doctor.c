@@ -26,9 +26,10 @@ enum { KEY_SELFTEST = 0x100, KEY_JSON, KEY_DEVICES };
 
 static const struct argp_option options[] = {
     { "selftest", KEY_SELFTEST, NULL, 0,
-      "instead compute rays, orbits, radii and brightnesses that are known, and print each error beside its bound", 0 },
+      "self-test: compute rays, orbits, radii and brightnesses with known results, and print each error with its bound",
+      0 },
     { "json", KEY_JSON, NULL, 0, "the self-test's table as JSON", 0 },
-    { "devices", KEY_DEVICES, NULL, 0, "only list the devices: index, a tab, name, a line each", 0 },
+    { "devices", KEY_DEVICES, NULL, 0, "only list the devices, one a line: index, tab, name", 0 },
     { 0 },
 };
 
@@ -40,12 +41,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_SELFTEST: arguments->selftest = true; return 0;
     case KEY_JSON: arguments->json = true; return 0;
     case KEY_DEVICES: arguments->devices = true; return 0;
-    case ARGP_KEY_ARG: argp_error(state, "%s: it takes no argument", text); return 0;
+    case ARGP_KEY_ARG: argp_error(state, "%s: the command takes no argument", text); return 0;
     case ARGP_KEY_END:
         if (arguments->json && !arguments->selftest)
-            argp_error(state, "--json is for --selftest");
+            argp_error(state, "--json needs --selftest");
         if (arguments->devices && arguments->selftest)
-            argp_error(state, "--devices excludes --selftest");
+            argp_error(state, "--devices cannot be used with --selftest");
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -63,7 +64,7 @@ static void print_device(const struct kd_vk_info *info)
            mib(info->max_binding_bytes), mib(info->max_allocation_bytes));
     printf("  subgroup %u, workgroup %u, push constants %u bytes, f64 %s, timestamps %s\n", info->subgroup_size,
            info->max_workgroup, info->max_push_bytes, info->float64 ? "yes" : "no", info->timestamps ? "yes" : "no");
-    printf("  %s%s\n", info->missing[0] ? "not usable: lacks " : "usable", info->missing);
+    printf("  %s%s\n", info->missing[0] ? "not usable, because it lacks " : "usable", info->missing);
 }
 
 /* Prints every device. Returns true if one is usable. */
@@ -119,11 +120,11 @@ static void print_cache(void)
             : home && *home      ? asprintf(&path, "%s/.cache/kerrd", home)
                                  : -1;
     if (n < 0)
-        printf("kernel cache: none, since neither XDG_CACHE_HOME nor HOME is set; each start compiles anew\n");
+        printf("kernel cache: none, because neither XDG_CACHE_HOME nor HOME is set; each start compiles all kernels\n");
     else if (access(path, F_OK) && errno == ENOENT)
-        printf("kernel cache: %s, not there yet\n", path);
+        printf("kernel cache: %s, does not exist yet\n", path);
     else if (access(path, R_OK | W_OK | X_OK))
-        printf("kernel cache: %s: %s; each start compiles anew\n", path, strerror(errno));
+        printf("kernel cache: %s: %s; each start compiles all kernels\n", path, strerror(errno));
     else
         printf("kernel cache: %s, writable\n", path);
     if (n >= 0)
@@ -159,7 +160,7 @@ static enum kd_status draw(struct kd_renderer *renderer, struct kd_error *error)
         kd_frame_finish(&frame);
         KD_TRY(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, error));
         printf("render: " WIDTH " x " HEIGHT " pixels in %.1f ms%s\n", 1e3 * (kd_progress_clock() - started),
-               i ? "" : ", kernels made on the way");
+               i ? "" : ", compilation of kernels included");
     }
 done:
     kd_frame_finish(&frame);
@@ -174,7 +175,7 @@ static void print_selftest(const struct kd_verdict *tested)
                tested->worst);
     else if (tested->result == KD_PASSED)
         printf(", %u checks in %.1f s%s", tested->checks, tested->seconds,
-               tested->now ? "" : " when kerrd met this device and driver; --selftest runs it anew");
+               tested->now ? "" : " at kerrd's first start with this device and driver; --selftest runs it again");
     printf("\n");
 }
 
@@ -205,7 +206,7 @@ static int examine(const char *device)
         status = try_render(device, &error);
     }
     if (!any)
-        printf("to have a device that works on any machine: apt install mesa-vulkan-drivers\n");
+        printf("for a driver that works on any machine: apt install mesa-vulkan-drivers\n");
     printf("verdict: %s\n", status ? "not usable" : "usable");
     if (!status)
         return kd_cli_print("", 0);

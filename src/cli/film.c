@@ -33,20 +33,23 @@ struct arguments {
 
 static const struct argp_option table[] = {
     { "output", 'o', "FILE", 0,
-      "the film to write: .mp4 (H.264) or .webm (VP9), which take the program ffmpeg; .zip, numbered pictures "
-      "(required but with --only)",
+      "file to write: .mp4 (H.264) or .webm (VP9), which need the program ffmpeg, or .zip (numbered pictures); "
+      "required without --only",
       0 },
     { "rate", KEY_RATE, "N", 0, "frames a second, 1 to 120 (default: 24)", 0 },
     { "samples", KEY_SAMPLES, "N", 0,
-      "motion blur: a frame's light is the mean of that of N pictures, 1 to 64 (default: as the document's motion_blur "
-      "says, or none)",
+      "motion blur: the light of a frame is the mean of N pictures, 1 to 64 (default: motion_blur of the document, or "
+      "none)",
       0 },
     { "shutter", KEY_SHUTTER, "PART", 0,
-      "the part of a frame's time, up to 1, in which they are (default: as motion_blur says, or 0.5)", 0 },
-    { "state", KEY_STATE, "DIR", 0,
-      "keep finished frames there, and go on with those that are there already, whatever ended the run before", 0 },
+      "motion blur: open time of the shutter as a fraction of a frame's time, up to 1 (default: motion_blur of the "
+      "document, or 0.5)",
+      0 },
+    { "state", KEY_STATE, "DIR", 0, "folder of finished frames; a run uses the frames that an earlier run left there",
+      0 },
     { "only", KEY_ONLY, "FIRST:LAST", 0,
-      "render these frames into the folder of --state, with others beside this process, and write no film", 0 },
+      "render only these frames into the folder of --state and write no film; other processes may render other frames",
+      0 },
     KD_CLI_MEMORY,
     { "stats", 't', NULL, 0, "print frames, their exposure and seconds as one line of JSON on standard error", 0 },
     { 0 },
@@ -70,7 +73,7 @@ static void read_only(struct arguments *arguments, const char *text, const struc
     if (strspn(text, "0123456789:") != strlen(text) ||
         sscanf(text, "%9u:%9u%n", &arguments->first, &arguments->last, &end) != 2 || text[end] ||
         arguments->first > arguments->last)
-        argp_error(state, "--only is %s; it must be FIRST:LAST, numbers of frames from 0 on, as in 24:47", text);
+        argp_error(state, "--only is %s; it must be FIRST:LAST, two frame numbers counted from 0, as in 24:47", text);
     arguments->only = true;
 }
 
@@ -98,18 +101,19 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_ONLY: read_only(arguments, text, state); return 0;
     case ARGP_KEY_END:
         if (arguments->only && (arguments->output || arguments->rate))
-            argp_error(state, "--only excludes %s: it makes frames and no film", arguments->output ? "-o" : "--rate");
+            argp_error(state, "--only cannot be used with %s, because it makes frames and no film",
+                       arguments->output ? "-o" : "--rate");
         else if (arguments->only && !arguments->state)
-            argp_error(state, "--state is missing: where should the frames of --only go?");
+            argp_error(state, "--state is missing; --only needs it as the folder of its frames");
         else if (!arguments->only && !arguments->output)
-            argp_error(state, "-o FILE is missing: where should the film go?");
+            argp_error(state, "-o FILE is missing; it names the film");
         else if (!arguments->scene.document)
-            argp_error(state, "KEYFRAMES.json is missing: which frames? As in {\"scene\": {}, \"keyframes\": "
+            argp_error(state, "KEYFRAMES.json is missing; it must have keyframes, as in {\"scene\": {}, \"keyframes\": "
                               "[{\"frame\": 47, \"scene\": {\"camera\": {\"azimuth_deg\": 90}}}]}");
         if (!arguments->only)
             arguments->kind = kind_of(arguments->output, state);
         if (arguments->rate && arguments->kind && !arguments->kind->waits)
-            argp_error(state, "--rate is of .mp4 and .webm: pictures in a .zip have none");
+            argp_error(state, "--rate cannot be used with .zip, because numbered pictures have no frame rate");
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -127,7 +131,7 @@ struct work {
     struct kd_playground *bodies; /* playground of a film, in its state at the next frame */
     struct kd_encoder encoder;
     struct kd_progress progress;
-    unsigned kept, done, measured, traced; /* kept: number of frames found in the folder */
+    unsigned reused, done, measured, traced; /* kept: number of frames found in the folder */
 };
 
 static enum kd_status change(void *user, struct kd_scene *scene, struct kd_error *error)
@@ -159,9 +163,9 @@ static enum kd_status read_request(struct work *w, struct kd_error *error)
                   : KD_OK);
     KD_TRY(kd_asset_options_check(&options->assets, error));
     if (w->arguments->only && w->spec.every > 0)
-        KD_TRY(
-            kd_error_field(error, "/playground",
-                           "a playground is filmed, whose frames depend on those before: --only is for other films"));
+        KD_TRY(kd_error_field(
+            error, "/playground",
+            "--only cannot be used with a playground, because its frames depend on the frames before them"));
     if (w->arguments->only && w->arguments->last >= w->spec.frames)
         KD_TRY(kd_error_set(error, KD_EINVAL, "--only is %u:%u; its frames must be 0 to %u", w->arguments->first,
                             w->arguments->last, w->spec.frames - 1));
@@ -170,7 +174,7 @@ static enum kd_status read_request(struct work *w, struct kd_error *error)
         w->arguments->last = w->spec.frames - 1;
     }
     if (w->spec.series->frame != &kd_format_png)
-        KD_TRY(kd_error_field(error, "/output", "output is \"%s\"; it must be \"pictures\": of them a film is made",
+        KD_TRY(kd_error_field(error, "/output", "output is \"%s\"; for a film it must be \"pictures\"",
                               w->spec.series->name));
 done:
     return status;
@@ -226,10 +230,10 @@ static enum kd_status check(const struct work *w, struct kd_error *error)
         }
         if (!status && w->kind && w->kind->waits &&
             (kd_plan_shown_width(&plan) != width || kd_plan_shown_height(&plan) != height))
-            status =
-                kd_error_set(error, KD_EINVAL,
-                             "frame %u is %u x %u pixels and frame 0 %u x %u: a film has one size, a .zip holds any", i,
-                             kd_plan_shown_width(&plan), kd_plan_shown_height(&plan), width, height);
+            status = kd_error_set(error, KD_EINVAL,
+                                  "frame %u has %u x %u pixels and frame 0 has %u x %u; all frames of a film must have "
+                                  "one size; a .zip may have several",
+                                  i, kd_plan_shown_width(&plan), kd_plan_shown_height(&plan), width, height);
     }
     return status;
 }
@@ -246,11 +250,11 @@ static enum kd_status open_frames(struct work *w, struct kd_error *error)
         return kd_frames_open(&w->frames, error);
     KD_TRY(kd_frames_open_folder(&w->frames, path, w->arguments->only, error));
     KD_TRY(kd_film_state_read(w->frames.folder, path, &w->state, &there, error));
-    KD_TRY(kd_frames_find(&w->frames, &w->kept, error));
-    if (w->kept && !there)
+    KD_TRY(kd_frames_find(&w->frames, &w->reused, error));
+    if (w->reused && !there)
         KD_TRY(kd_error_set(
             error, KD_EINVAL,
-            "%.200s holds pictures, such as frames have, and says not of which film: name another folder by --state",
+            "%.200s has pictures with names of frames, but no record of their film: name another folder by --state",
             path));
     w->spec.exposure = there ? w->state.exposure : NAN;
 done:
@@ -312,12 +316,13 @@ static enum kd_status move(struct work *w, unsigned number, double begin, struct
     while (more) {
         more = kd_playground_go_on(w->bodies, &run, 1);
         if (!go_on(w))
-            return kd_error_set(error, KD_ECANCELLED, "stopped while the bodies of frame %u moved", number);
+            return kd_error_set(error, KD_ECANCELLED, "stopped during the simulation of the bodies of frame %u",
+                                number);
     }
     return kd_frames_has(&w->frames, number) ? KD_OK : kd_playground_show_named(w->bodies, out, error);
 }
 
-static enum kd_status render(struct work *w, unsigned number, const struct kd_dynamic_bodies *crowd,
+static enum kd_status render(struct work *w, unsigned number, const struct kd_dynamic_bodies *dynamic,
                              struct kd_error *error)
 {
     const struct kd_blur blur = kd_job_frame_blur(&w->spec, number);
@@ -328,7 +333,7 @@ static enum kd_status render(struct work *w, unsigned number, const struct kd_dy
     struct kd_buffer file = { 0 };
     enum kd_status status;
     kd_renderer_capacity(w->renderer, &capacity);
-    KD_TRY(kd_job_frame_plan(&w->spec, number, crowd, 0, INFINITY, &capacity, &scene, &plan, error));
+    KD_TRY(kd_job_frame_plan(&w->spec, number, dynamic, 0, INFINITY, &capacity, &scene, &plan, error));
     KD_TRY(blur.samples ? kd_render_blurred(&(struct kd_blurred) { w->renderer, &blur, &scene, &plan,
                                                                    .progress = progress, .user = w },
                                             &frame, error)
@@ -345,24 +350,24 @@ done:
 
 static enum kd_status render_all(struct work *w, struct kd_error *error)
 {
-    struct kd_dynamic_bodies *crowd = NULL;
+    struct kd_dynamic_bodies *dynamic = NULL;
     enum kd_status status;
     kd_progress_init(&w->progress);
     kd_progress_catch_signals();
     KD_TRY(expose(w, error));
-    if (w->spec.every > 0 && w->kept < w->spec.frames)
+    if (w->spec.every > 0 && w->reused < w->spec.frames)
         KD_TRY(kd_job_spec_playground((const char *)w->text.data, w->text.size, &w->bodies, error));
     const double begin = w->bodies ? w->bodies->t : 0;
     for (w->done = w->arguments->first; w->done <= w->arguments->last; w->done++) {
         if (w->bodies)
-            KD_TRY(move(w, w->done, begin, &crowd, error));
+            KD_TRY(move(w, w->done, begin, &dynamic, error));
         if (!kd_frames_has(&w->frames, w->done))
-            KD_TRY(render(w, w->done, crowd, error));
-        kd_dynamic_bodies_release(crowd);
-        crowd = NULL;
+            KD_TRY(render(w, w->done, dynamic, error));
+        kd_dynamic_bodies_release(dynamic);
+        dynamic = NULL;
     }
 done:
-    kd_dynamic_bodies_release(crowd);
+    kd_dynamic_bodies_release(dynamic);
     kd_progress_finish(&w->progress);
     if (status == KD_EDEVICE)
         kd_cli_device_lost(error);
@@ -375,7 +380,7 @@ static enum kd_status print_stats(const struct work *w, double render_s, double 
     struct kd_json json = kd_json_begin(&line);
     kd_json_object(&json, NULL);
     kd_json_number(&json, "frames", w->spec.frames);
-    kd_json_number(&json, "frames_kept", w->kept);
+    kd_json_number(&json, "frames_kept", w->reused);
     kd_json_number(&json, "lens_maps_traced", w->traced);
     kd_json_number(&json, "exposure", w->spec.exposure);
     kd_json_number(&json, "exposure_frames", w->measured);
@@ -394,8 +399,8 @@ static enum kd_status run(struct work *w, struct kd_error *error)
         KD_TRY(kd_file_check(arguments->output, error));
     if (w->kind && w->kind->waits && !kd_program_known("ffmpeg"))
         KD_TRY(kd_error_set(error, KD_EABSENT,
-                            "films are encoded by the program ffmpeg, which is not found on the PATH: install it, or "
-                            "have the numbered pictures by -o FILE.zip"));
+                            "the program ffmpeg, which encodes films, is not on the PATH: install it, or write "
+                            "numbered pictures with -o FILE.zip"));
     KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device,
                                                              .memory_bytes = arguments->memory,
                                                              .assets = &w->assets },
@@ -425,11 +430,10 @@ const struct argp *kd_cli_film_argp(void)
         .options = table,
         .parser = parse,
         .args_doc = "KEYFRAMES.json|-",
-        .doc = "Make a film: of a scene that keyframes change, of a list of scenes, or of a playground. The document "
-               "is the body of a job (docs/jobs.md), as in "
-               "{\"scene\": {}, \"keyframes\": [{\"frame\": 47, \"scene\": {\"camera\": {\"azimuth_deg\": 90}}}]}.\v"
-               "With --preset or --from the document's scenes are merged over that scene; --set and --size change the "
-               "scene that keyframes are merged over. A job of a server makes "
+        .doc = "Make a film from a scene with keyframes, from a list of scenes, or from a playground. The document is "
+               "the body of a job (docs/jobs.md), as in {\"scene\": {}, \"keyframes\": [{\"frame\": 47, \"scene\": "
+               "{\"camera\": {\"azimuth_deg\": 90}}}]}.\vWith --preset or --from the document's scenes are merged over "
+               "that scene; --set and --size change the scene that keyframes are merged over. A job of a server makes "
                "the same frames.",
         .children = kd_scene_device_children,
     };

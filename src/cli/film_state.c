@@ -34,18 +34,18 @@ static enum kd_status compare(const cJSON *o, const char *path, struct kd_film_s
         return kd_error_set(
             error, KD_EINVAL,
             "%.200s/" NAME
-            " is not one that this version of kerrd wrote: name another folder by --state, or remove this one",
+            " was not written by this version of kerrd: name another folder by --state, or remove this one",
             path);
     if (!is_text(o, "version", KD_VERSION) || !is_text(o, "device", state->device))
         return kd_error_set(error, KD_EINVAL,
-                            "the frames in %.200s are of kerrd %.40s on %.80s, and this is kerrd " KD_VERSION
+                            "the frames in %.200s were made by kerrd %.40s on %.80s, and this is kerrd " KD_VERSION
                             " on %.80s, whose pictures may differ: name another folder by "
                             "--state, or remove this one",
                             path, version, device, state->device);
     if (!is_text(o, "request", state->request) || number(o, "frames") != state->frames)
         return kd_error_set(
             error, KD_EINVAL,
-            "the frames in %.200s are of another request: name another folder by --state, or remove this one", path);
+            "the frames in %.200s belong to another request: name another folder by --state, or remove this one", path);
     state->exposure = number(o, "exposure");
     return KD_OK;
 }

@@ -30,7 +30,7 @@ enum kd_status kd_frames_open(struct kd_frames *f, struct kd_error *error)
     snprintf(path, sizeof path, "%s/kerrd-frames-XXXXXX", parent && *parent ? parent : "/tmp");
     f->store = mkostemp(path, O_CLOEXEC);
     if (f->store < 0)
-        return kd_error_set(error, KD_EIO, "no file for the %ss can be made in TMPDIR: %s", f->noun, strerror(errno));
+        return kd_error_set(error, KD_EIO, "cannot create a file for the %ss in TMPDIR: %s", f->noun, strerror(errno));
     unlink(path);
     return make_room(f, error);
 }
@@ -38,10 +38,10 @@ enum kd_status kd_frames_open(struct kd_frames *f, struct kd_error *error)
 enum kd_status kd_frames_open_folder(struct kd_frames *f, const char *path, bool shared, struct kd_error *error)
 {
     if (mkdir(path, 0777) && errno != EEXIST)
-        return kd_error_set(error, KD_EINVAL, "the folder %s cannot be made: %s", path, strerror(errno));
+        return kd_error_set(error, KD_EINVAL, "cannot create the folder %s: %s", path, strerror(errno));
     if ((f->folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC)) < 0 ||
         (f->lock = openat(f->folder, "lock", O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600)) < 0)
-        return kd_error_set(error, KD_EINVAL, "%ss cannot be kept in %s: %s", f->noun, path, strerror(errno));
+        return kd_error_set(error, KD_EINVAL, "cannot store the %ss in %s: %s", f->noun, path, strerror(errno));
     f->shared = shared;
     if (flock(f->lock, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB))
         return kd_error_set(error, KD_EINVAL,
@@ -86,7 +86,7 @@ enum kd_status kd_frames_find(struct kd_frames *f, unsigned *found, struct kd_er
         if (fstatat(f->folder, name, &about, AT_SYMLINK_NOFOLLOW))
             continue;
         if (!S_ISREG(about.st_mode))
-            return kd_error_set(error, KD_EINVAL, "%s in the folder of the %ss is no file that kerrd wrote: remove it",
+            return kd_error_set(error, KD_EINVAL, "%s in the folder of the %ss was not written by kerrd: remove it",
                                 name, f->noun);
         f->sizes[i] = (uint64_t)about.st_size;
         *found += about.st_size > 0;
@@ -100,7 +100,7 @@ static enum kd_status append(struct kd_frames *f, unsigned frame, const struct k
     for (size_t done = 0; done < file->size;) {
         ssize_t n = pwrite(f->store, file->data + done, file->size - done, (off_t)(f->end + done));
         if (n <= 0)
-            return kd_error_set(error, KD_EIO, "%s %u cannot be kept in TMPDIR: %s", f->noun, frame, strerror(errno));
+            return kd_error_set(error, KD_EIO, "cannot store %s %u in TMPDIR: %s", f->noun, frame, strerror(errno));
         done += (size_t)n;
     }
     f->end += file->size;
@@ -116,7 +116,7 @@ enum kd_status kd_frames_put(struct kd_frames *f, unsigned frame, const struct k
     } else {
         name_of(f, frame, name);
         if (!kd_replace_file_at(f->folder, name, file->data, file->size))
-            status = kd_error_set(error, KD_EIO, "%s %u cannot be kept: %s", f->noun, frame, strerror(errno));
+            status = kd_error_set(error, KD_EIO, "cannot store %s %u: %s", f->noun, frame, strerror(errno));
     }
     if (!status)
         f->sizes[frame] = file->size;
@@ -170,7 +170,7 @@ struct pour {
 static enum kd_status wait(const struct kd_frames_whole *whole, struct kd_error *error)
 {
     if (whole->go_on && !whole->go_on(whole->user))
-        return kd_error_set(error, KD_ECANCELLED, "stopped while all frames became one file");
+        return kd_error_set(error, KD_ECANCELLED, "stopped while the frames were joined to one file");
     nanosleep(&(struct timespec) { .tv_nsec = WAIT_NS }, NULL);
     return KD_OK;
 }

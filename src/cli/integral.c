@@ -45,7 +45,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_OBSERVATION: arguments->observation = text; return 0;
     case 'f':
         if (strcmp(text, "json") && strcmp(text, "csv") && strcmp(text, "npy"))
-            argp_error(state, "--format %s: json, csv or npy", text);
+            argp_error(state, "--format is %s; it must be json, csv or npy", text);
         arguments->format = text;
         return 0;
     case ARGP_KEY_ARG:
@@ -87,7 +87,7 @@ static enum kd_status load_scene(struct arguments *arguments, struct kd_integral
     enum kd_status status = KD_OK;
     const bool chosen = options->preset || options->from;
     if (chosen && request->scene)
-        return kd_error_set(error, KD_EINVAL, "--%s beside a file that has a scene: only one of the two may be given",
+        return kd_error_set(error, KD_EINVAL, "--%s cannot be used with a file that has a scene",
                             options->preset ? "preset" : "from");
     if (!request->scene && !chosen && !options->n_set && !kd_integral_is_pictured(request->what))
         return KD_OK;
@@ -205,12 +205,12 @@ static void set_options(enum kd_integral what, struct argp_option *options, char
 {
     size_t n = 0;
     options[n++] =
-        (struct argp_option) { "output", 'o', "FILE", 0, "where to write; .csv and .npy choose those formats", 2 };
+        (struct argp_option) { "output", 'o', "FILE", 0, "output file; .csv and .npy choose those formats", 2 };
     options[n++] =
-        (struct argp_option) { "format", 'f', "json|csv|npy", 0, "the format, whatever the name of the output", 2 };
+        (struct argp_option) { "format", 'f', "json|csv|npy", 0, "format of the output, independent of its name", 2 };
     if (what == KD_INTEGRAL_COMPARE)
         options[n++] = (struct argp_option) {
-            "observation", KEY_OBSERVATION, "FILE", 0, "what was observed: uvfits, or the EHT's CSV", 1
+            "observation", KEY_OBSERVATION, "FILE", 0, "observation to compare with: uvfits, or the EHT's CSV", 1
         };
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_integral_field *f = &kd_integral_fields[i];
@@ -245,11 +245,12 @@ static const struct argp *make_argp(enum kd_integral what, struct table *table)
     const char *title = kd_integral_kind_of(what)->title;
     set_options(what, table->options, table->names, table->helps, table->values);
     snprintf(table->doc, sizeof table->doc,
-             "%c%s.\vFILE is what POST /v1/%s takes; options change what it says, or say it all. "
-             "docs/physics/integrals.md tells the formulas. %s",
+             "%c%s.\vFILE is a request of POST /v1/%s; options override its members, or replace FILE. "
+             "docs/physics/integrals.md has the formulas. %s",
              title[0] - 'a' + 'A', title + 1, kd_integral_name(what),
-             what == KD_INTEGRAL_SPECTRUM ? "With a scene the spectrum is that of its volume; else no device is needed."
-             : may_have_scene(what) ? "The scene is the default one, or what FILE, --preset, --from and --set say."
+             what == KD_INTEGRAL_SPECTRUM
+                 ? "With a scene, it computes the spectrum of the scene's volume; without one, no device is needed."
+             : may_have_scene(what) ? "The scene is the default scene, changed by FILE, --preset, --from and --set."
                                     : "No device is needed.");
     table->argp = (struct argp) { .options = table->options,
                                   .parser = parse,

@@ -22,10 +22,10 @@ struct arguments {
 
 static const struct argp_option table[] = {
     { "start", 'a', "T", 0, "time of the first frame, M (default: the scene's)", 0 },
-    { "end", 'b', "T", 0, "time of the last one (default: one orbit of the first spot later)", 0 },
-    { "frames", 'n', "N", 0, "how many, evenly spaced (default: 121)", 0 },
-    { "output", 'o', "FILE", 0, "where to write; .csv chooses that format (default: - for standard output)", 0 },
-    { "format", 'f', "json|csv", 0, "the format, whatever the name of the output", 0 },
+    { "end", 'b', "T", 0, "time of the last frame, M (default: one orbit of the first spot later)", 0 },
+    { "frames", 'n', "N", 0, "number of frames, evenly spaced (default: 121)", 0 },
+    { "output", 'o', "FILE", 0, "output file; .csv chooses that format (default: - for standard output)", 0 },
+    { "format", 'f', "json|csv", 0, "format of the output, independent of its name", 0 },
     { 0 },
 };
 
@@ -44,7 +44,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'f':
         arguments->format = kd_series_table(&kd_light_curve, text);
         if (!arguments->format)
-            argp_error(state, "--format %s: json or csv", text);
+            argp_error(state, "--format is %s; it must be json or csv", text);
         return 0;
     case ARGP_KEY_END:
         if (!arguments->format)
@@ -72,7 +72,7 @@ static enum kd_status span(const struct arguments *arguments, struct kd_scene *s
     if (arguments->end)
         return KD_OK;
     if (!kd_scene_spots(scene, on))
-        return kd_error_set(error, KD_EINVAL, "--end is missing: without a spot there is no orbit to follow");
+        return kd_error_set(error, KD_EINVAL, "--end is missing; its default needs a spot, whose orbit it follows");
     *to = scene->top.time + 2 * M_PI / kd_kerr_omega(kd_scene_hole(scene), on[0]->r);
     return KD_OK;
 }
@@ -157,13 +157,11 @@ const struct argp *kd_cli_light_curve_argp(void)
         .parser = parse,
         .args_doc = KD_SCENE_ARGS_DOC,
         .doc =
-            "Flux and centroid of a scene as its time goes on: of the whole picture and of its hot spots alone.\v"
-            "Flux is in M^2 (from a finite radius: sr) times the unit of brightness, centroids are (alpha, beta) in "
-            "M (degrees to "
-            "the right of the hole and above it). Where light is polarised (polarization.model), Stokes Q and U in "
-            "the unit of the flux, the "
-            "polarised fraction and the EVPA in radians are written as well, so that a spot's Q-U loop can be drawn. "
-            "What lies outside the picture is not counted.",
+            "Compute flux and centroid of a scene over time: of the whole picture, and of its hot spots alone.\vFlux "
+            "is in M^2 (from a finite radius: sr) times the unit of brightness, centroids are (alpha, beta) in M "
+            "(degrees to the right of the hole and above it). Where light is polarised (polarization.model), Stokes Q "
+            "and U in the unit of the flux, the polarised fraction and the EVPA in radians are written as well, so "
+            "that a spot's Q-U loop can be drawn. What lies outside the picture is not counted.",
         .children = kd_scene_device_children,
     };
     return &argp;

@@ -17,38 +17,37 @@ enum { KEY_FIRST = 256 };
 static const struct {
     const char *name, *argument, *help;
 } fields[] = {
-    { "case", "mercury|zoom-whirl|plunge|isco|spherical", "an orbit that is known by name" },
+    { "case", "mercury|zoom-whirl|plunge|isco|spherical", "an orbit by name" },
     { "spin", "A", "spin of the hole, above -1 and below 1" },
-    { "p", "P", "a bound orbit between the radii P/(1+E) and P/(1-E)" },
-    { "e", "E", "and its eccentricity, below 1" },
-    { "inclination_deg", "I", "and its inclination; above 90 is retrograde" },
-    { "energy", "E", "an orbit by its constants per unit mass: energy" },
-    { "angular_momentum", "L", "about the axis" },
-    { "carter", "Q", "Carter's constant, 0 (the default) in the equatorial plane" },
-    { "theta_deg", "T", "an orbit by position and velocity: polar angle" },
+    { "p", "P", "bound orbit by its shape: semi-latus rectum; the radii are between P/(1+E) and P/(1-E)" },
+    { "e", "E", "bound orbit by its shape: eccentricity, below 1" },
+    { "inclination_deg", "I", "bound orbit by its shape: inclination; above 90 is retrograde" },
+    { "energy", "E", "orbit by its constants: energy per mass" },
+    { "angular_momentum", "L", "orbit by its constants: angular momentum about the axis, per mass" },
+    { "carter", "Q", "orbit by its constants: Carter's constant; 0 (the default): equatorial" },
+    { "theta_deg", "T", "orbit by position and velocity: polar angle" },
     { "phi_deg", "F", "azimuth" },
-    { "frame", KD_OBSERVER_FRAME_WORDS, "whose velocity it is (zamo)" },
-    { "v_r", "V", "components of the velocity, in units of that of light" },
+    { "frame", KD_OBSERVER_FRAME_WORDS, "observer whose frame the velocity refers to (zamo)" },
+    { "v_r", "V", "components of the velocity, in units of c" },
     { "v_theta", "V", NULL },
     { "v_phi", "V", NULL },
     /* These two come after the fields on which their meaning depends. */
-    { "r", "R", "the radius there; or of a place on the way of an orbit by its constants" },
-    { "outward", "true|false", "whether such an orbit moves outwards there" },
-    { "periods", "N", "how long: radial periods (10), turns where r is constant" },
-    { "or_end", "true|false",
-      "whether what plunges or escapes, and has no periods, is followed to its end instead (false)" },
-    { "time", "T", "or coordinate time, in M" },
-    { "samples", "N", "of the path, both ends counted (1000); 0 for none" },
+    { "r", "R", "radius of the position; for an orbit by its constants, the radius where it starts" },
+    { "outward", "true|false", "for an orbit by its constants: whether it starts outwards" },
+    { "periods", "N", "duration in radial periods (10), or in revolutions if r is constant" },
+    { "or_end", "true|false", "follow an orbit that plunges or escapes to its end, because it has no periods (false)" },
+    { "time", "T", "duration in coordinate time, M" },
+    { "samples", "N", "number of samples of the path, both ends included (1000); 0 for none" },
     { "digits", "N", "significant digits of the series as text (17: all)" },
-    { "method", "yoshida6|rkn6|closed", "how it is followed (yoshida6)" },
-    { "steps", "N", "per radial period, instead of a tolerance" },
-    { "tolerance", "X", "relative error after a period that chooses the step (1e-12)" },
-    { "r_max", "R", "where what escapes is let go (100)" },
-    { "observer_inclination_deg", "I", "where each sample is seen, by whom: inclination," },
-    { "observer_r", "R|infinity", "radius (infinity)," },
-    { "observer_azimuth_deg", "F", "azimuth (0)" },
-    { "observer", KD_OBSERVER_FRAME_WORDS, "and state of motion (static)" },
-    { "mass_msun", "M", "mass of the hole: frequencies in Hz, advance per century" },
+    { "method", "yoshida6|rkn6|closed", "method of integration (yoshida6)" },
+    { "steps", "N", "steps per radial period, instead of a tolerance" },
+    { "tolerance", "X", "largest relative error after a period; it determines the step (1e-12)" },
+    { "r_max", "R", "radius at which an escaping orbit ends (100)" },
+    { "observer_inclination_deg", "I", "observer who sees each sample: inclination" },
+    { "observer_r", "R|infinity", "observer's radius (infinity)" },
+    { "observer_azimuth_deg", "F", "observer's azimuth (0)" },
+    { "observer", KD_OBSERVER_FRAME_WORDS, "observer's motion (static)" },
+    { "mass_msun", "M", "mass of the hole; adds frequencies in Hz and the advance per century" },
 };
 #define N_FIELDS (sizeof fields / sizeof *fields)
 
@@ -68,7 +67,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'o': arguments->output = text; return 0;
     case 'f':
         if (strcmp(text, "json") && strcmp(text, "ndjson") && strcmp(text, "csv") && strcmp(text, "npy"))
-            argp_error(state, "--format %s: json, ndjson, csv or npy", text);
+            argp_error(state, "--format is %s; it must be json, ndjson, csv or npy", text);
         arguments->format = text;
         return 0;
     case ARGP_KEY_ARG:
@@ -214,12 +213,12 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
 /* Makes an option for each field: --inclination-deg for inclination_deg. */
 static void set_options(struct argp_option *options, char names[N_FIELDS][32])
 {
-    options[0] =
-        (struct argp_option) { "output", 'o', "FILE", 0, "where to write; .npy, .csv and .ndjson choose those formats",
-                               0 };
-    options[1] = (struct argp_option) {
-        "format", 'f', "json|ndjson|csv|npy", 0, "the format, whatever the name of the output", 0
+    options[0] = (struct argp_option) {
+        "output", 'o', "FILE", 0, "output file; .npy, .csv and .ndjson choose those formats", 0
     };
+    options[1] =
+        (struct argp_option) { "format", 'f', "json|ndjson|csv|npy", 0, "format of the output, independent of its name",
+                               0 };
     for (size_t i = 0; i < N_FIELDS; i++) {
         strncpy(names[i], fields[i].name, 31);
         for (char *c = names[i]; (c = strchr(c, '_'));)
@@ -239,11 +238,9 @@ const struct argp *kd_cli_orbit_argp(void)
         .parser = parse,
         .args_doc = "[FILE.json|-]",
         .doc = "Follow a body round a Kerr hole: its path, turning points, constants of motion and their drift, "
-               "frequencies, and the "
-               "advance of its periastron.\v"
-               "FILE is what POST /v1/orbits takes, one orbit or a list of them; options change what it says, or say "
-               "it all: kerrd "
-               "orbit --spin 0.9 --p 6 --e 0.5 --inclination-deg 30. No device is needed.",
+               "frequencies, and the advance of its periastron.\vFILE is a request of POST /v1/orbits with one orbit "
+               "or a list; options override its members, or replace FILE: kerrd orbit --spin 0.9 --p 6 --e 0.5 "
+               "--inclination-deg 30. No device is needed.",
         .children = children,
     };
     set_options(options, names);

@@ -21,11 +21,11 @@ struct arguments {
 };
 
 static const struct argp_option table[] = {
-    { "output", 'o', "FILE.npy", 0, "where to write; - for standard output", 0 },
-    { "fields", KEY_FIELDS, "COLUMN,...", 0, "columns, with commas between (default: x,y,z)", 0 },
+    { "output", 'o', "FILE.npy", 0, "output file; - for standard output", 0 },
+    { "fields", KEY_FIELDS, "COLUMN,...", 0, "columns, separated by commas (default: x,y,z)", 0 },
     { "first", KEY_FIELDS + 1, "N", 0, "number of the first particle (default: 0)", 0 },
-    { "stride", KEY_FIELDS + 2, "N", 0, "from one to the next (default: 1)", 0 },
-    { "count", KEY_FIELDS + 3, "N", 0, "how many (default: as many as there are)", 0 },
+    { "stride", KEY_FIELDS + 2, "N", 0, "step from one particle number to the next (default: 1)", 0 },
+    { "count", KEY_FIELDS + 3, "N", 0, "number of particles (default: all)", 0 },
     { 0 },
 };
 
@@ -124,11 +124,9 @@ const struct argp *kd_cli_particles_argp(void)
         .options = table,
         .parser = parse,
         .args_doc = KD_SCENE_ARGS_DOC,
-        .doc =
-            "Where the particles of a scene are at its time, and how they move, as an NPY array: a record a particle.\v"
-            "Columns: x, y, z, r, phi, latitude, energy, angular_momentum, dr_dt, dphi_dt, dlatitude_dt; docs/live.md "
-            "says what "
-            "they are.",
+        .doc = "Write positions and velocities of a scene's particles at its time as an NPY array with one record for "
+               "each particle.\vColumns: x, y, z, r, phi, latitude, energy, angular_momentum, dr_dt, dphi_dt, "
+               "dlatitude_dt; docs/live.md defines them.",
         .children = kd_scene_device_children,
     };
     return &argp;

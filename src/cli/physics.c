@@ -29,7 +29,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_DIGITS: arguments->digits = text; return 0;
     case 'f':
         if (strcmp(text, "json") && strcmp(text, "csv") && strcmp(text, "wav"))
-            argp_error(state, "--format %s: json, csv or wav", text);
+            argp_error(state, "--format is %s; it must be json, csv or wav", text);
         arguments->format = text;
         return 0;
     case ARGP_KEY_ARG: argp_error(state, "%s: parameters are options, as in --%s VALUE", text, "spin"); return 0;
@@ -66,13 +66,17 @@ static void make_options(const struct kd_quantity *quantity, struct options *opt
             (struct argp_option) { name, KEY_PARAMETER + (int)n, p->words ? p->words : value, 0, help, 1 };
     }
     options->table[n++] = (struct argp_option) {
-        "output", 'o', "FILE", 0, "where to write; .csv and .wav choose that format (default: - for standard output)", 2
+        "output", 'o', "FILE", 0, "output file; .csv and .wav choose those formats (default: - for standard output)", 2
     };
     options->table[n++] =
-        (struct argp_option) { "format", 'f', "json|csv|wav", 0, "the format, whatever the name of the output", 2 };
-    options->table[n++] = (struct argp_option) {
-        "digits", KEY_DIGITS, "N", 0, "significant digits of the numbers in lists, in CSV of all (default: 17, all)", 2
-    };
+        (struct argp_option) { "format", 'f', "json|csv|wav", 0, "format of the output, independent of its name", 2 };
+    options->table[n++] =
+        (struct argp_option) { "digits",
+                               KEY_DIGITS,
+                               "N",
+                               0,
+                               "significant digits of numbers in lists, and of all numbers in CSV (default: 17, all)",
+                               2 };
     options->table[n] = (struct argp_option) { 0 };
 }
 
@@ -157,8 +161,9 @@ const struct argp *kd_cli_physics_argp(void)
     static const struct argp argp = {
         .parser = parse_name,
         .args_doc = "[QUANTITY [OPTION...]]",
-        .doc = "Numbers of a hole, an orbit, a disk as JSON or CSV, at a point or along a range of a parameter.\v"
-               "Without a QUANTITY, list them; `kerrd physics QUANTITY --help` lists the parameters of one.",
+        .doc =
+            "Compute quantities of a hole, an orbit or a disk as JSON or CSV, at a point or along a range of a "
+            "parameter.\vWithout a QUANTITY, list them; `kerrd physics QUANTITY --help` lists the parameters of one.",
         .children = children,
     };
     return &argp;

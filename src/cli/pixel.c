@@ -18,11 +18,11 @@ struct arguments {
 };
 
 static const struct argp_option table[] = {
-    { "at", KEY_AT, "X,Y", 0, "the pixel: a place in the picture, in pixels from its upper left corner (required)", 0 },
-    { "trace", KEY_TRACE, 0, 0, "tell the engine's own steps along the ray, too (in JSON)", 0 },
-    { "output", 'o', "FILE", 0,
-      "where to write; a name that ends in .json chooses that format (default: - for standard output)", 0 },
-    { "format", 'f', "text|json", 0, "the format, whatever the name of the output", 0 },
+    { "at", KEY_AT, "X,Y", 0, "position of the pixel, in pixels from the upper left corner of the picture (required)",
+      0 },
+    { "trace", KEY_TRACE, 0, 0, "include the engine's steps along the ray (JSON only)", 0 },
+    { "output", 'o', "FILE", 0, "output file; .json chooses that format (default: - for standard output)", 0 },
+    { "format", 'f', "text|json", 0, "format of the output, independent of its name", 0 },
     KD_CLI_MEMORY,
     { 0 },
 };
@@ -42,17 +42,17 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'o': arguments->output = text; return 0;
     case 'f':
         if (strcmp(text, "text") && strcmp(text, "json"))
-            argp_error(state, "--format %s: text or json", text);
+            argp_error(state, "--format is %s; it must be text or json", text);
         arguments->format = text;
         return 0;
     case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
     case ARGP_KEY_END:
         if (!arguments->at)
-            argp_error(state, "--at X,Y is missing: which pixel?");
+            argp_error(state, "--at X,Y is missing; it names the pixel");
         if (!arguments->format)
             arguments->format = kd_cli_ending(state, "--output", arguments->output, KD_ENDINGS("text", "json"));
         if (arguments->trace && !wants_json(arguments))
-            argp_error(state, "--trace goes with JSON: --format json, or a name that ends in .json");
+            argp_error(state, "--trace needs JSON: --format json, or an output name that ends in .json");
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -115,9 +115,8 @@ const struct argp *kd_cli_pixel_argp(void)
         .options = table,
         .parser = parse,
         .args_doc = KD_SCENE_ARGS_DOC,
-        .doc = "Explain what one pixel of a scene's picture shows: its ray, what that crosses and when, what each "
-               "emitter gives it, where it ends and "
-               "why.\vThe scene is merged as for render.",
+        .doc = "Explain what one pixel of a scene's picture shows: its ray, what the ray crosses and when, the light "
+               "of each emitter, where the ray ends and why.\vThe scene is merged as for render.",
         .children = kd_scene_device_children,
     };
     return &argp;

@@ -14,7 +14,8 @@ struct arguments {
 };
 
 static const struct argp_option table[] = {
-    { "axis", 'x', "FIELD=VALUES", 0, "an axis of a sweep, as of kerrd sweep: what all its scenes take together", 0 },
+    { "axis", 'x', "FIELD=VALUES", 0,
+      "an axis of a sweep, as for kerrd sweep; the answer is the total of all its scenes", 0 },
     { 0 },
 };
 
@@ -79,7 +80,7 @@ const struct argp *kd_cli_plan_argp(void)
         .options = table,
         .parser = parse,
         .args_doc = KD_SCENE_ARGS_DOC,
-        .doc = "Print what rendering a scene takes: passes, rays, bytes, estimated time, approximations.",
+        .doc = "Print the cost of rendering a scene: passes, rays, bytes, estimated time, approximations.",
         .children = kd_scene_device_children,
     };
     return &argp;

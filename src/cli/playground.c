@@ -41,30 +41,32 @@ struct arguments {
 };
 
 static const struct argp_option table[] = {
-    { "preset", 'p', "PLAYGROUND", 0, "begin with this one; --list names them", 0 },
+    { "preset", 'p', "PLAYGROUND", 0, "preset of a playground to start from (--list prints them)", 0 },
     { "set", KEY_SET, "SETTING=VALUE", 0, "a setting, such as waves=true", 0 },
-    { "time", KEY_TIME, "M", 0, "how long (default: 0, which only writes the begin)", 0 },
+    { "time", KEY_TIME, "M", 0, "time to simulate (default: 0, which only writes the initial state)", 0 },
     { "output", 'o', "FILE.json", 0,
-      "where the snapshot goes, which can be gone on from (default: standard output, unless there are pictures)", 0 },
+      "file for the final snapshot, from which a run can continue (default: standard output, unless there are "
+      "pictures)",
+      0 },
     { "series", KEY_SERIES, "FILE", 0, "energy, angular momentum, separation and strain over time, as .csv or .npy",
       0 },
-    { "fallback", KEY_FALLBACK, "FILE.csv", 0, "the rate at which debris has come back, beside the line t^(-5/3)", 0 },
-    { "events", KEY_EVENTS, "FILE.ndjson", 0, "what has happened, a line each", 0 },
-    { "list", KEY_LIST, 0, 0, "name the presets", 0 },
+    { "fallback", KEY_FALLBACK, "FILE.csv", 0,
+      "rate at which debris has returned, with the law t^(-5/3) for comparison", 0 },
+    { "events", KEY_EVENTS, "FILE.ndjson", 0, "events, one a line", 0 },
+    { "list", KEY_LIST, 0, 0, "print the presets", 0 },
     { "picture", KEY_PICTURE, "FILE", 0,
-      "a lensed picture of it at the end, by its end a PNG, FITS, EXR, NPZ or NPY; with --every a name with %d in it, "
-      "as film/%05d.png",
+      "lensed picture of the final state; the ending chooses PNG, FITS, EXR, NPZ or NPY; with --every the name must "
+      "contain %d, as in film/%05d.png",
       1 },
-    { "every", KEY_EVERY, "M", 0, "pictures from the begin on, so far apart", 1 },
+    { "every", KEY_EVERY, "M", 0, "time between two pictures; the first shows the initial state", 1 },
     { "scene", KEY_SCENE, "SCENE.json", 0,
-      "camera, disk, sky and all else of the pictures (default: a view of the preset, or of all bodies)", 1 },
-    { "scene-preset", KEY_SCENE_PRESET, "PRESET", 0, "the same from a preset of scenes (`kerrd presets` lists them)",
-      1 },
+      "scene of the pictures: camera, disk, sky and so on (default: a view of the preset, or of all bodies)", 1 },
+    { "scene-preset", KEY_SCENE_PRESET, "PRESET", 0,
+      "preset for the scene of the pictures (`kerrd presets` lists them)", 1 },
     { "scene-set", KEY_SCENE_SET, "PATH=VALUE", 0,
       "set one field of that scene, as in camera.inclination_deg=60; may be repeated", 1 },
-    { "size", KEY_SIZE, "WIDTHxHEIGHT", 0, "of the pictures, as in 1920x1080", 1 },
-    { "stats", 't', NULL, 0,
-      "print how many pictures there are and how long they took, as one line of JSON on standard error", 1 },
+    { "size", KEY_SIZE, "WIDTHxHEIGHT", 0, "size of the pictures, as in 1920x1080", 1 },
+    { "stats", 't', NULL, 0, "print the number of pictures and their time as one line of JSON on standard error", 1 },
     KD_CLI_MEMORY,
     { 0 },
 };
@@ -100,13 +102,13 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_SCENE_PRESET: a->pictures.scene.preset = text; return 0;
     case KEY_SCENE_SET:
         if (!strchr(text, '='))
-            argp_error(state, "--scene-set %s: it takes PATH=VALUE, as in camera.inclination_deg=60", text);
+            argp_error(state, "--scene-set is %s; it must be PATH=VALUE, as in camera.inclination_deg=60", text);
         if (!kd_scene_options_add_set(&a->pictures.scene, text))
             argp_failure(state, KD_EXIT_FAILURE, 0, "out of memory");
         return 0;
     case KEY_SIZE:
         if (!kd_scene_options_add_size(&a->pictures.scene, text))
-            argp_error(state, "--size %s: it takes WIDTHxHEIGHT in pixels, as in 1920x1080", text);
+            argp_error(state, "--size is %s; it must be WIDTHxHEIGHT in pixels, as in 1920x1080", text);
         return 0;
     case 't': a->pictures.stats = true; return 0;
     case 'M': a->pictures.memory = kd_cli_bytes(state, "--memory", text); return 0;
@@ -118,7 +120,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_LIST: a->list = true; return 0;
     case KEY_SET:
         if (a->n_sets == SETS_MAX || !strchr(text, '='))
-            argp_error(state, "--set takes SETTING=VALUE, at most %d times", SETS_MAX);
+            argp_error(state, "--set must be SETTING=VALUE, and may be given at most %d times", SETS_MAX);
         a->sets[a->n_sets++] = text;
         a->bounded = a->bounded || !strncmp(text, "budget=", 7);
         return 0;
@@ -129,12 +131,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case ARGP_KEY_ARG:
         if (a->document)
-            argp_error(state, "there is one document at most");
+            argp_error(state, "there are two documents; there must be at most one");
         a->document = text;
         return 0;
     case ARGP_KEY_END:
         if (a->document && a->preset)
-            argp_error(state, "a document names its preset itself");
+            argp_error(state, "--preset cannot be used with a document, because the document names its preset");
         check_names(a, state);
         return 0;
     }
@@ -245,17 +247,18 @@ static void tell_short(const struct kd_playground *p, double t, bool bounded, st
     if (short_of->status)
         return;
     if (!(p->t < KD_PLAYGROUND_TIME))
-        kd_error_set(short_of, KD_EIO, "time ends at %g M: it stands at %.9g M of the %.9g M asked for",
+        kd_error_set(short_of, KD_EIO,
+                     "a playground ends at %g M; the simulation reached %.9g M of the requested %.9g M",
                      KD_PLAYGROUND_TIME, p->t, t);
     else if (!bounded)
         kd_error_set(short_of, KD_EIO,
-                     "time stands at %.9g M of the %.9g M asked for: a sub-step is shorter than a double "
-                     "can tell from there",
+                     "the simulation reached %.9g M of the requested %.9g M; the next sub-step is too short for the "
+                     "resolution of a double",
                      p->t, t);
     else
         kd_error_set(short_of, KD_EIO,
-                     "time stands at %.9g M of the %.9g M asked for: the budget of %u sub-steps is "
-                     "spent (--set budget=N is the most; without it there is none)",
+                     "the simulation reached %.9g M of the requested %.9g M, because its budget of %u sub-steps is "
+                     "spent (--set budget=N raises it; without --set there is no limit)",
                      p->t, t, p->params.budget);
 }
 
@@ -276,7 +279,7 @@ static enum kd_status go_on(const struct arguments *a, struct kd_playground *p, 
         do {
             more = kd_playground_go_on(p, &run, 1);
             if (p->events.last > story->told && go_on_telling(story, p))
-                KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for what has happened"));
+                KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the events"));
         } while (more);
         more = !a->bounded && p->t < t && p->t > begin && p->t < KD_PLAYGROUND_TIME;
     }
@@ -332,12 +335,11 @@ static enum kd_status work(struct arguments *a, struct kd_error *error)
     else
         KD_TRY(go_on(a, p, p->t + a->time, &story, error));
     if (story.lost)
-        fprintf(stderr, "kerrd: %llu events are lost: of one sub-step %d are kept\n", (unsigned long long)story.lost,
-                KD_PLAYGROUND_EVENTS);
+        fprintf(stderr, "kerrd: %llu events are lost; at most %d of one sub-step are stored\n",
+                (unsigned long long)story.lost, KD_PLAYGROUND_EVENTS);
     if (kd_playground_lost_momentum(p))
-        fprintf(stderr,
-                "kerrd: bodies smaller than 2 (m1 + m2) pulled one another to more than c: speeds were held at c, "
-                "which took momentum (state.spent.capped_momentum)\n");
+        fprintf(stderr, "kerrd: bodies smaller than 2 (m1 + m2) accelerated one another beyond c; their speeds were "
+                        "limited to c, which removed momentum (state.spent.capped_momentum)\n");
     KD_TRY(write_one(p, a->series && !strcmp(a->series_format, "npy") ? SERIES_NPY : SERIES_CSV, a->series, error));
     KD_TRY(write_one(p, FALLBACK, a->fallback, error));
     if (a->events)
@@ -359,10 +361,9 @@ const struct argp *kd_cli_playground_argp(void)
         .options = table,
         .parser = parse,
         .args_doc = "[FILE.json|-]",
-        .doc = "Bodies round the hole that pull one another, merge, are torn apart and spiral in; docs/playground.md "
-               "says what is computed.\v"
-               "The document is one that was asked for or written as a snapshot. Without one, and without --preset, "
-               "there are no bodies.",
+        .doc = "Simulate bodies round the hole: they attract one another, merge, are torn apart and spiral in. "
+               "docs/playground.md has the equations.\vThe document is a request or a snapshot. Without one, and "
+               "without --preset, there are no bodies.",
         .children = kd_cli_device_children,
     };
     return &argp;

@@ -35,12 +35,11 @@ enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct k
                        : asked->memory         ? "--memory"
                                                : NULL;
     if (!asked->path)
-        return idle ? kd_error_set(error, KD_EINVAL, "for --picture FILE, which is missing: %s", idle) : KD_OK;
+        return idle ? kd_error_set(error, KD_EINVAL, "--picture FILE is missing; it is needed by %s", idle) : KD_OK;
     if (asked->every > 0 && !number_in(asked->path, &length))
-        return kd_error_set(
-            error, KD_EINVAL,
-            "--picture is \"%s\", and must, with --every, be a name with one %%d in it, as film/%%05d.png",
-            asked->path);
+        return kd_error_set(error, KD_EINVAL,
+                            "--picture is \"%s\"; with --every it must contain one %%d, as in film/%%05d.png",
+                            asked->path);
     return KD_OK;
 }
 
@@ -117,13 +116,13 @@ done:
 
 enum kd_status kd_pictures_take(struct kd_pictures *pictures, struct kd_playground *p, struct kd_error *error)
 {
-    struct kd_dynamic_bodies *crowd = NULL;
+    struct kd_dynamic_bodies *dynamic = NULL;
     struct kd_buffer file = { 0 };
     struct kd_scene scene = pictures->scene;
     char path[4096];
     enum kd_status status;
-    KD_TRY(kd_playground_show_named(p, &crowd, error));
-    kd_scene_show(&scene, crowd);
+    KD_TRY(kd_playground_show_named(p, &dynamic, error));
+    kd_scene_show(&scene, dynamic);
     kd_scene_pass(&scene, p->t);
     KD_TRY(kd_scene_validate(&scene, error));
     KD_TRY(render(pictures, &scene, &file, error));
@@ -131,7 +130,7 @@ enum kd_status kd_pictures_take(struct kd_pictures *pictures, struct kd_playgrou
     KD_TRY(kd_file_write(path, &file, error));
     pictures->made++;
 done:
-    kd_dynamic_bodies_release(crowd);
+    kd_dynamic_bodies_release(dynamic);
     kd_buffer_finish(&file);
     return status;
 }

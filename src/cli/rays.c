@@ -62,36 +62,37 @@ struct arguments {
 };
 
 static const struct argp_option table[] = {
-    { "output", 'o', "FILE", 0, "where to write; .npy and .csv choose those formats (default: - for standard output)",
-      0 },
-    { "format", 'f', "json|npy|csv|text", 0, "the format, whatever the name of the output; text goes with --trace", 0 },
-    { "ray", 'r', "ALPHA,BETA", 0, "one more ray, in M; may be repeated", 0 },
+    { "output", 'o', "FILE", 0, "output file; .npy and .csv choose those formats (default: - for standard output)", 0 },
+    { "format", 'f', "json|npy|csv|text", 0, "format of the output, independent of its name; text needs --trace", 0 },
+    { "ray", 'r', "ALPHA,BETA", 0, "another ray, in M; may be repeated", 0 },
     { "spin", KEY_SPIN, "A", 0, "spin of the hole, above -1 and below 1", 0 },
     { "r", KEY_R, "R|infinity", 0, "radius of the observer in M", 0 },
     { "inclination-deg", KEY_INCLINATION, "I", 0, "polar angle of the observer", 0 },
     { "motion", KEY_MOTION, KD_OBSERVER_WORDS, 0,
-      "how an observer at a finite radius moves, as camera.observer; rays are then directions in its frame, in "
-      "degrees: "
-      "YAW,PITCH instead of ALPHA,BETA",
+      "motion of an observer at a finite radius, as camera.observer; a ray is then a direction in the observer's "
+      "frame, YAW,PITCH in degrees instead of ALPHA,BETA",
       0 },
-    { "velocity-r", KEY_VELOCITY_R, "V", 0, "of --motion velocity, outwards, in c", 0 },
-    { "velocity-theta", KEY_VELOCITY_THETA, "V", 0, "of --motion velocity, away from the north pole", 0 },
-    { "velocity-phi", KEY_VELOCITY_PHI, "V", 0, "of --motion velocity, along the disk's rotation", 0 },
-    { "infall-from", KEY_INFALL_FROM, "R|infinity", 0, "of --motion infall: where it was at rest, in M", 0 },
-    { "infall-energy", KEY_INFALL_ENERGY, "E|rest", 0, "of --motion infall: energy per mass", 0 },
-    { "infall-momentum", KEY_INFALL_MOMENTUM, "L", 0, "of --motion infall: angular momentum per mass, in M", 0 },
-    { "orders", KEY_ORDERS, "N", 0, "crossings wanted, 1 to 16", 0 },
-    { "profile", KEY_PROFILE, "draft|interactive|balanced|high|reference", 0, "how exactly, in a word", 0 },
+    { "velocity-r", KEY_VELOCITY_R, "V", 0, "with --motion velocity: velocity outwards, in c", 0 },
+    { "velocity-theta", KEY_VELOCITY_THETA, "V", 0, "with --motion velocity: velocity away from the north pole, in c",
+      0 },
+    { "velocity-phi", KEY_VELOCITY_PHI, "V", 0, "with --motion velocity: velocity along the disk's rotation, in c", 0 },
+    { "infall-from", KEY_INFALL_FROM, "R|infinity", 0,
+      "with --motion infall: radius at which the observer was at rest, in M", 0 },
+    { "infall-energy", KEY_INFALL_ENERGY, "E|rest", 0, "with --motion infall: energy per mass", 0 },
+    { "infall-momentum", KEY_INFALL_MOMENTUM, "L", 0, "with --motion infall: angular momentum per mass, in M", 0 },
+    { "orders", KEY_ORDERS, "N", 0, "number of equatorial crossings, 1 to 16", 0 },
+    { "profile", KEY_PROFILE, "draft|interactive|balanced|high|reference", 0,
+      "accuracy, as accuracy.profile of a scene", 0 },
     { "tolerance", KEY_TOLERANCE, "T", 0,
-      "relative error of the radii to be held: the fastest engine that does, by this device's table", 0 },
+      "largest relative error of the radii; chooses the fastest engine that meets it by this device's accuracy table",
+      0 },
     { "engine", KEY_ENGINE, "closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6|auto", 0,
-      "how rays are followed (default: closed)", 0 },
-    { "precision", KEY_PRECISION, "f64|f32|auto", 0, "of its numbers (default: f64)", 0 },
+      "method that traces the rays (default: closed)", 0 },
+    { "precision", KEY_PRECISION, "f64|f32|auto", 0, "precision of the engine (default: f64)", 0 },
     { "steps", KEY_STEPS, "N", 0, "steps a half period, a multiple of 4; 0 for the engine's default", 0 },
     { "trace", KEY_TRACE, "steps|path", OPTION_ARG_OPTIONAL,
-      "one ray: the case of its roots, why it ends, and its steps as the device takes them, or with --trace=path the "
-      "points of its path "
-      "(engine: mino-rkn6 unless one is named)",
+      "explain a single ray: its type of motion, why it ends, and the device's steps, or with --trace=path the points "
+      "of its path (default engine: mino-rkn6)",
       0 },
     { 0 },
 };
@@ -102,7 +103,7 @@ static void add_ray(struct arguments *arguments, const char *text, struct argp_s
     size_t n = kd_number_span_typed(text, strlen(text));
     size_t m = text[n] == ',' ? kd_number_span_typed(text + n + 1, strlen(text + n + 1)) : 0;
     if (!n || !m || text[n + 1 + m])
-        argp_error(state, "--ray %s: it takes ALPHA,BETA, as in --ray -5.2,0.1", text);
+        argp_error(state, "--ray is %s; it must be ALPHA,BETA, as in --ray -5.2,0.1", text);
     if (kd_rays_request_add(&arguments->more, kd_number_parse(text), kd_number_parse(text + n + 1), &error))
         argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--ray");
 }
@@ -117,7 +118,7 @@ static void settle_format(struct arguments *arguments, const struct argp_state *
     if (arguments->trace && !strcmp(arguments->format, "npy"))
         argp_error(state, "--trace writes text, json or csv, not npy");
     if (!arguments->trace && !strcmp(arguments->format, "text"))
-        argp_error(state, "--format text: only --trace writes it");
+        argp_error(state, "--format text needs --trace");
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -132,13 +133,13 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'o': arguments->output = text; return 0;
     case 'f':
         if (strcmp(text, "json") && strcmp(text, "npy") && strcmp(text, "csv") && strcmp(text, "text"))
-            argp_error(state, "--format %s: json, npy or csv, or with --trace text", text);
+            argp_error(state, "--format is %s; it must be json, npy or csv, or text with --trace", text);
         arguments->format = text;
         return 0;
     case 'r': add_ray(arguments, text, state); return 0;
     case KEY_TRACE:
         if (text && strcmp(text, "steps") && strcmp(text, "path"))
-            argp_error(state, "--trace=%s: steps or path", text);
+            argp_error(state, "--trace is %s; it must be steps or path", text);
         arguments->trace = true;
         arguments->points = text && !strcmp(text, "path");
         return 0;
@@ -284,7 +285,7 @@ static enum kd_status run_trace(const struct arguments *arguments, struct kd_err
     enum kd_status status;
     KD_TRY(load(arguments, &request, error));
     if (request.n != 1)
-        KD_TRY(kd_error_field(error, "/rays", "there are %zu rays, and --trace follows one", request.n));
+        KD_TRY(kd_error_field(error, "/rays", "there are %zu rays; with --trace there must be one", request.n));
     if (arguments->output && strcmp(arguments->output, "-"))
         KD_TRY(kd_file_check(arguments->output, error));
     KD_TRY(settle(arguments, &request, &renderer, error));
@@ -314,9 +315,9 @@ const struct argp *kd_cli_rays_argp(void)
         .parser = parse,
         .args_doc = "[FILE.json|FILE.npy|-]",
         .doc = "Trace listed rays back from the observer: equatorial crossings with azimuth, delay and redshift, the "
-               "direction of escape, and an error for each.\v"
-               "FILE is what POST /v1/rays takes: a JSON document, or an NPY array of pairs (alpha, beta). Options "
-               "change what it says, and --ray adds to it. The closed engine needs no device.",
+               "direction of escape, and an error for each.\vFILE is a request of POST /v1/rays: a JSON document, or "
+               "an NPY array of pairs (alpha, beta). Options override its members, and --ray adds a ray. The closed "
+               "engine needs no device.",
         .children = kd_cli_device_children,
     };
     return &argp;

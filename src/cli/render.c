@@ -21,7 +21,7 @@ struct arguments {
 
 static const struct argp_option table[] = {
     { "output", 'o', "FILE", 0,
-      "the file to write, by its end a PNG, FITS, EXR, NPZ or NPY; - for standard output, a PNG (required)", 0 },
+      "file to write; its ending chooses PNG, FITS, EXR, NPZ or NPY; - for standard output, a PNG (required)", 0 },
     KD_CLI_MEMORY,
     { "stats", 't', NULL, 0, "print times and accuracy as one line of JSON on standard error", 0 },
     { 0 },
@@ -40,7 +40,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
     case ARGP_KEY_END:
         if (!arguments->output)
-            argp_error(state, "-o FILE is missing: where should the picture go?");
+            argp_error(state, "-o FILE is missing; it names the picture");
         else
             arguments->format = kd_cli_picture_format(state, "--output", arguments->output, false);
         if (arguments->output && !arguments->format)
@@ -118,9 +118,9 @@ const struct argp *kd_cli_render_argp(void)
         .options = table,
         .parser = parse,
         .args_doc = KD_SCENE_ARGS_DOC,
-        .doc = "Render a scene to a picture, or to a file of numbers. Without a scene, the default one.\v"
-               "Merged in this order: defaults or --preset; SCENE.json, or the scene of --from; every --set. "
-               "The picture carries its scene: --from renders it again.",
+        .doc = "Render a scene to a picture, or to a file of numbers. Without a scene, the default scene is "
+               "rendered.\vThe scene is merged in this order: defaults or --preset; SCENE.json, or the scene of "
+               "--from; every --set. The picture contains its scene: --from renders it again.",
         .children = kd_scene_device_children,
     };
     return &argp;

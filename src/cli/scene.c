@@ -11,7 +11,7 @@ struct arguments {
 };
 
 static const struct argp_option scene_table[] = {
-    { "hash", 'H', NULL, 0, "print the scene's SHA-256 instead", 0 },
+    { "hash", 'H', NULL, 0, "print the SHA-256 of the scene instead of the scene", 0 },
     { 0 },
 };
 
@@ -44,7 +44,7 @@ const struct argp *kd_cli_scene_argp(void)
         .options = scene_table,
         .parser = parse_scene,
         .args_doc = KD_SCENE_ARGS_DOC,
-        .doc = "Print the merged scene in canonical form, every field named.",
+        .doc = "Print the merged scene in canonical form, with every field.",
         .children = children,
     };
     return &argp;
@@ -76,7 +76,7 @@ static error_t parse_presets(int key, char *text, struct argp_state *state)
 {
     if (key != ARGP_KEY_ARG)
         return ARGP_ERR_UNKNOWN;
-    argp_error(state, "%s: it takes no argument", text);
+    argp_error(state, "%s: the command takes no argument", text);
     return 0;
 }
 
@@ -85,7 +85,7 @@ const struct argp *kd_cli_presets_argp(void)
     static const struct argp_child children[] = { { &kd_cli_log_argp, 0, NULL, 0 }, { 0 } };
     static const struct argp argp = {
         .parser = parse_presets,
-        .doc = "List the scenes that kerrd knows by name.",
+        .doc = "List the presets: scenes that have a name.",
         .children = children,
     };
     return &argp;

@@ -16,15 +16,15 @@ enum { KEY_PRESET = 'p', KEY_SET = 's', KEY_FROM = 'f', KEY_SIZE = 0x2000, KEY_A
 static const struct argp_option options_table[] = {
     { "preset", KEY_PRESET, "PRESET", 0, "start from a preset (`kerrd presets` lists them)", 0 },
     { "set", KEY_SET, "PATH=VALUE", 0, "set one field, as in camera.inclination_deg=60; may be repeated", 0 },
-    { "size", KEY_SIZE, "WIDTHxHEIGHT", 0, "of the picture, as in 1920x1080: --set image.width and image.height in one",
+    { "size", KEY_SIZE, "WIDTHxHEIGHT", 0, "size of the picture, as in 1920x1080; sets image.width and image.height",
       0 },
     { "tile", KEY_TILE, "WIDTHxHEIGHT+LEFT+TOP", 0,
-      "a part of it, as in 512x512+1024+0: --set image.tile.width and three more in one", 0 },
+      "part of the picture to render, as in 512x512+1024+0; sets the four fields of image.tile", 0 },
     { "asset", KEY_ASSET, "NAME=FILE", 0,
-      "a PNG, or an NPZ of matter, that a field of the scene names so, as in sky.image=NAME or volume.grid=NAME; may "
-      "be repeated",
+      "give the file, a PNG or an NPZ of matter, the name that a field of the scene uses, as in sky.image=NAME or "
+      "volume.grid=NAME; may be repeated",
       0 },
-    { "from", KEY_FROM, "PICTURE.png", 0, "take the scene from inside a picture that kerrd made", 0 },
+    { "from", KEY_FROM, "PICTURE.png", 0, "use the scene inside a picture that kerrd made", 0 },
     { 0 },
 };
 
@@ -58,7 +58,7 @@ bool kd_scene_options_add_size(struct kd_scene_options *options, const char *tex
 static void add_size(struct kd_scene_options *options, const char *text, struct argp_state *state)
 {
     if (!kd_scene_options_add_size(options, text))
-        argp_error(state, "--size %s: it takes WIDTHxHEIGHT in pixels, as in 1920x1080", text);
+        argp_error(state, "--size is %s; it must be WIDTHxHEIGHT in pixels, as in 1920x1080", text);
 }
 
 /* Adds "512x512+1024+0" as its four fields. options owns their texts. */
@@ -84,7 +84,7 @@ bool kd_scene_options_add_tile(struct kd_scene_options *options, const char *tex
 static void add_tile(struct kd_scene_options *options, const char *text, struct argp_state *state)
 {
     if (!kd_scene_options_add_tile(options, text))
-        argp_error(state, "--tile %s: it takes WIDTHxHEIGHT+LEFT+TOP in pixels, as in 512x512+1024+0", text);
+        argp_error(state, "--tile is %s; it must be WIDTHxHEIGHT+LEFT+TOP in pixels, as in 512x512+1024+0", text);
 }
 
 static void add_asset(struct kd_scene_options *options, const char *text, struct argp_state *state)
@@ -98,7 +98,8 @@ static void check_sources(const struct kd_scene_options *options, struct argp_st
 {
     const bool document = options->document && !options->document_is_over;
     if (options->from && (document || options->preset))
-        argp_error(state, "a picture holds every field: --from excludes %s", document ? "SCENE" : "--preset");
+        argp_error(state, "--from cannot be used with %s, because a picture has every field of its scene",
+                   document ? "SCENE" : "--preset");
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -112,7 +113,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_ASSET: add_asset(options, text, state); return 0;
     case KEY_SET:
         if (!strchr(text, '=') || text[0] == '=')
-            argp_error(state, "--set %s: it takes PATH=VALUE, as in camera.inclination_deg=60", text);
+            argp_error(state, "--set is %s; it must be PATH=VALUE, as in camera.inclination_deg=60", text);
         add_set(options, text, state);
         return 0;
     case ARGP_KEY_ARG:
@@ -142,7 +143,7 @@ static enum kd_status merge_document(const char *path, struct kd_scene *scene, s
     if (!status) {
         const char *start = text.data ? (const char *)text.data : "";
         if (kd_format_of_bytes(start, text.size))
-            status = kd_error_set(error, KD_EINVAL, "this is a picture, not a scene: use --from");
+            status = kd_error_set(error, KD_EINVAL, "the file is a picture, not a scene: give it with --from");
         else
             status = kd_scene_from_json(scene, start, text.size, error);
         if (status)

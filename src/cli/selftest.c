@@ -64,7 +64,7 @@ static void print_summary(const struct report *r, const char *device, bool float
     if (r->failed)
         printf("%u FAILED\n", r->failed);
     else
-        printf("all ok; nearest to its bound, at %.0f %%: %s\n", 100 * r->nearest, r->nearest_what);
+        printf("all ok; the closest to its bound, at %.0f %% of it, is %s\n", 100 * r->nearest, r->nearest_what);
 }
 
 static enum kd_status table_json(struct report *r, const char *device, bool float64, double seconds,

@@ -40,7 +40,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     if (key == 'h')
         argp_state_help(state, stdout, ARGP_HELP_STD_HELP);
     if (key == ARGP_KEY_ARG)
-        argp_error(state, "%s: it takes no argument", text);
+        argp_error(state, "%s: the command takes no argument", text);
     size_t i = 0; /* index of the setting; headings are not counted */
     const struct argp_option *option = table;
     while (i < KD_SERVE_COUNT && option->key != key)
@@ -85,7 +85,7 @@ static void show_code(const char *address, uint16_t port, const char *base_path,
     snprintf(text, sizeof text, "http://%s%s%s:%u%s/", six ? "[" : "", name, six ? "]" : "", port, base_path);
     printf("kerrd: for a telephone on this network, %s\n", text);
     if (kd_cli_code(stdout, text))
-        kd_log(KD_LOG_ERROR, "no memory for the code of %s", text);
+        kd_log(KD_LOG_ERROR, "out of memory for the QR code of %s", text);
 }
 
 static void announce(const char *address, uint16_t port, const char *base_path, const char *const *own)
@@ -93,7 +93,7 @@ static void announce(const char *address, uint16_t port, const char *base_path, 
     bool six = strchr(address, ':'); /* in URLs an IPv6 address has brackets */
     printf("kerrd: listening on http://%s%s%s:%u%s/\n", six ? "[" : "", address, six ? "]" : "", port, base_path);
     for (const char *const *name = own; name && *name; name++)
-        printf("kerrd: reached at http://%s:%u%s/\n", *name, port, base_path);
+        printf("kerrd: reachable at http://%s:%u%s/\n", *name, port, base_path);
     show_code(address, port, base_path, own);
     /* The parent may be waiting for this line in a pipe. If it cannot be written, the service continues. */
     if (fflush(stdout) || ferror(stdout))
@@ -114,7 +114,7 @@ static void *await_eof(void *unused)
             break;
     }
     if (n < 0)
-        kd_log(KD_LOG_ERROR, "standard input cannot be read (%s), and the server stops", strerror(errno));
+        kd_log(KD_LOG_ERROR, "cannot read standard input (%s); the server stops", strerror(errno));
     kill(getpid(), SIGTERM);
     return unused;
 }
@@ -124,7 +124,8 @@ static enum kd_status stop_at_eof(struct kd_error *error)
     pthread_t thread;
     int code = pthread_create(&thread, NULL, await_eof, NULL);
     if (code)
-        return kd_error_set(error, KD_EIO, "no thread that waits for standard input to end: %s", strerror(code));
+        return kd_error_set(error, KD_EIO, "cannot start the thread that waits for the end of standard input: %s",
+                            strerror(code));
     pthread_detach(thread); /* it ends with the process */
     return KD_OK;
 }
@@ -161,8 +162,8 @@ static enum kd_status serve(const struct kd_settings *settings, struct kd_error 
     };
     if (kd_listen_reaches_out(listen) && !params.token_file && !kd_settings_switch(settings, KD_SERVE_INSECURE))
         return kd_error_set(error, KD_EINVAL,
-                            "other machines reach --listen %.100s: --token-file FILE says who may use the server, "
-                            "--insecure lets everybody",
+                            "other machines can reach --listen %.100s: give --token-file FILE for users with tokens, "
+                            "or --insecure for everybody",
                             listen);
     kd_allocator_for_long();
     enum kd_status status = kd_server_create(&params, &running, error);
@@ -189,13 +190,11 @@ const struct argp *kd_cli_serve_argp(void)
     static const struct argp argp = {
         .options = table,
         .parser = parse,
-        .doc = "Serve pictures over HTTP.\v"
-               "SIGTERM, SIGINT or SIGHUP: /readyz fails at once, running and queued renders finish, at most for "
-               "--drain-seconds, "
-               "then the exit code is 0. It is 3 when the device was lost for good, or hangs: start it again.\n"
-               "Each option may also stand in the environment, as KERRD_CLIENT_SHARE=50 for --client-share, and in the "
-               "file that --config names, as "
-               "{\"client-share\": 50}. A flag counts before the environment, and that before the file.",
+        .doc = "Serve pictures over HTTP.\vOn SIGTERM, SIGINT or SIGHUP /readyz fails at once, and running and queued "
+               "renders finish within --drain-seconds; then the exit code is 0. The exit code is 3 when the device is "
+               "lost or hangs: start the server again.\nAn option may also be in the environment, as "
+               "KERRD_CLIENT_SHARE=50 for --client-share, or in the file that --config names, as {\"client-share\": "
+               "50}. A flag overrides the environment, which overrides the file.",
     };
     return &argp;
 }

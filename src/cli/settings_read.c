@@ -239,7 +239,7 @@ void kd_settings_warn(const struct kd_settings *settings, char *const *environme
         const size_t i = find_variable(settings, *environment, &value);
         snprintf(name, sizeof name, "%.*s", (int)strcspn(*environment, "="), *environment);
         if (is_link(name, value))
-            kd_log(KD_LOG_INFO, "the environment: %s tells of a Service of Kubernetes, and is not read", name);
+            kd_log(KD_LOG_INFO, "the environment: %s is ignored, because it describes a Service of Kubernetes", name);
         else if (i == settings->n && !is_other(name))
             warn_of(settings, name);
     }

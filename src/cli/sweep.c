@@ -27,12 +27,13 @@ struct arguments {
 
 static const struct argp_option table[] = {
     { "axis", 'x', "FIELD=VALUES", 0,
-      "an axis: VALUE,VALUE,... or START:STOP:STEP or START:STOP/HOW MANY; again for each more, the last one fastest",
+      "an axis: VALUE,VALUE,... or START:STOP:STEP or START:STOP/COUNT; may be repeated, the last axis varies fastest",
       0 },
     { "output", 'o', "FILE", 0,
-      "the file to write: .fits or .npz, one array a layer; .zip, pictures; .csv or .json, their light (required)", 0 },
+      "file to write: .fits or .npz for one array a layer; .zip for pictures; .csv or .json for fluxes (required)", 0 },
     KD_CLI_MEMORY,
-    { "stats", 't', NULL, 0, "print scenes, lens maps, fluxes in Jy and seconds as one line of JSON on standard error",
+    { "stats", 't', NULL, 0,
+      "print the numbers of scenes and lens maps, the fluxes in Jy and the time as one line of JSON on standard error",
       0 },
     { 0 },
 };
@@ -74,9 +75,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_END:
         if (!arguments->n_axes)
             argp_error(state,
-                       "--axis is missing: which field takes which values? As in --axis spacetime.spin=0,0.5,0.9");
+                       "--axis is missing; it must be a field and its values, as in --axis spacetime.spin=0,0.5,0.9");
         else if (!arguments->output)
-            argp_error(state, "-o FILE is missing: where should the sweep go?");
+            argp_error(state, "-o FILE is missing; it names the output");
         else
             arguments->kind = kind_of(arguments->output, state);
         return 0;
@@ -187,11 +188,11 @@ static enum kd_status save_table(struct work *w, const char *path, struct kd_err
     for (unsigned i = 0; i < w->sweep->scenes && read; i++)
         read = kd_frames_read(&w->frames, i, 0, rows + i * row, row);
     enum kd_status status = !rows ? KD_ENOMEM : read ? format->write(rows, w->sweep->scenes, w->sweep, &text) : KD_EIO;
-    status = status ? kd_error_set(error, status,
-                                   status == KD_EIO ? "the scenes cannot be read again from TMPDIR"
-                                                    : "out of memory for %u rows",
-                                   w->sweep->scenes)
-                    : kd_file_write(path, &text, error);
+    status = status
+                 ? kd_error_set(error, status,
+                                status == KD_EIO ? "cannot read the scenes from TMPDIR" : "out of memory for %u rows",
+                                w->sweep->scenes)
+                 : kd_file_write(path, &text, error);
     kd_buffer_finish(&text);
     free(rows);
     return status;
@@ -274,10 +275,9 @@ const struct argp *kd_cli_sweep_argp(void)
         .options = table,
         .parser = parse,
         .args_doc = KD_SCENE_ARGS_DOC,
-        .doc = "Render a scene for all combinations of values of some fields: its axes.\v"
-               "A range START:STOP:STEP holds STOP if a whole number of steps leads there. Scenes that share a lens "
-               "map are rendered one after the "
-               "other, whatever the order of the axes. A job of a server makes the same file.",
+        .doc = "Render a scene for all combinations of values of some fields: its axes.\vA range START:STOP:STEP "
+               "includes STOP if STOP is a whole number of steps from START. Scenes that share a lens map are rendered "
+               "one after the other, independent of the order of the axes. A job of a server makes the same file.",
         .children = kd_scene_device_children,
     };
     return &argp;

@@ -31,7 +31,7 @@ enum kd_status kd_trace_explain(const struct kd_rays_steps *steps, bool points, 
                             &out->path, error));
     const int n = kd_ray_motion_why(&out->motion, out->end.fate, out->why, sizeof out->why);
     if (steps->end.fate != out->end.fate)
-        snprintf(out->why + n, sizeof out->why - (size_t)n, " The engine has it otherwise: %s.",
+        snprintf(out->why + n, sizeof out->why - (size_t)n, " The engine's result differs: %s.",
                  kd_ray_fate_name(steps->end.fate));
 done:
     return status;

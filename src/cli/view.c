@@ -28,8 +28,8 @@ struct arguments {
 
 static const struct argp_option table[] = {
     { "protocol", KEY_PROTOCOL, "kitty|sixel", 0,
-      "how the picture is sent, also where standard output is no terminal (default: as the terminal answers)", 0 },
-    { "enlarge", KEY_ENLARGE, NULL, 0, "fill the terminal also with a picture that is smaller", 0 },
+      "protocol of the picture, also if standard output is not a terminal (default: by a query of the terminal)", 0 },
+    { "enlarge", KEY_ENLARGE, NULL, 0, "enlarge a smaller picture to the size of the terminal", 0 },
     KD_CLI_MEMORY,
     { 0 },
 };
@@ -44,7 +44,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_PROTOCOL:
         if (strcmp(text, "kitty") && strcmp(text, "sixel"))
-            argp_error(state, "--protocol %s: kitty or sixel", text);
+            argp_error(state, "--protocol is %s; it must be kitty or sixel", text);
         arguments->protocol = *text == 'k' ? KITTY : SIXEL;
         return 0;
     case KEY_ENLARGE: arguments->enlarge = true; return 0;
@@ -56,16 +56,15 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static enum kd_status choose(const struct arguments *arguments, const struct kd_terminal *terminal, enum protocol *out,
                              struct kd_error *error)
 {
-    static const char remedy[] = "`kerrd render -o FILE.png` writes the picture to a file, and --protocol kitty or "
-                                 "--protocol sixel sends it all the same";
+    static const char remedy[] = "`kerrd render -o FILE.png` writes the picture to a file; --protocol kitty or "
+                                 "--protocol sixel sends it nevertheless";
     *out = arguments->protocol ? arguments->protocol : terminal->kitty ? KITTY : SIXEL;
     if (arguments->protocol || terminal->kitty || terminal->sixel)
         return KD_OK;
     if (!terminal->is)
-        return kd_error_set(error, KD_EIO, "standard output is no terminal that could show a picture: %s", remedy);
-    return kd_error_set(error, KD_EIO,
-                        "this terminal can show no picture, neither by kitty's graphics nor as sixel%s: %s",
-                        getenv("TMUX") ? ", or tmux, which stands before it, cannot" : "", remedy);
+        return kd_error_set(error, KD_EIO, "standard output is not a terminal: %s", remedy);
+    return kd_error_set(error, KD_EIO, "this terminal%s supports neither kitty's graphics nor sixel: %s",
+                        getenv("TMUX") ? ", or the tmux in front of it," : "", remedy);
 }
 
 /* If the document is a picture that kerrd has made, reads it. Otherwise *picture stays empty, and the options of the
@@ -86,7 +85,7 @@ static enum kd_status look(const struct arguments *arguments, struct kd_buffer *
     }
     if (options->preset || options->n_set || options->assets.n)
         KD_TRY(kd_error_set(error, KD_EINVAL,
-                            "%s is a picture, which is shown as it is: to change its scene, give it by --from",
+                            "%s is a picture and is shown unchanged; to change its scene, give it with --from",
                             options->document));
     status = kd_format_scene(picture->data, picture->size, scene, error);
     if (status)
@@ -190,13 +189,10 @@ const struct argp *kd_cli_view_argp(void)
         .parser = parse,
         .args_doc = "[SCENE.json|PICTURE.png|-]",
         .doc = "Show a scene in the terminal, rendered at a size that fits; or a picture that kerrd has made, and its "
-               "scene in one line.\v"
-               "The terminal is asked whether it has kitty's graphics or sixel. One that has neither cannot show a "
-               "picture: `kerrd render -o FILE.png` writes "
-               "a file instead. tmux and screen stand before the terminal: kitty's graphics do not pass them, and "
-               "sixel only where they know it. "
-               "A picture is never larger than its scene says, unless --enlarge is given. The scene is merged as for "
-               "`kerrd render`.",
+               "scene in one line.\vkerrd queries the terminal for kitty's graphics and sixel. A terminal without both "
+               "cannot show a picture: `kerrd render -o FILE.png` writes a file instead. tmux and screen pass no kitty "
+               "graphics, and sixel only if they support it. A picture is never larger than image.width and "
+               "image.height, unless --enlarge is given. The scene is merged as for `kerrd render`.",
         .children = kd_scene_device_children,
     };
     return &argp;

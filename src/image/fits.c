@@ -210,9 +210,9 @@ enum kd_status kd_fits_head(struct kd_buffer *out, const struct kd_fits_shape *s
     KD_TRY(put_shape(out, shape));
     KD_TRY(kd_buffer_append(out, cards->data, cards->size));
     snprintf(text, sizeof text, "%u", data_sum);
-    KD_TRY(kd_fits_text(out, "DATASUM", text, "of the data: ones' complement"));
+    KD_TRY(kd_fits_text(out, "DATASUM", text, "checksum of the data, ones' complement"));
     const size_t checksum = out->size + VALUE + 1;
-    KD_TRY(kd_fits_text(out, "CHECKSUM", "0000000000000000", "of header and data"));
+    KD_TRY(kd_fits_text(out, "CHECKSUM", "0000000000000000", "checksum of header and data"));
     KD_TRY(put_card(out, "END"));
     KD_TRY(pad(out, from, ' '));
     encode_sum(kd_fits_sum(data_sum, out->data + from, out->size - from), letters);

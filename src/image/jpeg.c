@@ -181,7 +181,7 @@ enum kd_status kd_jpeg_encode(uint32_t width, uint32_t height, const uint8_t *pi
     if (quality < 1 || quality > 100)
         return kd_error_set(error, KD_EINVAL, "a JPEG of quality %u: it must be 1 to 100", quality);
     if (width < 1 || width > JPEG_MAX_DIMENSION || height < 1 || height > JPEG_MAX_DIMENSION)
-        return kd_error_set(error, KD_EINVAL, "a JPEG of %u x %u pixels: each side is 1 to %ld", width, height,
+        return kd_error_set(error, KD_EINVAL, "a JPEG of %u x %u pixels: each side must be 1 to %ld", width, height,
                             JPEG_MAX_DIMENSION);
     struct picture picture = { .width = width, .height = height, .pixels = pixels, .quality = quality, .out = out };
     const size_t before = out->size;

@@ -135,17 +135,17 @@ static enum kd_status take_shape(struct reader *r, uint64_t *shape, size_t most,
     bool comma = true;
     *n = 0;
     if (!take(r, '('))
-        return fail(r, "the shape is no tuple");
+        return fail(r, "the shape is not a tuple");
     while (!take(r, ')')) {
         if (!comma)
-            return fail(r, "the shape is no tuple of whole numbers");
+            return fail(r, "the shape is not a tuple of whole numbers");
         if (*n == most)
             return fail(r, "it has too many dimensions");
         if (!take_number(r, &shape[(*n)++]))
-            return fail(r, "the shape is no tuple of whole numbers below 2^64");
+            return fail(r, "the shape is not a tuple of whole numbers below 2^64");
         comma = take(r, ',');
     }
-    return *n == 1 && !comma ? fail(r, "the shape is no tuple") : KD_OK;
+    return *n == 1 && !comma ? fail(r, "the shape is not a tuple") : KD_OK;
 }
 
 /* Whether a type code is that of text, such as "<U12" or "|S12"; sets its type and count. */
@@ -167,7 +167,7 @@ static enum kd_status take_type(struct reader *r, enum kd_npy_type *out)
 {
     char code[16], what[80];
     if (!take_string(r, code, sizeof code))
-        return fail(r, "an element type is no plain string");
+        return fail(r, "an element type is not a plain string");
     if (r->text && is_text(code, &r->array->fields[0]))
         return KD_OK;
     for (size_t i = 0; i < TYPES_READ; i++)
@@ -178,7 +178,7 @@ static enum kd_status take_type(struct reader *r, enum kd_npy_type *out)
     for (char *p = code; *p; p++)
         if (*p < ' ' || *p > '~')
             *p = '?';
-    snprintf(what, sizeof what, "the element type is %s, taken are <f8, <f4 and |u1", code);
+    snprintf(what, sizeof what, "the element type is %s; it must be <f8, <f4 or |u1", code);
     return fail(r, what);
 }
 
@@ -202,14 +202,14 @@ static enum kd_status take_field(struct reader *r)
     *field = (struct kd_npy_field) { 0 };
     if (!take(r, '(') || !take_string(r, field->name, sizeof field->name) || !take(r, ',') ||
         !good_name(array, field->name))
-        return fail(r, "a field has no name of its own of up to 31 letters, digits and _");
+        return fail(r, "the name of a field is not unique, or has other than 1 to 31 letters, digits and _");
     enum kd_status status = take_type(r, &field->type);
     if (!status && take(r, ',')) {
         skip_blanks(r);
         if (*r->at != ')') {
             status = take_shape(r, &count, 1, &n);
             if (!status && (n != 1 || !count || count > UINT32_MAX / 64))
-                status = fail(r, "a field's shape is not one length");
+                status = fail(r, "the shape of a field has more than one dimension");
             field->count = status ? 0 : (uint32_t)count;
         }
     }
@@ -227,7 +227,7 @@ static enum kd_status take_descr(struct reader *r)
     bool comma = true;
     array->n_fields = 0;
     while (!take(r, ']')) {
-        enum kd_status status = comma ? take_field(r) : fail(r, "its fields are no list");
+        enum kd_status status = comma ? take_field(r) : fail(r, "its fields are not a list");
         if (status)
             return status;
         comma = take(r, ',');
@@ -241,17 +241,17 @@ static enum kd_status take_entry(struct reader *r, bool seen[3])
     char key[16];
     int which = 0;
     if (!take_string(r, key, sizeof key) || !take(r, ':'))
-        return fail(r, "its header is no dictionary");
+        return fail(r, "its header is not a dictionary");
     while (which < 3 && strcmp(key, keys[which]))
         which++;
     if (which == 3 || seen[which])
-        return fail(r, "its header has keys other than descr, fortran_order and shape, once each");
+        return fail(r, "its header must have the keys descr, fortran_order and shape, each once, and no other");
     seen[which] = true;
     switch (which) {
     case 0: return take_descr(r);
     case 1:
         return take_word(r, "False")  ? KD_OK
-               : take_word(r, "True") ? fail(r, "it is in Fortran order, taken is C order")
+               : take_word(r, "True") ? fail(r, "its order is Fortran; it must be C")
                                       : fail(r, "fortran_order is neither True nor False");
     default: return take_shape(r, r->array->shape, KD_NPY_DIMENSIONS_READ, &r->array->n_dimensions);
     }
@@ -261,9 +261,9 @@ static enum kd_status take_header(struct reader *r)
 {
     bool seen[3] = { false }, comma = true;
     if (!take(r, '{'))
-        return fail(r, "its header is no dictionary");
+        return fail(r, "its header is not a dictionary");
     while (!take(r, '}')) {
-        enum kd_status status = comma ? take_entry(r, seen) : fail(r, "its header is no dictionary");
+        enum kd_status status = comma ? take_entry(r, seen) : fail(r, "its header is not a dictionary");
         if (status)
             return status;
         comma = take(r, ',');
@@ -292,7 +292,7 @@ static enum kd_status read_all(const void *data, size_t size, bool text, struct 
     size_t length = 0, start = find_header(data, size, &length);
     *out = (struct kd_npy) { 0 };
     if (!start)
-        return fail(&r, "it does not start as NPY of version 1.0 or 2.0 does");
+        return fail(&r, "it does not start like NPY of version 1.0 or 2.0");
     if (length > KD_NPY_HEADER_MAX || length > size - start)
         return fail(&r,
                     length > KD_NPY_HEADER_MAX ? "its header has more than 10000 bytes" : "it ends within its header");
@@ -310,10 +310,11 @@ static enum kd_status read_all(const void *data, size_t size, bool text, struct 
     for (size_t i = 0; i < out->n_dimensions; i++)
         overflow |= __builtin_mul_overflow(items, out->shape[i], &items);
     if (overflow || __builtin_mul_overflow(items, (uint64_t)out->item_size, &bytes))
-        return fail(&r, "its shape is larger than any memory");
+        return fail(&r, "its shape has more elements than memory can have");
     out->items = items;
     if (bytes != size - out->header_size)
-        return kd_error_set(error, KD_EINVAL, "not a usable NPY array: %zu bytes follow its header, its shape has %llu",
+        return kd_error_set(error, KD_EINVAL,
+                            "not a usable NPY array: %zu bytes follow its header; by its shape there must be %llu",
                             size - out->header_size, (unsigned long long)bytes);
     return KD_OK;
 }
@@ -350,7 +351,7 @@ enum kd_status kd_npy_read_text(const void *data, size_t size, struct kd_buffer 
     const uint8_t *p = (const uint8_t *)data + array.header_size;
     if (array.n_fields != 1 || array.fields[0].name[0] ||
         !(type == KD_NPY_U1 ? array.n_dimensions == 1 : type >= KD_NPY_TEXT && array.n_dimensions == 0))
-        return fail(&r, "it is no text: neither one str nor a list of bytes");
+        return fail(&r, "it is not a text, neither one str nor a list of bytes");
     const size_t n = type == KD_NPY_U1 ? array.items : array.fields[0].count;
     for (size_t i = 0; i < n && !status; i++) {
         char c[4] = { 0 };
@@ -359,7 +360,7 @@ enum kd_status kd_npy_read_text(const void *data, size_t size, struct kd_buffer 
                            ? to_utf8(at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24, c)
                            : 1;
         if (!bytes)
-            return fail(&r, "its text holds what is no character");
+            return fail(&r, "its text has a code that is not a character");
         if (type != KD_NPY_TEXT)
             c[0] = (char)at[0];
         if (c[0]) /* NULs are padding */

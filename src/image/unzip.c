@@ -58,13 +58,13 @@ static enum kd_status read_end(const uint8_t *data, size_t size, struct director
     *out = (struct directory) { .n = u16(p + 10), .size = u32(p + 12), .at = u32(p + 16), .end = end };
     if (out->n == 0xffff || out->size == SATURATED || out->at == SATURATED) {
         if (!read_end64(data, end, out))
-            return damaged(error, "it has no whole end record for a long file");
+            return damaged(error, "its end record for long files (ZIP64) is missing or incomplete");
     } else if (u16(p + 4) || u16(p + 6) || u16(p + 8) != out->n)
-        return damaged(error, "its directory lies on several disks");
+        return damaged(error, "it is split over several disks");
     if (out->n > KD_UNZIP_MEMBERS)
-        return kd_error_set(error, KD_EINVAL, "it must have at most %d members, and has %llu", KD_UNZIP_MEMBERS,
+        return kd_error_set(error, KD_EINVAL, "it must have at most %d members; it has %llu", KD_UNZIP_MEMBERS,
                             (unsigned long long)out->n);
-    return out->at > out->end || out->size > out->end - out->at ? damaged(error, "its directory lies outside the file")
+    return out->at > out->end || out->size > out->end - out->at ? damaged(error, "its directory is outside the file")
                                                                 : KD_OK;
 }
 
@@ -134,7 +134,7 @@ enum kd_status kd_unzip_open(const void *data, size_t size, struct kd_unzip *out
     if (out->n == directory.n && done == directory.size)
         return KD_OK;
     kd_unzip_finish(out);
-    return damaged(error, "its directory is damaged, or has not as many entries as it says");
+    return damaged(error, "its directory is damaged, or has another number of entries than it states");
 }
 
 void kd_unzip_finish(struct kd_unzip *zip)
@@ -184,13 +184,13 @@ enum kd_status kd_unzip_take(const struct kd_unzip *zip, const struct kd_unzip_m
     if (m->flags & ENCRYPTED)
         return kd_error_set(error, KD_EINVAL, "is encrypted");
     if (m->method != STORED && m->method != DEFLATED)
-        return kd_error_set(error, KD_EINVAL, "is packed by method %u: a member must be stored or deflated", m->method);
+        return kd_error_set(error, KD_EINVAL, "is packed with method %u; it must be stored or deflated", m->method);
     if (m->size > most)
-        return kd_error_set(error, KD_EINVAL, "has %llu bytes, it must have at most %zu", (unsigned long long)m->size,
+        return kd_error_set(error, KD_EINVAL, "has %llu bytes; it must have at most %zu", (unsigned long long)m->size,
                             most);
     const uint8_t *from = bytes_of(zip, m);
     if (!from || (m->method == STORED ? m->packed != m->size : m->size / DENSEST > m->packed))
-        return kd_error_set(error, KD_EINVAL, "is damaged: its length is not what the directory says");
+        return kd_error_set(error, KD_EINVAL, "is damaged: its length differs from that in the directory");
     uint8_t *to = malloc((size_t)m->size + 1);
     if (!to)
         return kd_error_set(error, KD_ENOMEM, "out of memory for a member of a ZIP file");

@@ -20,10 +20,9 @@ static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error 
 {
     double isco = kd_kerr_isco(kd_hole(r->spin));
     if (fabs(r->inclination_deg - 90) < KD_DISK_IMAGE_EDGE_ON)
-        return kd_error_field(
-            error, "/inclination_deg",
-            "inclination_deg is %.9g, where the disk is seen edge on; it must be 0 to 87 or 93 to 180",
-            r->inclination_deg);
+        return kd_error_field(error, "/inclination_deg",
+                              "inclination_deg is %.9g, too close to edge on; it must be 0 to 87 or 93 to 180",
+                              r->inclination_deg);
     if (isnan(r->inner))
         r->inner = isco;
     if (r->inner < isco * (1 - 1e-9))
@@ -68,8 +67,8 @@ static enum kd_status check_emissivity(const struct kd_integral_request *r, stru
         if (kd_integral_given(r, belongs[i].name) && !(belongs[i].of & 1u << r->emissivity)) {
             char pointer[40];
             snprintf(pointer, sizeof pointer, "/%s", belongs[i].name);
-            return kd_error_field(error, pointer, "%s is given, and belongs to emissivity %s", belongs[i].name,
-                                  belongs[i].words);
+            return kd_error_field(error, pointer, "%s cannot be used here; it belongs to emissivity %s",
+                                  belongs[i].name, belongs[i].words);
         }
     double least = 1.05 * kd_hole(r->spin)->outer;
     if (r->emissivity == KD_LINE_LAMPPOST && r->height < least)
@@ -103,10 +102,10 @@ static enum kd_status check_edges(struct kd_integral_request *r, struct kd_error
         return fill_edges(r, error);
     for (size_t i = 0; i < 3; i++)
         if (kd_integral_given(r, even[i]))
-            return kd_error_field(error, "/edges", "edges are given beside %s: only one of the two may be given",
-                                  even[i]);
+            return kd_error_field(error, "/edges", "edges cannot be used with %s", even[i]);
     if (r->edges.n < 2)
-        return kd_error_field(error, "/edges", "edges has one number; it must have 2 to %u: both ends of each bin",
+        return kd_error_field(error, "/edges",
+                              "edges has one number; it must have 2 to %u, because each bin needs two ends",
                               KD_INTEGRAL_LIST);
     r->bins = (uint32_t)r->edges.n - 1, r->energy_min = r->edges.at[0], r->energy_max = r->edges.at[r->bins];
     return kd_integral_check_growth(&r->edges, "edges", error);
@@ -135,8 +134,7 @@ enum kd_status kd_integral_check_beside(const struct kd_integral_request *r, con
     snprintf(pointer, sizeof pointer, "/%s", list);
     for (size_t i = 0; i < n; i++)
         if (kd_integral_given(r, others[i]))
-            return kd_error_field(error, pointer, "%s is given beside %s: only one of the two may be given", list,
-                                  others[i]);
+            return kd_error_field(error, pointer, "%s cannot be used with %s", list, others[i]);
     return KD_OK;
 }
 
@@ -145,8 +143,8 @@ static enum kd_status check_transfer(struct kd_integral_request *r, struct kd_er
     enum kd_status status = KD_OK;
     if (r->inclination_deg < KD_INTEGRAL_FACE_ON || r->inclination_deg > 180 - KD_INTEGRAL_FACE_ON)
         return kd_error_field(error, "/inclination_deg",
-                              "inclination_deg is %.9g: seen face on each ring has one redshift and no transfer "
-                              "function; it must be 0.1 to 87 or 93 to 179.9",
+                              "inclination_deg is %.9g, too close to face on, where each ring has a single redshift "
+                              "and no transfer function; it must be 0.1 to 87 or 93 to 179.9",
                               r->inclination_deg);
     if (r->radii.n) {
         KD_TRY(kd_integral_check_beside(r, "radii", (const char *const[]) { "rings" }, 1, error));
@@ -169,7 +167,7 @@ static enum kd_status check_transfer(struct kd_integral_request *r, struct kd_er
         }
     if (r->radii.n * r->g_star.n > KD_INTEGRAL_TRANSFERS)
         return kd_error_field(error, r->radii.n > r->g_star.n ? "/radii" : "/g_star",
-                              "%zu radii with %zu g* are more than %u places", r->radii.n, r->g_star.n,
+                              "%zu radii with %zu values of g* make too many rows (limit %u)", r->radii.n, r->g_star.n,
                               KD_INTEGRAL_TRANSFERS);
 done:
     return status;

@@ -64,12 +64,11 @@ enum kd_status kd_integral_read_observation(struct kd_integral_request *r, const
     if (!r->assets)
         return kd_error_field(
             error, "/observation",
-            "observation names an asset, which a server keeps; here it must be given by --observation "
-            "FILE");
+            "observation names an asset of a server; on the command line, give the file with --observation FILE");
     if (!r->assets->find(r->assets->user, given->valuestring, &found) ||
         !r->assets->take(r->assets->user, found.hash, &bytes))
         return kd_error_field(error, "/observation",
-                              "observation names no asset that is here; it must be the SHA-256 of one");
+                              "observation is not an asset of this server; it must be the SHA-256 of one");
     enum kd_status status = kd_integral_set_observation(r, bytes.data, bytes.size, error);
     r->assets->give_back(r->assets->user, &bytes);
     return status;
@@ -102,18 +101,19 @@ enum kd_status kd_integral_check_compare(struct kd_integral_request *r, struct k
     KD_TRY(kd_integral_check_map(r, error));
     if (!r->observation)
         return kd_error_field(error, "/observation",
-                              "no observation is given; it must be one: uvfits, or the EHT's CSV");
+                              "observation is missing; it must be a uvfits file or the EHT's CSV");
     if (r->solve && isfinite(r->flux_jy))
-        return kd_error_field(error, "/solve", "solve has flux beside flux_jy: only one of the two may be given");
+        return kd_error_field(error, "/solve", "solve cannot have flux with flux_jy, because flux_jy gives the flux");
     if (r->solve && !(r->products & 1u << KD_PRODUCT_AMPLITUDE))
-        return kd_error_field(error, "/solve", "solve has flux, and products has no amplitude, which tells it");
+        return kd_error_field(
+            error, "/solve",
+            "solve has flux; products must have amplitude, because only amplitudes determine the flux");
     KD_TRY(make_comparison(r, error));
     if (r->comparison->rows > KD_INTEGRAL_ROWS || r->comparison->n > KD_INTEGRAL_ROWS)
-        return kd_error_field(
-            error, "/observation",
-            "%zu visibilities and %zu rows are left to compare; it must be at most %u of each: average_s "
-            "averages them",
-            r->comparison->n, r->comparison->rows, KD_INTEGRAL_ROWS);
+        return kd_error_field(error, "/observation",
+                              "there are %zu visibilities and %zu rows to compare; there must be at most %u of each; a "
+                              "larger average_s gives fewer",
+                              r->comparison->n, r->comparison->rows, KD_INTEGRAL_ROWS);
     u = &r->u, v = &r->v;
     free(u->at), free(v->at);
     *u = (struct kd_integral_list) { malloc(r->comparison->n * sizeof(double)), r->comparison->n };
@@ -241,9 +241,9 @@ void kd_integral_compare_schema(struct kd_json *json)
         { "too_short", COUNT, false, NULL },
     };
     kd_schema_text(json, "chi2",
-                   OF_PRODUCTS("chi^2 over the number of data; null of a product that has none", OR_NULL));
+                   OF_PRODUCTS("chi^2 over the number of data; null for a product without data", OR_NULL));
     kd_schema_text(json, "chi2_finer",
-                   OF_PRODUCTS("the same of a map 1.5 times as fine; null with check none", OR_NULL));
+                   OF_PRODUCTS("the same for a map 1.5 times as fine; null with check none", OR_NULL));
     kd_schema_text(json, "n", OF_PRODUCTS("number of data", COUNT));
     kd_schema_strict(json, "observation", members, sizeof members / sizeof *members);
 }

@@ -1,7 +1,7 @@
 /* Computes the integrals that need no pictures, and fills the columns of their answers. */
 #include "base/pause.h"
 #include "integral/answer.h"
-#include "integral/kept.h"
+#include "integral/image_cache.h"
 #include "physics/disk/disk_spectrum.h"
 #include "physics/disk/thin_disk.h"
 #include "physics/disk/transfer_function.h"
@@ -34,13 +34,13 @@ static const char *const spectrum_sources[] = {
 };
 static const char *const spectrum_approximations[] = {
     "a thin opaque disk in the equatorial plane, gas on circular orbits, no torque at the ISCO, nothing within it",
-    "each ring shines as a black body of its colour temperature, dimmed so that its energy is kept",
-    "the direct image alone: light that goes round the hole, or falls back onto the disk, is left out",
+    "each ring shines as a black body of its colour temperature, dimmed so that its flux is conserved",
+    "only the direct image: light that goes round the hole, or returns to the disk, is ignored",
     NULL,
 };
 static const char *const disk_approximations[] = {
     "a thin opaque disk in the equatorial plane, gas on circular orbits, nothing within its inner edge",
-    "the direct image alone: light that goes round the hole and comes through the plane again is left out",
+    "only the direct image: light that goes round the hole and crosses the plane again is ignored",
     NULL,
 };
 
@@ -51,9 +51,9 @@ static const char *const visibility_sources[] = {
     NULL,
 };
 static const char *const visibility_approximations[] = {
-    "nothing lies beyond the map's border: edge_share tells how bright it is there",
-    "each pixel is a point in its middle: baselines beyond nyquist_gl are aliased to shorter ones",
-    "no telescope: no beam, no noise, no gaps, and no averaging over time or bandwidth",
+    "no light comes from beyond the map's border; edge_share shows how bright the border is",
+    "each pixel is a point at its centre; baselines beyond nyquist_gl are aliased to shorter ones",
+    "an ideal instrument: no beam, no noise, no gaps, no averaging over time or bandwidth",
     NULL,
 };
 static const char *const compare_sources[] = {
@@ -65,10 +65,10 @@ static const char *const compare_sources[] = {
     NULL,
 };
 static const char *const compare_approximations[] = {
-    "nothing lies beyond the map's border: edge_share tells how bright it is there",
-    "each pixel has the shape of pulse: amplitudes of baselines beyond nyquist_gl are too small",
-    "errors of closures that have a baseline in common are taken as independent, and as Gaussian",
-    "the model is of one time and frequency, those of the scene; no interstellar scattering",
+    "no light comes from beyond the map's border; edge_share shows how bright the border is",
+    "each pixel has the shape that pulse names; amplitudes of baselines beyond nyquist_gl are too small",
+    "errors of closures are taken as Gaussian and independent, also where closures have a baseline in common",
+    "the model has one time and one frequency, those of the scene; no interstellar scattering",
     NULL,
 };
 static const char *const volume_sources[] = {
@@ -76,7 +76,7 @@ static const char *const volume_sources[] = {
     NULL,
 };
 static const char *const volume_approximations[] = {
-    "nothing lies beyond the border of the picture: its flux alone is counted",
+    "no light comes from beyond the border of the picture",
     NULL,
 };
 
@@ -84,26 +84,27 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
     [KD_INTEGRAL_LINE] = { "relativistic line profile of a thin disk",
                            { { "isco", "M", "innermost stable circular orbit" },
                              { "total", "M^2",
-                               "all photons, or energies: the integral of g^3 epsilon f, or g^4, over the image "
-                               "plane" },
-                             { "inside", "1", "share of them between the first and the last edge" },
-                             { "error", "1", "estimated, of the cumulative share at any edge" } },
+                               "all photons, or with count energy all energy: the integral of g^3 epsilon f, or of g^4 "
+                               "epsilon f, over the image plane" },
+                             { "inside", "1", "share of the line between the first and the last edge" },
+                             { "error", "1", "estimated largest error of the cumulative share at any edge" } },
                            { { "energy_low", "unit of rest_energy", "edge of the bin" },
                              { "energy_high", "unit of rest_energy", "edge of the bin" },
-                             { "share", "1", "of all photons, or energies, of the line that arrive in the bin" },
-                             { "cumulative", "1", "share up to energy_high from the first edge" } },
+                             { "share", "1", "share of the line's photons, or of its energy, in the bin" },
+                             { "cumulative", "1", "share of the line from the first edge to energy_high" } },
                            line_sources,
                            disk_approximations },
     [KD_INTEGRAL_TRANSFER] = { "Cunningham's transfer function of a thin disk",
                                { { "isco", "M", "innermost stable circular orbit" } },
                                { { "r", "M", "radius of the ring" },
                                  { "g_star", "1", "(g - g_min)/(g_max - g_min)" },
-                                 { "g", "1", "energy at infinity over that for the gas" },
-                                 { "f_near", "1", "f of the side that is nearer to the observer" },
+                                 { "g", "1", "redshift factor: energy at infinity over energy in the gas's frame" },
+                                 { "f_near", "1", "f of the side that is closer to the observer" },
                                  { "f_far", "1", "f of the far side" },
                                  { "mu_near", "1",
-                                   "cosine off the disk's normal at which the light leaves the gas there" },
-                                 { "mu_far", "1", "the same of the far side" },
+                                   "near side: cosine of the angle between the emitted light and the disk's normal in "
+                                   "the gas's frame" },
+                                 { "mu_far", "1", "the same for the far side" },
                                  { "g_min", "1", "of the ring" },
                                  { "g_max", "1", "of the ring" } },
                                transfer_sources,
@@ -113,76 +114,82 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                  { "t_max_k", "K", "effective temperature of the hottest ring" },
                                  { "luminosity_w", "W", "efficiency times Mdot c^2" },
                                  { "error", "1",
-                                   "estimated, relative, of the flux where it is above a millionth of its maximum" } },
+                                   "estimated relative error of the flux where it exceeds a millionth of its "
+                                   "maximum" } },
                                { { "frequency_hz", "Hz", "at the observer" },
                                  { "flux_w_m2_hz", "W/m^2/Hz", "F_nu" },
                                  { "flux_jy", "Jy", "F_nu" },
-                                 { "nu_l_nu_w", "W", "4 pi D^2 nu F_nu, as if it shone evenly" } },
+                                 { "nu_l_nu_w", "W",
+                                   "4 pi D^2 nu F_nu, the luminosity of an isotropic source with this flux" } },
                                spectrum_sources,
                                spectrum_approximations },
-    [KD_INTEGRAL_VOLUME] = { "spectrum of a scene's volume, a picture a frequency",
+    [KD_INTEGRAL_VOLUME] = { "spectrum of a scene's volume, with one picture for each frequency",
                              { { "width", "pixels", "of each picture" },
                                { "height", "pixels", "of each picture" },
-                               { "error", "1", "largest of the column error" } },
+                               { "error", "1", "largest value of the column error" } },
                              { { "frequency_hz", "Hz", "at the observer" },
                                { "flux_w_m2_hz", "W/m^2/Hz", "F_nu" },
                                { "flux_jy", "Jy", "F_nu" },
-                               { "nu_l_nu_w", "W", "4 pi D^2 nu F_nu, as if it shone evenly" },
+                               { "nu_l_nu_w", "W",
+                                 "4 pi D^2 nu F_nu, the luminosity of an isotropic source with this flux" },
                                { "error", "1",
-                                 "estimated, relative, of the flux: by that of a picture 1.5 times as fine; 1: of its "
-                                 "own size or more" } },
+                                 "estimated relative error of the flux, from a picture 1.5 times as fine; 1: the error "
+                                 "is at least as large as the flux" } },
                              volume_sources,
                              volume_approximations },
     [KD_INTEGRAL_VISIBILITY] = { "visibilities of a scene's picture",
-                                 { { "flux_jy", "Jy", "of the whole map; null where its light is of no frequency" },
-                                   { "pixel_uas", "uas", "from a pixel to the next" },
+                                 { { "flux_jy", "Jy", "flux of the whole map; null if its light has no frequency" },
+                                   { "pixel_uas", "uas", "distance from one pixel to the next" },
                                    { "width_uas", "uas", "of the map" },
                                    { "height_uas", "uas", "of the map" },
-                                   { "nyquist_gl", "Gl", "longest baseline that pixels so wide tell" },
+                                   { "nyquist_gl", "Gl", "longest baseline that the width of the pixels resolves" },
                                    { "edge_share", "1",
-                                     "what a sky as bright as the map's border would send over all of the map, of what "
-                                     "the map sends" },
-                                   { "undefined", "pixels", "whose light was no number, and counts as none" },
-                                   { "error", NULL, "largest of the column error" } },
+                                     "flux of a sky as bright as the map's border over the whole map, as a share of "
+                                     "the map's flux" },
+                                   { "undefined", "pixels",
+                                     "number of pixels whose light is not a number; they count as dark" },
+                                   { "error", NULL, "largest value of the column error" } },
                                  { { "u_gl", "Gl", "baseline to the east, in units of 1e9 wavelengths" },
                                    { "v_gl", "Gl", "to the north" },
                                    { "length_gl", "Gl", "of the baseline" },
                                    { "order", "1", "-1: all light; n: light of image order n alone" },
                                    { "re", NULL, "real part" },
                                    { "im", NULL, "imaginary part" },
-                                   { "amplitude", NULL, "of all light in Jy, or as a share of its flux" },
-                                   { "phase_deg", "deg", "about where the hole is, from -180 to 180" },
-                                   { "error", NULL, "estimated, of re and im: by a map 1.5 times as fine" } },
+                                   { "amplitude", NULL, "amplitude, in Jy or as a share of the flux of all light" },
+                                   { "phase_deg", "deg", "phase about the position of the hole, from -180 to 180" },
+                                   { "error", NULL, "estimated error of re and im, from a map 1.5 times as fine" } },
                                  visibility_sources,
                                  visibility_approximations },
-    [KD_INTEGRAL_COMPARE] = { "a scene beside an interferometer's observation",
-                              { { "flux_jy", "Jy", "of the whole map as it is compared; null: nothing tells it",
+    [KD_INTEGRAL_COMPARE] = { "a scene compared with an interferometer's observation",
+                              { { "flux_jy", "Jy", "flux of the whole compared map; null if nothing determines it",
                                   false },
-                                { "pixel_uas", "uas", "from a pixel to the next", false },
+                                { "pixel_uas", "uas", "distance from one pixel to the next", false },
                                 { "width_uas", "uas", "of the map", false },
                                 { "height_uas", "uas", "of the map", false },
-                                { "nyquist_gl", "Gl", "longest baseline that pixels so wide tell", false },
+                                { "nyquist_gl", "Gl", "longest baseline that the width of the pixels resolves", false },
                                 { "edge_share", "1",
-                                  "what a sky as bright as the map's border would send over all of the map, of what "
-                                  "the map sends",
+                                  "flux of a sky as bright as the map's border over the whole map, as a share of the "
+                                  "map's flux",
                                   false },
-                                { "undefined", "pixels", "whose light was no number, and counts as none", false },
+                                { "undefined", "pixels",
+                                  "number of pixels whose light is not a number; they count as dark", false },
                                 { "model_error", "Jy",
-                                  "estimated, the largest of the models of amplitudes: by a map 1.5 times as fine",
+                                  "largest estimated error of the amplitudes' models, from a map 1.5 times as fine",
                                   false } },
                               { { "product", "", "amplitude, closure_phase or log_closure_amplitude", true },
-                                { "hour", "h", "UTC, from the observation's mjd on", false },
-                                { "station_1", "", "of the baseline, triangle or quadrangle", true },
+                                { "hour", "h", "UTC, hours since the start of the observation's mjd", false },
+                                { "station_1", "", "station of the baseline, triangle or quadrangle", true },
                                 { "station_2", "", "the same", true },
-                                { "station_3", "", "of a triangle or quadrangle", true },
-                                { "station_4", "", "of a quadrangle, of 12 34 / 14 23", true },
-                                { "u_gl", "Gl", "of an amplitude's baseline, in units of 1e9 wavelengths", false },
+                                { "station_3", "", "station of a triangle or quadrangle", true },
+                                { "station_4", "",
+                                  "station of a quadrangle: the log closure amplitude is that of 12 34 / 14 23", true },
+                                { "u_gl", "Gl", "baseline of an amplitude, in units of 1e9 wavelengths", false },
                                 { "v_gl", "Gl", "the same", false },
-                                { "data", "Jy, deg, 1", "of an amplitude, a closure phase, a log closure amplitude",
+                                { "data", "Jy, deg, 1", "observed amplitude, closure phase or log closure amplitude",
                                   false },
-                                { "error", "Jy, deg, 1", "of the datum, with what is systematic", false },
-                                { "model", "Jy, deg, 1", "of the scene", false },
-                                { "residual", "1", "data less model, over the error", false } },
+                                { "error", "Jy, deg, 1", "error of the datum, with systematic errors", false },
+                                { "model", "Jy, deg, 1", "value of the scene", false },
+                                { "residual", "1", "difference of data and model over the error", false } },
                               compare_sources,
                               compare_approximations },
 };
@@ -244,18 +251,17 @@ static enum kd_status one_ring(const struct kd_integral_request *r, const struct
     char pointer[40];
     snprintf(pointer, sizeof pointer, "/radii/%zu", at);
     if (!kd_transfer_ring_of(image, r->radii.at[at], &ring))
-        return kd_error_field(
-            error, pointer,
-            "a radius is %.9g, whose ends of g were not found at this inclination; the inclination must be "
-            "further from face on and edge on",
-            r->radii.at[at]);
+        return kd_error_field(error, pointer,
+                              "a radius is %.9g, for which no extreme values of g were found at this inclination; the "
+                              "inclination must be further from face on and edge on",
+                              r->radii.at[at]);
     for (size_t k = 0; k < r->g_stars; k++) {
         kd_pause_every(k, 16);
         double g_star = r->g_star.at[k];
         struct kd_transfer side[2];
         if (!kd_transfer_at(image, &ring, g_star, side))
-            return kd_error_field(error, pointer, "a radius is %.9g, whose place of g* %.9g was not found", ring.r,
-                                  g_star);
+            return kd_error_field(error, pointer, "a radius is %.9g, for which no position with g* %.9g was found",
+                                  ring.r, g_star);
         const double row[] = { ring.r,     g_star,     ring.g_min + g_star * (ring.g_max - ring.g_min),
                                side[0].f,  side[1].f,  side[0].mu,
                                side[1].mu, ring.g_min, ring.g_max };

@@ -38,8 +38,8 @@ static enum kd_status unknown(const struct kd_integral_request *request, const c
     struct kd_spelling_best meant = { 0 };
     if (request->what == KD_INTEGRAL_SPECTRUM && !strcmp(name, "volume"))
         return kd_error_field(error, pointer,
-                              "volume is given, and belongs to a scene: \"scene\": {\"volume\": ...}, or a preset such "
-                              "as \"preset\": \"riaf\"");
+                              "volume cannot be a member here; it belongs to a scene, as in \"scene\": {\"volume\": "
+                              "...}, or a preset such as \"preset\": \"riaf\"");
     kd_text_clip(shown, sizeof shown, name);
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_integral_field *f = &kd_integral_fields[i];
@@ -249,7 +249,7 @@ static enum kd_status read_words(struct kd_integral_request *request, const stru
         KD_TRY(put_word(request, f, &value, pointer, error));
     }
     if (!*set && f->least > 0)
-        return kd_error_field(error, pointer, "%s has no words, must have one at least", f->name);
+        return kd_error_field(error, pointer, "%s has no words; it must have at least one", f->name);
 done:
     return status;
 }
@@ -321,7 +321,7 @@ enum kd_status kd_integral_request_read(struct kd_integral_request *request, con
     enum kd_status status;
     KD_TRY(kd_tree_parse(text, length, KD_INTEGRAL_BODY_MAX, 4 * KD_INTEGRAL_LIST, &root, error));
     if (!cJSON_IsObject(root))
-        KD_TRY(kd_error_field(error, "", "the document is no object with fields"));
+        KD_TRY(kd_error_field(error, "", "the document must be an object with fields"));
     KD_TRY(kd_integral_read_scene(request, root, error));
     KD_TRY(kd_integral_read_observation(request, root, error));
     for (const cJSON *item = root->child; item; item = item->next)

@@ -104,8 +104,8 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
     run->maps = *file;
     *file = (struct kd_buffer) { 0 };
     if (run->maps.size != bands(run) * n * sizeof(float))
-        return kd_error_set(error, KD_EINVAL, "a map of %zu bytes came for one of %u x %u pixels", run->maps.size,
-                            width, height);
+        return kd_error_set(error, KD_EINVAL, "the renderer returned a map of %zu bytes for %u x %u pixels",
+                            run->maps.size, width, height);
     run->grid = (struct kd_fourier_grid) { width, height, kd_integral_pixel(scene), wcs.at[0].pixel - 1,
                                            height - wcs.at[1].pixel };
     for (unsigned k = bands(run); k--;) {
@@ -114,8 +114,7 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
         run->map[k] = map;
     }
     if (!(sum > 0))
-        return kd_error_field(error, "/scene",
-                              "nothing shines in the picture of %u x %u pixels, whose visibility was asked for", width,
+        return kd_error_field(error, "/scene", "the picture of %u x %u pixels is dark and has no visibilities", width,
                               height);
     run->scale = kd_scene_is_radio_alone(scene) ? run->grid.pixel * run->grid.pixel : 1 / sum;
     run->answer.map_jy = kd_scene_is_radio_alone(scene) ? sum * run->scale : NAN;
@@ -136,7 +135,7 @@ static enum kd_status take_flux(struct kd_integral_run *run, struct kd_buffer *f
     const double away = scene->spacetime.distance_pc * KD_PARSEC_M;
     double *const *c = run->answer.columns, jy = NAN;
     if (file->size != sizeof jy)
-        return kd_error_set(error, KD_EINVAL, "a flux of %zu bytes came", file->size);
+        return kd_error_set(error, KD_EINVAL, "the renderer returned a flux of %zu bytes", file->size);
     memcpy(&jy, file->data, sizeof jy);
     kd_buffer_finish(file);
     if (kd_integral_is_finer(r, run->picture)) {

@@ -80,13 +80,13 @@ static enum kd_status check_radio(const struct kd_scene *scene, struct kd_error 
 {
     if (!kd_scene_is_radio(scene))
         return kd_error_field(error, "/scene/volume/model",
-                              "volume.model has no light of one frequency in physical units, which a spectrum is of; "
-                              "it must be one with volume.frequency_ghz, "
-                              "such as gold and riaf; without scene and preset the spectrum is that of a thin disk");
+                              "volume.model has no light of one frequency in physical units, as a spectrum needs; it "
+                              "must be a model with volume.frequency_ghz, such as gold or riaf; without scene and "
+                              "preset the spectrum is that of a thin disk");
     if (!kd_scene_is_radio_alone(scene))
         return kd_error_field(error, "/scene",
-                              "something shines beside the volume, whose light has no frequency: disk.model and "
-                              "sky.model must be \"none\", without jets, spots and bodies");
+                              "a spectrum needs a scene where only the volume shines: disk.model and sky.model must be "
+                              "\"none\", and there must be no jets, spots or bodies");
     return KD_OK;
 }
 
@@ -98,7 +98,7 @@ enum kd_status kd_integral_check_volume(struct kd_integral_request *r, struct kd
     if (!kd_scene_is_flat(r->scene))
         return kd_error_field(
             error, "/scene/camera/projection",
-            "camera.projection has no areas to scale, by which flux is measured; it must be plane or pinhole");
+            "camera.projection does not preserve areas, as a flux needs; it must be plane or pinhole");
     if (isnan(r->frequency_min_hz))
         r->frequency_min_hz = fmax(r->scene->volume.frequency_ghz * 1e9 / 30, least);
     if (isnan(r->frequency_max_hz))
@@ -146,8 +146,8 @@ static enum kd_status make_baselines(struct kd_integral_request *r, struct kd_er
     const size_t n = r->lengths.n * r->angles_deg.n;
     if (n > KD_INTEGRAL_ROWS)
         return kd_error_field(error, r->lengths.n > r->angles_deg.n ? "/lengths" : "/angles_deg",
-                              "%zu lengths at %zu angles are more than %u baselines", r->lengths.n, r->angles_deg.n,
-                              KD_INTEGRAL_ROWS);
+                              "%zu lengths at %zu angles make too many baselines (limit %u)", r->lengths.n,
+                              r->angles_deg.n, KD_INTEGRAL_ROWS);
     KD_TRY(kd_integral_make_room(r, kd_integral_field_named(r, "u"), n, "/u", &u, error));
     KD_TRY(kd_integral_make_room(r, kd_integral_field_named(r, "v"), n, "/v", &v, error));
     for (size_t i = 0; i < n; i++) {
@@ -170,8 +170,9 @@ static enum kd_status check_baselines(struct kd_integral_request *r, struct kd_e
     else
         KD_TRY(kd_integral_check_beside(r, "u", others, 4, error));
     if (r->u.n * (1 + r->orders) > KD_INTEGRAL_ROWS)
-        return kd_error_field(error, r->orders ? "/orders" : "/u", "%zu baselines with %u orders are more than %u rows",
-                              r->u.n, r->orders, KD_INTEGRAL_ROWS);
+        return kd_error_field(error, r->orders ? "/orders" : "/u",
+                              "%zu baselines with %u orders make too many rows (limit %u)", r->u.n, r->orders,
+                              KD_INTEGRAL_ROWS);
 done:
     return status;
 }
@@ -180,7 +181,7 @@ static enum kd_status check_orders(const struct kd_integral_request *r, struct k
 {
     if (r->orders && r->scene->disk.model == KD_DISK_NONE)
         return kd_error_field(error, "/orders",
-                              "orders is %u, and there is no disk whose image orders could be told apart; it must be 0",
+                              "orders is %u; without a disk, which alone has separate image orders, it must be 0",
                               r->orders);
     if (r->orders > (uint32_t)r->scene->accuracy.orders)
         return kd_error_field(error, "/orders", "orders is %u; it must be 0 to %d, accuracy.orders of the scene",
@@ -195,8 +196,8 @@ enum kd_status kd_integral_check_map(struct kd_integral_request *r, struct kd_er
         return status;
     if (!kd_wcs_of(r->scene).far)
         return kd_error_field(error, "/scene/camera",
-                              "camera sees no flat map from far away, which visibilities are of; it must be camera.r "
-                              "\"infinity\" and the projections auto and plane");
+                              "visibilities need a flat map seen from infinity: camera.r must be \"infinity\", and "
+                              "camera.projection auto or plane");
     r->pixels = r->pixels ? r->pixels : 256;
     return KD_OK;
 }

@@ -2,18 +2,19 @@
 
 #include <stdio.h>
 
-enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame, const struct kd_dynamic_bodies *crowd,
-                                 double late, double most_s, const struct kd_capacity *capacity, struct kd_scene *scene,
-                                 struct kd_plan *plan, struct kd_error *error)
+enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame,
+                                 const struct kd_dynamic_bodies *dynamic, double late, double most_s,
+                                 const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan,
+                                 struct kd_error *error)
 {
     struct kd_error inner = { 0 };
     char pointer[40];
     enum kd_status status = kd_job_spec_scene(spec, frame, scene, error);
     if (status)
         return status;
-    if (crowd) {
-        kd_scene_show(scene, crowd);
-        kd_scene_pass(scene, crowd->time + late);
+    if (dynamic) {
+        kd_scene_show(scene, dynamic);
+        kd_scene_pass(scene, dynamic->time + late);
         status = kd_scene_validate(scene, &inner);
     }
     if (!status)

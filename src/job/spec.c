@@ -52,8 +52,8 @@ static enum kd_status read_list(struct reader *r)
                    : kd_member_refuse(r->scenes, "/scenes", "an array of scenes", r->error);
     if (r->scene || r->timeline.keyframes || r->frames || kd_timeline_manner(&r->timeline) || r->axes)
         return kd_error_field(r->error, "/scenes",
-                              "scenes stands alone: scene, axes, keyframes, frames, interpolation, distances, angles, "
-                              "ease and look_at do not go with it");
+                              "scenes cannot be used with scene, axes, keyframes, frames, interpolation, distances, "
+                              "angles, ease or look_at");
     all->keys = calloc((size_t)n, sizeof *all->keys);
     enum kd_status status = all->keys ? KD_OK : kd_error_set(r->error, KD_ENOMEM, "out of memory for %d scenes", n);
     spec->listed = true;
@@ -74,7 +74,7 @@ static enum kd_status refuse_without_keyframes(const struct reader *r)
     char pointer[40];
     snprintf(pointer, sizeof pointer, "/%s", name);
     return kd_error_field(r->error, pointer,
-                          "without keyframes a job is one picture: leave %s out, or say what changes, as in "
+                          "%s cannot be used without keyframes, because the job is one picture: give keyframes, as in "
                           "\"keyframes\": [{\"frame\": 24, \"scene\": {\"time\": 100}}]",
                           name);
 }
@@ -85,7 +85,7 @@ static enum kd_status read_sequence(struct reader *r)
     struct kd_scene first = r->base;
     const struct kd_timeline_items *t = &r->timeline;
     if (!r->scene)
-        return kd_error_field(r->error, "/scene", "scene is missing: a job has a scene, or scenes");
+        return kd_error_field(r->error, "/scene", "scene is missing; a job must have scene or scenes");
     enum kd_status status;
     KD_TRY(read_scene(r, r->scene, "/scene", &first));
     KD_TRY(kd_timeline_read(t, &by_frame, r->assets, &first, &spec->timeline, r->error));
@@ -105,9 +105,9 @@ static enum kd_status read_sweep(struct reader *r)
     struct kd_scene base = r->base;
     enum kd_status status;
     if (r->timeline.keyframes || r->frames || kd_timeline_manner(&r->timeline))
-        return kd_error_field(r->error, "/axes",
-                              "axes stand alone with their scene: keyframes, frames, interpolation, distances, angles, "
-                              "ease and look_at do not go with them");
+        return kd_error_field(
+            r->error, "/axes",
+            "axes cannot be used with keyframes, frames, interpolation, distances, angles, ease or look_at");
     KD_TRY(read_scene(r, r->scene, "/scene", &base));
     KD_TRY(kd_sweep_read(r->axes, &base, r->assets, &spec->sweep, r->error));
     spec->frames = spec->sweep->scenes;
@@ -131,10 +131,12 @@ static enum kd_status look_through(struct reader *r, const struct kd_playground 
 static enum kd_status read_every(struct reader *r)
 {
     if (!r->every)
-        return kd_error_field(r->error, "/every", "every is missing: M from a frame of the playground to the next");
+        return kd_error_field(r->error, "/every",
+                              "every is missing; it is the time in M from one frame of the playground to the next");
     const double every = cJSON_IsNumber(r->every) ? r->every->valuedouble : 0;
     if (!(every > 0) || every > KD_PLAYGROUND_TIME)
-        return kd_member_refuse(r->every, "/every", "a number above 0, M from a frame to the next", r->error);
+        return kd_member_refuse(r->every, "/every", "a number above 0, the time in M from one frame to the next",
+                                r->error);
     r->spec->every = every;
     return KD_OK;
 }
@@ -149,8 +151,9 @@ static enum kd_status read_film(struct reader *r)
     struct kd_scene first;
     enum kd_status status;
     if (r->scenes || r->axes)
-        return kd_error_field(r->error, "/playground",
-                              "a playground goes with scene, keyframes and frames; scenes and axes do not go with it");
+        return kd_error_field(
+            r->error, "/playground",
+            "playground cannot be used with scenes or axes; it may be used with scene, keyframes and frames");
     if (!cJSON_IsObject(r->playground))
         return kd_member_refuse(r->playground, "/playground", "an object: a document of a playground, or a snapshot",
                                 r->error);
@@ -163,9 +166,9 @@ static enum kd_status read_film(struct reader *r)
     KD_TRY(kd_timeline_read(&r->timeline, &by_frame, r->assets, &first, &spec->timeline, r->error));
     spec->frames = (unsigned)kd_timeline_end(&spec->timeline) + 1;
     if (!r->frames && !r->timeline.keyframes)
-        KD_TRY(kd_error_field(
-            r->error, "/frames",
-            "frames is missing: how many pictures of the playground, or keyframes, of which the last is the last"));
+        KD_TRY(kd_error_field(r->error, "/frames",
+                              "frames is missing; it must be the number of pictures of the playground, or there must "
+                              "be keyframes, the last for the last picture"));
     if (r->frames)
         KD_TRY(kd_member_whole(r->frames, "/frames", spec->frames, KD_JOB_FRAMES_MAX, &spec->frames, r->error));
     KD_TRY(look_through(r, p));
@@ -217,7 +220,8 @@ static enum kd_status read_exposure(struct reader *r)
     if (status)
         return status;
     if (r->exposure && !pictures)
-        return kd_error_field(r->error, "/exposure", "exposure is of pictures: it does not go with \"output\": \"%s\"",
+        return kd_error_field(r->error, "/exposure",
+                              "exposure cannot be used with \"output\": \"%s\", because only pictures have an exposure",
                               spec->series->name);
     if (word == ONE && (spec->sweep || r->playground))
         return kd_error_field(r->error, "/exposure",
@@ -248,13 +252,13 @@ static enum kd_status read_blur(struct reader *r)
     double part = 0.5;
     enum kd_status status = KD_OK;
     if (!r->blur && !asked->samples)
-        return asked->shutter > 0
-                   ? kd_error_field(r->error, "/motion_blur",
-                                    "a shutter takes samples: how many pictures is the light of a frame the mean of?")
-                   : KD_OK;
+        return asked->shutter > 0 ? kd_error_field(r->error, "/motion_blur",
+                                                   "samples is missing, which shutter needs; it is the number of "
+                                                   "pictures whose mean is a frame's light")
+                                  : KD_OK;
     if (unblurred(r))
         return kd_error_field(r->error, "/motion_blur",
-                              "motion_blur is of frames of keyframes, as pictures; it does not go with %s",
+                              "motion_blur cannot be used with %s; it needs frames of keyframes, as pictures",
                               unblurred(r));
     if (r->blur && !cJSON_IsObject(r->blur))
         return kd_member_refuse(r->blur, "/motion_blur",
@@ -263,18 +267,18 @@ static enum kd_status read_blur(struct reader *r)
     if (r->blur)
         KD_TRY(kd_members_read(r->blur, "/motion_blur", members, sizeof members / sizeof *members, r->error));
     if (!samples && !asked->samples)
-        KD_TRY(
-            kd_error_field(r->error, "/motion_blur/samples",
-                           "samples is missing: how many pictures is the light of a frame the mean of, from 1 to %d?",
-                           KD_BLUR_SAMPLES));
+        KD_TRY(kd_error_field(
+            r->error, "/motion_blur/samples",
+            "samples is missing; it must be the number of pictures whose mean is a frame's light, 1 to %d",
+            KD_BLUR_SAMPLES));
     if (samples)
         KD_TRY(kd_member_whole(samples, "/motion_blur/samples", 1, KD_BLUR_SAMPLES, &spec->blur.samples, r->error));
     if (shutter) {
         part = cJSON_IsNumber(shutter) ? shutter->valuedouble : 0;
         if (!(part > 0) || part > 1)
-            KD_TRY(kd_member_refuse(
-                shutter, "/motion_blur/shutter",
-                "a number above 0, at most 1: the part of a frame's time in which the shutter is open", r->error));
+            KD_TRY(kd_member_refuse(shutter, "/motion_blur/shutter",
+                                    "a number above 0, at most 1: the open time of the shutter over a frame's time",
+                                    r->error));
     }
     spec->blur.samples = asked->samples ? asked->samples : spec->blur.samples;
     spec->blur.shutter = asked->shutter > 0 ? asked->shutter : part;
@@ -305,11 +309,12 @@ enum kd_status kd_job_spec_parse(const char *text, size_t length, const struct k
     KD_TRY(kd_members_read(root, "", members, sizeof members / sizeof *members, error));
     KD_TRY(read_output(&r));
     if (r.every && !r.playground)
-        KD_TRY(kd_error_field(error, "/every",
-                              "every is for a film of a playground: leave it out, or say which, as in \"playground\": "
-                              "{\"preset\": \"disruption\"}"));
+        KD_TRY(kd_error_field(
+            error, "/every",
+            "every cannot be used without a playground; give one, as in \"playground\": {\"preset\": \"disruption\"}"));
     if (!r.playground && length > KD_JOB_BODY_MAX)
-        KD_TRY(kd_error_set(error, KD_ETOOBIG, "a job without a playground may have %u bytes", KD_JOB_BODY_MAX));
+        KD_TRY(
+            kd_error_set(error, KD_ETOOBIG, "a job without a playground must have at most %u bytes", KD_JOB_BODY_MAX));
     KD_TRY(r.playground ? read_film(&r) : r.scenes ? read_list(&r) : r.axes ? read_sweep(&r) : read_sequence(&r));
     KD_TRY(read_exposure(&r));
     KD_TRY(read_blur(&r));

@@ -92,8 +92,8 @@ enum kd_status kd_comparison_make(const struct kd_observation *observation, cons
             KD_TRY(add_product(out, observation, params, (enum kd_product)product, error));
     if (!out->rows)
         KD_TRY(kd_error_set(error, KD_EINVAL,
-                            "nothing is left to compare of %zu visibilities, %zu of which are too short: uv_min_gl and "
-                            "snr_cut must leave some",
+                            "none of the %zu visibilities can be compared, and %zu of them have too short baselines: "
+                            "uv_min_gl or snr_cut must be lower",
                             out->n + out->too_short, out->too_short));
 done:
     if (status)

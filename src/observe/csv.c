@@ -109,7 +109,7 @@ static enum kd_status read_fields(const struct line *line, struct kd_observation
         const char *comma = memchr(at, ',', (size_t)(end - at));
         const size_t length = (size_t)((comma ? comma : end) - at);
         if (!comma != (i + 1 == FIELDS))
-            return kd_error_set(error, KD_EINVAL, "its fields must be %d, as " COLUMNS, FIELDS);
+            return kd_error_set(error, KD_EINVAL, "there must be %d fields, as " COLUMNS, FIELDS);
         if (i == 1 || i == 2) {
             enum kd_status status = place_of(o, at, length, &m->station[i - 1], error);
             if (status)

@@ -94,7 +94,7 @@ static enum kd_status check(const struct kd_observation *o, struct kd_error *err
 {
     if (!o->n)
         return kd_error_set(error, KD_EINVAL,
-                            "the observation has no visibility with a weight above 0; it must have one at least");
+                            "the observation has no visibility with a weight above 0; it must have at least one");
     for (size_t i = 0; i < o->n; i++) {
         const struct kd_measured *m = &o->at[i];
         const double numbers[] = { m->hour, m->u, m->v, m->re, m->im, m->sigma };
@@ -108,7 +108,7 @@ static enum kd_status check(const struct kd_observation *o, struct kd_error *err
             return kd_error_set(error, KD_EINVAL, "visibility %zu: its error is %g; it must be above 0", i + 1,
                                 m->sigma);
         if (m->station[0] == m->station[1])
-            return kd_error_set(error, KD_EINVAL, "visibility %zu: both its stations are %s; it must be two", i + 1,
+            return kd_error_set(error, KD_EINVAL, "visibility %zu: both stations are %s; they must differ", i + 1,
                                 o->station[m->station[0]]);
     }
     return KD_OK;
@@ -121,8 +121,8 @@ enum kd_status kd_observation_read(const void *data, size_t size, struct kd_obse
     *out = (struct kd_observation) { 0 };
     if (kind == KD_OBSERVATION_NONE)
         return kd_error_set(error, KD_EINVAL,
-                            "this is no observation; it must be uvfits, which begins with SIMPLE, or the EHT's CSV, "
-                            "which begins with #SRC:");
+                            "the file is not an observation; it must be uvfits, which begins with SIMPLE, or the EHT's "
+                            "CSV, which begins with #SRC:");
     if (size > KD_OBSERVATION_BYTES)
         return kd_error_set(error, KD_EINVAL, "an observation has %zu bytes; it must have at most %zu", size,
                             KD_OBSERVATION_BYTES);

@@ -132,7 +132,8 @@ static enum kd_status find_column(const struct file *f, const struct hdu *hdu, c
         const size_t size = count > row * 8 ? row + 1 : *type == 'X' ? (count + 7) / 8 : count * width_of(*type);
         if (size > row - at)
             return kd_error_set(f->error, KD_EINVAL,
-                                "TFORM%d of the table AIPS AN is \"%s\", must lie in a row of %zu bytes", i, form, row);
+                                "TFORM%d of the table AIPS AN is \"%s\"; it must fit into a row of %zu bytes", i, form,
+                                row);
         if (!strcmp(title, name))
             *out = (struct column) { at, size, *type };
         at += size;

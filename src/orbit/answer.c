@@ -93,13 +93,13 @@ static void close(struct text *t) { put(t, "}"); }
 const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index)
 {
     const char *const all[] = {
-        "a test particle: it has no mass of its own, radiates nothing and is not torn",
+        "the body is a test particle: no gravity of its own, no radiation, no tidal disruption",
         run->orbit.fate == KD_ORBIT_PLUNGE
-            ? "Boyer-Lindquist t and phi grow without bound towards the horizon, where a path ends"
+            ? "Boyer-Lindquist t and phi grow without bound towards the horizon, at which a path ends"
             : NULL,
-        kd_orbit_is_seen(run->params) ? "one image of each point, followed from that of the point before: the direct "
-                                        "one, but next to a hole that spins and is seen nearly edge on it may pass "
-                                        "onto one that has gone round it; none is given from within 1.2 horizons"
+        kd_orbit_is_seen(run->params) ? "each point has one image, continued from that of the point before: the direct "
+                                        "image, but close to a spinning hole seen nearly edge on it may change to an "
+                                        "image that has gone round the hole; points within 1.2 horizon radii have none"
                                       : NULL,
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)

@@ -15,9 +15,9 @@ enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_or
     if (!request->many)
         return kd_orbit_run_init(&feed->run, request, 0, error);
     if (format == KD_ORBIT_NDJSON)
-        return kd_error_field(
-            error, "/orbits",
-            "application/x-ndjson streams one orbit; a list of orbits is answered as JSON, CSV or NPY");
+        return kd_error_field(error, "/orbits",
+                              "application/x-ndjson cannot be used with a list of orbits, because it streams one "
+                              "orbit; a list needs JSON, CSV or NPY");
     return kd_orbit_batch_init(&feed->batch, request, error);
 }
 

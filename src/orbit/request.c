@@ -140,7 +140,7 @@ static enum kd_status read_item(struct target *t, const cJSON *item, const char 
     return status;
 }
 
-#define FORMS "an orbit is given by %s, by %s, by %s, or by %s"
+#define FORMS "an orbit must be defined by %s, by %s, by %s, or by %s"
 #define FORM_TEXTS form_texts[0], form_texts[1], form_texts[2], form_texts[3]
 
 /* Refuses a field that does not belong to the orbit's form. */
@@ -150,7 +150,7 @@ static enum kd_status mixed(const struct kd_orbit_spec *spec, const struct kd_or
     size_t i = 0;
     while (!(spec->seen & 1u << i) || kd_orbit_fields[i].form != spec->form)
         i++;
-    return kd_error_field(error, pointer, "%s is given beside %s; " FORMS, field->name, kd_orbit_fields[i].name,
+    return kd_error_field(error, pointer, "%s cannot be used with %s; " FORMS, field->name, kd_orbit_fields[i].name,
                           FORM_TEXTS);
 }
 
@@ -201,7 +201,7 @@ static enum kd_status read_orbits(struct kd_orbit_request *request, const cJSON 
     size_t n = 1, i = 0;
     enum kd_status status = KD_OK;
     if (request->specs)
-        return kd_error_field(error, "/orbits", "orbits are given twice: one of orbit and orbits, once");
+        return kd_error_field(error, "/orbits", "orbits are given twice; there must be one of orbit and orbits, once");
     request->many = !strcmp(item->string, "orbits");
     if (request->many) {
         if (!cJSON_IsArray(item))
@@ -271,8 +271,9 @@ static enum kd_status set_field(struct kd_orbit_request *request, const struct k
     }
     struct kd_orbit_spec *spec = request->specs;
     if (request->many)
-        return kd_error_field(error, pointer, "%s belongs to one orbit, and there is a list of %zu", field->name,
-                              request->n);
+        return kd_error_field(error, pointer,
+                              "%s cannot be used with a list of %zu orbits, because it belongs to a single orbit",
+                              field->name, request->n);
     if (!strcmp(field->name, "r") && spec->form != KD_ORBIT_CONSTANTS)
         field = find(&(struct target) { kd_orbit_fields, KD_ORBIT_N_FIELDS, spec, 0, "" }, "position", "r");
     enum kd_status status = kd_orbit_field_put(spec, field, value, pointer, error);
@@ -316,22 +317,24 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
                               "duration is given as periods and as time: only one of them may be given");
     if (p->or_end && isnan(p->periods))
         return kd_error_field(error, "/duration/or_end",
-                              "or_end is true without periods; it must be false: what has none is followed to its end "
-                              "in any case, unless a time is given");
+                              "or_end is true without periods; it must be false: without a duration, an orbit that "
+                              "plunges or escapes is followed to its end anyway");
     if (!kd_orbit_is_seen(p) &&
         (isfinite(p->seen.r) || p->seen.azimuth_deg != 0 || p->seen.motion != KD_OBSERVER_STATIC))
         return kd_error_field(error, "/seen/observer_inclination_deg",
-                              "observer_inclination_deg is missing: whence the orbit is seen");
+                              "observer_inclination_deg is missing; seen needs the observer's polar angle");
     if (kd_orbit_is_seen(p) && request->many)
-        return kd_error_field(error, "/seen", "seen belongs to one orbit, and there is a list of %zu", request->n);
+        return kd_error_field(error, "/seen",
+                              "seen cannot be used with a list of %zu orbits, because it belongs to a single orbit",
+                              request->n);
     if (kd_orbit_is_seen(p) && p->samples > KD_ORBIT_SEEN_MAX)
-        return kd_error_field(error, "/samples", "samples is %u; it must be at most %u of an orbit that is seen",
-                              p->samples, KD_ORBIT_SEEN_MAX);
+        return kd_error_field(error, "/samples", "samples is %u; with seen it must be at most %u", p->samples,
+                              KD_ORBIT_SEEN_MAX);
     if (p->samples == 1)
         return kd_error_field(error, "/samples",
                               "samples is 1; it must be 0 for none, or 2 or more: both ends of the path are samples");
     if (request->many && p->series && (double)p->samples * (double)request->n > KD_ORBIT_SAMPLES_MAX)
-        return kd_error_field(error, "/samples", "%u samples of %zu orbits are more than %u in all", p->samples,
+        return kd_error_field(error, "/samples", "%u samples of %zu orbits are too many (limit %u in all)", p->samples,
                               request->n, KD_ORBIT_SAMPLES_MAX);
     return KD_OK;
 }
@@ -356,12 +359,11 @@ static enum kd_status check_whirl(const struct kd_orbit_spec *s, const struct kd
     kd_orbit_whirl(orbit, start, &r);
     kd_number_format(energy, orbit->energy);
     kd_number_format(momentum, orbit->momentum);
-    return kd_error_field(
-        error, s->form == KD_ORBIT_CONSTANTS ? "/angular_momentum" : "/velocity",
-        "energy %s and angular_momentum %s lead to the unstable circle at r = %.9g, so closely that double "
-        "precision does not tell how long the body whirls there, and whether it falls or returns: they must "
-        "differ from these by some parts in 1e12",
-        energy, momentum, r);
+    return kd_error_field(error, s->form == KD_ORBIT_CONSTANTS ? "/angular_momentum" : "/velocity",
+                          "energy %s and angular_momentum %s are too close to those of the unstable circle at r = %.9g "
+                          "for double precision to decide how long the body whirls there, and whether it falls or "
+                          "returns; they must differ from these by some parts in 1e12",
+                          energy, momentum, r);
 }
 
 static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit_params *params, struct kd_orbit *orbit,

@@ -12,7 +12,7 @@
 #define DEFAULT_PERIODS 10
 /* after this many samples in a row without an image, a full search is no longer made for each, ... */
 #define SEARCHES 3
-#define SEARCH_EVERY 64 /* ... but only for one sample in so many */
+#define SEARCH_EVERY 64 /* ... but only for one sample of 64 */
 /* halvings of the step in the search for an end; each gains a factor of 64, from 1e-10 to rounding */
 #define HALVINGS 6
 
@@ -37,7 +37,7 @@ static enum kd_status look(struct kd_orbit_run *run, struct kd_error *error)
                               run->orbit.hole.outer);
     if (isfinite(o->r) && !kd_observer_exists(o->motion, &at))
         return kd_error_field(error, "/seen/observer_r",
-                              "observer_r is %.9g, where there is no observer %s; observers there are %s", o->r,
+                              "observer_r is %.9g, where no observer can be %s; observer must be %s there", o->r,
                               kd_observers[o->motion].word, kd_observer_others(&at, others));
     run->view = kd_place_view_of(&motion, &at);
     return KD_OK;
@@ -155,8 +155,9 @@ static bool find_end(struct kd_orbit_run *run, double h)
 static enum kd_status no_end(const struct kd_orbit_run *run, struct kd_error *error)
 {
     if (run->params->steps)
-        return kd_error_field(error, "/steps", "steps is %u, too few to find the end of this path", run->params->steps);
-    return kd_error_field(error, "/orbit", "this path cannot be followed to its end in double precision");
+        return kd_error_field(error, "/steps", "steps is %u; it must be larger to find the end of this path",
+                              run->params->steps);
+    return kd_error_field(error, "/orbit", "double precision cannot follow this path to its end");
 }
 
 static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
@@ -170,9 +171,8 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
     }
     if (!isnan(p->periods) && !p->or_end && !run->orbit.circular)
         return kd_error_field(error, "/duration/periods",
-                              "periods belong to a bound orbit, and this one is to %s: leave the duration out, or give "
-                              "or_end beside it, to "
-                              "follow it to its end, or give a time",
+                              "periods cannot be used with an orbit that will %s, because it has none: leave the "
+                              "duration out or add or_end to follow it to its end, or give a time",
                               kd_orbit_fate_name(run->orbit.fate));
     double h = 2 * M_PI / kd_orbit_pace(&run->orbit) / 128, before = NAN;
     bool found = false;
@@ -193,7 +193,8 @@ static enum kd_status begin(struct kd_orbit_run *run, struct kd_error *error)
 {
     if (run->params->way == KD_WAY_CLOSED && !run->closed)
         return kd_error_field(error, "/method",
-                              "method is \"closed\", which follows bound orbits only, and this one is to %s",
+                              "method is \"closed\"; for an orbit that will %s it must be another, because \"closed\" "
+                              "follows only bound orbits",
                               kd_orbit_fate_name(run->orbit.fate));
     enum kd_status status = set_end(run, error);
     kd_orbit_path_init(&run->path, &run->orbit, &run->start, kd_orbit_run_method(run));
@@ -252,9 +253,10 @@ static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
     double pace = sqrt(
         fmax(kd_orbit_radial(&run->orbit, run->aim), 0)); /* t grows as 1/w^2: one step across w cannot resolve it */
     if (!status && run->rounding > 1e-12 && !run->params->steps && run->end == KD_END_FAR && run->h * pace > run->aim)
-        return kd_error_field(
-            error, "/r_max", "r_max is %g, too far for the steps that a path with a whirl like this one is followed in",
-            run->params->r_max);
+        return kd_error_field(error, "/r_max",
+                              "r_max is %g, too large for the short steps that this path needs, because it whirls near "
+                              "an unstable circle",
+                              run->params->r_max);
     return status;
 }
 

@@ -102,8 +102,8 @@ static struct kd_debris_piece piece_of(const struct kd_debris_shed *shed, double
 {
     struct kd_debris_piece piece = { .stage = KD_DEBRIS_LEAVES };
     const double turn = 2 * M_PI * kd_random_drawn(shed->seed, shed->random);
-    const double aside = shed->radius * sqrt((1 - u * u) * kd_random_drawn(shed->seed, shed->random));
-    const double at[3] = { u * shed->radius, aside * cos(turn), aside * sin(turn) };
+    const double lateral = shed->radius * sqrt((1 - u * u) * kd_random_drawn(shed->seed, shed->random));
+    const double at[3] = { u * shed->radius, lateral * cos(turn), lateral * sin(turn) };
     double x[3], speed2 = 0;
     for (int k = 0; k < 3; k++) {
         x[k] = shed->x[k] + at[0] * e[0][k] + at[1] * e[1][k] + at[2] * e[2][k];

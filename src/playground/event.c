@@ -13,12 +13,12 @@ const char *kd_playground_event_word(enum kd_playground_event_kind kind)
 void kd_playground_event_add(struct kd_playground_events *events, struct kd_playground_event event)
 {
     event.number = ++events->last;
-    events->kept[event.number % KD_PLAYGROUND_EVENTS] = event;
+    events->ring[event.number % KD_PLAYGROUND_EVENTS] = event;
 }
 
 const struct kd_playground_event *kd_playground_event_at(const struct kd_playground_events *events, uint64_t number)
 {
-    const struct kd_playground_event *event = &events->kept[number % KD_PLAYGROUND_EVENTS];
+    const struct kd_playground_event *event = &events->ring[number % KD_PLAYGROUND_EVENTS];
     return number && number <= events->last && event->number == number ? event : NULL;
 }
 

@@ -12,11 +12,11 @@ enum { KD_PLAYGROUND_EVENTS = 4096 };
 /* X(NAME, word, description of the event and of its energy) */
 #define KD_PLAYGROUND_EVENT_KINDS(X) \
     X(MERGER, merger, "two bodies have become one; energy: what became heat") \
-    X(SHEDDING, shedding, "the tide has taken so much of a star; energy: of what is shed, in the hole's field") \
-    X(DISRUPTION, disruption, "the tide has torn a star apart; energy: of the debris, in the hole's field") \
-    X(CAPTURED, capture, "the hole has taken a body; energy: the body's, in the hole's field") \
-    X(INSPIRAL, inspiral, "gravitational waves have brought a body inside 6 M; energy: what they took") \
-    X(ESCAPE, escape, "a test body has left the space that is followed; energy: none")
+    X(SHEDDING, shedding, "the tide has removed part of a star; energy: that of the shed mass in the hole's field") \
+    X(DISRUPTION, disruption, "the tide has torn a star apart; energy: that of the debris in the hole's field") \
+    X(CAPTURED, capture, "the hole has captured a body; energy: that of the body in the hole's field") \
+    X(INSPIRAL, inspiral, "gravitational waves have brought a body inside 6 M; energy: the energy that they took") \
+    X(ESCAPE, escape, "a test body has left the simulated space; energy: none")
 
 #define KD_EVENT_(NAME, ...) KD_PLAYGROUND_##NAME,
 enum kd_playground_event_kind { KD_PLAYGROUND_EVENT_KINDS(KD_EVENT_) KD_PLAYGROUND_EVENT_N_KINDS };
@@ -36,7 +36,7 @@ struct kd_playground_event {
 };
 
 struct kd_playground_events {
-    struct kd_playground_event kept[KD_PLAYGROUND_EVENTS]; /* number k at k % KD_PLAYGROUND_EVENTS */
+    struct kd_playground_event ring[KD_PLAYGROUND_EVENTS]; /* number k at k % KD_PLAYGROUND_EVENTS */
     uint64_t last;                                         /* number of the newest; 0: none yet */
 };
 

@@ -113,7 +113,7 @@ enum kd_status kd_playground_numbers(double *to, int n, double most, const cJSON
                                      struct kd_error *error)
 {
     if (!cJSON_IsArray(item) || cJSON_GetArraySize(item) != n)
-        return kd_error_field(error, pointer, "this is no array of %d numbers", n);
+        return kd_error_field(error, pointer, "this is not an array of %d numbers", n);
     int i = 0;
     for (const cJSON *one = item->child; one; one = one->next, i++) {
         const struct kd_value value = kd_tree_value(one);

@@ -17,10 +17,10 @@ const size_t kd_playground_n_settings = sizeof kd_playground_settings / sizeof *
 #define AT(name) offsetof(struct kd_playground_body, name)
 const struct kd_playground_setting kd_playground_body_fields[] = {
     { "mass", KD_SETTING_REAL, AT(mass), 1e-6, 0, 1e12, KD_PLAYGROUND_LEAST, NULL,
-      "in masses of the hole, at least 1e-30; 0: it pulls nothing" },
+      "mass in units of the hole's mass, at least 1e-30; 0: a test body that attracts nothing" },
     { "radius", KD_SETTING_REAL, AT(radius), 0, 0, 1e6, KD_PLAYGROUND_LEAST, NULL,
-      "in M, at least 1e-30; 0: a point, which touches nothing and has no tides" },
-    REAL(temperature_k, 5800, 0, 1e10, "of its surface; 0: it is dark")
+      "radius in M, at least 1e-30; 0: a point without collisions and tides" },
+    REAL(temperature_k, 5800, 0, 1e10, "temperature of the surface in K; 0: dark")
 };
 const size_t kd_playground_n_body_fields = sizeof kd_playground_body_fields / sizeof *kd_playground_body_fields;
 

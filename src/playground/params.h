@@ -15,27 +15,28 @@ enum kd_playground_gravity { KD_GRAVITY_PACZYNSKI_WIITA, KD_GRAVITY_KERR };
 /* REAL and INT(NAME, default, least, most, help), BOOL(NAME, default, help), WORD(NAME, default, "a|b", help). gravity
  * and spin cannot be changed once a playground is made. */
 #define KD_PLAYGROUND_SETTINGS(REAL, INT, BOOL, WORD) \
-    WORD( \
-        gravity, KD_GRAVITY_PACZYNSKI_WIITA, "paczynski-wiita|kerr", \
-        "the pull of the hole: a potential, in which bodies also pull one another; or exact geodesics of test bodies") \
-    REAL(spin, 0, -0.999, 0.999, "spin of the hole, which gravity \"kerr\" knows and the potential does not") \
-    REAL(softening, 0.05, 1e-4, 1e3, "length in M within which the pull of bodies on one another is softened") \
-    REAL(h_max, 1, 1e-6, 1e6, "longest sub-step in M; debris moves on so often") \
-    REAL(safety, 0.03, 1e-4, 0.2, "C of the sub-step's bound C (r - 2), and of the same for two bodies") \
+    WORD(gravity, KD_GRAVITY_PACZYNSKI_WIITA, "paczynski-wiita|kerr", \
+         "gravity of the hole: a potential, in which bodies also attract one another, or exact geodesics of test " \
+         "bodies") \
+    REAL(spin, 0, -0.999, 0.999, "spin of the hole (gravity \"kerr\" only)") \
+    REAL(softening, 0.05, 1e-4, 1e3, "softening length in M of the bodies' mutual attraction") \
+    REAL(h_max, 1, 1e-6, 1e6, "longest sub-step in M, and the interval at which debris is advanced") \
+    REAL(safety, 0.03, 1e-4, 0.2, \
+         "factor C of the limit C (r - 2) of the sub-step, and of the like limit for two bodies") \
     INT(budget, 20000, 1, 100000000, \
-        "most sub-steps of one advance; when they are spent, less time has gone by than was asked for") \
-    BOOL(mergers, true, "bodies that touch become one") \
+        "limit of the sub-steps of one advance; if it is reached, the advance is shorter than requested") \
+    BOOL(mergers, true, "bodies that touch merge") \
     BOOL(tides, true, "the hole's tide sheds a star's mass, and tears it apart") \
     BOOL(waves, false, "bodies lose energy to gravitational waves") \
-    REAL(amplification, 1, 0, 1e9, "by how much that loss is exaggerated; 1 is the real one") \
-    BOOL(feeds, true, "debris that has come back is counted and leaves, as part of the disk; else it goes on") \
+    REAL(amplification, 1, 0, 1e9, "factor on that loss; 1: the physical value") \
+    BOOL(feeds, true, "debris that has returned is counted as accreted and removed; otherwise it moves on") \
     INT(debris_capacity, 100000, 0, KD_PLAYGROUND_DEBRIS_MAX, \
-        "pieces of debris there may be; a new one takes the place of the oldest") \
+        "largest number of pieces of debris; beyond it, a new piece replaces the oldest") \
     INT(debris_per_body, 20000, 16, KD_PLAYGROUND_DEBRIS_MAX, "pieces that a body falls into when it is torn apart") \
-    REAL(debris_temperature_k, 5000, 300, 1e9, "temperature in K of the black body that debris shines as in pictures") \
+    REAL(debris_temperature_k, 5000, 300, 1e9, "temperature in K of the debris, a black body in pictures") \
     REAL(debris_depth, 1, 0, 1e6, "optical depth in pictures of the debris of one body, spread over 1000 M^2") \
-    REAL(albedo, 0, 0, 1, "share of the disk's light that bodies throw back in pictures; 0: that is not looked for") \
-    INT(seed, 1, 0, 4294967295u, "of the directions that debris takes")
+    REAL(albedo, 0, 0, 1, "share of the disk's light that bodies reflect in pictures; 0: reflection is not computed") \
+    INT(seed, 1, 0, 4294967295u, "seed of the random directions of debris")
 
 struct kd_playground_params {
 #define KD_REAL_(name, ...) double name;

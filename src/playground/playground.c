@@ -75,7 +75,7 @@ static enum kd_status check(const struct kd_playground *p, const struct kd_playg
     if (!kerr(p) && !(r > KD_PLAYGROUND_CAPTURE))
         return kd_error_field(
             error, "/position",
-            "position is %.9g M from the hole; it must be more than %g M: closer in all is the hole's", r,
+            "position is %.9g M from the hole; it must be more than %g M, inside which the hole captures everything", r,
             KD_PLAYGROUND_CAPTURE);
     return KD_OK;
 }
@@ -124,8 +124,7 @@ enum kd_status kd_playground_add(struct kd_playground *p, const struct kd_playgr
 {
     enum kd_status status;
     if (p->n >= KD_PLAYGROUND_BODIES_MAX)
-        return kd_error_set(error, KD_ETOOBIG, "there are already %zu bodies, the most that a playground may have",
-                            p->n);
+        return kd_error_set(error, KD_ETOOBIG, "too many bodies (limit %zu for a playground)", p->n);
     disturb(p);
     KD_TRY(reserve(p, error));
     KD_TRY(put(p, p->n, body, p->last_id + 1, error));
@@ -157,7 +156,7 @@ void kd_playground_drop(struct kd_playground *p, size_t i)
 
 static enum kd_status absent(uint32_t id, struct kd_error *error)
 {
-    return kd_error_field(error, "/id", "there is no body %u, or it is there no more", id);
+    return kd_error_field(error, "/id", "there is no body %u, or it no longer exists", id);
 }
 
 enum kd_status kd_playground_remove(struct kd_playground *p, uint32_t id, struct kd_error *error)
@@ -195,9 +194,9 @@ enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playgr
                                  struct kd_error *error)
 {
     if (params->gravity != p->params.gravity)
-        return kd_error_field(error, "/gravity", "gravity is chosen when a playground is made, and stays");
+        return kd_error_field(error, "/gravity", "gravity cannot change after a playground is made");
     if (params->spin != p->params.spin)
-        return kd_error_field(error, "/spin", "spin is chosen when a playground is made, and stays");
+        return kd_error_field(error, "/spin", "spin cannot change after a playground is made");
     struct kd_playground_params looks = *params; /* only appearance may differ */
     looks.debris_temperature_k = p->params.debris_temperature_k;
     looks.debris_depth = p->params.debris_depth;
@@ -225,39 +224,39 @@ void kd_playground_approximations(const struct kd_playground *p, struct kd_json 
     const struct kd_playground_params *s = &p->params;
     kd_json_array(json, name);
     if (!(p->t < KD_PLAYGROUND_TIME))
-        kd_json_string(json, NULL, "Time has come to its end, 1e12 M, and stands.");
+        kd_json_string(json, NULL, "The simulation has reached its end, 1e12 M.");
     if (kerr(p)) {
         kd_json_string(
             json, NULL,
-            "Bodies are test bodies: they do not pull one another, do not meet, and have no tides and no waves.");
+            "Bodies are test bodies: no mutual attraction, no collisions, no tides, no gravitational waves.");
     } else {
         kd_json_string(json, NULL,
-                       "The hole pulls by the potential of Paczynski and Wiita, which has Schwarzschild's last stable "
-                       "orbit but no "
-                       "dragging and no slowing of time; its r is taken for Schwarzschild's.");
-        kd_json_string(json, NULL, "The hole stands still, and bodies that it takes do not make it heavier.");
-        kd_json_string(json, NULL, "Bodies pull one another by Newton's law, softened, and at once.");
-        kd_json_string(json, NULL, "Speeds are held at c.");
+                       "The hole's gravity is the potential of Paczynski and Wiita, with Schwarzschild's last stable "
+                       "orbit, but without frame dragging and time dilation; its r is taken as Schwarzschild's.");
+        kd_json_string(json, NULL, "The hole does not move, and captured bodies do not increase its mass.");
+        kd_json_string(json, NULL, "Bodies attract one another by Newton's law, softened and without delay.");
+        kd_json_string(json, NULL, "Speeds are limited to c.");
         if (kd_playground_lost_momentum(p))
-            kd_json_string(json, NULL, "Bodies pulled one another to more than c: holding them at it took momentum.");
+            kd_json_string(json, NULL,
+                           "Bodies accelerated one another beyond c; the limit of their speeds removed momentum.");
         if (s->waves)
             kd_json_string(json, NULL,
-                           "Gravitational waves take what Peters' formula says: leading order, whose power is 4 % too "
-                           "high at r = 10 M for "
-                           "a = 0 and 27 % at a = 0.9, below 1 % only near 300 M.");
+                           "The loss to gravitational waves is Peters' formula, of leading order: its power is 4 % too "
+                           "high at r = 10 M for a = 0 and 27 % for a = 0.9; the error is below 1 % only near 300 M.");
         if (s->waves && s->amplification != 1) {
             char text[120];
             snprintf(text, sizeof text, "The loss to gravitational waves is exaggerated %g times.", s->amplification);
             kd_json_string(json, NULL, text);
         }
         if (p->held)
-            kd_json_string(json, NULL, "The loss to waves, exaggerated, was held back at a tenth of the pull.");
+            kd_json_string(json, NULL, "The exaggerated loss to waves was limited to a tenth of the attraction.");
         if (s->waves && p->n > KD_WAVE_PAIRS_MAX)
-            kd_json_string(json, NULL, "Of so many bodies each radiates with the hole alone.");
-        if (s->tides && p->debris.last_source)
             kd_json_string(json, NULL,
-                           "Debris has a flat distribution of energies from where it is torn off, and moves in the "
-                           "hole's potential alone.");
+                           "There are too many bodies for waves of pairs: each body radiates with the hole alone.");
+        if (s->tides && p->debris.last_source)
+            kd_json_string(
+                json, NULL,
+                "Debris starts with a flat distribution of energies, and moves in the hole's potential alone.");
     }
     kd_json_end(json);
 }

@@ -21,7 +21,7 @@ static enum kd_status read_name(struct kd_playground_body *body, const cJSON *it
                                 struct kd_error *error)
 {
     if (!cJSON_IsString(item) || strlen(item->valuestring) >= sizeof body->name)
-        return kd_error_field(error, pointer, "name is no string of up to %zu bytes", sizeof body->name - 1);
+        return kd_error_field(error, pointer, "name is not a string of at most %zu bytes", sizeof body->name - 1);
     snprintf(body->name, sizeof body->name, "%s", item->valuestring);
     return KD_OK;
 }
@@ -34,7 +34,7 @@ static enum kd_status read_body(struct kd_playground_body *body, const cJSON *it
     static const struct kd_playground_setting id_row = { "id", KD_SETTING_INT, 0, 0, 1, UINT32_MAX, 0, NULL, NULL };
     enum kd_status status = KD_OK;
     if (!cJSON_IsObject(item))
-        return kd_error_field(error, pointer, "a body is an object");
+        return kd_error_field(error, pointer, "a body must be an object");
     for (const cJSON *one = item->child; one; one = one->next) {
         const struct kd_playground_setting *row =
             kd_playground_row(kd_playground_body_fields, kd_playground_n_body_fields, one->string);
@@ -88,10 +88,10 @@ static enum kd_status do_one(struct kd_playground *p, enum list what, const cJSO
     if (what == REMOVE) {
         if (!cJSON_IsNumber(item) || !(item->valuedouble >= 1 && item->valuedouble <= UINT32_MAX) ||
             item->valuedouble != floor(item->valuedouble))
-            return kd_error_field(error, pointer, "this is no body's id");
+            return kd_error_field(error, pointer, "id must be the number of a body");
         status = kd_playground_remove(p, (uint32_t)item->valuedouble, error);
         return status
-                   ? kd_error_field(error, pointer, "there is no body %.0f, or it is there no more", item->valuedouble)
+                   ? kd_error_field(error, pointer, "there is no body %.0f, or it no longer exists", item->valuedouble)
                    : KD_OK;
     }
     if (what == CHANGE) {
@@ -101,14 +101,14 @@ static enum kd_status do_one(struct kd_playground *p, enum list what, const cJSO
                                       ? (uint32_t)given->valuedouble
                                       : 0);
         if (!old)
-            return kd_error_field(error, pointer, "there is no body with this id, or it is there no more");
+            return kd_error_field(error, pointer, "there is no body with this id, or it no longer exists");
         body = *old;
         if (cJSON_HasObjectItem(item, "mass") || cJSON_HasObjectItem(item, "radius"))
             body.whole_mass = 0; /* the changed body counts as another star, whose tidal pass starts afresh */
     }
     KD_TRY(read_body(&body, item, pointer, what == CHANGE ? &id : NULL, 1, error));
     if (isnan(body.x[0]))
-        KD_TRY(kd_error_field(error, pointer, "a body needs a position"));
+        KD_TRY(kd_error_field(error, pointer, "position is missing; a body needs one"));
     KD_TRY(
         in_list(what == CHANGE ? kd_playground_change(p, id, &body, error) : kd_playground_add(p, &body, NULL, error),
                 pointer, error));
@@ -124,7 +124,7 @@ static enum kd_status do_list(struct kd_playground *p, enum list what, const cJS
     enum kd_status status = KD_OK;
     snprintf(pointer, sizeof pointer, "/%s", name);
     if (list && !cJSON_IsArray(list))
-        return kd_error_field(error, pointer, "%s is no array", name);
+        return kd_error_field(error, pointer, "%s is not an array", name);
     if (list && what != ADD &&
         cJSON_GetArraySize(list) > (int)KD_PLAYGROUND_BODIES_MAX) /* for ADD the error names the first body too many */
         return kd_error_field(error, pointer, "%s has %d elements; it must have at most %u", name,
@@ -170,7 +170,7 @@ done:
 enum kd_status kd_playground_parse(const char *text, size_t length, cJSON **tree, struct kd_error *error)
 {
     enum kd_status status = kd_tree_parse(text, length, KD_PLAYGROUND_JSON_MAX, VALUES, tree, error);
-    return !status && !cJSON_IsObject(*tree) ? kd_error_set(error, KD_EINVAL, "the document is no JSON object")
+    return !status && !cJSON_IsObject(*tree) ? kd_error_set(error, KD_EINVAL, "the document is not a JSON object")
                                              : status;
 }
 
@@ -207,11 +207,12 @@ static enum kd_status take_bodies(struct kd_playground *p, const cJSON *list, st
         snprintf(pointer, sizeof pointer, "/bodies/%u", i++);
         KD_TRY(read_body(&body, one, pointer, NULL, KD_PLAYGROUND_BODIES_MAX, error));
         if (isnan(body.x[0]))
-            KD_TRY(kd_error_field(error, pointer, "a body needs a position"));
+            KD_TRY(kd_error_field(error, pointer, "position is missing; a body needs one"));
         if (!(kd_playground_radius(body.x) > KD_PLAYGROUND_CAPTURE && kd_playground_radius(body.v) <= 1 + 1e-12) &&
             p->params.gravity != KD_GRAVITY_KERR)
-            KD_TRY(kd_error_field(error, pointer,
-                                  "there is no such body in a snapshot: it is the hole's, or faster than c"));
+            KD_TRY(kd_error_field(
+                error, pointer,
+                "a snapshot cannot have this body, because it is captured by the hole or faster than c"));
         KD_TRY(in_list(kd_playground_add(p, &held, NULL, error), pointer, error));
         body.id = p->bodies[p->n - 1].id;
         p->bodies[p->n - 1] = body;
@@ -234,7 +235,8 @@ enum kd_status kd_playground_read_tree(const cJSON *tree, struct kd_playground *
     const cJSON *state = cJSON_GetObjectItemCaseSensitive(tree, "state"),
                 *bodies = cJSON_GetObjectItemCaseSensitive(tree, "bodies");
     if (state && preset)
-        KD_TRY(kd_error_field(error, "/preset", "a snapshot has bodies of its own, and no preset"));
+        KD_TRY(kd_error_field(error, "/preset",
+                              "preset cannot be used with a snapshot, because a snapshot has its own bodies"));
     KD_TRY(kd_playground_create(&params, &p, error));
     if (preset)
         KD_TRY(preset->fill(p, error));

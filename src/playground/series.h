@@ -14,20 +14,20 @@ enum { KD_SERIES_ROWS = 4096 };
 /* X(name, unit, description) */
 #define KD_SERIES_COLUMNS(X) \
     X(t, "M", "time") \
-    X(bodies, "", "how many there are") \
-    X(energy, "M", "of the bodies: kinetic, in the hole's field, and of all pairs") \
+    X(bodies, "", "number of bodies") \
+    X(energy, "M", "energy of the bodies: kinetic, in the hole's field, and of all pairs") \
     X(energy_balance, "M", \
-      "the same with all that has left and has been given: constant but for the error of the integration") \
+      "the same with all energy that has left and entered; constant except for the error of the integration") \
     X(angular_momentum_x, "M^2", "of the bodies") \
     X(angular_momentum_y, "M^2", "of the bodies") \
     X(angular_momentum_z, "M^2", "of the bodies") \
-    X(radiated, "M", "energy that gravitational waves have taken") \
-    X(separation, "M", "of the closest bound pair of bodies, else of the innermost body and the hole") \
-    X(wave_frequency, "1/M", "twice the rate at which these two go round") \
-    X(h_plus, "M", "strain times distance, seen from the hole's axis") \
-    X(h_cross, "M", "the same, of the other polarisation") \
-    X(debris, "", "pieces under way") \
-    X(debris_back, "M", "mass of those that have come back")
+    X(radiated, "M", "energy lost to gravitational waves") \
+    X(separation, "M", "separation of the closest bound pair of bodies, or else of the innermost body and the hole") \
+    X(wave_frequency, "1/M", "wave frequency: twice the orbital frequency of these two") \
+    X(h_plus, "M", "strain h+ times distance, seen along the hole's axis") \
+    X(h_cross, "M", "strain hx times distance, the other polarisation") \
+    X(debris, "", "number of moving pieces of debris") \
+    X(debris_back, "M", "mass of the debris that has returned")
 
 #define KD_SERIES_COLUMN_(name, ...) KD_SERIES_##name,
 enum { KD_SERIES_COLUMNS(KD_SERIES_COLUMN_) KD_SERIES_N };

@@ -191,27 +191,27 @@ enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_dynam
     float worth[KD_DEBRIS_SOURCES];
     struct kd_show_place *places = malloc((n + 1) * sizeof *places);
     struct kd_dynamic_bodies_debris grid = { 0 };
-    struct kd_dynamic_bodies *crowd = NULL;
+    struct kd_dynamic_bodies *dynamic = NULL;
     enum kd_status status =
         places ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for what is shown of a playground");
     KD_TRY(status);
     kd_show_places(p->debris.pieces, n, places);
     if (p->debris.alive)
         kd_show_grid(places, n, &grid);
-    KD_TRY(kd_dynamic_bodies_create(p->n, grid.rows, grid.columns, &crowd, error));
+    KD_TRY(kd_dynamic_bodies_create(p->n, grid.rows, grid.columns, &dynamic, error));
     for (size_t i = 0; i < p->n; i++)
-        show_body(&p->bodies[i], (uint32_t)i, approximate, p->params.albedo, &crowd->bodies[i]);
-    grid.nodes = crowd->debris.nodes;
+        show_body(&p->bodies[i], (uint32_t)i, approximate, p->params.albedo, &dynamic->bodies[i]);
+    grid.nodes = dynamic->debris.nodes;
     grid.temperature_k = p->params.debris_temperature_k;
     grid.depth = p->params.debris_depth;
-    crowd->debris = grid;
-    crowd->time = p->t;
-    crowd->approximate = approximate;
+    dynamic->debris = grid;
+    dynamic->time = p->t;
+    dynamic->approximate = approximate;
     for (int i = 0; i < KD_DEBRIS_SOURCES; i++)
         worth[i] = (float)p->debris.sources[i].worth;
     if (grid.rows)
-        kd_show_share_out(p->debris.pieces, places, n, worth, approximate, &crowd->debris);
-    *out = crowd;
+        kd_show_share_out(p->debris.pieces, places, n, worth, approximate, &dynamic->debris);
+    *out = dynamic;
 done:
     free(places);
     return status;

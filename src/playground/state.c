@@ -159,7 +159,7 @@ static enum kd_status read_numbers(void *to, const struct number *table, size_t 
             char what[120];
             snprintf(what, sizeof what, "is %.17g; it must be %s%.17g to %.17g", x,
                      may->whole ? "a whole number from " : "", may->least, may->most);
-            return bad(pointer, table[i].name, cJSON_IsNumber(one) ? what : "is no number", error);
+            return bad(pointer, table[i].name, cJSON_IsNumber(one) ? what : "is not a number", error);
         }
         switch (table[i].kind) {
         case REAL:
@@ -184,7 +184,7 @@ static enum kd_status read_source(struct kd_playground_debris *d, const cJSON *i
                                  pointer, error));
     if (!one.number || one.number > d->last_source || !(one.spread > 0) || !(one.piece_mass > 0) ||
         !(one.worth > 0 && one.worth <= 1) || !cJSON_IsString(name))
-        KD_TRY(bad(pointer, "number", "and what is with it are none of a source", error));
+        KD_TRY(bad(pointer, "number", "and the members beside it do not describe a source of debris", error));
     snprintf(one.name, sizeof one.name, "%s", name->valuestring);
     for (int k = 0; k < KD_DEBRIS_BINS; k++) {
         one.back[k] = (uint32_t)fmax(back[k], 0);
@@ -227,13 +227,13 @@ static enum kd_status read_debris(struct kd_playground_debris *d, const cJSON *i
     KD_TRY(read_numbers(d, debris, N(debris), item, pointer, error));
     if (d->used > d->capacity || d->next > d->used || (d->capacity && d->next >= d->capacity)) {
         d->used = d->next = 0;
-        KD_TRY(bad(pointer, "used", "is more than there is room for", error));
+        KD_TRY(bad(pointer, "used", "exceeds the capacity", error));
     }
     if (cJSON_IsString(pieces) && d->used && strlen(pieces->valuestring) == kd_base64_length(d->used * OLD_PIECE)) {
         d->used = d->next = 0;
         KD_TRY(
             bad(pointer, "pieces",
-                "are those of an older version, whose places are of single precision: this one cannot go on from them",
+                "come from an older version with positions in single precision; this version cannot continue from them",
                 error));
     }
     for (const cJSON *one = cJSON_IsArray(sources) ? sources->child : NULL; one; one = one->next)
@@ -241,7 +241,7 @@ static enum kd_status read_debris(struct kd_playground_debris *d, const cJSON *i
     if (!cJSON_IsString(pieces) || !kd_base64_read(d->pieces, d->used * sizeof *d->pieces, pieces->valuestring) ||
         !look(d)) {
         d->used = d->next = d->alive = 0;
-        KD_TRY(bad(pointer, "pieces", "are not those of a snapshot", error));
+        KD_TRY(bad(pointer, "pieces", "are not pieces that a snapshot can have", error));
     }
 done:
     return status;
@@ -256,10 +256,10 @@ static enum kd_status read_body(struct kd_playground *p, size_t i, const cJSON *
     KD_TRY(read_numbers(&p->bodies[i], body, N(body), item, pointer, error));
     const struct kd_playground_body *read = &p->bodies[i];
     if (!read->id || read->id > p->last_id || (i && read->id <= p->bodies[i - 1].id))
-        KD_TRY(bad(pointer, "id", "is none that a snapshot has there", error));
+        KD_TRY(bad(pointer, "id", "is not an id that a snapshot can have there", error));
     if (read->whole_mass != 0 &&
         !(read->whole_mass >= KD_PLAYGROUND_LEAST && read->whole_radius >= KD_PLAYGROUND_LEAST))
-        KD_TRY(bad(pointer, "whole_mass", "and whole_radius are none of a star in its pass", error));
+        KD_TRY(bad(pointer, "whole_mass", "and whole_radius do not describe a star during its passage", error));
     if (p->params.gravity != KD_GRAVITY_KERR)
         return KD_OK;
     KD_TRY(kd_playground_numbers(x, 3, 1e6, cJSON_GetObjectItemCaseSensitive(item, "from_position"), pointer, error));
@@ -288,7 +288,7 @@ enum kd_status kd_state_read(struct kd_playground *p, const cJSON *state, struct
     if (capped) /* missing in older snapshots */
         KD_TRY(kd_playground_numbers(p->spent.capped_momentum, 3, MOST, capped, "/state/spent", error));
     if (!cJSON_IsArray(bodies) || (size_t)cJSON_GetArraySize(bodies) != p->n || p->rate < 0)
-        KD_TRY(bad("/state", "bodies", "are not as many as the bodies", error));
+        KD_TRY(bad("/state", "bodies", "and bodies differ in length", error));
     for (const cJSON *one = bodies->child; one; one = one->next) {
         kd_pause_every(i, 64);
         KD_TRY(read_body(p, i++, one, error));

@@ -56,16 +56,17 @@
     P(observer, .initial = "static", .words = KD_OBSERVER_WORDS, \
       .help = "state of motion at a finite radius" KD_OBSERVER_HELP) \
     P(velocity_r, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, \
-      .help = "outwards, past one of zero angular momentum (observer velocity)") \
+      .help = "velocity outwards, relative to the observer of zero angular momentum (observer velocity)") \
     P(velocity_theta, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, \
-      .help = "away from the north pole, likewise") \
-    P(velocity_phi, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, .help = "towards +phi, likewise") \
+      .help = "velocity away from the north pole, likewise") \
+    P(velocity_phi, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, \
+      .help = "velocity towards +phi, likewise") \
     P(infall_from, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity", \
-      .help = "radius from which the observer falls, at rest there but for its angular momentum (observer infall)") \
+      .help = "radius at which the observer's fall begins, at rest except for its angular momentum (observer infall)") \
     P(infall_energy, .unit = "1", .initial = "rest", .minimum = -100, .maximum = 1e3, .word = "rest", \
-      .help = "its energy per mass; rest: as infall_from has it") \
+      .help = "energy per mass of the falling observer; rest: the energy that follows from infall_from") \
     P(infall_momentum, .unit = "M", .initial = "0", .minimum = -1e4, .maximum = 1e4, \
-      .help = "its angular momentum per mass")
+      .help = "angular momentum per mass of the falling observer")
 /* The motion given by KD_PARAMETER_OBSERVER. */
 #define KD_QUANTITY_MOTION(p) \
     (struct kd_observer_motion) \

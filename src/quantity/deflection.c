@@ -10,18 +10,18 @@
 #define OUTPUTS(O) \
     O(angle, .unit = "radians", \
       .help = "total bending towards +phi, whole turns included; null if captured, b < b_critical") \
-    O(angle_retrograde, .unit = "radians", .help = "the same of light that turns towards -phi") \
+    O(angle_retrograde, .unit = "radians", .help = "the same for light that turns towards -phi") \
     O(weak, .unit = "radians", .help = "weak field, 4/b") \
     O(weak_second, .unit = "radians", .help = "with the next order, 4/b + (15 pi/4 - 4a)/b^2") \
     O(weak_second_retrograde, .unit = "radians", .help = "the same towards -phi") \
     O(strong, .unit = "radians", \
-      .help = "limit next to b_critical, -rate ln(b/b_critical - 1) + offset; null if captured") \
+      .help = "limit close to b_critical, -rate ln(b/b_critical - 1) + offset; null if captured") \
     O(strong_retrograde, .unit = "radians", .help = "the same towards -phi") \
     O(closest, .unit = "M", .help = "closest approach r of the light towards +phi; null if captured") \
     O(closest_retrograde, .unit = "M", .help = "the same towards -phi") \
     O(farthest, .unit = "M", \
-      .help = "how far light towards +phi gets that is sent out within the photon orbit, before it falls back; null " \
-              "if it leaves, or if no light there has so little energy for its L") \
+      .help = "largest radius of light towards +phi that is emitted inside the photon orbit and falls back; null if " \
+              "it escapes, or if no light there has so small an energy for its L") \
     O(farthest_retrograde, .unit = "M", .help = "the same towards -phi") \
     O(b_critical, .unit = "M", .fixed = true, .help = "impact parameter of the circular photon orbit towards +phi") \
     O(b_critical_retrograde, .unit = "M", .fixed = true, .help = "the same towards -phi") \
@@ -35,7 +35,7 @@ static const char *const sources[] = {
     NULL,
 };
 static const char *const approximations[] = {
-    "angle is exact; weak, weak_second and strong are limits, shown to be compared",
+    "angle is exact; weak, weak_second and strong are limits for comparison",
     NULL,
 };
 

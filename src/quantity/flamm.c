@@ -9,7 +9,7 @@
     P(r, .unit = "M", .initial = "2:20:73", .minimum = 1, .maximum = 1e9, .along = true, \
       .help = "Boyer-Lindquist radius, at or outside the horizon") \
     P(phi_deg, .unit = "degrees", .initial = "0", .minimum = -360, .maximum = 360, .along = true, \
-      .help = "azimuth: a range of it and one of r make a mesh")
+      .help = "azimuth; ranges of azimuth and r make a mesh")
 #define OUTPUTS(O) \
     O(x, .unit = "M", .help = "of the embedded surface: radius cos(phi)") \
     O(y, .unit = "M", .help = "of the embedded surface: radius sin(phi)") \

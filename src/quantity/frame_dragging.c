@@ -8,10 +8,12 @@
     P(theta_deg, .unit = "degrees", .initial = "90", .minimum = 0, .maximum = 180, .help = "polar angle") \
     P(r, .unit = "M", .initial = "10", .minimum = 1, .maximum = 1e9, .along = true, .help = "radius")
 #define OUTPUTS(O) \
-    O(omega, .unit = "1/M", .help = "angular velocity of what has no angular momentum, -g_tphi/g_phiphi") \
+    O(omega, .unit = "1/M", .help = "angular velocity of an observer of zero angular momentum, -g_tphi/g_phiphi") \
     O(far_field, .unit = "1/M", .help = "2J/r^3 with J = aM") \
-    O(omega_least, .unit = "1/M", .help = "least angular velocity of anything at r; positive inside the ergosphere") \
-    O(omega_most, .unit = "1/M", .help = "largest angular velocity of anything at r; null on the axis, as the least") \
+    O(omega_least, .unit = "1/M", \
+      .help = "smallest angular velocity of any observer at r; positive inside the ergosphere") \
+    O(omega_most, .unit = "1/M", \
+      .help = "largest angular velocity of any observer at r; null on the axis, as is the smallest") \
     O(horizon_omega, .unit = "1/M", .fixed = true, .help = "angular velocity of the horizon, a/(2 r+)") \
     O(ergosphere, .unit = "M", .fixed = true, .help = "static limit at theta_deg")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)

@@ -8,31 +8,32 @@
 #define PARAMETERS(P) \
     P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \
     P(inclination_deg, .unit = "degrees", .initial = "90", .minimum = 0, .maximum = 180, \
-      .help = "polar angle of what falls") \
+      .help = "polar angle of the falling observer") \
     P(infall_from, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity", \
-      .help = "radius from which it falls, at rest there but for its angular momentum") \
+      .help = "radius at which the fall begins, at rest except for the angular momentum") \
     P(infall_energy, .unit = "1", .initial = "rest", .minimum = -100, .maximum = 1e3, .word = "rest", \
-      .help = "its energy per mass; rest: as infall_from has it") \
+      .help = "energy per mass of the falling observer; rest: the energy that follows from infall_from") \
     P(infall_momentum, .unit = "M", .initial = "0", .minimum = -1e4, .maximum = 1e4, \
-      .help = "its angular momentum per mass") \
+      .help = "angular momentum per mass of the falling observer") \
     KD_PARAMETER_MASS(P) \
     P(r, .unit = "M", .initial = "0.2:20:100", .minimum = 0.001, .maximum = 1e7, .along = true, \
-      .help = "radius where it is")
+      .help = "radius of the falling observer")
 #define OUTPUTS(O) \
-    O(proper_time_to_horizon, .unit = "M", .help = "by its own clock, from r to the outer horizon; null within") \
+    O(proper_time_to_horizon, .unit = "M", .help = "proper time from r to the outer horizon; null inside it") \
     O(proper_time_to_end, .unit = "M", \
-      .help = "by its own clock, from r to where the model ends: the inner horizon, or without spin the singularity") \
+      .help = "proper time from r to the end of the model: the inner horizon, or without spin the singularity") \
     O(proper_time_to_horizon_s, .unit = "s", .help = "the same in seconds") \
     O(proper_time_to_end_s, .unit = "s", .help = "the same in seconds") \
     O(velocity, .unit = "1", \
-      .help = \
-          "towards the hole past one of zero angular momentum, in units of that of light; null within the horizon") \
+      .help = "velocity towards the hole relative to the observer of zero angular momentum, in units of c; null " \
+              "inside the horizon") \
     O(g_behind, .unit = "1", \
-      .help = "frequency of starlight from straight behind, as it measures it, over that far away") \
+      .help = "frequency of starlight from straight behind, measured by the falling observer over that at infinity") \
     O(azimuth_to_end_deg, .unit = "degrees", \
-      .help = "how far it turns until the end, in ingoing Kerr-Schild azimuth, that of camera.azimuth_deg") \
+      .help = "change of azimuth until the end, in ingoing Kerr-Schild azimuth, that of camera.azimuth_deg") \
     O(time_to_end, .unit = "M", \
-      .help = "coordinate time until the end, of ingoing Kerr-Schild coordinates, which know no outer horizon") \
+      .help = \
+          "coordinate time until the end, in ingoing Kerr-Schild coordinates, which are regular at the outer horizon") \
     O(energy, .unit = "1", .fixed = true, .help = "per mass") \
     O(end, .unit = "M", .fixed = true, .help = "radius where the model ends")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
@@ -54,8 +55,8 @@ static enum kd_status check(const struct kd_observer_motion *motion, const struc
         return KD_EINVAL;
     if (!kd_infall_is_level(motion, at))
         return kd_quantity_outside(error, "inclination_deg", atan2(at->s, at->u) * (180 / M_PI),
-                                   "where it would not stay at this latitude; with "
-                                   "spin it must be 0, 90 or 180, or the fall begin at rest at infinity");
+                                   "a latitude that the fall would leave; with spin it must be 0, 90 or 180, or the "
+                                   "fall must begin at rest at infinity");
     return KD_OK;
 }
 
@@ -97,4 +98,4 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(infall, "infall", "free fall into the hole by its own clock, to the horizon and to the end", .point_us = 60)
+KD_QUANTITY(infall, "infall", "free fall into the hole: proper time to the horizon and to the end", .point_us = 60)

@@ -12,17 +12,17 @@
     P(eccentricity, .unit = "1", .initial = "0.6171334", .minimum = 0, .maximum = 0.999999, \
       .help = "eccentricity now") \
     P(eccentricity_later, .unit = "1", .initial = "0", .minimum = 0, .maximum = 0.999999, .along = true, \
-      .help = "a later, smaller eccentricity of the same orbit") \
+      .help = "smaller eccentricity of the same orbit at a later time") \
     P(distance_pc, .unit = "pc", .initial = "6400", .minimum = 1e-3, .maximum = 1e11, .along = true, \
       .help = "distance (luminosity distance, with redshifted masses and times)") \
     P(before_s, .unit = "s", .initial = "1", .minimum = 1e-9, .maximum = 1e20, .along = true, \
-      .help = "time before the coalescence of a circular orbit of these masses, for the chirp")
+      .help = "time before coalescence, for the chirp of a circular orbit of these masses")
 #define OUTPUTS(O) \
     O(chirp_mass, .unit = "solar masses", .fixed = true, .help = "(m1 m2)^(3/5)/(m1 + m2)^(1/5)") \
     O(eta, .unit = "1", .fixed = true, .help = "m1 m2/(m1 + m2)^2") \
     O(axis_km, .unit = "km", .fixed = true, .help = "semi-major axis a, by Kepler's law") \
-    O(axis, .unit = "M", .fixed = true, .help = "the same, M being both masses") \
-    O(enhancement, .unit = "1", .fixed = true, .help = "power over that of a circle with the same a") \
+    O(axis, .unit = "M", .fixed = true, .help = "the same, in units of the total mass M") \
+    O(enhancement, .unit = "1", .fixed = true, .help = "power over that of a circular orbit with the same a") \
     O(power_w, .unit = "W", .fixed = true, .help = "radiated power") \
     O(axis_rate, .unit = "m/yr", .fixed = true, .help = "da/dt") \
     O(eccentricity_rate, .unit = "1/yr", .fixed = true, .help = "de/dt") \
@@ -32,12 +32,13 @@
     O(isco_hz, .unit = "Hz", .fixed = true, .help = "wave frequency at a = 6 M, where the chirp is cut") \
     O(isco_before_s, .unit = "s", .fixed = true, .help = "time before coalescence at a = 6 M") \
     O(axis_later_km, .unit = "km", \
-      .help = "a when the eccentricity is eccentricity_later; null if that is larger than now's") \
+      .help = \
+          "a at the time when the eccentricity is eccentricity_later; null if that is larger than the present one") \
     O(time_later_yr, .unit = "yr", .help = "time until then; likewise") \
     O(chirp_hz, .unit = "Hz", \
       .help = "wave frequency of a circular orbit before_s before coalescence; null inside a = 6 M") \
     O(chirp_axis, .unit = "M", .help = "its a; likewise") \
-    O(chirp_strain, .unit = "1", .help = "its amplitude of h+ and hx seen along the axis; likewise")
+    O(chirp_strain, .unit = "1", .help = "amplitude of h+ and hx of that orbit, seen along the axis; likewise")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
@@ -66,10 +67,10 @@ static enum kd_status fill_now(const struct parameters *p, const struct orbit *k
     double e = p->eccentricity, eta = kd_inspiral_eta(p->mass2_msun / p->mass1_msun), turn = p->period_s / k->unit_s;
     double a = cbrt(turn * turn / (4 * M_PI * M_PI));
     if (!(a * (1 - e) > 6))
-        return kd_quantity_outside(error, "period_s", p->period_s,
-                                   "which is a = %.6g M: the orbit comes inside 6 M, "
-                                   "where nothing of this holds; the periods must be longer",
-                                   a);
+        return kd_quantity_outside(
+            error, "period_s", p->period_s,
+            "for which a = %.6g M and the orbit comes inside 6 M, where these formulas fail; the period must be longer",
+            a);
     o->eta = eta;
     o->chirp_mass = kd_inspiral_chirp_mass(eta) * k->total;
     o->axis = a, o->axis_km = a * k->unit_m * 1e-3;

@@ -12,19 +12,19 @@
     P(angle_deg, .unit = "degrees", .initial = "0", .minimum = -360, .maximum = 720, \
       .help = "where on the critical curve: about its centre, from the right over the top") \
     P(inner, .unit = "M", .initial = "horizon", .minimum = 1, .maximum = 1e9, .word = "horizon", \
-      .help = "radius in the equatorial plane from which on light is sent") \
+      .help = "inner radius of the light's source in the equatorial plane") \
     P(outer, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e9, .word = "infinity", \
-      .help = "radius up to which it is") \
+      .help = "outer radius of the light's source") \
     P(order, .unit = "1", .initial = "1:6:6", .minimum = 1, .maximum = 12, .whole = true, .along = true, \
-      .help = "of the ring: how many half turns round the hole its light has made")
+      .help = "order of the ring: number of half turns of its light round the hole")
 #define OUTPUTS(O) \
     O(inner_edge, .unit = "1", \
-      .help = "distance from the critical curve along the radius about its centre, over that radius, where inner is " \
-              "seen; below 0 inside; null if nowhere") \
-    O(outer_edge, .unit = "1", .help = "the same of outer") \
-    O(width, .unit = "M", .help = "of the ring there, from edge to edge") \
+      .help = "distance of the image of inner from the critical curve, along the curve's radius and in units of it; " \
+              "below 0 inside the curve; null if there is no image") \
+    O(outer_edge, .unit = "1", .help = "the same for outer") \
+    O(width, .unit = "M", .help = "width of the ring there, from edge to edge") \
     O(ladder, .unit = "M", \
-      .help = "width of order 1 times e^(-gamma (order - 1)), which the widths tend to but for a factor") \
+      .help = "width of order 1 times e^(-gamma (order - 1)), to which the widths are proportional at high orders") \
     O(gamma, .unit = "1", .fixed = true, \
       .help = "Lyapunov exponent of the photon orbit that is seen there, for each half turn; pi for a = 0") \
     O(orbit_r, .unit = "M", .fixed = true, .help = "radius of that orbit") \
@@ -38,7 +38,7 @@ static const char *const sources[] = {
     NULL,
 };
 static const char *const approximations[] = {
-    "ladder is the limit of high orders, drawn from the first one on to be compared", NULL
+    "ladder is the limit of high orders, extended from order 1 for comparison", NULL
 };
 
 struct memory {
@@ -63,7 +63,7 @@ static enum kd_status begin(const struct parameters *p, struct memory *m, struct
         return kd_quantity_outside(error, "inner", m->inner, "inside the horizon at %.9g M; it must be outside",
                                    horizon);
     if (!(p->outer > m->inner))
-        return kd_quantity_outside(error, "outer", p->outer, "and must be more than inner, %.9g M", m->inner);
+        return kd_quantity_outside(error, "outer", p->outer, "but must be more than inner, %.9g M", m->inner);
     m->curve = kd_critical_of(&(struct kd_critical_observer) { .hole = kd_hole_of(p->spin),
                                                                .radius = INFINITY,
                                                                .cos_theta = fabs(kd_cos_deg(p->inclination_deg)),
@@ -90,7 +90,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(photon_rings, "photon-rings",
-            "the rings of light that has gone round the hole: their edges beside the critical curve, and how much "
-            "thinner each is",
+KD_QUANTITY(photon_rings, "photon-rings", "photon rings: their edges relative to the critical curve, and their widths",
             .memory_size = sizeof(struct memory), .point_us = 60, .fresh_us = 60)

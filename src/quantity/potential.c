@@ -6,17 +6,17 @@
 #define PARAMETERS(P) \
     P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \
     P(l, .unit = "M", .initial = "4", .minimum = -1e6, .maximum = 1e6, \
-      .help = "angular momentum, positive towards +phi: a unit of mass of matter; of the photon that V_light is for") \
+      .help = "angular momentum, positive towards +phi: per unit mass for matter, and of the photon for v_light") \
     P(r, .unit = "M", .initial = "2:30:281", .minimum = 1, .maximum = 1e9, .along = true, .help = "radius")
 #define OUTPUTS(O) \
-    O(v_matter, .unit = "1", .help = "least specific energy of matter with L at r") \
-    O(v_light, .unit = "1", .help = "least energy of light with L at r") \
-    O(newton, .unit = "1", .help = "1 - 1/r + L^2/(2 r^2), Newton's beside v_matter") \
+    O(v_matter, .unit = "1", .help = "smallest specific energy of matter with L at r") \
+    O(v_light, .unit = "1", .help = "smallest energy of light with L at r") \
+    O(newton, .unit = "1", .help = "1 - 1/r + L^2/(2 r^2), the Newtonian counterpart of v_matter") \
     O(r_max_matter, .unit = "M", .fixed = true, .help = "unstable circular orbit of matter with L; null if none") \
     O(v_max_matter, .unit = "1", .fixed = true, .help = "v_matter there") \
     O(r_min_matter, .unit = "M", .fixed = true, .help = "stable circular orbit of matter with L; null if none") \
     O(v_min_matter, .unit = "1", .fixed = true, .help = "v_matter there") \
-    O(r_max_light, .unit = "M", .fixed = true, .help = "circular photon orbit of the sign of L; null for L = 0") \
+    O(r_max_light, .unit = "M", .fixed = true, .help = "circular photon orbit with the sense of L; null for L = 0") \
     O(v_max_light, .unit = "1", .fixed = true, .help = "v_light there, |L|/b_c")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
@@ -26,7 +26,7 @@ static const char *const sources[] = {
     NULL,
 };
 static const char *const approximations[] = {
-    "newton is Newton's potential and the centrifugal one, plus the rest mass", NULL
+    "newton is the sum of rest mass, Newtonian potential and centrifugal potential", NULL
 };
 
 static void fill_extrema(const struct parameters *p, struct outputs *o)

@@ -15,15 +15,16 @@
     P(n, .unit = "1", .initial = "0", .minimum = 0, .maximum = KD_QNM_N_MAX, .whole = true, \
       .help = "overtone, counted at spin 0; 0 decays slowest") \
     P(spin, .unit = "M", .initial = "0.7", .minimum = -KD_QNM_SPIN_MAX, .maximum = KD_QNM_SPIN_MAX, \
-      .help = "spin parameter a; nearer to 1 damped and undamped modes crowd and l, n stop being names for them") \
+      .help = "spin parameter a; closer to 1, damped and undamped modes crowd together and l, n no longer label them " \
+              "uniquely") \
     P(mass_msun, .unit = "solar masses", .initial = "60", .minimum = 1e-3, .maximum = 1e12, .along = true, \
       .help = "mass of the hole, with any redshift: m (1 + z)") \
     P(t, .unit = "M", .initial = "0", .minimum = 0, .maximum = 1e6, .along = true, \
       .help = "time of the sample `wave`") \
     P(shift_octaves, .unit = "1", .initial = "0", .minimum = -40, .maximum = 40, .along = true, \
-      .help = "octaves by which the sound is higher than the ringing, and faster") \
+      .help = "octaves by which the sound is higher than the ringing; it is faster by the same factor") \
     P(stretch, .unit = "1", .initial = "1", .minimum = 1, .maximum = 1e6, .along = true, \
-      .help = "how many times as slowly as the ringing the sound then fades, at the same pitch")
+      .help = "factor by which the shifted sound then decays more slowly, at the same pitch")
 #define OUTPUTS(O) \
     O(omega_re, .unit = "1/M", .fixed = true, .help = "angular frequency") \
     O(omega_im, .unit = "1/M", .fixed = true, .help = "minus the damping rate") \
@@ -31,13 +32,13 @@
     O(separation_im, .unit = "1", .fixed = true, .help = "its imaginary part") \
     O(quality, .unit = "1", .fixed = true, .help = "Q = omega_re/(-2 omega_im)") \
     O(quality_cubic, .unit = "1", .fixed = true, \
-      .help = "2.1 + 11.3 a^3, which circulates for l = m = 2, n = 0; null else") \
-    O(quality_cubic_error, .unit = "1", .fixed = true, .help = "how far it is off, relative") \
+      .help = "2.1 + 11.3 a^3, a formula for l = m = 2, n = 0 in circulation; null for other modes") \
+    O(quality_cubic_error, .unit = "1", .fixed = true, .help = "its relative error") \
     O(fit_omega_re, .unit = "1/M", .fixed = true, \
-      .help = "fit of Berti et al. 2006 for l = m = 2, n = 0 to 2; null else") \
+      .help = "fit of Berti et al. 2006 for l = m = 2, n = 0 to 2; null for other modes") \
     O(fit_quality, .unit = "1", .fixed = true, .help = "their Q") \
-    O(fit_omega_re_error, .unit = "1", .fixed = true, .help = "how far it is off, relative") \
-    O(fit_quality_error, .unit = "1", .fixed = true, .help = "how far it is off, relative") \
+    O(fit_omega_re_error, .unit = "1", .fixed = true, .help = "its relative error") \
+    O(fit_quality_error, .unit = "1", .fixed = true, .help = "its relative error") \
     O(frequency_hz, .unit = "Hz", .help = "omega_re/(2 pi) for mass_msun") \
     O(damping_s, .unit = "s", .help = "time in which the amplitude falls by e") \
     O(t_s, .unit = "s", .help = "t for mass_msun") \
@@ -83,7 +84,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     if (fresh) {
         struct kd_qnm mode;
         if (!kd_qnm_find((int)p->l, (int)p->m, (int)p->n, kd_hole(p->spin), &mode))
-            return kd_quantity_outside(error, "spin", p->spin, "where the iteration for this mode does not settle");
+            return kd_quantity_outside(error, "spin", p->spin, "where the iteration for this mode does not converge");
         o->omega_re = creal(mode.omega), o->omega_im = cimag(mode.omega);
         o->separation_re = creal(mode.separation), o->separation_im = cimag(mode.separation);
         o->quality = kd_ringdown_quality(mode.omega);

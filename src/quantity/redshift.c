@@ -11,22 +11,22 @@
       .help = "polar angle of the observer, at infinity; not within 0.1 of 90") \
     P(r, .unit = "M", .initial = "6", .minimum = 1, .maximum = 1e4, .word = "isco", .help = "radius of the ring") \
     P(phi_deg, .unit = "degrees", .initial = "0:355:72", .minimum = -360, .maximum = 720, .along = true, \
-      .help = "azimuth on the ring, less the observer's: 0 is the near side, 90 recedes")
+      .help = "azimuth on the ring relative to the observer's: 0 is the near side, at 90 the gas recedes")
 #define OUTPUTS(O) \
     O(g, .unit = "1", .help = "redshift factor nu_observed/nu_emitted of the direct image") \
     O(g4, .unit = "1", .help = "g^4: its bolometric intensity over the emitted one") \
-    O(alpha, .unit = "M", .help = "where it is seen: to the right") \
-    O(beta, .unit = "M", .help = "where it is seen: along the projected spin") \
-    O(delay, .unit = "M", .help = "time of flight, less r_o + 2 ln r_o of the observer") \
+    O(alpha, .unit = "M", .help = "position in the image: to the right") \
+    O(beta, .unit = "M", .help = "position in the image: along the projected spin") \
+    O(delay, .unit = "M", .help = "time of flight minus r_o + 2 ln r_o, with r_o the observer's radius") \
     O(images, .unit = "1", \
-      .help = "direct images: 1, but 3 or more beyond a caustic, next to edge-on; the first from +alpha towards " \
-              "+beta is given") \
-    O(g_1, .unit = "1", .help = "g of the image of order 1, seen past the other side of the hole") \
+      .help = "number of direct images: 1, or 3 or more beyond a caustic, close to edge on; the answer has the first " \
+              "from +alpha towards +beta") \
+    O(g_1, .unit = "1", .help = "g of the image of order 1, whose light passes the other side of the hole") \
     O(g4_1, .unit = "1", .help = "its g^4") \
-    O(alpha_1, .unit = "M", .help = "where it is seen") \
-    O(beta_1, .unit = "M", .help = "where it is seen") \
+    O(alpha_1, .unit = "M", .help = "position of that image") \
+    O(beta_1, .unit = "M", .help = "position of that image") \
     O(delay_1, .unit = "M", .help = "time of flight, likewise") \
-    O(images_1, .unit = "1", .help = "images of order 1, likewise") \
+    O(images_1, .unit = "1", .help = "number of images of order 1, likewise") \
     O(g_flat, .unit = "1", \
       .help = "sqrt(1 - 3/r)/(1 - v.n), v = sqrt(1/(r - 2)), without lensing or spin; null for r <= 3") \
     O(g4_flat, .unit = "1", .help = "its fourth power")
@@ -39,7 +39,7 @@ static const char *const sources[] = {
     NULL,
 };
 static const char *const approximations[] = {
-    "g_flat takes the speed of a circular orbit for a = 0 and rays that are straight lines",
+    "g_flat has the speed of a circular orbit for a = 0, and straight rays",
     NULL,
 };
 
@@ -59,7 +59,8 @@ static double g_of(const struct parameters *p, double r, const struct kd_ring_im
 
 static enum kd_status not_found(const struct memory *m, struct kd_error *error)
 {
-    return kd_quantity_outside(error, "r", m->r, "so near the horizon that its image was not found; it must be larger");
+    return kd_quantity_outside(error, "r", m->r,
+                               "too close to the horizon for its image to be found; it must be larger");
 }
 
 static enum kd_status make_rings(const struct parameters *p, struct memory *m, struct kd_error *error)
@@ -99,5 +100,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(redshift, "redshift", "redshift g and g^4 round a ring of gas, with its lensed images",
+KD_QUANTITY(redshift, "redshift", "redshift factor g and g^4 along a ring of gas, with the ring's lensed images",
             .memory_size = sizeof(struct memory), .point_us = 100, .fresh_us = 3000)

@@ -2,32 +2,20 @@
 #include "quantity/sound.h"
 #include "quantity/text.h"
 
-static const char introduction[] = "# The numbers by name\n"
-                                   "\n"
-                                   "`GET /v1/physics/NAME?parameter=value&...` and `kerrd physics NAME --parameter "
-                                   "value ...` give the same answers, as JSON or\n"
-                                   "as CSV (`Accept: text/csv` or `format=csv`; `--format csv` or `-o FILE.csv`). `GET "
-                                   "/v1/physics` lists what is listed here.\n"
-                                   "On the command line a parameter is written with `-` for `_`. This page is "
-                                   "generated from `src/quantity`; do not edit it.\n"
-                                   "What the numbers mean is in [docs/physics](physics/README.md). (`kerrd` on the "
-                                   "PATH and a server: [README](../README.md).)\n"
-                                   "\n"
-                                   "    kerrd physics kerr --spin 0:0.998:100 -o kerr.csv\n"
-                                   "    curl 'http://127.0.0.1:8080/v1/physics/kerr?spin=0:0.998:100'\n"
-                                   "    kerrd physics qnm --mass-msun 62 -o ringdown.wav\n"
-                                   "\n"
-                                   "A value may be a range, `first:last:count`, with both ends; every point of several "
-                                   "ranges is computed, the last parameter of\n"
-                                   "the table varying fastest, up to 100000 points. In JSON a parameter that is a "
-                                   "range is an array, and so is every value that it\n"
-                                   "changes; values of several ranges are flat, with their `ranges` and `shape` beside "
-                                   "them. `null`, and an empty field in CSV, is\n"
-                                   "a number that does not exist. `digits=6` (`--digits 6`) writes no more significant "
-                                   "digits than that of the numbers in lists, in\n"
-                                   "CSV of all: a third of the bytes, for who draws a curve. G = c = M = 1 where no "
-                                   "other unit is named. What lies outside the domain of a quantity is an\n"
-                                   "error (422) that names the parameter and the reason.\n";
+static const char introduction[] =
+    "# The numbers by name\n\n`GET /v1/physics/NAME?parameter=value&...` and `kerrd physics NAME --parameter value "
+    "...` give the same answers, as JSON or\nas CSV (`Accept: text/csv` or `format=csv`; `--format csv` or `-o "
+    "FILE.csv`). `GET /v1/physics` lists the quantities of this page.\nOn the command line a parameter has `-` for "
+    "`_`. This page is generated from `src/quantity`; do not edit it.\n[docs/physics](physics/README.md) has the "
+    "theory. (`kerrd` on the PATH and a server: [README](../README.md).)\n\n    kerrd physics kerr --spin 0:0.998:100 "
+    "-o kerr.csv\n    curl 'http://127.0.0.1:8080/v1/physics/kerr?spin=0:0.998:100'\n    kerrd physics qnm --mass-msun "
+    "62 -o ringdown.wav\n\nA value may be a range, `first:last:count`, which includes both ends. With several ranges, "
+    "all combinations are computed, at\nmost 100000 points; the last parameter of the table varies fastest. In JSON a "
+    "parameter with a range is an array, and so is\nevery value that depends on it. With several ranges, arrays are "
+    "flat, and `ranges` and `shape` describe them. `null`, or an\nempty field in CSV, is a number that does not exist. "
+    "`digits=6` (`--digits 6`) limits the significant digits of numbers in\nlists, and of all numbers in CSV; a "
+    "plotted curve then takes a third of the bytes. Units are G = c = M = 1 if no other is\nnamed. A value outside the "
+    "domain of a quantity is an error (422) that names the parameter and the reason.\n";
 
 static void write_escaped(struct kd_writer *w, const char *text)
 {
@@ -64,11 +52,10 @@ static void write_quantity(struct kd_writer *w, const struct kd_quantity *quanti
     }
     if (quantity->sound)
         kd_write(w,
-                 "\nAs a sound with `Accept: audio/wav` or `format=wav`, `--format wav` or `-o FILE.wav`: 16 bits, 48 "
-                 "kHz, from full scale at time 0 until "
-                 "half a step is left, then silence up to 0.25 s.\nIt is of one point. Frequencies outside %g to %g Hz "
-                 "are an error that says which "
-                 "masses are heard, and by how many `shift_octaves` the others are.\n",
+                 "\n`Accept: audio/wav` or `format=wav`, `--format wav` or `-o FILE.wav` give a sound of one point: 16 "
+                 "bits, 48 kHz, from full scale at time 0 until half a step is left, then silence up to 0.25 s.\nA "
+                 "frequency outside %g to %g Hz is an error that names the audible masses, and the `shift_octaves` "
+                 "that makes this one audible.\n",
                  KD_SOUND_HZ_MIN, KD_SOUND_HZ_MAX);
     write_list(w, "Sources", quantity->sources);
     write_list(w, "Approximations", quantity->approximations);

@@ -117,7 +117,7 @@ static enum kd_status refuse(const struct kd_parameter *p, const char *pointer, 
     kd_text_clip(given, sizeof given, text);
     kd_parameter_allowed(p, allowed);
     return kd_error_field(error, pointer, "%s is \"%s\"; it must be %s%s", p->name, given, allowed,
-                          p->words ? "" : ", or a range first:last:count of 2 to 100000 of these");
+                          p->words ? "" : ", or a range first:last:count of 2 to 100000 such values");
 }
 
 static enum kd_status unknown(const struct kd_quantity *quantity, const char *pointer, const char *name,

@@ -12,26 +12,25 @@
     KD_PARAMETER_OBSERVER(P) \
     P(r, .unit = "M", .initial = "6", .minimum = 1, .maximum = 1e4, .word = "isco", .help = "radius of the ring") \
     P(order, .unit = "1", .initial = "0", .minimum = 0, .maximum = 1, .whole = true, \
-      .help = "of the image: 0 direct, 1 past the other side of the hole") \
+      .help = "order of the image: 0 direct, 1 past the other side of the hole") \
     P(angle_deg, .unit = "degrees", .initial = "0:355:72", .minimum = -360, .maximum = 720, .along = true, \
-      .help = "direction of the image plane from its origin, as (cos, cos i sin) of it: even round a ring seen " \
-              "unlensed; at a finite radius of the sky " \
-              "about -r, so in the frame of one that falls from rest at infinity")
+      .help = "angle psi in the image plane: the direction from the origin is (cos psi, cos i sin psi), uniform " \
+              "along an unlensed ring; at a finite radius it is about the direction -r on the sky, in the frame of " \
+              "an observer that falls from rest at infinity")
 #define OUTPUTS(O) \
     O(alpha, .unit = "M", \
-      .help = "the image on the image plane, to the right; at any distance it labels the constants of motion; null " \
+      .help = "coordinate on the image plane, to the right; at any distance it labels the constants of motion; null " \
               "where light has no energy at infinity") \
-    O(beta, .unit = "M", .help = "the image on the image plane, along the projected spin; likewise") \
+    O(beta, .unit = "M", .help = "coordinate on the image plane, along the projected spin; likewise") \
     O(right, .unit = "1", \
-      .help = "direction in which it is seen at a finite radius, a unit vector: towards +phi; null at infinity") \
-    O(up, .unit = "1", .help = "its component up, towards -theta") \
-    O(inwards, .unit = "1", .help = "its component inwards, towards -r") \
+      .help = "unit vector of the viewing direction at a finite radius: component towards +phi; null at infinity") \
+    O(up, .unit = "1", .help = "component up, towards -theta") \
+    O(inwards, .unit = "1", .help = "component inwards, towards -r") \
     O(phi_deg, .unit = "degrees", \
-      .help = "which point of the ring is seen there: its azimuth less the observer's, not reduced to a turn; null " \
-              "for an " \
-              "observer within the horizon, and for light whose energy at infinity is not above 0") \
+      .help = "azimuth of the visible point of the ring relative to the observer's, with whole turns; null for an " \
+              "observer inside the horizon, and for light whose energy at infinity is not positive") \
     O(delay, .unit = "M", \
-      .help = "time of flight; of an observer at infinity less r_o + 2 ln r_o; null where phi_deg is")
+      .help = "time of flight; for an observer at infinity minus r_o + 2 ln r_o; null where phi_deg is null")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
@@ -93,10 +92,11 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     if (kd_quantity_outside_horizon(kd_hole(p->spin), r, error) || (fresh && make(p, r, m, error)))
         return KD_EINVAL;
     if (!(isinf(p->observer_r) ? see_far(p, &m->far, o) : see_near(p, &m->near, o)))
-        return kd_quantity_outside(error, "r", r, "too near the horizon for its image to be found; it must be larger");
+        return kd_quantity_outside(error, "r", r,
+                                   "too close to the horizon for its image to be found; it must be larger");
     return KD_OK;
 }
 
 KD_QUANTITY(ring_image, "ring-image",
-            "a ring in the equatorial plane as it is seen, direct or past the hole, from any distance",
+            "images of a ring in the equatorial plane, direct or past the hole, from any distance",
             .memory_size = sizeof(struct memory), .point_us = 300, .fresh_us = 10)

@@ -14,25 +14,26 @@
     P(mass_msun, .unit = "solar masses", .initial = "hole", .minimum = 1e-3, .maximum = 1e12, .word = "hole", \
       .along = true, .help = "mass of the hole") \
     P(distance_pc, .unit = "pc", .initial = "hole", .minimum = 1e-3, .maximum = 1e11, .word = "hole", .along = true, \
-      .help = "its (angular diameter) distance")
+      .help = "angular diameter distance of the hole")
 #define OUTPUTS(O) \
     O(mass, .unit = "solar masses", .help = "as used") \
     O(distance, .unit = "pc", .help = "as used") \
     O(m_km, .unit = "km", .help = "M as a length, G m/c^2") \
     O(m_s, .unit = "s", .help = "M as a time, G m/c^3") \
-    O(m_uas, .unit = "microarcseconds", .help = "M on the sky") \
+    O(m_uas, .unit = "microarcseconds", .help = "angle of M on the sky") \
     O(shadow_uas, .unit = "microarcseconds", \
       .help = "mean diameter of the shadow for this spin and inclination; 2 sqrt(27) M for a = 0") \
-    O(ring_uas, .unit = "microarcseconds", .help = "measured diameter of the ring; null for no hole") \
+    O(ring_uas, .unit = "microarcseconds", .help = "measured diameter of the ring; null if hole is none") \
     O(ring_error_uas, .unit = "microarcseconds", .help = "its error, one sigma") \
-    O(ring_over_shadow, .unit = "1", .help = "measured over computed") \
+    O(ring_over_shadow, .unit = "1", .help = "ratio of measured to computed diameter") \
     O(horizon_km, .unit = "km", .help = "radius of the horizon r+") \
     O(horizon_au, .unit = "au", .help = "radius of the horizon r+") \
-    O(light_crossing_s, .unit = "s", .help = "time of light over the horizon's diameter, 2 r+/c") \
+    O(light_crossing_s, .unit = "s", .help = "light-crossing time of the horizon, 2 r+/c") \
     O(isco_period_s, .unit = "s", .help = "period of the ISCO for an observer far away") \
-    O(photon_period_s, .unit = "s", .help = "the same of the circular photon orbit, towards +phi") \
-    O(fall_s, .unit = "s", .help = "proper time from horizon to singularity, at rest at infinity, a = 0: 4/3 M") \
-    O(fall_longest_s, .unit = "s", .help = "the longest that there is for a = 0: pi M")
+    O(photon_period_s, .unit = "s", .help = "the same for the circular photon orbit, towards +phi") \
+    O(fall_s, .unit = "s", \
+      .help = "proper time from horizon to singularity of a fall from rest at infinity, a = 0: 4/3 M") \
+    O(fall_longest_s, .unit = "s", .help = "longest proper time from horizon to singularity, a = 0: pi M")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
@@ -45,7 +46,7 @@ static const char *const sources[] = {
     NULL,
 };
 static const char *const approximations[] = {
-    "the measured ring is the emission's, some per cent larger than the edge of the shadow",
+    "the measured ring is that of the emission, some per cent larger than the edge of the shadow",
     "times of fall are those of a = 0",
     NULL,
 };
@@ -72,11 +73,13 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
         m->shadow = shadow_of(p);
     const struct kd_scale_hole *hole = p->hole < KD_SCALE_HOLES ? &kd_scale_holes[(int)p->hole] : NULL;
     if (!hole && isinf(p->mass_msun))
-        return kd_error_field(error, "/mass_msun",
-                              "mass_msun is \"hole\", and hole is \"none\": one of them must be given");
+        return kd_error_field(
+            error, "/mass_msun",
+            "mass_msun is \"hole\" with hole \"none\"; it must be a number, or hole must be a known one");
     if (!hole && isinf(p->distance_pc))
-        return kd_error_field(error, "/distance_pc",
-                              "distance_pc is \"hole\", and hole is \"none\": one of them must be given");
+        return kd_error_field(
+            error, "/distance_pc",
+            "distance_pc is \"hole\" with hole \"none\"; it must be a number, or hole must be a known one");
     o->mass = isinf(p->mass_msun) ? hole->mass_msun : p->mass_msun;
     o->distance = isinf(p->distance_pc) ? hole->distance_pc : p->distance_pc;
     o->m_km = kd_scale_metres(o->mass) * 1e-3;
@@ -97,5 +100,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(scale, "scale", "a hole in kilometres, seconds and microarcseconds, beside the measured rings",
+KD_QUANTITY(scale, "scale", "scales of a hole in kilometres, seconds and microarcseconds, with the measured rings",
             .memory_size = sizeof(struct memory), .point_us = 3, .fresh_us = 1000)

@@ -10,12 +10,12 @@
       .help = "inclination of the orbit to the equator, as of /v1/orbits; more than 90 is retrograde") \
     P(e, .unit = "1", .initial = "0", .minimum = 0, .maximum = 0.999999, .along = true, .help = "eccentricity")
 #define OUTPUTS(O) \
-    O(p, .unit = "M", .help = "least semi-latus rectum of a stable bound orbit") \
-    O(r_min, .unit = "M", .help = "where a body on the separatrix whirls: its periapsis p/(1 + e)") \
+    O(p, .unit = "M", .help = "smallest semi-latus rectum of a stable bound orbit") \
+    O(r_min, .unit = "M", .help = "radius at which a body on the separatrix whirls: its periapsis p/(1 + e)") \
     O(r_max, .unit = "M", .help = "its apoapsis p/(1 - e)") \
     O(circle, .unit = "M", \
-      .help = "radius of the orbit of light of this inclination: above it there are circles, below the separatrix " \
-              "unstable ones")
+      .help = "radius of the photon orbit of this inclination; circular orbits exist above it, and are unstable " \
+              "below the separatrix")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
@@ -39,4 +39,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
 }
 
 KD_QUANTITY(separatrix, "separatrix",
-            "where bound orbits end: the least p of a stable one, by eccentricity and inclination", .point_us = 60)
+            "separatrix of bound orbits: the smallest p of a stable one, by eccentricity and inclination",
+            .point_us = 60)

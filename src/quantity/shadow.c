@@ -9,26 +9,29 @@
       .help = "polar angle of the observer") \
     KD_PARAMETER_OBSERVER(P) \
     P(angle_deg, .unit = "degrees", .initial = "0:355:72", .minimum = -360, .maximum = 720, .along = true, \
-      .help = "where on the curve: about its centre, from the right over the top")
+      .help = "angle about the curve's centre, from the right over the top")
 #define OUTPUTS(O) \
     O(alpha, .unit = "M", \
-      .help = "the curve on the image plane, to the right; at any distance it labels the constants of motion") \
-    O(beta, .unit = "M", .help = "the curve on the image plane, along the projected spin; likewise") \
+      .help = "coordinate of the curve on the image plane, to the right; at any distance it labels the constants of " \
+              "motion") \
+    O(beta, .unit = "M", .help = "coordinate of the curve on the image plane, along the projected spin; likewise") \
     O(rho, .unit = "M or radians", \
-      .help = "distance from the centre: in M for an observer at infinity, else an angle on the sky") \
+      .help = "distance from the centre, in M for an observer at infinity, otherwise an angle on the sky") \
     O(right, .unit = "1", \
-      .help = "direction in which it is seen at a finite radius, a unit vector: towards +phi; null at infinity") \
-    O(up, .unit = "1", .help = "its component up, towards -theta") \
-    O(inwards, .unit = "1", .help = "its component inwards, towards -r") \
+      .help = "unit vector of the viewing direction at a finite radius: component towards +phi; null at infinity") \
+    O(up, .unit = "1", .help = "component up, towards -theta") \
+    O(inwards, .unit = "1", .help = "component inwards, towards -r") \
     O(orbit_r, .unit = "M", .help = "radius of the photon orbit that is seen there") \
     O(lyapunov, .unit = "1", .help = "gamma of that orbit: images of order n lie closer by e^-gamma each half turn") \
-    O(area, .unit = "M^2 or sr", .fixed = true, .help = "of the shadow: in M^2, or the solid angle") \
-    O(mean_radius, .unit = "M or radians", .fixed = true, .help = "mean of rho about the middle of the two ends") \
+    O(area, .unit = "M^2 or sr", .fixed = true, .help = "area of the shadow in M^2, or its solid angle") \
+    O(mean_radius, .unit = "M or radians", .fixed = true, \
+      .help = "mean of rho about the midpoint of the left and right ends") \
     O(displacement, .unit = "M or radians", .fixed = true, \
-      .help = "of that middle from the hole's centre, to the right") \
-    O(asymmetry, .unit = "M or radians", .fixed = true, .help = "twice the root mean square of rho less its mean") \
-    O(width, .unit = "M or radians", .fixed = true, .help = "from left to right end") \
-    O(height, .unit = "M or radians", .fixed = true, .help = "from bottom to top")
+      .help = "displacement of that midpoint from the hole's centre, to the right") \
+    O(asymmetry, .unit = "M or radians", .fixed = true, \
+      .help = "twice the root mean square of the difference of rho and its mean") \
+    O(width, .unit = "M or radians", .fixed = true, .help = "extent from left to right") \
+    O(height, .unit = "M or radians", .fixed = true, .help = "extent from bottom to top")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
@@ -85,5 +88,6 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(shadow, "shadow", "the critical curve, edge of the shadow, for any observer, with its size and shape",
+KD_QUANTITY(shadow, "shadow",
+            "the critical curve, which is the edge of the shadow, for any observer, with its size and shape",
             .memory_size = sizeof(struct memory), .point_us = 8, .fresh_us = 1000)

@@ -9,25 +9,25 @@
       .help = "polar angle of the observer") \
     KD_PARAMETER_OBSERVER(P) \
     P(yaw_deg, .unit = "degrees", .initial = "0:180:37", .minimum = -360, .maximum = 360, .along = true, \
-      .help = "direction of g: to the right of the hole, 180 straight away from it, as camera.yaw_deg") \
+      .help = "direction of g: angle to the right of the hole, as camera.yaw_deg; 180 is away from the hole") \
     P(pitch_deg, .unit = "degrees", .initial = "0", .minimum = -90, .maximum = 90, .along = true, \
-      .help = "upwards, as camera.pitch_deg")
+      .help = "direction of g: angle upwards, as camera.pitch_deg")
 #define OUTPUTS(O) \
     O(g, .unit = "1", \
       .help = \
-          "frequency of starlight from that direction, as it is measured, over that far away; null in the dark disk") \
-    O(g_ahead, .unit = "1", .fixed = true, .help = "the same straight ahead, towards the hole") \
-    O(g_behind, .unit = "1", .fixed = true, .help = "straight behind, away from the hole") \
-    O(g_above, .unit = "1", .fixed = true, .help = "overhead, towards -theta") \
+          "measured frequency of starlight from that direction over its frequency at infinity; null in the dark disk") \
+    O(g_ahead, .unit = "1", .fixed = true, .help = "the same from straight ahead, towards the hole") \
+    O(g_behind, .unit = "1", .fixed = true, .help = "the same from straight behind, away from the hole") \
+    O(g_above, .unit = "1", .fixed = true, .help = "the same from overhead, towards -theta") \
     O(g_below, .unit = "1", .fixed = true, .help = "towards +theta") \
     O(g_right, .unit = "1", .fixed = true, .help = "towards +phi") \
     O(g_left, .unit = "1", .fixed = true, .help = "towards -phi") \
-    O(g_least, .unit = "1", .fixed = true, .help = "least over all the sky that is seen") \
-    O(g_greatest, .unit = "1", .fixed = true, .help = "largest over it") \
+    O(g_least, .unit = "1", .fixed = true, .help = "smallest g over the visible sky") \
+    O(g_greatest, .unit = "1", .fixed = true, .help = "largest g over the visible sky") \
     O(dark_radius_deg, .unit = "degrees", .fixed = true, \
-      .help = "angular radius of the black disk: of the round one of its solid angle") \
+      .help = "angular radius of a round disk with the solid angle of the black disk") \
     O(dark_sr, .unit = "sr", .fixed = true, .help = "solid angle of the black disk") \
-    O(dark_share, .unit = "1", .fixed = true, .help = "the part of all directions that it takes")
+    O(dark_share, .unit = "1", .fixed = true, .help = "share of all directions in the black disk")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
@@ -90,5 +90,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(sky, "sky", "the redshift of the sky for any observer, and the black disk that the hole takes out of it",
+KD_QUANTITY(sky, "sky", "the redshift of the sky for any observer, and the size of the hole's black disk",
             .memory_size = sizeof(struct memory), .point_us = 8, .fresh_us = 2500)

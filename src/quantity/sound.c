@@ -31,17 +31,17 @@ enum kd_status kd_quantity_sound_check(const struct kd_quantity_request *request
     const struct kd_quantity *quantity = request->quantity;
     char pointer[60];
     if (!quantity->sound)
-        return kd_error_field(error, "/format", "format is \"wav\", and for %s must be \"json\" or \"csv\"",
+        return kd_error_field(error, "/format", "format is \"wav\"; for %s it must be \"json\" or \"csv\"",
                               quantity->name);
     for (size_t i = 0; i < quantity->n_parameters; i++) {
         snprintf(pointer, sizeof pointer, "/%s", quantity->parameters[i].name);
         if (request->axes[i].count > 1)
-            return kd_error_field(error, pointer, "%s is a range of %zu values; in a sound it must be one", pointer + 1,
-                                  request->axes[i].count);
+            return kd_error_field(error, pointer, "%s is a range of %zu values; for a sound it must be one value",
+                                  pointer + 1, request->axes[i].count);
     }
     double t = request->axes[parameter(quantity, "t")].first;
     if (t != 0)
-        return kd_error_field(error, "/t", "t is %g; it must be 0: a sound holds all times", t);
+        return kd_error_field(error, "/t", "t is %g; for a sound it must be 0, because a sound has all times", t);
     return KD_OK;
 }
 
@@ -61,9 +61,8 @@ static enum kd_status audible(const struct kd_quantity_answer *answer, struct kd
     if (hz >= KD_SOUND_HZ_MIN && hz <= KD_SOUND_HZ_MAX)
         return KD_OK;
     return kd_error_field(error, "/mass_msun",
-                          "mass_msun is %g, which rings at %.3g Hz with this shift_octaves; %g to %g "
-                          "Hz can be heard: it must be %.4g "
-                          "to %.4g solar masses, or shift_octaves %.0f to %.0f",
+                          "mass_msun is %g, which rings at %.3g Hz with this shift_octaves; for an audible %g to %g Hz "
+                          "it must be %.4g to %.4g solar masses, or shift_octaves %.0f to %.0f",
                           mass, hz, KD_SOUND_HZ_MIN, KD_SOUND_HZ_MAX, low, high, ceil(log2(KD_SOUND_HZ_MIN / natural)),
                           floor(log2(KD_SOUND_HZ_MAX / natural)));
 }

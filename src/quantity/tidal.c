@@ -8,7 +8,7 @@
 
 #define PARAMETERS(P) \
     P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, \
-      .help = "spin parameter a; a < 0: the star comes in against the hole's spin") \
+      .help = "spin parameter a; a < 0: the star's orbit is against the hole's spin") \
     P(mass_msun, .unit = "solar masses", .initial = "1e6", .minimum = 1e-3, .maximum = 1e12, \
       .help = "mass of the hole") \
     P(star_mass_msun, .unit = "solar masses", .initial = "1", .minimum = 1e-3, .maximum = 1e3, \
@@ -27,17 +27,19 @@
     O(hills_msun, .unit = "solar masses", .fixed = true, \
       .help = "mass of a hole whose horizon is at r_t of this star (Hills)") \
     O(capture_msun, .unit = "solar masses", .fixed = true, \
-      .help = "with the marginally bound orbit at r_t: the heaviest that tears it") \
+      .help = "mass of a hole whose marginally bound orbit is at r_t: the heaviest that tears this star") \
     O(energy_spread, .unit = "c^2", .fixed = true, \
       .help = "half the range of specific energy in the debris, M R/r_t^2") \
     O(fallback_s, .unit = "s", .fixed = true, .help = "time t_fb until the first debris returns") \
     O(fallback_days, .unit = "days", .fixed = true, .help = "the same") \
     O(peak_msun_yr, .unit = "solar masses a year", .fixed = true, .help = "largest rate of fallback, m/(3 t_fb)") \
-    O(peak_eddington, .unit = "Eddington rates", .fixed = true, .help = "the same, with the efficiency of this spin") \
+    O(peak_eddington, .unit = "Eddington rates", .fixed = true, \
+      .help = "the same in units of the Eddington rate, with the efficiency of this spin") \
     O(above_eddington_days, .unit = "days", .fixed = true, \
-      .help = "until the rate falls to the Eddington rate; null if it is never above") \
+      .help = "time until the rate falls to the Eddington rate; null if it is never above") \
     O(pericentre, .unit = "M", .help = "r_t over penetration") \
-    O(pericentre_over_capture, .unit = "1", .help = "over marginally_bound: below 1 the star is swallowed whole") \
+    O(pericentre_over_capture, .unit = "1", \
+      .help = "pericentre over marginally_bound; below 1 the star is captured whole") \
     O(rate_msun_yr, .unit = "solar masses a year", \
       .help = "rate of fallback at time_days, as t^(-5/3) after t_fb, 0 before")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
@@ -50,10 +52,10 @@ static const char *const sources[] = {
     NULL,
 };
 static const char *const approximations[] = {
-    "Newton's tide on a star without structure or spin, on a parabolic orbit; spin enters through horizon and capture "
-    "alone",
-    "debris spread evenly in energy and half of it bound; simulations differ by factors of two, and rise smoothly to "
-    "the peak",
+    "Newtonian tide on a star without structure and spin, on a parabolic orbit; the hole's spin affects only horizon "
+    "and capture",
+    "debris with a uniform distribution of energy, half of it bound; simulations differ by factors of two, and rise "
+    "smoothly to the peak",
     NULL,
 };
 
@@ -99,5 +101,6 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(tidal, "tidal", "a star torn by a hole: tidal radius, fallback, and the heaviest hole that tears it",
-            .point_us = 1, .fresh_us = 1)
+KD_QUANTITY(tidal, "tidal",
+            "tidal disruption of a star: tidal radius, fallback, and the heaviest hole that disrupts it", .point_us = 1,
+            .fresh_us = 1)

@@ -57,8 +57,8 @@ static enum kd_status resolve(struct kd_scene *scene, const struct kd_field *fie
     kd_field_path(field, index, path);
     kd_field_pointer(field, index, pointer);
     if (!assets->find(assets->user, name, &found) || !kd_asset_is_hash(found.hash))
-        return kd_error_field(error, pointer, "%s is \"%s\", and there is no such asset here; it must be %s", path,
-                              name, assets->allowed);
+        return kd_error_field(error, pointer, "%s is \"%s\", which is not a known asset; it must be %s", path, name,
+                              assets->allowed);
     enum kd_status status = suits(scene, path, pointer, &found, error);
     if (!status)
         kd_field_put_asset(scene, field, index, found.hash);

@@ -69,11 +69,11 @@ struct kd_dynamic_bodies {
  * must not be changed. KD_ENOMEM. */
 enum kd_status kd_dynamic_bodies_create(size_t n, uint32_t rows, uint32_t columns, struct kd_dynamic_bodies **out,
                                         struct kd_error *error);
-void kd_dynamic_bodies_keep(struct kd_dynamic_bodies *crowd); /* takes a reference; accepts NULL */
+void kd_dynamic_bodies_keep(struct kd_dynamic_bodies *dynamic); /* takes a reference; accepts NULL */
 void kd_dynamic_bodies_release(
-    struct kd_dynamic_bodies *crowd); /* drops a reference; the last one frees the set; accepts NULL */
+    struct kd_dynamic_bodies *dynamic); /* drops a reference; the last one frees the set; accepts NULL */
 
 /* Makes the scene, and copies that are made of it later, show these bodies; NULL: none. */
-void kd_scene_show(struct kd_scene *scene, const struct kd_dynamic_bodies *crowd);
+void kd_scene_show(struct kd_scene *scene, const struct kd_dynamic_bodies *dynamic);
 
 #endif

@@ -25,7 +25,7 @@ enum kd_status kd_element_find(const struct kd_section *list, const char *token,
     kd_text_pointer(pointer, sizeof pointer, list->name);
     kd_text_pointer(pointer, sizeof pointer, token);
     kd_text_clip(shown, sizeof shown, token);
-    return kd_error_field(error, pointer, "there is no %s.%s: %s is a list, whose elements are %s.0 to %s.%zu",
+    return kd_error_field(error, pointer, "there is no %s.%s: %s is a list with elements from %s.0 to %s.%zu",
                           list->name, shown, list->name, list->name, list->name, list->most - 1);
 }
 

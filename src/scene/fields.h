@@ -36,8 +36,8 @@
     REAL(spacetime, mass_msun, PHYSICS, REST, 1e8, 1e-3, 1e12, "solar masses", \
          "mass of the hole; sets the temperature when disk.colour is \"accretion\"") \
     REAL(spacetime, distance_pc, PHYSICS, REST, 260000.0, 1e-3, 1e11, "pc", \
-         "angular diameter distance of the hole; with the mass it gives the width of a picture on the sky, " \
-         "which a beam and a scale bar need")
+         "angular diameter distance of the hole; with the mass it determines the width of a picture on the sky, for " \
+         "a beam and a scale bar")
 
 #define KD_CAMERA_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     WORD(camera, r, PHYSICS, FRONT, INFINITY, 0.01, 1e7, "M", "Boyer-Lindquist radius of the observer", "infinity") \
@@ -68,13 +68,11 @@
          "angular momentum per mass of the falling observer, which moves in r and azimuth but not in latitude " \
          "(observer: infall)") \
     ENUM(camera, projection, LOOK, REST, KD_PROJECTION_AUTO, \
-         "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; " \
-         "ring: angle round the critical curve against the logarithm of the distance to it, at infinity " \
-         "only; equirectangular: all directions from a finite radius, longitude across and latitude upwards; " \
-         "fulldome: " \
-         "the angle from the middle as the distance from it, 90 degrees at the nearer edges, from a finite radius; " \
-         "auto: " \
-         "plane or pinhole, whichever fits camera.r", \
+         "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: angle " \
+         "round the critical curve by the logarithm of the distance to it, at infinity only; equirectangular: all " \
+         "directions from a finite radius, longitude to the right and latitude upwards; fulldome: the angle from the " \
+         "middle as distance, 90 degrees at the nearer edges, from a finite radius; auto: plane at infinity, " \
+         "otherwise pinhole", \
          "auto|plane|pinhole|ring|equirectangular|fulldome") \
     REAL(camera, field_m, LOOK, FRONT, 46.0, 1e-6, 1e7, "M", "width of the image plane (plane projection)") \
     WORD(camera, field_uas, LOOK, REST, INFINITY, 1e-12, 1e12, "microarcseconds", \
@@ -110,7 +108,7 @@
          "radial flux: none; the exact Page-Thorne integral; the Newtonian thin disk cut at the ISCO; or " \
          "particles: the exact flux, as orbiting particles", \
          "none|novikov-thorne|shakura-sunyaev|particles") \
-    WORD(disk, inner, MODEL, REST, INFINITY, 1.0, 1e6, "M", "inner edge; never inside the ISCO", "isco") \
+    WORD(disk, inner, MODEL, REST, INFINITY, 1.0, 1e6, "M", "inner edge; at least the ISCO", "isco") \
     REAL(disk, outer, MODEL, FRONT, 22.0, 1.0, 1e6, "M", "outer edge; larger than the inner one") \
     REAL(disk, taper, MODEL, REST, 0.7, 0.0, 1.0, "1", \
          "outer fraction of the radius over which the disk fades out; 0: a sharp edge") \
@@ -156,7 +154,7 @@
          "largest amplitude of oscillations: in latitude, in radians; in r over r, times (kappa/Omega)^2, " \
          "which vanishes at the ISCO (model: particles)") \
     BOOL(disk, slow_light, PHYSICS, REST, false, \
-         "show particles, gas and spots where they were when each ray's light left them, instead of all at one " \
+         "show particles, gas and spots at the time when the light of each ray left them, instead of at one " \
          "coordinate time")
 
 #define KD_GAS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
@@ -176,7 +174,7 @@
          "surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no " \
          "spot") \
     REAL(spots, r, MODEL, FRONT, 9.0, 1.0, 1e6, "M", \
-         "radius of the circular orbit of the spot's centre; never inside the ISCO") \
+         "radius of the circular orbit of the spot's centre; at least the ISCO") \
     REAL(spots, phase_deg, MODEL, REST, 0.0, -360.0, 360.0, "degrees", "azimuth of the spot's centre at time 0") \
     REAL(spots, size, MODEL, FRONT, 1.0, 1e-3, 1e5, "M", \
          "distance from the spot's centre at which the brightness has fallen to exp(-1/2)") \
@@ -197,7 +195,7 @@
          "azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0") \
     ENUM(bodies, motion, MODEL, REST, KD_OBSERVER_KEPLERIAN, \
          "state of motion, which shifts its light; static, zamo, " KD_OBSERVER_CIRCULAR \
-         " take it round with time, the last two in the disk's plane alone" KD_OBSERVER_HELP, \
+         " move it round with time, the last two only in the disk's plane" KD_OBSERVER_HELP, \
          KD_OBSERVER_WORDS) \
     REAL(bodies, velocity_r, MODEL, REST, 0.0, -1.0, 1.0, "c", \
          "outward velocity in the frame of the local observer of zero angular momentum (motion: velocity)") \
@@ -217,15 +215,13 @@
 
 #define KD_VOLUME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(volume, model, MODEL, FRONT, KD_VOLUME_NONE, \
-         "matter all along the rays: none; uniform, a shell that is the same everywhere and does not move: what " \
-         "light and opacity along bent rays come to; " \
-         "at one radio frequency gold, the analytic model of Gold et al. 2020, riaf, a hot, thin flow whose density, " \
-         "temperature and magnetic field are powers of r, torus, a thick one in equilibrium, and grid, numbers from " \
-         "a file", \
+         "matter along the rays. none; uniform: a homogeneous shell at rest. At one radio frequency: gold, the " \
+         "analytic model of Gold et al. 2020; riaf, a hot, thin flow whose density, temperature and magnetic field " \
+         "are powers of r; torus, a thick disk in equilibrium; grid, numbers from a file", \
          "none|uniform|gold|riaf|torus|grid") \
     WORD(volume, inner, MODEL, REST, INFINITY, 1.0, 3e4, "M", \
-         "inner edge; horizon: as near to it as it may be, a hundredth outside it, or a two-thousandth for what is " \
-         "seen at a radio frequency; of a torus half of the radius of its largest pressure", \
+         "inner edge; horizon: as close to it as possible, which is 1 % outside it, or 0.05 % for the models at a " \
+         "radio frequency; for a torus half of volume.torus_radius", \
          "horizon") \
     REAL(volume, outer, MODEL, FRONT, 20.0, 1.0, 3e4, "M", "outer edge of the matter; larger than the inner edge") \
     REAL(volume, emissivity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", \
@@ -250,7 +246,7 @@
     REAL(volume, gold_flattening, MODEL, FRONT, 0.0, 0.0, 1e4, "1", \
          "h: density goes as exp(-(h cos(theta))^2/2); 0: round (model: gold)") \
     REAL(volume, gold_momentum, MODEL, REST, 0.0, -1.0, 1.0, "1", \
-         "l0: angular momentum, l0 R^(3/2)/(1 + R) an energy of 1, R = r sin(theta); 0: zero angular momentum " \
+         "l0: angular momentum over energy is l0 R^(3/2)/(1 + R) with R = r sin(theta); 0: zero angular momentum " \
          "(model: gold)") \
     REAL(volume, gold_absorption, MODEL, REST, 0.0, 0.0, 1e30, "1", \
          "A: absorptivity in 1/cm over emissivity in erg/(s cm^3 Hz sr), at 230 GHz (model: gold)") \
@@ -271,12 +267,12 @@
     REAL(volume, magnetisation_index, MODEL, REST, 1.0, -10.0, 10.0, "1", \
          "p: magnetisation is proportional to r^-p (model: riaf)") \
     ENUM(volume, field, MODEL, REST, KD_VOLUME_TOROIDAL, \
-         "magnetic field: round the axis, along it, or along the radius, made perpendicular to the motion (models: " \
-         "riaf, torus)", \
+         "direction of the magnetic field: round the axis, along it, or radial; its part along the motion is removed " \
+         "(models: riaf, torus)", \
          "toroidal|vertical|radial") \
     ENUM(volume, flow, MODEL, REST, KD_VOLUME_ORBITS, \
-         "motion: with the circular orbit's angular velocity at each r, and falling in from the ISCO; or at rest for " \
-         "observers of zero angular momentum (model: riaf)", \
+         "motion: with the angular velocity of the circular orbit at each r, and in free fall inside the ISCO; or at " \
+         "rest for observers of zero angular momentum (model: riaf)", \
          "orbits|rest") \
     ENUM(volume, electrons, MODEL, REST, KD_VOLUME_THERMAL, \
          "energy distribution of the electrons (models: riaf, torus, grid); kappa: thermal with a power-law " \
@@ -298,10 +294,10 @@
          "smallest Lorentz factor of the electrons (electrons: power-law)") \
     REAL(volume, gamma_max, MODEL, REST, 1e5, 1.0, 1e12, "1", \
          "largest Lorentz factor of the electrons; above gamma_min (electrons: power-law)") \
-    REAL(volume, normalise_to_jy, MODEL, REST, 0.0, 0.0, 1e12, "Jy", \
-         "flux that the picture must have: kerrd multiplies the density (gold: the emissivity; grid: the " \
-         "factor) by a number that it finds with small pictures, and reports it; 0: no change (models: gold, " \
-         "riaf, torus, grid)") \
+    REAL( \
+        volume, normalise_to_jy, MODEL, REST, 0.0, 0.0, 1e12, "Jy", \
+        "flux of the picture: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a number that " \
+        "it determines with small pictures, and reports this number; 0: no change (models: gold, riaf, torus, grid)") \
     WORD(volume, normalise_ghz, MODEL, REST, INFINITY, 1e-6, 1e12, "GHz", \
          "frequency of that flux; observed: volume.frequency_ghz", "observed")
 
@@ -325,10 +321,9 @@
 
 #define KD_POLARIZATION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(polarization, model, MODEL, FRONT, KD_POLARIZATION_NONE, \
-         "of light from the disk's plane: none; synchrotron, across polarization.field and the light, in the gas's " \
-         "frame; or scattering, of a deep atmosphere of free " \
-         "electrons, across the normal and the light; transfer: of a volume at a radio frequency, Stokes I, Q, U and " \
-         "V all along the rays", \
+         "polarisation. none. Of light from the disk's plane: synchrotron, perpendicular to polarization.field and " \
+         "the ray in the gas's frame; scattering, in a deep atmosphere of free electrons, perpendicular to the " \
+         "normal and the ray. transfer: of a volume at a radio frequency, Stokes I, Q, U and V along the rays", \
          "none|synchrotron|scattering|transfer") \
     ENUM(polarization, field, MODEL, REST, KD_FIELD_TOROIDAL, \
          "direction of the magnetic field in the plane: round the axis, outwards, or along the normal (model: " \
@@ -338,7 +333,7 @@
          "p: the number of electrons is proportional to E^-p; an ordered field polarises their light by (p + " \
          "1)/(p + 7/3) (model: synchrotron)") \
     REAL(polarization, order, MODEL, REST, 1.0, 0.0, 1.0, "1", \
-         "share of that polarisation which remains when the field is disordered within a pixel") \
+         "factor on that polarisation for a field that is disordered within a pixel") \
     BOOL(polarization, faraday, PHYSICS, REST, true, \
          "include Faraday rotation, and conversion between linear and circular polarisation, by the electrons " \
          "(model: transfer)") \
@@ -349,43 +344,40 @@
 
 #define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(sky, model, MODEL, FRONT, KD_SKY_NONE, \
-         "what lies at infinity: nothing; a celestial grid that shows the lensing; stars and a Milky Way that are " \
-         "made up; the stars of the " \
-         "Hipparcos catalogue over that Milky Way; or sky.image without stars", \
+         "sky at infinity: none; a celestial grid that shows the lensing; generated stars and a generated Milky Way; " \
+         "the stars of the Hipparcos catalogue over that Milky Way; or sky.image without stars", \
          "none|grid|stars|catalogue|image") \
     WORD(sky, brightness, MODEL, FRONT, INFINITY, 0.0, 100.0, "1", \
-         "brightness of the sky in units of the disk's brightest surface brightness at g = 1: of the grid; of 21 " \
-         "magnitudes a square arcsecond, " \
-         "by which stars and the Milky Way keep their true ratio; auto: 0.2, or 0.01 of stars and the Milky Way " \
-         "where something shines before them", \
+         "brightness of the sky in units of the disk's brightest surface brightness at g = 1: that of the grid, or " \
+         "of 21 magnitudes per square arcsecond for stars and the Milky Way, whose ratio is real; auto: 0.2, or 0.01 " \
+         "for stars and the Milky Way behind something that shines", \
          "auto") \
     REAL(sky, grid_deg, MODEL, REST, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid") \
     REAL(sky, milky_way, MODEL, FRONT, 1.0, 0.0, 100.0, "1", \
-         "brightness of the Milky Way, or of sky.image, over its natural one; 0: stars alone") \
+         "factor on the natural brightness of the Milky Way or of sky.image; 0: only stars") \
     ASSET(sky, image, MODEL, FRONT, \
-          "picture of the whole sky in the place of the Milky Way that is made up (model: stars, catalogue, image): " \
-          "twice as wide as high, galactic " \
-          "longitude across, growing to the left from 0 in the middle, latitude upwards; its white is 21 magnitudes " \
-          "a square arcsecond") \
-    REAL(sky, limit_mag, MODEL, REST, 14.0, -2.0, 14.0, "magnitudes", "stars fainter than this are left out") \
+          "picture of the whole sky instead of the generated Milky Way (model: stars, catalogue, image): twice as " \
+          "wide as high, with galactic longitude 0 in the middle and rising to the left, latitude rising upwards; " \
+          "its white is 21 magnitudes per square arcsecond") \
+    REAL(sky, limit_mag, MODEL, REST, 14.0, -2.0, 14.0, "magnitudes", "magnitude of the faintest stars") \
     INT(sky, seed, MODEL, REST, 1, 0, 2147483647, "1", \
         "seed of the random numbers: another seed gives another generated sky") \
     ENUM(sky, orientation, MODEL, FRONT, KD_SKY_GALACTIC, \
          "galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra, " \
-         "m87: from azimuth 0 the hole " \
-         "stands before that one, as seen from the Earth, with the galactic or the celestial pole above", \
+         "m87: seen from azimuth 0 the hole is in front of that source as seen from the Earth, with the galactic or " \
+         "the celestial pole above", \
          "galactic|equatorial|sgra|m87") \
     REAL(sky, turn_deg, MODEL, REST, 0.0, -360.0, 360.0, "degrees", \
          "rotation of the sky about the hole's axis, in the sense of camera.azimuth_deg") \
     REAL(sky, tilt_deg, MODEL, REST, 0.0, -180.0, 180.0, "degrees", \
-         "then, rotation of the sky about the horizontal axis of the picture from azimuth 0")
+         "a second rotation of the sky, about the horizontal axis of the picture from azimuth 0")
 
 #define KD_IMAGE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     INT(image, width, LOOK, FRONT, 1280, 1, 32768, "pixels", "width of the picture") \
     INT(image, height, LOOK, FRONT, 720, 1, 32768, "pixels", "height of the picture") \
     INT(image, samples, LOOK, FRONT, 1, 1, 8, "1", \
-        "rays along each side of a pixel: n gives n x n rays, averaged; auto: one, and 16 where the picture shows " \
-        "that one was not enough", \
+        "rays along each side of a pixel: n gives the mean of n x n rays; auto: one ray, and 16 for pixels that " \
+        "differ from their neighbours", \
         "auto") \
     REAL(image, pixel_error, LOOK, REST, 0.003, 0.001, 0.5, "1", \
          "apparent error of a pixel of one ray, as a fraction of white, above which it gets more rays " \
@@ -395,9 +387,9 @@
         "than a pixel; at most 16 rays a side in all") \
     INT(image, bit_depth, LOOK, REST, 8, 8, 16, "bits", "bits a channel: 8 or 16") \
     WORDS(image, layers, LOOK, REST, \
-          "what the file holds: the picture, or maps of the rays (docs/layers.md); of the first crossing on the " \
-          "disk, or behind _N of " \
-          "image order N; a PNG shows one in false colour, FITS, EXR, NPZ and NPY hold several as numbers", \
+          "contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing on the " \
+          "disk, or with the suffix _N for image order N; a PNG shows one map in false colour, FITS, EXR, NPZ and " \
+          "NPY have several as numbers", \
           "rgb|intensity_N|g_N|temperature_N|r_N|phi_N|delay_N|emission_angle_N|order|sky_theta|sky_phi|fate|" \
           "footprint_N|sky_footprint|optical_depth_N|stokes_q_N|stokes_u_N|evpa_N|polarization_fraction_N|brightness_" \
           "temperature|specific_intensity|stokes_v|jy_per_pixel") \
@@ -417,11 +409,11 @@
 
 #define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(style, name, LOOK, FRONT, KD_STYLE_FILM, \
-         "style that sets all fields of the look, except those that the document sets itself; none: no style", \
+         "style that sets all fields of the look, except those in the document; none: no style", \
          "none|film|raw|dngr|eht|starless") \
     WORD(style, exposure, LOOK, FRONT, INFINITY, -40.0, 40.0, "stops", \
-         "brightness as a power of two over the disk's brightest surface brightness at g = 1; auto: by what shines, " \
-         "and stars alone no further than that space is black", \
+         "exposure as a power of two, relative to the disk's brightest surface brightness at g = 1; auto: from the " \
+         "light in the picture, limited for stars alone so that empty space is black", \
          "auto") \
     ENUM(style, tone_map, LOOK, FRONT, KD_TONE_ACES, \
          "aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours and compresses what is " \
@@ -431,8 +423,7 @@
          "share of bright light that the lens spreads around its place: all light over 0.6 of white, with a " \
          "smooth transition from 0.2 on; 0: none") \
     REAL(style, beam_uas, LOOK, REST, 0.0, 0.0, 1e12, "microarcseconds", \
-         "full width at half maximum of the round Gaussian beam of a telescope that sees the picture from " \
-         "spacetime.distance_pc; 0: none") \
+         "full width at half maximum of a round Gaussian telescope beam, seen from spacetime.distance_pc; 0: none") \
     ENUM(style, palette, LOOK, REST, KD_PALETTE_COLOUR, \
          "colour: that of the light; heat: brightness in false colour (black, red, orange, white), with " \
          "lightness proportional to it", \
@@ -442,13 +433,13 @@
          "right corner an angular scale and the shape of the beam") \
     BOOL(style, dither, LOOK, REST, true, "add half a step of ordered noise before rounding, against banding") \
     REAL(style, ringdown, LOOK, REST, 0.0, 0.0, 1.0, "1", \
-         "a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * " \
-         "e^(-t/tau) cos(w t), with the hole's quasi-normal mode l = m = 2, n = 0; 0: none") \
+         "illustration of a struck hole: light of image orders 1 and up is multiplied by 1 + ringdown e^(-t/tau) " \
+         "cos(w t), with the hole's quasi-normal mode l = m = 2, n = 0; 0: none") \
     REAL(style, ringdown_time, LOOK, REST, 0.0, -1e12, 1e12, "M", \
-         "time at which the hole was struck; before it nothing rings")
+         "time at which the hole was struck, and the ringing begins")
 
 #define KD_SOURCE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
-    ENUM(source, name, MODEL, FRONT, KD_SOURCE_NONE, "the source on the sky that the hole stands for", \
+    ENUM(source, name, MODEL, FRONT, KD_SOURCE_NONE, "the source on the sky that the hole represents", \
          "none|m87|sgra") \
     REAL(source, ra_deg, MODEL, REST, 0.0, 0.0, 360.0, "degrees", "right ascension of the hole (ICRS)") \
     REAL(source, dec_deg, MODEL, REST, 0.0, -90.0, 90.0, "degrees", "declination of the hole (ICRS)") \
@@ -457,26 +448,26 @@
 #define KD_MOTION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(motion, azimuth_rate_deg, LOOK, FRONT, 0.0, -360.0, 360.0, "degrees per second", \
          "rate at which the observer goes round the axis") \
-    REAL(motion, time_rate, LOOK, FRONT, 0.0, -1e6, 1e6, "M per second", "rate at which coordinate time goes on") \
+    REAL(motion, time_rate, LOOK, FRONT, 0.0, -1e6, 1e6, "M per second", "rate of coordinate time") \
     REAL(motion, proper_time_rate, LOOK, REST, 0.0, 0.0, 1e6, "M per second", \
-         "rate of the observer's own clock: it falls, to the last place a camera can be at, or goes round; " \
-         "coordinate time goes on accordingly")
+         "rate of the observer's proper time: the observer falls, to the last possible position, or orbits; " \
+         "coordinate time follows")
 
 #define KD_ACCURACY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(accuracy, profile, PHYSICS, FRONT, KD_PROFILE_BALANCED, \
          "accuracy with which rays are traced, from coarse to fine; reference: double precision", \
          "draft|interactive|balanced|high|reference") \
     WORD(accuracy, tolerance, PHYSICS, REST, INFINITY, 1e-18, 0.1, "1", \
-         "largest relative error of the crossing radii, by the accuracy table of the device; profile: what the " \
-         "profile means", \
+         "largest relative error of the crossing radii, by the accuracy table of the device; profile: the error of " \
+         "accuracy.profile", \
          "profile") \
     ENUM(accuracy, engine, PHYSICS, REST, KD_ENGINE_WORD_AUTO, \
-         "method that traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6", \
+         "method that traces the rays; auto: the closed form outside the photon orbits, otherwise mino-rkn6", \
          "auto|closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6") \
     ENUM(accuracy, precision, PHYSICS, REST, KD_PRECISION_WORD_AUTO, \
-         "precision of the arithmetic; auto: what the profile means", "auto|f32|f64") \
+         "precision of the arithmetic; auto: chosen by accuracy.profile", "auto|f32|f64") \
     INT(accuracy, steps, PHYSICS, REST, 0, 0, 2048, "1", \
-        "integrator steps for a half turn, a multiple of 4; 0: what the profile means") \
+        "integrator steps for a half turn, a multiple of 4; 0: chosen by accuracy.profile") \
     INT(accuracy, orders, PHYSICS, REST, 3, 1, 8, "1", \
         "equatorial crossings kept for each ray: image orders 0 to n - 1")
 
@@ -487,27 +478,25 @@
  * is a list of up to `most` elements, each with these rows. The rows of "top" are members of the document itself. */
 #define KD_SCENE_SECTIONS(SECTION, LIST) \
     SECTION(spacetime, KD_SPACETIME_FIELDS, HOLE, "the hole") \
-    SECTION(camera, KD_CAMERA_FIELDS, CAMERA, "where the observer is and what it looks at") \
+    SECTION(camera, KD_CAMERA_FIELDS, CAMERA, "position, motion and view of the observer") \
     SECTION(disk, KD_DISK_FIELDS, GAS, "the accretion disk in the equatorial plane, turning towards +phi") \
     SECTION(gas, KD_GAS_FIELDS, GAS, "turbulence in the gas of the smooth disk models") \
     LIST(spots, spot, KD_SPOTS_FIELDS, GAS, KD_SPOTS, \
          "hot spots: Gaussians in the equatorial plane that go round with the gas") \
     LIST(bodies, body, KD_BODIES_FIELDS, GAS, KD_SCENE_BODIES, \
-         "bodies: spheres that shine, before the hole, behind it and in the disk") \
-    SECTION(volume, KD_VOLUME_FIELDS, GAS, "matter all along the rays") \
+         "bodies: luminous spheres in front of the hole, behind it and in the disk") \
+    SECTION(volume, KD_VOLUME_FIELDS, GAS, "matter along the rays") \
     SECTION(jets, KD_JETS_FIELDS, GAS, "stylised jets along the spin axis") \
-    SECTION( \
-        polarization, KD_POLARIZATION_FIELDS, MORE, \
-        "how light is polarised: what layers and ticks show of it; of light from the disk's plane no picture does") \
-    SECTION(sky, KD_SKY_FIELDS, LOOK, "what lies at infinity") \
+    SECTION(polarization, KD_POLARIZATION_FIELDS, MORE, \
+            "polarisation of light, as layers and ticks show it; in a picture it changes only the light of volumes") \
+    SECTION(sky, KD_SKY_FIELDS, LOOK, "the sky at infinity") \
     SECTION(image, KD_IMAGE_FIELDS, MORE, "the size of the picture") \
-    SECTION(tile, KD_TILE_FIELDS, MORE, "a part of the picture, made by itself, the same to the byte as there") \
+    SECTION(tile, KD_TILE_FIELDS, MORE, "a part of the picture, rendered alone, with the same bytes as in the whole") \
     SECTION(style, KD_STYLE_FIELDS, LOOK, "from brightness to the colours of the file") \
     SECTION(source, KD_SOURCE_FIELDS, MORE, \
-            "the source on the sky that the hole stands for: FITS files tell it, and no pixel depends on it") \
-    SECTION(motion, KD_MOTION_FIELDS, CAMERA, \
-            "what goes on by itself in a live session; a still picture knows none of it") \
-    SECTION(accuracy, KD_ACCURACY_FIELDS, MORE, "how closely the rays are followed") \
+            "the source on the sky that the hole represents, for FITS files; it changes no pixel") \
+    SECTION(motion, KD_MOTION_FIELDS, CAMERA, "motion in a live session; a still picture ignores it") \
+    SECTION(accuracy, KD_ACCURACY_FIELDS, MORE, "accuracy of the rays") \
     SECTION(top, KD_TOP_FIELDS, CAMERA, "members of the document itself")
 
 /* Sections that are nested in another section of the document: PART(s, name, section). s is passed through. */

@@ -18,7 +18,7 @@ enum kd_status kd_scene_link_check(const struct kd_scene *scene, struct kd_error
         kd_field_path(field, 0, path);
         kd_field_pointer(field, 0, pointer);
         return kd_error_field(error, pointer,
-                              "%s names an asset of this server, which a link does not hold; it must be null", path);
+                              "%s names an asset of this server, which a link cannot contain; it must be null", path);
     }
     return KD_OK;
 }
@@ -70,7 +70,7 @@ enum kd_status kd_scene_link(const struct kd_scene *scene, struct kd_buffer *out
         found = true;
     }
     if (!found)
-        KD_TRY(kd_error_set(error, KD_EINVAL, "no link holds this scene"));
+        KD_TRY(kd_error_set(error, KD_EINVAL, "this scene does not fit into a link"));
     if (kd_buffer_printf(out, "%.*s", (int)best.size, best.size ? (const char *)best.data : ""))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
 done:

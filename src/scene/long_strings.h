@@ -9,7 +9,7 @@
 #include <cjson/cJSON.h>
 #include <stdbool.h>
 
-#define KD_LONG_STRING ((size_t)4 << 20) /* a string of at least so many bytes is long */
+#define KD_LONG_STRING ((size_t)4 << 20) /* least size of a long string, bytes */
 
 struct kd_long_strings {
     const char *text; /* text of the whole document */

@@ -8,17 +8,17 @@
 static const struct {
     const char *word, *says;
 } words[] = {
-    { "nan", "NaN, which JSON has not: leave the member out" },
-    { "infinity", "Infinity, which JSON has not: where a field takes it, it is the string \"infinity\"" },
-    { "-infinity", "Infinity, which JSON has not: where a field takes it, it is the string \"infinity\"" },
-    { "inf", "inf, which JSON has not: where a field takes it, it is the string \"infinity\"" },
-    { "-inf", "inf, which JSON has not: where a field takes it, it is the string \"infinity\"" },
-    { "none", "None, which JSON has as null" },
-    { "undefined", "undefined, which JSON has as null" },
-    { "nil", "nil, which JSON has as null" },
-    { "true", "a word in capitals, which JSON has as true" },
-    { "false", "a word in capitals, which JSON has as false" },
-    { "null", "a word in capitals, which JSON has as null" },
+    { "nan", "NaN, which JSON lacks: leave the member out" },
+    { "infinity", "Infinity, which JSON lacks: a field that accepts it needs the string \"infinity\"" },
+    { "-infinity", "Infinity, which JSON lacks: a field that accepts it needs the string \"infinity\"" },
+    { "inf", "inf, which JSON lacks: a field that accepts it needs the string \"infinity\"" },
+    { "-inf", "inf, which JSON lacks: a field that accepts it needs the string \"infinity\"" },
+    { "none", "None, which is null in JSON" },
+    { "undefined", "undefined, which is null in JSON" },
+    { "nil", "nil, which is null in JSON" },
+    { "true", "a word in capitals, which is true in JSON" },
+    { "false", "a word in capitals, which is false in JSON" },
+    { "null", "a word in capitals, which is null in JSON" },
 };
 
 /* Length of the word that begins here, including a sign. */
@@ -43,7 +43,7 @@ static const char *about_word(const char *text, size_t length, char before)
     while (next < length && text[next] && strchr(" \t\r\n", text[next]))
         next++;
     if (n && next < length && text[next] == ':' && (before == '{' || before == ','))
-        return "a name without double quotes, which it needs";
+        return "a name without double quotes";
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (n == strlen(words[i].word) && !strncasecmp(text, words[i].word, n) && !is_json(text, n))
             return words[i].says;
@@ -63,24 +63,24 @@ const char *kd_json_mistake(const char *text, size_t length, size_t at, char bef
     if (!left)
         return NULL;
     if (*here == '}' || *here == ']')
-        return before == ','   ? "a bracket behind a comma: JSON has no comma behind the last value"
-               : before == ':' ? "no value behind a colon"
+        return before == ','   ? "a bracket after a comma: JSON has no comma after the last value"
+               : before == ':' ? "no value after a colon"
                                : NULL;
     if (*here == ',')
         return before == ',' || before == '{' || before == '[' || before == ':' ? "a comma without a value before it"
                                                                                 : NULL;
     if (*here == '\'')
-        return "a single quote: JSON has double quotes round strings and names";
+        return "a single quote: in JSON, strings and names have double quotes";
     if (is_quote(here, left))
-        return "a typographic quote: JSON has plain double quotes (\") round strings and names";
+        return "a typographic quote: in JSON, strings and names have plain double quotes (\")";
     if (*here == '#' || (*here == '/' && left > 1 && (here[1] == '/' || here[1] == '*')))
-        return "a comment, which JSON has not";
+        return "a comment, which JSON lacks";
     if (*here == '.')
-        return "a point without a digit before it: JSON has 0.5 for .5";
+        return "a point without a digit before it: .5 is 0.5 in JSON";
     if (*here == '+')
-        return "a plus, which JSON has not before numbers";
+        return "a plus before a number, which JSON lacks";
     if (*here == '=')
-        return "an equals sign: JSON has a colon between name and value";
+        return "an equals sign: in JSON a colon separates name and value";
     return about_word(here, left, before);
 }
 

@@ -43,7 +43,7 @@ enum kd_status kd_observer_check_place(const struct kd_observer_names *names, en
                      "is %s M; for %s%s \"infall\" it must be more than %s M, the inner horizon, where the model ends",
                      r.text, names->prefix, names->kind, least.text);
     return fault(names, names->r, error,
-                 "is %s M; for %s%s \"%s\" at this inclination it must be more than %s M, %s; %s%s %s can be inside",
+                 "is %s M; for %s%s \"%s\" at this inclination it must be more than %s M, %s; inside, %s%s must be %s",
                  r.text, names->prefix, names->kind, row->word, least.text, row->edge, names->prefix, names->kind,
                  kd_observer_others(at, others));
 }
@@ -60,8 +60,8 @@ enum kd_status kd_observer_check_numbers(const struct kd_observer_names *names, 
         snprintf(pointer, sizeof pointer, "%s/%s", names->pointer, kd_observer_fastest(m->velocity, &bound));
         return kd_error_field(
             error, pointer,
-            "%svelocity_r, velocity_theta and velocity_phi make a speed of %s; it must be less than 1, that of light",
-            prefix, show(hypot(hypot(m->velocity[0], m->velocity[1]), m->velocity[2])).text);
+            "%svelocity_r, velocity_theta and velocity_phi make a speed of %s c; it must be less than 1", prefix,
+            show(hypot(hypot(m->velocity[0], m->velocity[1]), m->velocity[2])).text);
     case KD_OBSERVER_TWO_ENERGIES:
         return fault(names, "infall_energy", error, "is %s with %sinfall_from %s M; it must be \"rest\"",
                      show(m->fall_energy).text, prefix, show(m->fall_from).text);
@@ -75,6 +75,6 @@ enum kd_status kd_observer_check_numbers(const struct kd_observer_names *names, 
                      "is %s; at %s%s %s M with this angular momentum it must be at least %s", show(m->fall_energy).text,
                      prefix, r, show(at->r).text, show_bound(bound).text);
     return fault(names, "infall_momentum", error,
-                 "is %s M, with which the observer turns outside %s%s %s M; it must be nearer to 0",
+                 "is %s M, with which the observer turns back outside %s%s %s M; it must be closer to 0",
                  show(m->fall_momentum).text, prefix, r, show(at->r).text);
 }

@@ -83,7 +83,7 @@ static enum kd_status store_words(struct reader *reader, const struct kd_field *
     kd_value_describe(&value, given);
     kd_value_allowed(field, allowed);
     return kd_error_field(reader->error, pointer, "%s %s %s; it must be an array: %s", path,
-                          cJSON_IsArray(item) && bad ? "holds" : "is", bad ? given : "an array of none", allowed);
+                          cJSON_IsArray(item) && bad ? "holds" : "is", bad ? given : "an empty array", allowed);
 }
 
 static enum kd_status read_field(struct reader *reader, struct object *object, const cJSON *item)
@@ -193,8 +193,7 @@ static enum kd_status both_names(struct reader *reader, const struct kd_old_name
 {
     char pointer[KD_PATH_SIZE];
     snprintf(pointer, sizeof pointer, "/%s", old->name);
-    return kd_error_field(reader->error, pointer,
-                          "%s is an old name of %s.%zu, and %s is given too; only one of them may be given", old->name,
+    return kd_error_field(reader->error, pointer, "%s is an old name of %s.%zu, and cannot be used with %s", old->name,
                           old->section, old->index, old->section);
 }
 

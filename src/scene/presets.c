@@ -32,16 +32,15 @@
 #define SGRA_2017 SGRA_(",\"mjd\":57850")
 
 const struct kd_preset kd_presets[] = {
-    { "smooth", "Smooth disk",
-      "A disk without turbulence, of the exact Page-Thorne flux, as it is: no lens, nothing seen through", false,
-      SMOOTH },
-    { "schwarzschild", "No spin", "A hole that does not spin, its disk seen from 10 degrees above", true,
+    { "smooth", "Smooth disk", "A smooth, opaque disk with the exact Page-Thorne flux, without the glare of a lens",
+      false, SMOOTH },
+    { "schwarzschild", "No spin", "A hole without spin, its disk seen from 10 degrees above", true,
       "{\"spacetime\":{\"spin\":0},"
       "\"camera\":{\"inclination_deg\":80},"
       "\"image\":{\"samples\":2}}" },
     { "gargantua", "Gargantua",
-      "The hole and camera of James et al. 2015: nearly the largest spin, from 74 M, a disk from 9.26 to 18.7 M of "
-      "some 4500 K; with the Doppler shift and the redshift that the film left out",
+      "The hole and camera of James et al. 2015: nearly extremal spin, seen from 74 M, a disk from 9.26 to 18.7 M at "
+      "about 4500 K; with the Doppler shift and the redshift that the film left out",
       true,
       "{\"spacetime\":{\"spin\":0.999,\"mass_msun\":1e8},"
       "\"camera\":{\"r\":74.1,\"inclination_deg\":86.56,\"fov_deg\":38},"
@@ -49,9 +48,8 @@ const struct kd_preset kd_presets[] = {
       "\"image\":{\"samples\":2}}" },
     /* These two have the same scale: 214 microarcseconds across. */
     { "m87", "M87*",
-      "The hole of M87 through a beam of 20 microarcseconds, north up, brightness in false colour: as the Event "
-      "Horizon Telescope "
-      "showed it; a thin disk stands in for the hot flow",
+      "The hole of M87 as the Event Horizon Telescope showed it: a beam of 20 microarcseconds, north up, brightness in "
+      "false colour; a thin disk replaces the hot flow",
       true,
       "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6}," M87_2017
       "\"camera\":{\"inclination_deg\":163,\"field_m\":56,\"roll_deg\":108},"
@@ -60,9 +58,8 @@ const struct kd_preset kd_presets[] = {
       "\"style\":{\"name\":\"eht\"},"
       "\"image\":{\"samples\":2}}" },
     { "sgra", "Sagittarius A*",
-      "The hole in the middle of our Galaxy through a beam of 20 microarcseconds, brightness in false colour: as the "
-      "Event "
-      "Horizon Telescope showed it; a thin disk stands in for the hot flow",
+      "The hole in the centre of our Galaxy as the Event Horizon Telescope showed it: a beam of 20 microarcseconds, "
+      "brightness in false colour; a thin disk replaces the hot flow",
       true,
       "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":4.297e6,\"distance_pc\":8277}," SGRA_2017
       "\"camera\":{\"inclination_deg\":30,\"field_m\":41.7},"
@@ -77,31 +74,31 @@ const struct kd_preset kd_presets[] = {
       "\"band\":\"bolometric\",\"doppler\":true,\"redshift\":true},"
       "\"style\":{\"tone_map\":\"srgb\"},"
       "\"image\":{\"samples\":2}}" },
-    { "edge-on", "Edge on", "The disk seen along its plane: what is visible of it is bent light", true,
+    { "edge-on", "Edge on", "The disk seen edge on: only bent light makes it visible", true,
       "{\"camera\":{\"inclination_deg\":90},"
       "\"image\":{\"samples\":2}}" },
     { "face-on", "Face on", "The disk seen from its pole", true,
       "{\"camera\":{\"inclination_deg\":0,\"field_m\":80},"
       "\"image\":{\"samples\":2}}" },
     { "photon-rings", "Six photon rings",
-      "Six photon rings, one above the other: across, the angle round the shadow's edge; upwards, the distance to "
-      "that edge, nine and a half decades of it",
+      "Six photon rings, one above the other: the angle round the shadow's edge to the right, the logarithm of the "
+      "distance to the edge upwards, over nine and a half decades",
       true,
       "{\"spacetime\":{\"spin\":0.9},"
       "\"camera\":{\"projection\":\"ring\",\"inclination_deg\":60,\"roll_deg\":90,\"ring_decades_min\":-9.5},"
       "\"disk\":{\"inner\":4.3,\"outer\":20,\"taper\":0.8,\"opacity\":0.5,\"peak_temperature_k\":6500},"
       "\"accuracy\":{\"orders\":7}}" },
     { "living-disk", "Living disk",
-      "A disk of 300 000 particles on their orbits, lensed in every image order; in a live session they go round", true,
+      "A disk of 300 000 orbiting particles, lensed in every image order; in a live session they move", true,
       "{\"spacetime\":{\"spin\":0.9},"
       "\"camera\":{\"inclination_deg\":76,\"field_m\":38},"
       "\"disk\":{\"model\":\"particles\",\"outer\":18,\"peak_temperature_k\":5000},"
       "\"style\":{\"exposure\":0.75},"
       "\"motion\":{\"time_rate\":8}}" },
     { "hot-spot", "A flare",
-      "A flare as GRAVITY saw them round the hole of our Galaxy: a blob on a circular orbit of an hour, clockwise, "
-      "seen "
-      "25 degrees from its axis, over a faint disk; in a session its events give the light curve and the track",
+      "A flare as GRAVITY observed round the hole of our Galaxy: a hot spot on a circular orbit of one hour, "
+      "clockwise, seen 25 degrees from the axis, over a faint disk; the events of a live session give its light curve "
+      "and track",
       true,
       "{\"spacetime\":{\"spin\":0.5,\"mass_msun\":4.3e6,\"distance_pc\":8277}," SGRA
       "\"camera\":{\"inclination_deg\":155,\"field_m\":50},"
@@ -110,8 +107,8 @@ const struct kd_preset kd_presets[] = {
       "\"style\":{\"exposure\":-0.5},"
       "\"motion\":{\"time_rate\":10}}" },
     { "milky-way", "Milky Way",
-      "The stars of the Hipparcos catalogue and a Milky Way, bent by a hole without a disk, before the middle of the "
-      "Galaxy; from 40 M",
+      "The stars of the Hipparcos catalogue and a Milky Way, lensed by a hole without a disk in front of the centre of "
+      "the Galaxy; from 40 M",
       true,
       "{\"spacetime\":{\"spin\":0.9},"
       "\"camera\":{\"r\":40,\"inclination_deg\":85,\"fov_deg\":70},"
@@ -120,24 +117,24 @@ const struct kd_preset kd_presets[] = {
       "\"style\":{\"exposure\":0.3,\"bloom\":0.4},"
       "\"motion\":{\"azimuth_rate_deg\":1}}" },
     { "gas", "Turbulent gas",
-      "The default scene, a disk of turbulent gas, dense where it is bright and seen through where it is faint; in a "
-      "live session it turns",
+      "The default scene: a disk of turbulent gas, opaque where it is bright and transparent where it is faint; in a "
+      "live session it rotates",
       false, "{\"motion\":{\"time_rate\":6}}" },
     { "gas-stars", "Gas and stars",
-      "Turbulent gas round a hole before the stars of the Hipparcos catalogue, of which each image is as bright as the "
-      "lens makes it; in a live session it turns",
+      "Turbulent gas round a hole in front of the stars of the Hipparcos catalogue; each image of a star has its "
+      "lensed brightness; in a live session the gas rotates",
       false,
       "{\"sky\":{\"model\":\"catalogue\",\"milky_way\":0},"
       "\"motion\":{\"time_rate\":6}}" },
     { "thick-disk", "Thick disk",
-      "A disk of turbulent gas as high as a tenth of its distance from the axis, its light followed along each ray; in "
-      "a live session it turns",
+      "A disk of turbulent gas whose height is a tenth of the distance from the axis, integrated along each ray; in a "
+      "live session it rotates",
       false,
       "{\"disk\":{\"height\":0.1},\"image\":{\"critical_factor\":1},"
       "\"motion\":{\"time_rate\":6}}" },
     { "star-behind", "A star from behind",
-      "A star that comes round from behind a hole, which makes a ring of its light, before other stars; in a live "
-      "session it goes on",
+      "A star that comes round from behind a hole, which lenses it to a ring, in front of other stars; in a live "
+      "session it moves",
       true,
       "{\"spacetime\":{\"spin\":0.5},"
       "\"camera\":{\"inclination_deg\":90,\"field_m\":50},"
@@ -147,9 +144,7 @@ const struct kd_preset kd_presets[] = {
       "\"style\":{\"exposure\":-0.5,\"bloom\":0.3},"
       "\"motion\":{\"time_rate\":4}}" },
     { "companions", "Two companions",
-      "Two stars that go round in a disk of gas, one with it and one against it; their images are bent as the disk's "
-      "is",
-      false,
+      "Two stars that orbit in a disk of gas, one with it and one against it, with their lensed images", false,
       "{\"spacetime\":{\"spin\":0.9},"
       "\"camera\":{\"inclination_deg\":78,\"field_m\":52},"
       "\"bodies\":[{\"radius\":2,\"r\":17,\"phase_deg\":150,\"temperature_k\":4500},"
@@ -157,28 +152,24 @@ const struct kd_preset kd_presets[] = {
       "\"sky\":{\"model\":\"catalogue\",\"milky_way\":0},"
       "\"motion\":{\"time_rate\":6}}" },
     { "falling", "Falling in, at 6 M",
-      "What somebody sees who falls in freely from far away, at 6 M; camera.r goes on through the horizon", false,
+      "The view of an observer in free fall from far away, at 6 M; camera.r may be lowered through the horizon", false,
       "{\"camera\":{\"r\":6,\"observer\":\"infall\",\"fov_deg\":120},"
       "\"sky\":{\"model\":\"catalogue\",\"brightness\":0.02}}" },
     { "infall", "The fall",
-      "A free fall from 20 M through the horizon, by the clock of who falls, at the mass of Sagittarius A*; in a live "
-      "session it goes on",
+      "A free fall from 20 M through the horizon, in the observer's proper time, for the mass of Sagittarius A*; a "
+      "live session shows the fall",
       false,
       "{\"spacetime\":{\"mass_msun\":4.3e6},"
       "\"camera\":{\"r\":20,\"observer\":\"infall\",\"fov_deg\":120},"
       "\"sky\":{\"model\":\"catalogue\",\"brightness\":0.02},"
       "\"motion\":{\"proper_time_rate\":2}}" },
     { "jet", "Jets",
-      "Two jets from a hole in turbulent gas, before stars: the one that comes towards us is the brighter one; "
-      "stylised",
-      false,
+      "Two stylised jets from a hole in turbulent gas, in front of stars; the approaching jet is brighter", false,
       "{\"camera\":{\"inclination_deg\":66,\"field_m\":110,\"roll_deg\":-58},"
       "\"jets\":{\"brightness\":0.2,\"opening_deg\":6,\"lorentz\":1.6,\"outer\":90,\"falloff\":1.3},"
       "\"sky\":{\"model\":\"catalogue\"},\"motion\":{\"time_rate\":6}}" },
     { "gargantua-gas", "Gargantua as in the film",
-      "Turbulent gas round the hole of James et al. 2015, with the Doppler shift and the redshift left out as the film "
-      "did",
-      false,
+      "Turbulent gas round the hole of James et al. 2015, without Doppler shift and redshift, as in the film", false,
       "{\"spacetime\":{\"spin\":0.999,\"mass_msun\":1e8},"
       "\"camera\":{\"r\":74.1,\"inclination_deg\":86.56,\"fov_deg\":34},"
       "\"disk\":{\"inner\":7,\"outer\":19,\"taper\":0.6,\"emission_opacity\":30,\"peak_temperature_k\":7000,"
@@ -187,8 +178,8 @@ const struct kd_preset kd_presets[] = {
       "\"image\":{\"samples\":2},"
       "\"motion\":{\"time_rate\":6}}" },
     { "polarised-ring", "Polarised ring",
-      "A ring about 6 M, seen like M87* at 17 degrees, whose synchrotron light a field along the axis polarises in a "
-      "spiral; ticks show it over the picture",
+      "A ring at 6 M, seen at 17 degrees like M87*; a field along the axis polarises its synchrotron light in a "
+      "spiral, which ticks show over the picture",
       false,
       "{\"spacetime\":{\"spin\":0.5,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6}," M87
       "\"camera\":{\"inclination_deg\":163,\"field_m\":36,\"roll_deg\":108},"
@@ -198,29 +189,29 @@ const struct kd_preset kd_presets[] = {
       "\"style\":{\"palette\":\"heat\",\"tone_map\":\"srgb\",\"bloom\":0},"
       "\"image\":{\"samples\":2}}" },
     { "gold-1", "Gold et al. 2020, test 1",
-      "Test 1 of those by which programs for the radiation of holes are compared: no absorption, emissivity as the "
-      "cube of the frequency, spherical, of zero angular momentum; 230 GHz",
+      "Test 1 of the comparison of programs for radiation near black holes: no absorption, emissivity as the cube of "
+      "the frequency, spherical, of zero angular momentum; 230 GHz",
       true, GOLD("0.9", "\"gold_index\":-3") },
     { "gold-2", "Gold et al. 2020, test 2",
-      "Test 2 of those by which programs for the radiation of holes are compared: no spin, no absorption, spherical, "
+      "Test 2 of the comparison of programs for radiation near black holes: no spin, no absorption, spherical, "
       "orbiting (l0 = 1); 230 GHz",
       true, GOLD("0", "\"gold_index\":-2,\"gold_momentum\":1") },
     { "gold-3", "Gold et al. 2020, test 3",
-      "Test 3 of those by which programs for the radiation of holes are compared: no absorption, flattened (h = 10/3), "
+      "Test 3 of the comparison of programs for radiation near black holes: no absorption, flattened (h = 10/3), "
       "orbiting; 230 GHz",
       true, GOLD("0.9", "\"gold_flattening\":3.3333333333333335,\"gold_momentum\":1") },
     { "gold-4", "Gold et al. 2020, test 4",
-      "Test 4 of those by which programs for the radiation of holes are compared: flattened, orbiting, optically thick "
-      "(A = 1e5); 230 GHz",
+      "Test 4 of the comparison of programs for radiation near black holes: flattened, orbiting, optically thick (A = "
+      "1e5); 230 GHz",
       true, GOLD("0.9", "\"gold_flattening\":3.3333333333333335,\"gold_momentum\":1,\"gold_absorption\":1e5") },
     { "gold-5", "Gold et al. 2020, test 5",
-      "Test 5 of those by which programs for the radiation of holes are compared: a thin layer (h = 100/3), orbiting, "
+      "Test 5 of the comparison of programs for radiation near black holes: a thin layer (h = 100/3), orbiting, "
       "optically thick (A = 1e6); 230 GHz",
       true, GOLD("0.9", "\"gold_flattening\":33.333333333333336,\"gold_momentum\":1,\"gold_absorption\":1e6") },
     /* The picture is 200 microarcseconds wide, as in ipole's model/riaf. */
     { "riaf", "A hot flow at 223 GHz",
-      "A hot, thin flow with the mass and the distance of Sagittarius A*: its synchrotron light at 223 GHz, as the "
-      "program ipole has it",
+      "A hot, thin flow with the mass and the distance of Sagittarius A*: its synchrotron light at 223 GHz, as in the "
+      "program ipole",
       true,
       "{\"spacetime\":{\"spin\":0.9375,\"mass_msun\":4.3e6,\"distance_pc\":8300}," SGRA
       "\"camera\":{\"inclination_deg\":60,\"field_m\":39.11063},"

@@ -8,41 +8,20 @@
 #include <string.h>
 
 static const char introduction[] =
-    "# The scene document\n"
-    "\n"
-    "What to render, as JSON. Every field may be left out: `{}` is the "
-    "default picture. This page is generated from\n"
-    "`src/scene/fields.h`; do not edit it.\n"
-    "\n"
-    "    {\"version\": 1, \"spacetime\": {\"spin\": 0.9}, \"camera\": "
-    "{\"inclination_deg\": 70}, \"image\": {\"width\": 640}}\n"
-    "\n"
-    "A field is also named by its path, on the command line (`--set "
-    "camera.inclination_deg=70`) and in a link\n"
-    "(`/v1/render?camera.inclination_deg=70`). Lengths and times are in M = "
-    "GM/c^2. Ranges include both ends.\n"
-    "\n"
-    "A list is an array of objects that have the same fields; what an object does "
-    "not name is at its default. An array\n"
-    "takes the place of the whole list, in a document over a preset and in a merge "
-    "patch (RFC 7396) alike. An object in its\n"
-    "place changes elements by their index, and keeps the others:\n"
-    "\n"
-    "    {\"spots\": [{\"brightness\": 4}, {\"brightness\": 2, \"r\": 12}]}   two spots\n"
-    "    {\"spots\": {\"1\": {\"r\": 14}}}                                the second "
-    "one goes elsewhere\n"
-    "\n"
-    "An index that is one beyond the last element makes another one; a greater one is "
-    "an error. On the command line and in a\n"
-    "link an element's field is `spots.1.r`. In a merge patch `null` takes a field, a "
-    "section or an element back to its\n"
-    "defaults, and empties a list.\n"
-    "\n"
-    "An unknown field, a field given twice, a wrong type, `null` and a value "
-    "outside its range are errors that point\n"
-    "at the field. So are NaN, numbers that overflow, text after the "
-    "document, nesting deeper than 32 levels and more\n"
-    "than 1 MiB.\n";
+    "# The scene document\n\nWhat to render, as JSON. Every field may be left out: `{}` is the default picture. This "
+    "page is generated from\n`src/scene/fields.h`; do not edit it.\n\n    {\"version\": 1, \"spacetime\": {\"spin\": "
+    "0.9}, \"camera\": {\"inclination_deg\": 70}, \"image\": {\"width\": 640}}\n\nA field also has a path, for the "
+    "command line (`--set camera.inclination_deg=70`) and a link\n(`/v1/render?camera.inclination_deg=70`). Lengths "
+    "and times are in M = GM/c^2. Ranges include both ends.\n\nA list is an array of objects with the same fields; a "
+    "field that an object omits has its default. An array\nreplaces the whole list, both in a document over a preset "
+    "and in a merge patch (RFC 7396). An object instead of the\narray changes elements by their index, and keeps the "
+    "others:\n\n    {\"spots\": [{\"brightness\": 4}, {\"brightness\": 2, \"r\": 12}]}   two spots\n    {\"spots\": "
+    "{\"1\": {\"r\": 14}}}                                the second spot moves\n\nThe index after the last element "
+    "appends an element; a larger index is an error. On the command line and in a\nlink an element's field is "
+    "`spots.1.r`. In a merge patch `null` resets a field, a section or an element to its\ndefaults, and empties a "
+    "list.\n\nAn unknown field, a field given twice, a wrong type, `null` and a value outside its range are errors "
+    "that point\nat the field. So are NaN, numbers that overflow, text after the document, nesting deeper than 32 "
+    "levels and more\nthan 1 MiB.\n";
 
 static void write_escaped(struct kd_writer *w, const char *text)
 {
@@ -70,7 +49,7 @@ static void write_field(struct kd_writer *w, const struct kd_field *field)
 
 static void write_list(struct kd_writer *w, const struct kd_section *list)
 {
-    kd_write(w, "A list of up to %zu, `[]` unless something else is said; N counts from 0.", list->most);
+    kd_write(w, "A list of at most %zu elements, by default `[]`; N counts from 0.", list->most);
     size_t names = 0;
     for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++)
         if (!strcmp(kd_old_names[i].section, list->name))
@@ -98,11 +77,9 @@ static void write_section(struct kd_writer *w, const struct kd_section *section)
 static void write_styles(struct kd_writer *w)
 {
     const struct kd_field *names = kd_style_field();
-    kd_write(w, "\n## Styles\n\nA document that has `style.name` sets the fields of that style, but for those that it "
-                "sets itself; so does a patch, and\n"
-                "a query. The order of `--set` on the command line counts. The canonical form shows every field: "
-                "nothing else depends on the name.\n\n"
-                "| field |");
+    kd_write(w, "\n## Styles\n\nA document with `style.name` sets the fields of that style, except those in the "
+                "document; so does a patch or a\nquery. On the command line the order of `--set` counts. The canonical "
+                "form has every field, so that nothing else depends on the name.\n\n| field |");
     for (int style = 0; style < KD_STYLES; style++) {
         const struct kd_word word = kd_field_word(names, style + 1);
         kd_write(w, " `%.*s` |", word.length, word.text);
@@ -127,7 +104,7 @@ static void write_styles(struct kd_writer *w)
 
 static void write_natures(struct kd_writer *w)
 {
-    kd_write(w, "\nEach field has a nature, which says what may be concluded from a picture that it has changed:\n\n");
+    kd_write(w, "\nEach field has a nature, which is the meaning of a picture that it has changed:\n\n");
     for (size_t i = 0; i < KD_NATURE_COUNT; i++)
         kd_write(w, "- **%s**: %s.\n", kd_natures[i].word, kd_natures[i].help);
 }

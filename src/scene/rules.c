@@ -55,18 +55,18 @@ static enum kd_status projection(const struct kd_scene *scene, struct kd_error *
 {
     const struct kd_camera *camera = &scene->camera;
     if (is_near(camera->projection) && !isfinite(camera->r))
-        return kd_error_field(error, "/camera/projection",
-                              "camera.projection is \"%s\" with camera.r \"infinity\"; it needs a finite camera.r, at "
-                              "infinity use \"plane\"",
-                              WORD_OF_NEAR(camera->projection));
+        return kd_error_field(
+            error, "/camera/projection",
+            "camera.projection is \"%s\", which needs a finite camera.r; at \"infinity\" it must be \"plane\"",
+            WORD_OF_NEAR(camera->projection));
     if (camera->projection == KD_PROJECTION_PLANE && isfinite(camera->r))
         return kd_error_field(error, "/camera/projection",
-                              "camera.projection is \"plane\" with camera.r %s M; parallel rays need camera.r "
-                              "\"infinity\", at a finite radius use \"pinhole\"",
+                              "camera.projection is \"plane\", whose parallel rays need camera.r \"infinity\"; at %s M "
+                              "it must be \"pinhole\"",
                               show(camera->r).text);
     if (camera->projection == KD_PROJECTION_RING && isfinite(camera->r))
         return kd_error_field(error, "/camera/projection",
-                              "camera.projection is \"ring\" with camera.r %s M; it must be \"infinity\"",
+                              "camera.projection is \"ring\"; camera.r is %s M and must be \"infinity\"",
                               show(camera->r).text);
     return KD_OK;
 }
@@ -90,7 +90,7 @@ static enum kd_status aim(const struct kd_scene *scene, struct kd_error *error)
     for (size_t i = 0; i < sizeof knobs / sizeof *knobs; i++)
         if (knobs[i].idle && knobs[i].value != 0)
             return kd_error_field(error, knobs[i].pointer,
-                                  "camera.%s is %s; it must be 0 in the %s projection, which is aimed with %s",
+                                  "camera.%s is %s; in the %s projection it must be 0, because %s aim the camera",
                                   knobs[i].pointer + sizeof "/camera", show(knobs[i].value).text,
                                   near   ? WORD_OF_NEAR(camera->projection)
                                   : ring ? "ring"
@@ -176,21 +176,20 @@ static enum kd_status path(const struct kd_scene *scene, struct kd_error *error)
         return KD_OK;
     if (!kd_worldline_is_known(&motion, &at))
         return kd_error_field(error, "/motion/proper_time_rate",
-                              "motion.proper_time_rate is %s; it must be 0 unless camera.observer stays, goes round in "
+                              "motion.proper_time_rate is %s; it must be 0 unless camera.observer stays, orbits in "
                               "the equatorial plane or falls without leaving its latitude, from a finite camera.r",
                               show(m->proper_time_rate).text);
     if (scene->disk.slow_light && scene->camera.observer == KD_OBSERVER_INFALL)
-        return kd_error_field(
-            error, "/disk/slow_light",
-            "disk.slow_light is true; it must be false with motion.proper_time_rate %s of one who falls: the way leads "
-            "into the ergosphere, where there is none",
-            show(m->proper_time_rate).text);
+        return kd_error_field(error, "/disk/slow_light",
+                              "disk.slow_light is true; with motion.proper_time_rate %s of a falling observer it must "
+                              "be false, because the fall enters the ergosphere, where slow light is not computed",
+                              show(m->proper_time_rate).text);
     if (m->time_rate == 0 && m->azimuth_rate_deg == 0)
         return KD_OK;
     const bool time = m->time_rate != 0;
     return kd_error_field(error, time ? "/motion/time_rate" : "/motion/azimuth_rate_deg",
-                          "motion.%s is %s; it must be 0 with motion.proper_time_rate %s: time and "
-                          "azimuth go on as they do on the observer's way",
+                          "motion.%s is %s; with motion.proper_time_rate %s it must be 0, because the observer's path "
+                          "determines time and azimuth",
                           time ? "time_rate" : "azimuth_rate_deg", show(time ? m->time_rate : m->azimuth_rate_deg).text,
                           show(m->proper_time_rate).text);
 }
@@ -205,18 +204,17 @@ static enum kd_status stereo(const struct kd_scene *scene, struct kd_error *erro
         (camera->projection != KD_PROJECTION_AUTO && camera->projection != KD_PROJECTION_PINHOLE))
         return kd_error_field(
             error, "/camera/stereo",
-            "camera.stereo is \"pair\"; it must be \"none\" but from a finite camera.r in pinhole projection");
+            "camera.stereo is \"pair\"; it must be \"none\" unless camera.r is finite and the projection is pinhole");
     for (int side = -1; side <= 1; side += 2) {
         const struct kd_scene eye = kd_scene_eye(scene, side);
         const struct kd_vantage at = kd_scene_vantage(&eye);
         const struct kd_observer_motion m = kd_scene_observer(&eye);
         if (!(camera->eye_distance < camera->r && kd_observer_exists(m.observer, &at) && at.r >= 0.01 && at.r <= 1e7 &&
               kd_observer_check(&m, &at, &bound) == KD_OBSERVER_SOUND))
-            return kd_error_field(
-                error, "/camera/eye_distance",
-                "camera.eye_distance is %s M, with which an eye would be where camera.observer cannot be; it must be "
-                "smaller",
-                show(camera->eye_distance).text);
+            return kd_error_field(error, "/camera/eye_distance",
+                                  "camera.eye_distance is %s M; it must be smaller, because camera.observer cannot "
+                                  "exist at an eye's position",
+                                  show(camera->eye_distance).text);
     }
     return KD_OK;
 }
@@ -249,7 +247,7 @@ static enum kd_status height(const struct kd_scene *scene, struct kd_error *erro
                               show(scene->disk.height).text, show(LEAST_HEIGHT).text);
     if (scene->disk.height == 0 || scene->disk.model != KD_DISK_PARTICLES)
         return KD_OK;
-    return kd_error_field(error, "/disk/height", "disk.height is %s; where disk.model it must be \"particles\" is 0",
+    return kd_error_field(error, "/disk/height", "disk.height is %s; with disk.model \"particles\" it must be 0",
                           show(scene->disk.height).text);
 }
 
@@ -266,15 +264,15 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
         const double light = kd_kerr_photon_orbit(kd_scene_hole(scene));
         if (!(least < v->torus_radius) || !(least > light))
             return kd_error_field(error, "/volume/inner",
-                                  "volume.inner is %s%s M; it must be less than volume.torus_radius, %s M, "
-                                  "and more than the orbit of light, %s M",
+                                  "volume.inner is %s%s M; it must be less than volume.torus_radius, %s M, and more "
+                                  "than the photon orbit, %s M",
                                   isinf(v->inner) ? "\"horizon\", for a torus " : "", show(least).text,
                                   show_bound(v->torus_radius).text, show_bound(light).text);
         const struct kd_torus torus = kd_torus_of(kd_scene_hole(scene), least, v->torus_radius);
         if (!isfinite(torus.outer) || !(torus.log_most > 0))
             return kd_error_field(error, "/volume/torus_radius",
-                                  "volume.torus_radius is %s M with the inner edge at %s M: gas that goes round like "
-                                  "that has no outer edge; it must be less, or the inner edge further out",
+                                  "volume.torus_radius is %s M with the inner edge at %s M, for which the torus has no "
+                                  "outer edge; it must be smaller, or volume.inner larger",
                                   show(v->torus_radius).text, show(least).text);
     }
     if (v->model >= KD_VOLUME_RIAF && v->electrons == KD_VOLUME_POWER_LAW && !(v->gamma_max > v->gamma_min))
@@ -283,14 +281,14 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
                               show(v->gamma_max).text, show_bound(v->gamma_min).text);
     if (v->normalise_to_jy > 0 && !(kd_scene_is_radio_alone(scene) && kd_scene_is_flat(scene)))
         return kd_error_field(error, "/volume/normalise_to_jy",
-                              "volume.normalise_to_jy is %s Jy; it must be 0 but where a volume at a radio frequency "
-                              "shines alone, in the plane and pinhole projections",
+                              "volume.normalise_to_jy is %s Jy; it must be 0 unless only a volume at a radio frequency "
+                              "shines, in the plane or pinhole projection",
                               show(v->normalise_to_jy).text);
     if (v->normalise_to_jy > 0 && scene->camera.stereo != KD_STEREO_NONE)
-        return kd_error_field(
-            error, "/volume/normalise_to_jy",
-            "volume.normalise_to_jy is %s Jy; for a pair of eyes it must be 0: each would see another density",
-            show(v->normalise_to_jy).text);
+        return kd_error_field(error, "/volume/normalise_to_jy",
+                              "volume.normalise_to_jy is %s Jy; for a pair of eyes it must be 0, because the density "
+                              "would differ between the eyes",
+                              show(v->normalise_to_jy).text);
     if (v->model == KD_VOLUME_NONE || v->outer > least)
         return KD_OK;
     return kd_error_field(error, "/volume/outer", "volume.outer is %s M; it must be more than the inner edge, %s M",
@@ -309,7 +307,7 @@ static enum kd_status jets(const struct kd_scene *scene, struct kd_error *error)
     if (j->outer > least && j->falloff < slowest)
         return kd_error_field(
             error, "/jets/falloff",
-            "jets.falloff is %s, with which light grows more than 2^60 times from %s to %s M; it must be at least %s",
+            "jets.falloff is %s, for which the light grows by more than 2^60 from %s to %s M; it must be at least %s",
             show(j->falloff).text, show(least).text, show(j->outer).text, show_bound(slowest).text);
     if (j->outer > least)
         return KD_OK;
@@ -366,7 +364,7 @@ static enum kd_status body(const struct kd_scene *scene, size_t index, struct kd
         return body_field("inclination_deg", index, show(b->inclination_deg).text, allowed, error);
     }
     if (!kd_observer_exists((enum kd_observer)b->motion, &at)) {
-        snprintf(allowed, sizeof allowed, "more than %s M, %s, with motion \"%s\": inside %s",
+        snprintf(allowed, sizeof allowed, "more than %s M, %s, with motion \"%s\", because inside %s",
                  show_bound(row->outside(&at.hole, at.u)).text, row->edge, row->word, row->why);
         return body_field("r", index, show(b->r).text, allowed, error);
     }
@@ -395,11 +393,11 @@ static enum kd_status ringdown(const struct kd_scene *scene, struct kd_error *er
 {
     if (scene->style.ringdown == 0 || fabs(scene->spacetime.spin) <= KD_QNM_SPIN_MAX)
         return KD_OK;
-    return kd_error_field(
-        error, "/style/ringdown",
-        "style.ringdown is %s; it must be 0 with spacetime.spin %s: beyond %s the modes of a hole crowd and none of "
-        "them rings alone",
-        show(scene->style.ringdown).text, show(scene->spacetime.spin).text, show(KD_QNM_SPIN_MAX).text);
+    return kd_error_field(error, "/style/ringdown",
+                          "style.ringdown is %s; with spacetime.spin %s it must be 0, because beyond %s the modes of a "
+                          "hole crowd together and none rings alone",
+                          show(scene->style.ringdown).text, show(scene->spacetime.spin).text,
+                          show(KD_QNM_SPIN_MAX).text);
 }
 
 static enum kd_status field_uas(const struct kd_scene *scene, struct kd_error *error)
@@ -422,8 +420,8 @@ static enum kd_status beam(const struct kd_scene *scene, struct kd_error *error)
         return KD_OK;
     if (isnan(width))
         return kd_error_field(error, "/style/beam_uas",
-                              "style.beam_uas is %s; it must be 0 but in the plane and pinhole projections: in the "
-                              "others pixels are not of one angle",
+                              "style.beam_uas is %s; it must be 0 except in the plane and pinhole projections, because "
+                              "in the others the angle of a pixel varies",
                               show(scene->style.beam_uas).text);
     return kd_error_field(
         error, "/style/beam_uas",
@@ -440,8 +438,8 @@ static enum kd_status colour_bar(const struct kd_scene *scene, struct kd_error *
         return KD_OK;
     return kd_error_field(
         error, "/style/colour_bar",
-        "style.colour_bar is true; it must be false unless style.palette is \"heat\" and style.tone_map "
-        "\"srgb\": else brightness has no one colour, or no even scale");
+        "style.colour_bar is true; it must be false unless style.palette is \"heat\" and style.tone_map \"srgb\", "
+        "because otherwise a brightness has no unique colour, or the scale is not linear");
 }
 
 /* The other rules about accuracy.* depend on the device: render/accuracy/engine.h. */
@@ -471,12 +469,12 @@ static enum kd_status tile(const struct kd_scene *scene, struct kd_error *error)
     if (t->left + t->width > scene->image.width)
         return kd_error_field(
             error, "/image/tile/width",
-            "image.tile.width is %d pixels from column %d on; it must be at most %d in a picture of image.width %d",
+            "image.tile.width is %d pixels from column %d; it must be at most %d in a picture of image.width %d",
             t->width, t->left, scene->image.width > t->left ? scene->image.width - t->left : 0, scene->image.width);
     if (t->top + t->height > scene->image.height)
         return kd_error_field(
             error, "/image/tile/height",
-            "image.tile.height is %d pixels from row %d on; it must be at most %d in a picture of image.height %d",
+            "image.tile.height is %d pixels from row %d; it must be at most %d in a picture of image.height %d",
             t->height, t->top, scene->image.height > t->top ? scene->image.height - t->top : 0, scene->image.height);
     return KD_OK;
 }
@@ -497,15 +495,13 @@ static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *er
                               "Faraday rotation is known",
                               show(scene->volume.kappa).text);
     if (!kd_scene_is_radio_alone(scene))
-        return kd_error_field(
-            error, "/polarization/model",
-            "polarization.model is \"transfer\", which needs a scene where nothing but the volume shines: "
-            "disk.model and sky.model \"none\", "
-            "no jets, spots or bodies");
+        return kd_error_field(error, "/polarization/model",
+                              "polarization.model is \"transfer\", which needs a scene where only the volume shines: "
+                              "disk.model and sky.model \"none\", no jets, spots or bodies");
     if (scene->camera.projection == KD_PROJECTION_RING)
         return kd_error_field(error, "/polarization/model",
-                              "polarization.model is \"transfer\"; it must be \"none\" with camera.projection "
-                              "\"ring\", where a picture has no up");
+                              "polarization.model is \"transfer\"; with camera.projection \"ring\", whose picture has "
+                              "no upward direction, it must be \"none\"");
     return KD_OK;
 }
 
@@ -515,65 +511,58 @@ const struct kd_rule kd_rules[] = {
       "\"ring\" need `camera.r` \"infinity\".",
       projection },
     { "`camera.centre_alpha` and `camera.centre_beta` aim the plane projection, `camera.yaw_deg` and "
-      "`camera.pitch_deg` "
-      "those from a finite radius; each pair is 0 in the other projections.",
+      "`camera.pitch_deg` those from a finite radius; in the other projections they are 0.",
       aim },
-    { "`camera.field_uas` comes to a width within the range of `camera.field_m`; a document that gives both means "
-      "`camera.field_uas`, one that gives `camera.field_m` alone sets `camera.field_uas` to \"none\".",
+    { "`camera.field_uas` corresponds to a width within the range of `camera.field_m`. In a document with both, "
+      "`camera.field_uas` counts; `camera.field_m` alone sets `camera.field_uas` to \"none\".",
       field_uas },
     { "`camera.ring_decades_min` is less than `camera.ring_decades_max`.", decades },
     { "`camera.r` is outside the outer horizon, 1 + sqrt(1 - a^2), unless `camera.observer` is \"infall\".", horizon },
     { "Each `camera.observer` exists in a region of its own" KD_OBSERVER_PLACES ".", observer },
-    { "`camera.velocity_r`, `camera.velocity_theta` and `camera.velocity_phi` are a speed below 1. What falls is "
-      "outside no turning point: "
-      "`camera.infall_from` is at least `camera.r`, and it does not turn on its way; `camera.infall_energy` is enough "
-      "to be at "
-      "`camera.r`, and \"rest\" where `camera.infall_from` is not \"infinity\".",
+    { "`camera.velocity_r`, `camera.velocity_theta` and `camera.velocity_phi` make a speed below 1. A falling observer "
+      "can reach its position: `camera.infall_from` is at least `camera.r`, without a turning point between them; "
+      "`camera.infall_energy` suffices for `camera.r`, and is \"rest\" if `camera.infall_from` is finite.",
       motion },
     { "`camera.velocity_*` and `camera.infall_*` have their defaults unless `camera.observer` is \"velocity\" or "
       "\"infall\" at a finite "
       "`camera.r`.",
       idle_motion },
-    { "`motion.proper_time_rate` needs an observer at a finite `camera.r` that stays there (static, zamo), goes round "
-      "in the equatorial plane, or falls "
-      "without leaving its latitude: without spin, in that plane, on the axis, or from rest at infinity; "
-      "`motion.time_rate` and "
-      "`motion.azimuth_rate_deg` are 0 then, and `disk.slow_light` is false for one who falls.",
+    { "`motion.proper_time_rate` needs an observer at a finite `camera.r` that stays there (static, zamo), orbits in "
+      "the equatorial plane, or falls without leaving its latitude: without spin, in that plane, on the axis, or from "
+      "rest at infinity. Then `motion.time_rate` and `motion.azimuth_rate_deg` are 0, and for a falling observer "
+      "`disk.slow_light` is false.",
       path },
     { "`camera.stereo` \"pair\" needs a finite `camera.r` and the pinhole projection, and `camera.observer` exists "
       "where each eye is, less than `camera.r` from the other.",
       stereo },
-    { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
-    { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
+    { "`disk.inner` is at least the ISCO of the spin, if there is a disk.", inner_edge },
+    { "`disk.outer` is larger than the inner edge, if there is a disk.", outer_edge },
     { "`disk.height` is 0, or at least 1e-5; it is 0 for a disk of particles.", height, "disk", "height", 0,
       LEAST_HEIGHT },
-    { "`volume.outer` is larger than the inner edge, which is at least a hundredth outside the horizon, or a "
-      "two-thousandth for what is seen at a radio frequency, unless there is no volume; "
-      "a torus has its inner edge between the orbit of light and `volume.torus_radius`, which is outside the ISCO, and "
-      "an outer edge; `volume.gamma_max` is larger than `volume.gamma_min` where electrons go by a power law; "
-      "`volume.normalise_to_jy` is 0 but where a volume at a radio frequency shines alone, in the plane and pinhole "
-      "projections, without stereo.",
+    { "If there is a volume, `volume.outer` is larger than the inner edge, which is at least 1 % outside the horizon, "
+      "or 0.05 % for the models at a radio frequency. A torus has its inner edge between the photon orbit and "
+      "`volume.torus_radius`, which is outside the ISCO, and an outer edge. With power-law electrons "
+      "`volume.gamma_max` is larger than `volume.gamma_min`. `volume.normalise_to_jy` is 0 unless only a volume at a "
+      "radio frequency shines, in the plane or pinhole projection, without stereo.",
       volume },
-    { "`jets.outer` is larger than the inner edge, which is at least a twentieth outside the horizon, unless "
-      "`jets.brightness` is 0; by a `jets.falloff` below 0 light grows "
-      "at most 2^60 times in between.",
+    { "If `jets.brightness` is not 0, `jets.outer` is larger than the inner edge, which is at least 5 % outside the "
+      "horizon. With a `jets.falloff` below 0 the light grows by at most 2^60 in between.",
       jets },
-    { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },
-    { "`bodies.N.r` is at least a twentieth outside the horizon, and where `bodies.N.motion` "
-      "exists; " KD_OBSERVER_CIRCULAR " orbits have `bodies.N.inclination_deg` 90; "
-      "`bodies.N.velocity_*` are a speed of at most 0.999, and 0 unless the motion is \"velocity\"; unless the body's "
-      "radius is 0.",
+    { "`spots.N.r` is at least the ISCO of the spin, if the spot's brightness is not 0.", spots },
+    { "If the body's radius is not 0: `bodies.N.r` is at least 5 % outside the horizon, and `bodies.N.motion` exists "
+      "there; " KD_OBSERVER_CIRCULAR " orbits have `bodies.N.inclination_deg` 90; `bodies.N.velocity_*` make a speed "
+      "of at most 0.999, and are 0 unless the motion is \"velocity\".",
       bodies },
-    { "`polarization.model` \"transfer\" needs a volume whose electrons are in a magnetic field (`volume.model` "
-      "\"riaf\", \"torus\" or \"grid\"), of a kappa distribution with `volume.kappa` from 3.5 to 5, beside which "
-      "nothing shines, and no ring projection.",
+    { "`polarization.model` \"transfer\" needs a scene where only a volume shines whose electrons are in a magnetic "
+      "field (`volume.model` \"riaf\", \"torus\" or \"grid\"), and no ring projection; a kappa distribution needs "
+      "`volume.kappa` from 3.5 to 5.",
       transfer },
     { "`style.ringdown` is 0 where the spin is beyond 0.9999 or -0.9999.", ringdown },
     { "`style.beam_uas` is at most a thousand times the width of the picture in the plane and pinhole projections, and "
       "0 in the others.",
       beam },
     { "`style.colour_bar` needs `style.palette` \"heat\" and `style.tone_map` \"srgb\".", colour_bar },
-    { "`image.tile` lies within the picture; its width and height are both above 0, or all of it is 0.", tile },
+    { "`image.tile` lies within the picture; its width and height are both above 0, or its four fields are 0.", tile },
     { "`accuracy.steps` is a multiple of 4.", steps, "accuracy", "steps", STEPS, 0 },
 };
 const size_t kd_rule_count = sizeof kd_rules / sizeof *kd_rules;

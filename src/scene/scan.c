@@ -66,7 +66,7 @@ static enum kd_status escape(struct scan *s)
     const unsigned unit = unit_at(s, s->at), next = unit_at(s, s->at + 6);
     const bool high = unit >= 0xd800 && unit < 0xdc00, low = unit >= 0xdc00 && unit < 0xe000;
     if (low || (high && (next < 0xdc00 || next >= 0xe000)))
-        return fail(s, s->at, "half of a pair of surrogates");
+        return fail(s, s->at, "half of a surrogate pair");
     s->at += high ? 12 : 6;
     return KD_OK;
 }
@@ -169,7 +169,7 @@ static enum kd_status scan(const char *text, size_t start, size_t end, size_t mo
     enum kd_status status = KD_OK;
     const char *encoding = start ? NULL : kd_json_encoding(text, end);
     if (encoding)
-        return kd_error_set(error, KD_EINVAL, "the document is not valid JSON: it is %s, and JSON is UTF-8", encoding);
+        return kd_error_set(error, KD_EINVAL, "the document is not valid JSON: it is %s; JSON must be UTF-8", encoding);
     for (uint64_t tokens = 0; !status && s.at < end; tokens++) {
         kd_pause_every(tokens, 16384);
         char c = text[s.at];
@@ -177,9 +177,8 @@ static enum kd_status scan(const char *text, size_t start, size_t end, size_t mo
              value = letter || c == '"' || c == '-' || (c >= '0' && c <= '9');
         if (value && s.before == 'v')
             return fail(&s, s.at,
-                        s.depth > 0 || start
-                            ? "a value right behind another, without the comma or the colon between them"
-                            : "text behind the document");
+                        s.depth > 0 || start ? "a value right after another, without a comma or a colon between them"
+                                             : "text after the document");
         status = c == '"'                             ? string(&s)
                  : c == '-' || (c >= '0' && c <= '9') ? number(&s)
                  : letter                             ? word(&s)

@@ -46,10 +46,10 @@ struct kd_words {
 struct kd_dynamic_bodies;
 struct kd_scene {
     KD_SCENE_SECTIONS(KD_M_SECTION, KD_M_LIST)
-    struct kd_scene_crowd {
+    struct kd_scene_dynamic {
         const struct kd_dynamic_bodies *at;
         uint64_t generation;
-    } crowd; /* moving content shown in addition to the fields (scene/dynamic_bodies.h); NULL and 0: none */
+    } dynamic; /* moving content shown in addition to the fields (scene/dynamic_bodies.h); NULL and 0: none */
 };
 
 /* Sets every field to its default, which is the scene of an empty document. */

@@ -261,7 +261,7 @@ static enum kd_status read_axis(struct reader *r, const cJSON *axis)
     if (cJSON_IsString(axis))
         KD_TRY(add_range(r, axis->valuestring));
     else if (!cJSON_IsArray(axis))
-        KD_TRY(kd_member_refuse(axis, r->pointer, "a list of values, or a range as \"10:80:15\"", r->error));
+        KD_TRY(kd_member_refuse(axis, r->pointer, "a list of values, or a range as in \"10:80:15\"", r->error));
     for (const cJSON *item = cJSON_IsArray(axis) ? axis->child : NULL; item; item = item->next) {
         snprintf(at, sizeof at, "%s/%zu", r->pointer, i++);
         KD_TRY(add_item(r, item, at));
@@ -280,8 +280,8 @@ enum kd_status kd_sweep_read(const cJSON *axes, const struct kd_scene *base, con
         KD_TRY(no_memory(&r));
     if (!cJSON_IsObject(axes) || !axes->child)
         KD_TRY(kd_member_refuse(
-            axes, "/axes", "an object of one field and more, each with its values, as {\"spacetime.spin\": [0, 0.5]}",
-            error));
+            axes, "/axes",
+            "an object of one or more fields, each with its values, as in {\"spacetime.spin\": [0, 0.5]}", error));
     for (const cJSON *axis = axes->child; axis; axis = axis->next)
         KD_TRY(read_axis(&r, axis));
 done:

@@ -19,9 +19,9 @@
 KD_SCENE_SECTIONS(PLACE, LIST_PLACE)
 
 const struct kd_nature kd_natures[KD_NATURE_COUNT] = {
-    [KD_FIELD_PHYSICS] = { "physics", "an exact consequence of general relativity or radiative transfer, or how "
-                                      "closely it is computed" },
-    [KD_FIELD_MODEL] = { "model", "a chosen model of matter or of a source, or a number of one" },
+    [KD_FIELD_PHYSICS] = { "physics", "an exact consequence of general relativity or radiative transfer, or the "
+                                      "accuracy of its computation" },
+    [KD_FIELD_MODEL] = { "model", "a chosen model of matter or of a source, or a parameter of one" },
     [KD_FIELD_LOOK] = { "look", "changes the picture, not the physics" },
 };
 const char *const kd_groups[KD_GROUP_COUNT] = {

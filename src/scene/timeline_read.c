@@ -28,8 +28,8 @@ static enum kd_status read_place(struct reader *r, const cJSON *item, const char
     unsigned frame = 0;
     char allowed[80];
     if (!first && last(r)->at >= r->form->most)
-        return kd_error_field(r->error, pointer, "%s follows a keyframe at %.9g, the last place that there may be",
-                              pointer + 1, r->form->most);
+        return kd_error_field(r->error, pointer, "%s follows a keyframe at %.9g, which must be the last", pointer + 1,
+                              r->form->most);
     if (r->form->whole) {
         enum kd_status status = kd_member_whole(item, pointer, first ? 0 : (unsigned)last(r)->at + 1,
                                                 (unsigned)r->form->most, &frame, r->error);
@@ -72,13 +72,12 @@ static enum kd_status read_proper_time(struct reader *r, const cJSON *item, cons
                                 r->error);
     if (value > 0 && !kd_worldline_is_known(&motion, &at))
         return kd_member_refuse(item, pointer,
-                                "0 unless camera.observer stays, goes round in the equatorial plane or falls without "
+                                "0 unless camera.observer stays, orbits in the equatorial plane or falls without "
                                 "leaving its latitude, from a "
                                 "finite camera.r",
                                 r->error);
     if (value > 0 && key->scene.motion.proper_time_rate > 0)
-        return kd_error_field(r->error, pointer,
-                              "%s is given with motion.proper_time_rate; only one of them may be given", pointer + 1);
+        return kd_error_field(r->error, pointer, "%s cannot be used with motion.proper_time_rate", pointer + 1);
     key->proper_time = value;
     return KD_OK;
 }
@@ -127,8 +126,8 @@ static enum kd_status read_look_at(struct reader *r, const cJSON *item, const ch
         return KD_OK;
     if (out->kind == KD_AIM_FREE)
         return kd_member_refuse(
-            item, pointer,
-            "\"hole\", \"free\" or an object with theta_deg, phi_deg and r, without which it is a direction", r->error);
+            item, pointer, "\"hole\", \"free\" or an object with theta_deg, phi_deg and r; without r it is a direction",
+            r->error);
     KD_TRY(kd_members_read(item, pointer, members, sizeof members / sizeof *members, r->error));
     KD_TRY(read_number(r, radius, pointer, "r", INFINITY, 0, KD_LOOK_AT_FAR, &out->r));
     KD_TRY(read_number(r, theta, pointer, "theta_deg", 90, 0, 180, &out->theta_deg));
@@ -157,7 +156,7 @@ static enum kd_status read_key(struct reader *r, const cJSON *item, size_t index
     KD_TRY(kd_members_read(item, pointer, members, sizeof members / sizeof *members, r->error));
     if (!place || !(scene || proper_time || look_at))
         KD_TRY(kd_error_field(r->error, pointer,
-                              "a keyframe has a %s and a scene, a proper_time or a look_at, here %s is missing",
+                              "a keyframe must have a %s, and a scene, a proper_time or a look_at; %s is missing",
                               r->form->place, place ? "scene" : r->form->place));
     snprintf(at, sizeof at, "%s/%s", pointer, r->form->place);
     KD_TRY(read_place(r, place, at, index == 0, &where));

@@ -18,8 +18,8 @@ static enum kd_status asset(const struct kd_scene *scene, const struct kd_field 
         return KD_OK;
     kd_field_path(field, index, path);
     kd_field_pointer(field, index, pointer);
-    return kd_error_field(
-        error, pointer, "%s is \"%.64s\", which is no SHA-256, and no name of an asset that is known here", path, name);
+    return kd_error_field(error, pointer, "%s is \"%.64s\"; it must be a SHA-256, or the name of a known asset", path,
+                          name);
 }
 
 /* Checks a field's range. The parser checks it too, but a scene that a caller has filled in has passed no parser. */

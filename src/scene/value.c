@@ -43,8 +43,8 @@ const char *kd_value_unwanted(const struct kd_value *value)
 {
     switch (value->kind) {
     case KD_VALUE_NUMBER: return "";
-    case KD_VALUE_STRING: return ", a string where a number is wanted";
-    default: return " where a number is wanted";
+    case KD_VALUE_STRING: return ", a string where a number is needed";
+    default: return " where a number is needed";
     }
 }
 

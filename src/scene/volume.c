@@ -34,7 +34,7 @@ bool kd_scene_is_radio_alone(const struct kd_scene *scene)
     const struct kd_body *bodies[KD_SCENE_BODIES];
     return kd_scene_is_radio(scene) && scene->disk.model == KD_DISK_NONE && scene->jets.brightness == 0 &&
            scene->sky.model == KD_SKY_NONE && !kd_scene_spots(scene, on) && !kd_scene_bodies(scene, bodies) &&
-           !scene->crowd.at;
+           !scene->dynamic.at;
 }
 
 #define SAME_SPIN 1e-6
@@ -46,7 +46,7 @@ enum kd_status kd_asset_check_grid(double spin, const struct kd_scene *scene, st
         return KD_OK;
     kd_number_format(made, spin);
     kd_number_format(here, scene->spacetime.spin);
-    return kd_error_field(
-        error, "/volume/grid",
-        "volume.grid is matter round a hole of the spin %s, and spacetime.spin is %s; it must be the same", made, here);
+    return kd_error_field(error, "/volume/grid",
+                          "volume.grid has matter for a hole of spin %s; spacetime.spin is %s and must be the same",
+                          made, here);
 }

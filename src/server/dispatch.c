@@ -161,13 +161,13 @@ static struct most {
 static const char *too_large(const struct kd_request *request, char text[TOO_LARGE])
 {
     const struct most most = most_of(request);
-    snprintf(text, TOO_LARGE, "%s may hold %zu bytes", most.what, most.bytes);
+    snprintf(text, TOO_LARGE, "%s must have at most %zu bytes", most.what, most.bytes);
     return text;
 }
 
 static bool media_type_fault(const struct kd_request *request, bool patch, struct kd_problem *problem)
 {
-#define SAY "a body must say Content-Type: application/json"
+#define SAY "a body must have Content-Type: application/json"
 #define OR(other) \
     { \
         other, "application/json, " other, SAY " or " other \
@@ -179,7 +179,7 @@ static bool media_type_fault(const struct kd_request *request, bool patch, struc
         OR(KD_NPY_TYPE),
         OR(KD_PATCH_TYPE),
         { KD_ASSET_TYPE, KD_ASSET_TYPE ", " KD_ASSET_GRID_TYPE ", " KD_ASSET_UVFITS_TYPE ", " KD_ASSET_CSV_TYPE,
-          "an asset must say Content-Type: " KD_ASSET_TYPE ", " KD_ASSET_GRID_TYPE ", " KD_ASSET_UVFITS_TYPE
+          "an asset must have Content-Type: " KD_ASSET_TYPE ", " KD_ASSET_GRID_TYPE ", " KD_ASSET_UVFITS_TYPE
           " or " KD_ASSET_CSV_TYPE },
     };
 #undef OR
@@ -200,7 +200,7 @@ static bool body_fault(const struct kd_request *request, char text[TOO_LARGE], s
 {
     bool patch = !strcmp(request->method, "PATCH");
     if (!patch && strcmp(request->method, "POST") && strcmp(request->method, "PUT")) {
-        *problem = (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method takes no body" };
+        *problem = (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method accepts no body" };
         return request->body_announced;
     }
     if (request->route->takes == KD_TAKES_STRIKE && !request->body_announced)
@@ -279,10 +279,9 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
                                   .type = error.status == KD_ENOMEM ? KD_PROBLEM_NO_MEMORY : KD_PROBLEM_BAD_REQUEST };
     else if (!kd_route_is_health(&request->server->base, request->raw) &&
              kd_connections_crowded(request->server->connections, request->connection))
-        problem = (struct kd_problem) { .type = KD_PROBLEM_CROWDED,
-                                        .retry_after = 1,
-                                        .close = true,
-                                        .detail = "more connections are open than this server takes" };
+        problem = (struct kd_problem) {
+            .type = KD_PROBLEM_CROWDED, .retry_after = 1, .close = true, .detail = "too many connections are open"
+        };
     else if (kd_cors_is_preflight(request)) { /* browsers send preflights without a token */
         *result = kd_cors_preflight(request);
         return false;
@@ -299,19 +298,19 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
             return false;
         }
         if (options)
-            problem = (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method takes no body" };
+            problem = (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method accepts no body" };
         request->route = NULL;
     } else if (is_foreign(request))
         problem = (struct kd_problem) {
             .type = KD_PROBLEM_CROSS_SITE,
             .close = request->body_announced,
-            .detail = "the browser says that a page of another site has asked for this (Sec-Fetch-Site: cross-site), "
-                      "which this server takes from those that --cors-origin names, or with --allow-cross-site"
+            .detail = "the request comes from a page of another site (Sec-Fetch-Site: cross-site); this server accepts "
+                      "such requests only from origins of --cors-origin, or with --allow-cross-site"
         };
     else if (makes_something(request) && !kd_reply_matches(request, NULL))
         problem = (struct kd_problem) { .type = KD_PROBLEM_PRECONDITION,
                                         .close = request->body_announced,
-                                        .detail = "nothing here has an ETag that If-Match names" };
+                                        .detail = "no resource here has an ETag of If-Match" };
     else if (!body_fault(request, text, &problem) && kd_once_read(request, &problem, key))
         return true;
     *result =
@@ -382,7 +381,7 @@ static enum MHD_Result receive(struct kd_request *request, const char *data, siz
                      : cut_body(request, KD_PROBLEM_CROWDED, BODIES_TOO_MANY);
     if (kd_buffer_append(&request->body, data, *size)) {
         kd_bytes_give(server->bodies, request->client, *size);
-        return cut_body(request, KD_PROBLEM_NO_MEMORY, "no memory for the body");
+        return cut_body(request, KD_PROBLEM_NO_MEMORY, "out of memory for the body");
     }
     kd_once_take(request, data, *size);
     *size = 0;

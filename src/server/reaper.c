@@ -3,7 +3,7 @@
 #include "base/clock.h"
 #include "base/log.h"
 #include "server/job/jobs.h"
-#include "server/playground/plays.h"
+#include "server/playground/sessions.h"
 #include "server/render/queue.h"
 #include "server/render/thumbnails.h"
 #include "server/session/sessions.h"
@@ -50,7 +50,7 @@ static bool cut_short(struct kd_server *server)
 static unsigned unfinished(struct kd_server *server)
 {
     return kd_render_queue_unfinished(server->renders) + kd_scheduler_unfinished(server->rays) +
-           kd_scheduler_unfinished(server->turns) + kd_playground_sessions_unfinished(server->plays);
+           kd_scheduler_unfinished(server->scheduler) + kd_playground_sessions_unfinished(server->playgrounds);
 }
 
 static void refuse(struct kd_server *server, double *since)
@@ -58,8 +58,8 @@ static void refuse(struct kd_server *server, double *since)
     const unsigned n = unfinished(server);
     if (n && !cut_short(server))
         kd_log(KD_LOG_WARN,
-               "stopping: %u accepted works are unfinished, about %.0f s of the device by their estimates; "
-               "what is left after %u s is ended (--drain-seconds)",
+               "stopping: %u accepted requests are unfinished, with an estimated device time of %.0f s; after %u s the "
+               "rest is cancelled (--drain-seconds)",
                n, kd_render_queue_backlog_ms(server->renders) * 1e-3, server->drain_s);
     enter(server, KD_REFUSING, since);
 }
@@ -68,14 +68,14 @@ static void cancel_all(struct kd_server *server)
 {
     kd_render_queue_cancel(server->renders);
     kd_scheduler_cancel(server->rays);
-    kd_scheduler_cancel(server->turns);
+    kd_scheduler_cancel(server->scheduler);
 }
 
 /* Cancels accepted work whose time is over. */
 static void end_the_rest(struct kd_server *server)
 {
     if (!atomic_load(&server->ended))
-        kd_log(KD_LOG_WARN, "stopping: %u works are not done after %u s and are ended", unfinished(server),
+        kd_log(KD_LOG_WARN, "stopping: %u requests are unfinished after %u s and are cancelled", unfinished(server),
                server->drain_s);
     atomic_store(&server->ended, true);
     cancel_all(server);
@@ -98,7 +98,7 @@ static bool step_down(struct kd_server *server, double *since)
         return false;
     case KD_REFUSING:
         kd_sessions_close(server->sessions);
-        kd_playground_sessions_close(server->plays);
+        kd_playground_sessions_close(server->playgrounds);
         kd_jobs_close(server->jobs);
         kd_thumbnails_cancel(server->thumbnails);
         if (atomic_load(&server->abandon))
@@ -127,7 +127,7 @@ void *kd_reaper_main(void *user)
         kd_connections_sweep(server->connections);
         kd_render_queue_sweep(server->renders);
         kd_sessions_sweep(server->sessions);
-        kd_playground_sessions_sweep(server->plays);
+        kd_playground_sessions_sweep(server->playgrounds);
         kd_jobs_sweep(server->jobs);
     } while (!step_down(server, &since));
     if (!hangs(server)) { /* no connection is suspended, because the queues are empty and closed */

@@ -17,7 +17,7 @@
 #include "server/http/service.h"
 #include "server/job/jobs.h"
 #include "server/openapi/cached_documents.h"
-#include "server/playground/plays.h"
+#include "server/playground/sessions.h"
 #include "server/render/queue.h"
 #include "server/render/thumbnails.h"
 #include "server/session/sessions.h"
@@ -54,7 +54,7 @@ static enum kd_status collect_hosts(struct kd_server *server, const char *listen
         names[3] = bracketed;
     }
     if (kd_names_any(listen) && !(server->own = kd_names_own(listen)))
-        return kd_error_set(error, KD_ENOMEM, "no memory for the machine's own addresses, or they cannot be listed");
+        return kd_error_set(error, KD_ENOMEM, "cannot list the addresses of this machine");
     while (more && more[n_more])
         n_more++;
     while (server->own && server->own[n_own])
@@ -143,7 +143,7 @@ static enum kd_status start_plays(struct kd_server *server, const struct kd_serv
 {
     const unsigned most = or_default(params->playgrounds, 16);
     const size_t bytes = params->playgrounds_kib ? (size_t)params->playgrounds_kib << 10 : KD_PLAYS_BYTES;
-    const struct kd_playground_sessions_params plays = {
+    const struct kd_playground_sessions_params playgrounds = {
         .sessions = server->sessions,
         .renders = server->renders,
         .limit = most,
@@ -152,7 +152,7 @@ static enum kd_status start_plays(struct kd_server *server, const struct kd_serv
         .bytes = bytes,
         .client_bytes = (size_t)bytes_share_of(params, bytes),
     };
-    return kd_playground_sessions_create(&plays, &server->plays, error);
+    return kd_playground_sessions_create(&playgrounds, &server->playgrounds, error);
 }
 
 static enum kd_status start_jobs(struct kd_server *server, const struct kd_server_params *params,
@@ -161,10 +161,10 @@ static enum kd_status start_jobs(struct kd_server *server, const struct kd_serve
     const unsigned most = or_default(params->jobs, 16);
     const struct kd_jobs_params jobs = {
         .renders = server->renders,
-        .turns = server->turns,
+        .scheduler = server->scheduler,
         .state = params->state,
         .limit = most,
-        .kept = KD_JOBS_KEPT,
+        .stored = KD_JOBS_KEPT,
         .client_limit = params->client_jobs ? params->client_jobs : share_of(params, most),
         .longest_s = server->longest_s,
         .longest_job_s = KD_JOB_LONGEST_S,
@@ -227,7 +227,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         clients, KD_REPLIES_MAX, share_of(params, KD_REPLIES_MAX), KD_REPLIES_RESERVE, KD_REPLIES_SMALL, true });
     server->measures = kd_measures_create();
     if (server->stop_fd < 0 || !server->connections || !server->bodies || !server->replies || !server->measures)
-        return kd_error_set(error, KD_ENOMEM, "no memory or descriptor for the server");
+        return kd_error_set(error, KD_ENOMEM, "no memory or no descriptor for the server");
     enum kd_status status;
     KD_TRY(kd_base_path_init(&server->base, params->base_path, error));
     if (params->token_file)
@@ -238,7 +238,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         KD_TRY(kd_cors_create(params->cors_origins, params->embed_origins, &server->cors, error));
     KD_TRY(kd_public_url_make(params->public_url, &server->base, &server->public_url, &public_host, error));
     KD_TRY(collect_hosts(server, address, public_host, params->hosts, error));
-    KD_TRY(kd_cached_documents_create(server->base.path, server->access != NULL, &server->kept, error));
+    KD_TRY(kd_cached_documents_create(server->base.path, server->access != NULL, &server->documents, error));
     /* Opens the socket first: opening a device takes long, and "address in use" is the most common failure. */
     KD_TRY(kd_listen_open(address, &server->port, &fd, error));
     const unsigned tasks = or_default(params->queue, 16);
@@ -251,7 +251,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     const struct kd_renderer_params renderer = renderer_params(server, params);
     KD_TRY(kd_thumbnails_create(server, &renderer, &server->thumbnails, error));
     KD_TRY(kd_scheduler_create(tasks, share_of(params, tasks), &server->rays, error));
-    KD_TRY(kd_scheduler_create(tasks, share_of(params, tasks), &server->turns, error));
+    KD_TRY(kd_scheduler_create(tasks, share_of(params, tasks), &server->scheduler, error));
     KD_TRY(start_sessions(server, params, error));
     KD_TRY(start_plays(server, params, error));
     KD_TRY(start_jobs(server, params, error));
@@ -327,12 +327,12 @@ void kd_server_destroy(struct kd_server *server)
     }
     if (server->sessions)
         kd_sessions_close(server->sessions);
-    if (server->plays)
-        kd_playground_sessions_close(server->plays);
+    if (server->playgrounds)
+        kd_playground_sessions_close(server->playgrounds);
     if (server->jobs)
         kd_jobs_close(server->jobs);
-    kd_playground_sessions_destroy(server->plays);
-    kd_scheduler_destroy(server->turns);
+    kd_playground_sessions_destroy(server->playgrounds);
+    kd_scheduler_destroy(server->scheduler);
     kd_scheduler_destroy(server->rays);
     kd_thumbnails_destroy(server->thumbnails);
     kd_render_queue_destroy(server->renders);
@@ -342,7 +342,7 @@ void kd_server_destroy(struct kd_server *server)
     kd_connections_destroy(server->connections);
     kd_bytes_destroy(server->bodies);
     kd_bytes_destroy(server->replies);
-    kd_cached_documents_destroy(server->kept);
+    kd_cached_documents_destroy(server->documents);
     kd_measures_destroy(server->measures);
     for (size_t i = 0; server->hosts && server->hosts[i]; i++)
         free((void *)server->hosts[i]);

@@ -49,8 +49,9 @@ enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_m
         return kd_error_set(error, KD_EINTERNAL, "buffer '%s' has no bytes", name);
     /* The size is checked before vkCreateBuffer, which need not accept every size. */
     if (size > vk->physical.info.max_allocation_bytes)
-        return kd_error_set(error, KD_ENOMEM, "buffer '%s' of %.2f MiB: the device allocates at most %.2f MiB at once",
-                            name, (double)size / 0x1p20, (double)vk->physical.info.max_allocation_bytes / 0x1p20);
+        return kd_error_set(error, KD_ENOMEM,
+                            "buffer '%s' has %.2f MiB; on this device one allocation must have at most %.2f MiB", name,
+                            (double)size / 0x1p20, (double)vk->physical.info.max_allocation_bytes / 0x1p20);
     struct kd_vk_buffer *buffer = calloc(1, sizeof *buffer);
     if (!buffer)
         return kd_error_set(error, KD_ENOMEM, "buffer '%s': out of host memory", name);

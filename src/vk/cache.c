@@ -89,7 +89,7 @@ enum kd_status kd_vk_cache_init(struct kd_vk *vk, const char *dir, struct kd_err
         if (info.pInitialData)
             cache->hash = kd_hash(KD_HASH_BEGIN, info.pInitialData, info.initialDataSize);
         else
-            kd_log(KD_LOG_DEBUG, "%s is foreign or damaged: starting afresh", cache->path);
+            kd_log(KD_LOG_DEBUG, "%s is damaged or belongs to another driver: a new cache is started", cache->path);
     }
     if (!info.pInitialData)
         info.initialDataSize = 0;

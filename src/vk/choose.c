@@ -51,7 +51,7 @@ static enum kd_status by_index(const struct kd_vk_info *infos, size_t count, con
     unsigned long n = strtoul(wish, NULL, 10); /* saturates; the result is out of range in any case */
     list_names(infos, count, names, sizeof names);
     if (n >= count)
-        return kd_error_set(error, KD_EINVAL, "there is no device %s, only %s", wish, names);
+        return kd_error_set(error, KD_EINVAL, "there is no device %s; there are %s", wish, names);
     *index = n;
     return infos[n].missing[0] ? unusable(&infos[n], error) : KD_OK;
 }
@@ -67,7 +67,7 @@ static enum kd_status by_name(const struct kd_vk_info *infos, size_t count, cons
     for (size_t i = 0; i < count; i++)
         if (strcasestr(infos[i].name, wish))
             return unusable(&infos[i], error);
-    return kd_error_set(error, KD_EINVAL, "no device is called '%.60s', only %s", wish, names);
+    return kd_error_set(error, KD_EINVAL, "no device has the name '%.60s'; there are %s", wish, names);
 }
 
 static enum kd_status any(const struct kd_vk_info *infos, size_t count, size_t *index, size_t *usable,
@@ -98,7 +98,7 @@ enum kd_status kd_vk_choose(const struct kd_vk_info *infos, size_t count, const 
             snprintf(reason, sizeof reason, "the only usable device");
     } else if (wish[strspn(wish, "0123456789")] == 0) {
         status = by_index(infos, count, wish, index, error);
-        snprintf(reason, sizeof reason, "asked for by its index");
+        snprintf(reason, sizeof reason, "chosen by its index");
     } else {
         status = by_name(infos, count, wish, index, &n, error);
         snprintf(reason, sizeof reason, "%s '%.80s'",

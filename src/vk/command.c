@@ -40,15 +40,16 @@ static enum kd_status check_kind(const struct kd_vk *vk, const char *pass, uint3
     uint64_t size = size_of(binding, kind), most = most_of(vk, kind);
     uint32_t texel = kd_vk_kind_info(kind)->texel_bytes;
     if (binding->write && kind != KD_VK_STORAGE)
-        return kd_error_set(error, KD_EINTERNAL, "%s: binding %u, '%s', is written, but is no storage buffer", pass,
+        return kd_error_set(error, KD_EINTERNAL, "%s: binding %u, '%s', is written, but is not a storage buffer", pass,
                             index, binding->buffer->name);
     if (!size || (binding->size && size != binding->size))
         return kd_error_set(error, KD_EINTERNAL, "%s: binding %u, '%s', must span whole texels of %u bytes", pass,
                             index, binding->buffer->name, texel);
     if (size > most)
         return kd_error_set(error, KD_ETOOBIG,
-                            "%s: binding %u spans %" PRIu64 " bytes of '%s', this device binds at most %" PRIu64, pass,
-                            index, size, binding->buffer->name, most);
+                            "%s: binding %u spans %" PRIu64
+                            " bytes of '%s'; on this device it must have at most %" PRIu64,
+                            pass, index, size, binding->buffer->name, most);
     return KD_OK;
 }
 
@@ -75,7 +76,8 @@ static enum kd_status check_dispatch(const struct kd_vk *vk, const struct kd_vk_
         return kd_error_set(error, KD_EINTERNAL, "%s: a dispatch without a pipeline", pass);
     for (int i = 0; i < 3; i++)
         if (dispatch->groups[i] > vk->physical.properties.limits.maxComputeWorkGroupCount[i])
-            return kd_error_set(error, KD_ETOOBIG, "%s: %u groups along axis %d, this device takes at most %u", pass,
+            return kd_error_set(error, KD_ETOOBIG,
+                                "%s: %u groups along axis %d; on this device there must be at most %u", pass,
                                 dispatch->groups[i], i, vk->physical.properties.limits.maxComputeWorkGroupCount[i]);
     if (dispatch->counts && (dispatch->counts_at % 4 || !inside(dispatch->counts, dispatch->counts_at, COUNTS_BYTES)))
         return kd_error_set(error, KD_EINTERNAL,
@@ -83,7 +85,7 @@ static enum kd_status check_dispatch(const struct kd_vk *vk, const struct kd_vk_
                             " bytes) must lie inside it, at a multiple of 4",
                             pass, dispatch->counts_at, dispatch->counts->name, dispatch->counts->size);
     if (dispatch->pipeline->push_bytes && !dispatch->push)
-        return kd_error_set(error, KD_EINTERNAL, "%s: no push constants were given", pass);
+        return kd_error_set(error, KD_EINTERNAL, "%s: the push constants are missing", pass);
     for (uint32_t i = 0; i < dispatch->pipeline->n_buffers && !status; i++)
         status = check_binding(vk, pass, i, &dispatch->bindings[i], dispatch->pipeline->kinds[i], error);
     return status;

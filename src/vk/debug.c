@@ -36,7 +36,8 @@ enum kd_status kd_vk_debug_listen(struct kd_vk_debug *debug, const struct kd_vk_
     enum kd_status status;
     VkDebugUtilsMessengerCreateInfoEXT info = kd_vk_debug_messenger(debug);
     if (!fn->CreateDebugUtilsMessengerEXT || !fn->DestroyDebugUtilsMessengerEXT)
-        return kd_error_set(error, KD_EDEVICE, "validation was asked for, but there is no %s to hear it",
+        return kd_error_set(error, KD_EDEVICE,
+                            "validation was requested, but %s, which reports its messages, is missing",
                             VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     KD_VK_TRY(fn, CreateDebugUtilsMessengerEXT, instance, &info, NULL, &debug->messenger);
 done:

@@ -167,7 +167,8 @@ static void close_device(struct kd_vk *vk)
     vk->done = vk->submitted;
     kd_vk_retire_all(vk);
     if (vk->n_buffers || vk->n_pipelines)
-        kd_log(KD_LOG_WARN, "closing a device with %u buffers and %u pipelines alive", vk->n_buffers, vk->n_pipelines);
+        kd_log(KD_LOG_WARN, "closing a device with %u buffers and %u pipelines that still exist", vk->n_buffers,
+               vk->n_pipelines);
     if (!vk->pipelines_only)
         kd_vk_submit_finish(vk);
     kd_vk_cache_finish(vk);

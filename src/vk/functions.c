@@ -44,7 +44,7 @@ enum kd_status kd_vk_functions_load(struct kd_vk_functions *fn, struct kd_error 
             return status;
     }
     if (version < VK_API_VERSION_1_2)
-        return kd_error_set(error, KD_EDEVICE, "the Vulkan loader is of version %u.%u, kerrd needs 1.2",
+        return kd_error_set(error, KD_EDEVICE, "the Vulkan loader has version %u.%u; kerrd needs 1.2",
                             VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version));
 #define LOAD(name) \
     fn->name = (PFN_vk##name)fn->GetInstanceProcAddr(NULL, "vk" #name); \

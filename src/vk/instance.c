@@ -58,9 +58,9 @@ static bool has_extension(const struct kd_vk_functions *fn, const char *layer, c
 static enum kd_status check_validation(const struct kd_vk_functions *fn, struct kd_error *error)
 {
     if (!has_layer(fn, VALIDATION_LAYER))
-        return kd_error_set(error, KD_EDEVICE, "validation was asked for, but %s is not installed", VALIDATION_LAYER);
+        return kd_error_set(error, KD_EDEVICE, "validation was requested, but %s is not installed", VALIDATION_LAYER);
     if (!has_extension(fn, VALIDATION_LAYER, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME))
-        return kd_error_set(error, KD_EDEVICE, "validation was asked for, but this %s cannot validate synchronisation",
+        return kd_error_set(error, KD_EDEVICE, "validation was requested, but this %s cannot validate synchronisation",
                             VALIDATION_LAYER);
     return KD_OK;
 }
@@ -87,8 +87,8 @@ static enum kd_status check_address_space(struct kd_error *error)
     if (left >= needed)
         return KD_OK;
     return kd_error_set(error, KD_ENOMEM,
-                        "the limit of this process's memory (ulimit -v, ulimit -d) leaves %llu MiB, and a Vulkan "
-                        "driver must have %llu MiB here",
+                        "the limit of this process's memory (ulimit -v, ulimit -d) leaves %llu MiB; a Vulkan driver "
+                        "needs %llu MiB here",
                         (unsigned long long)(left >> 20), (unsigned long long)(needed >> 20));
 }
 

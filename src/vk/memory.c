@@ -185,7 +185,7 @@ enum kd_status kd_vk_heap_take(struct kd_vk *vk, enum kd_vk_memory memory, uint6
     uint32_t type = vk->heap.types[memory];
     struct kd_error why = { 0 };
     if (vk->pipelines_only)
-        return kd_error_set(error, KD_EINTERNAL, "the device was opened for pipelines alone");
+        return kd_error_set(error, KD_EINTERNAL, "the device was opened only for pipelines");
     if (alignment < KD_VK_ALIGNMENT)
         alignment = KD_VK_ALIGNMENT;
     size = size > UINT64_MAX - alignment ? size : (size + KD_VK_ALIGNMENT - 1) & ~(uint64_t)(KD_VK_ALIGNMENT - 1);

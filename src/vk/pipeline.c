@@ -19,18 +19,19 @@ static enum kd_status check(const struct kd_vk *vk, const struct kd_vk_pipeline_
     if (!params->spirv || params->spirv_bytes < 20 || params->spirv_bytes % 4 || params->spirv[0] != SPIRV_MAGIC)
         return kd_error_set(error, KD_EINTERNAL, "pipeline '%s': this is not SPIR-V", name);
     if (params->n_buffers > KD_VK_MAX_BINDINGS)
-        return kd_error_set(error, KD_EINTERNAL, "pipeline '%s': %u buffers, at most %u", name, params->n_buffers,
-                            KD_VK_MAX_BINDINGS);
+        return kd_error_set(error, KD_EINTERNAL, "pipeline '%s': %u buffers; there must be at most %u", name,
+                            params->n_buffers, KD_VK_MAX_BINDINGS);
     for (uint32_t i = 0; i < params->n_buffers; i++)
         if (!kd_vk_kind_info(params->kinds[i]))
-            return kd_error_set(error, KD_EINTERNAL, "pipeline '%s': binding %u is of kind %u, which there is none of",
-                                name, i, (uint32_t)params->kinds[i]);
+            return kd_error_set(error, KD_EINTERNAL, "pipeline '%s': binding %u has the unknown kind %u", name, i,
+                                (uint32_t)params->kinds[i]);
     if (params->push_bytes > max_push || params->push_bytes % 4)
         return kd_error_set(error, KD_EINTERNAL,
-                            "pipeline '%s': %u bytes of push constants, at most %u and a multiple of 4", name,
-                            params->push_bytes, max_push);
+                            "pipeline '%s': %u bytes of push constants; there must be at most %u, in multiples of 4",
+                            name, params->push_bytes, max_push);
     if (params->n_spec > MAX_SPEC)
-        return kd_error_set(error, KD_EINTERNAL, "pipeline '%s': %zu specialisation constants, at most %u", name,
+        return kd_error_set(error, KD_EINTERNAL,
+                            "pipeline '%s': %zu specialisation constants; there must be at most %u", name,
                             params->n_spec, MAX_SPEC);
     return KD_OK;
 }

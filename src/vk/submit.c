@@ -160,7 +160,7 @@ enum kd_status kd_vk_submit_slot(struct kd_vk *vk, struct kd_vk_slot **out, stru
     struct kd_vk_slot *slot = slot_of(vk, kd_vk_current(vk));
     *out = slot;
     if (!status && vk->pipelines_only)
-        status = kd_error_set(error, KD_EINTERNAL, "the device was opened for pipelines alone");
+        status = kd_error_set(error, KD_EINTERNAL, "the device was opened only for pipelines");
     if (status || vk->recording)
         return status;
     /* kd_vk_submit has waited until the last submission from this slot had finished. */

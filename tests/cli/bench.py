@@ -190,8 +190,8 @@ class Accuracy(unittest.TestCase):
 
 class Usage(Case):
     def test_usage(self):
-        self.bad(2, "the benchmark is missing", "bench")
-        self.bad(2, "there is one benchmark", "bench", "speed")
+        self.bad(2, "BENCHMARK is missing", "bench")
+        self.bad(2, "there is no benchmark speed", "bench", "speed")
         for seconds in "0", "x", "1e3", "nan", "":
             self.bad(2, "a number from 0.001 to 60", "bench", "accuracy", "--seconds", seconds)
         self.bad(2, "it is a directory", "bench", "accuracy", "-o", self.folder)

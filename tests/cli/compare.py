@@ -84,16 +84,16 @@ class Compare(Case):
         with open(self.path("cut.uvfits"), "wb") as file, open(compared.UVFITS, "rb") as whole:
             file.write(whole.read(20000))
         for options, words in (
-            ([], "no observation is given; it must be one"),
+            ([], "observation is missing; it must be"),
             (["--observation", self.path("none.csv")], "none.csv"),
-            (["--observation", __file__], "this is no observation; it must be uvfits"),
+            (["--observation", __file__], "the file is not an observation; it must be uvfits"),
             (["--observation", self.path("cut.uvfits")], "must have 135228 bytes, and has 20000"),
             ([*seen, "--products", "phases"], 'products is "phases"; it must be "amplitude"'),
             ([*seen, "--systematic-amplitude", "2"], "systematic.amplitude is 2; it must be 0 to 1"),
-            ([*seen, "--solve", "flux", "--flux-jy", "1"], "solve has flux beside flux_jy"),
-            ([*seen, "--solve", "flux", "--products", "closure_phase"], "products has no amplitude"),
-            ([*seen, "--uv-min-gl", "100"], "nothing is left to compare of 1507 visibilities, 1507 of which"),
-            ([*seen, "-s", "camera.r=30"], "camera sees no flat map"),
+            ([*seen, "--solve", "flux", "--flux-jy", "1"], "solve cannot have flux with flux_jy"),
+            ([*seen, "--solve", "flux", "--products", "closure_phase"], "products must have amplitude"),
+            ([*seen, "--uv-min-gl", "100"], "none of the 1507 visibilities can be compared, and 1507 of them"),
+            ([*seen, "-s", "camera.r=30"], "visibilities need a flat map"),
         ):
             self.bad(2, words, "compare", *options)
 

@@ -96,16 +96,16 @@ class Files(support.Case):
         self.assertEqual(self.read("b.png"), self.read("c.png"))
         whole = self.read("a.npz")
         self.write("torn.npz", whole[:900] + bytes(len(whole) - 900))
-        self.bad(2, "no notes.json", "render", "--from", self.path("torn.npz"), "-o", self.path("d.png"))
+        self.bad(2, "notes.json is missing", "render", "--from", self.path("torn.npz"), "-o", self.path("d.png"))
         torn = bytearray(self.read("a.fits"))
         at = torn.index(b"CONTINUE", torn.index(b"KDSCENE"))
         torn[at : at + 80] = b" " * 80
         self.write("torn.fits", bytes(torn))
-        self.bad(2, "no whole card KDSCENE", "render", "--from", self.path("torn.fits"), "-o", self.path("d.png"))
+        self.bad(2, "no complete card KDSCENE", "render", "--from", self.path("torn.fits"), "-o", self.path("d.png"))
         for end, head, words in (
-            ("fits", 2880, "no whole card KDSCENE"),
+            ("fits", 2880, "no complete card KDSCENE"),
             ("exr", 400, "EXR: "),
-            ("npz", 900, "no notes.json"),
+            ("npz", 900, "notes.json is missing"),
         ):
             self.write("cut." + end, self.read("a." + end)[:head])
             self.bad(2, words, "render", "--from", self.path("cut." + end), "-o", self.path("d.png"))
@@ -238,7 +238,7 @@ class Files(support.Case):
         self.assertNotIn("MJD", header)
         self.bad(
             2,
-            "specific_intensity is known to every camera",
+            "specific_intensity works with every camera",
             "plan",
             *hot,
             "--set",

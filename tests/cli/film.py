@@ -139,7 +139,8 @@ class Shares(Case):
             self.assertIn("it must be FIRST:LAST", self.only(TURN, "--state", state, f"--only={wrong}", code=2))
         self.assertIn("--state is missing", self.only(TURN, "--only", "0:1", code=2))
         self.assertIn(
-            "--only excludes -o", self.only(TURN, "--state", state, "--only", "0:1", "-o", self.path("x.zip"), code=2)
+            "--only cannot be used with -o",
+            self.only(TURN, "--state", state, "--only", "0:1", "-o", self.path("x.zip"), code=2),
         )
         self.assertIn(
             "/playground",
@@ -314,7 +315,7 @@ class Pictures(Case):
                 "with a playground",
             ),
             ({**TURN, "output": "light-curve", "motion_blur": {"samples": 2}}, [], "with an output of numbers"),
-            (TURN, ["--shutter", "0.5"], "takes samples"),
+            (TURN, ["--shutter", "0.5"], "samples is missing, which shutter needs"),
             (
                 {"scene": {"image": {**SIZE, "layers": ["g"]}}, "keyframes": keys, "motion_blur": {"samples": 2}},
                 [],
@@ -453,15 +454,17 @@ class Pictures(Case):
             ([], {**TURN, "exposure": "each"}),
             ([], {**TURN, "frames": 13}),
         ):
-            self.assertIn("are of another request", self.film("b.zip", request, "--state", folder, *options, code=2))
+            self.assertIn("belong to another request", self.film("b.zip", request, "--state", folder, *options, code=2))
         said = json.loads(pathlib.Path(folder, "film.json").read_text())
         for name, value in (("version", "0.0.1"), ("device", "an abacus")):
             pathlib.Path(folder, "film.json").write_text(json.dumps({**said, name: value}))
             self.assertIn(value, self.film("b.zip", TURN, "--state", folder, code=2))
         pathlib.Path(folder, "film.json").unlink()
-        self.assertIn("says not of which film", self.film("b.zip", TURN, "--state", folder, code=2))
+        self.assertIn("no record of their film", self.film("b.zip", TURN, "--state", folder, code=2))
         self.assertFalse(os.path.exists(self.path("b.zip")))
-        self.assertIn("cannot be made", self.film("b.zip", TURN, "--state", self.write("a file", "") + "/x", code=2))
+        self.assertIn(
+            "cannot create the folder", self.film("b.zip", TURN, "--state", self.write("a file", "") + "/x", code=2)
+        )
 
     def test_refused(self):
         for name, request, options, words in (
@@ -481,7 +484,7 @@ class Pictures(Case):
             ("a.zip", TURN, ["--asset", "sky=" + self.write("x.png", "no picture")], "x.png"),
             ("a.avi", TURN, [], ".mp4, .webm or .zip"),
             ("a.mp4", TURN, ["--rate", "121"], "--rate"),
-            ("a.zip", TURN, ["--rate", "24"], "--rate is of"),
+            ("a.zip", TURN, ["--rate", "24"], "--rate cannot be used with .zip"),
             ("a.zip", TURN, ["--device", "none such"], "none such"),
         ):
             done = support.run("film", "-", "-o", self.path(name), *options, stdin=json.dumps(request).encode())
@@ -502,7 +505,9 @@ class Pictures(Case):
             stdin=json.dumps(TURN).encode(),
             env={**os.environ, "PATH": self.folder},
         )
-        self.assertEqual((done.returncode, b"ffmpeg, which is not found" in done.stderr), (1, True), done.stderr)
+        self.assertEqual(
+            (done.returncode, b"ffmpeg, which encodes films, is not on the PATH" in done.stderr), (1, True), done.stderr
+        )
 
 
 class Films(Case):

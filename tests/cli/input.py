@@ -76,7 +76,7 @@ class Usage(Case):
         self.bad(2, "--asset sky: no field of the scene names it", "scene", "--asset", "sky=" + picture)
         self.bad(2, "not a PNG file", "scene", "--asset", "sky=" + self.write("b.png", "text"))
         for begin, words in (
-            (b"\x93NUMPY\x01\0", "an NPY file, which holds one array"),
+            (b"\x93NUMPY\x01\0", "an NPY file, which has one array"),
             (b"\x89HDF\r\n\x1a\n", "an HDF5 file"),
             (b"SIMPLE  =                    T", "a FITS file"),
         ):
@@ -84,7 +84,7 @@ class Usage(Case):
         self.bad(2, "No such file", "scene", "--asset", "sky=" + self.path("none.png"))
         self.bad(2, "this name is given twice", "scene", "--asset", "sky=a", "--asset", "sky=b")
         for text in "sky", "sky=", "=a.png", "2=a.png", "a/b=a.png", "a" * 64 + "=a.png":
-            self.bad(2, "it takes NAME=FILE", "scene", "--asset", text)
+            self.bad(2, "it must be NAME=FILE", "scene", "--asset", text)
 
     def test_places_in_a_document(self):
         self.bad(2, "line 3, column 10", "scene", self.write("a.json", '{\n  "camera": {\n    "r": nil\n  }\n}'))
@@ -136,7 +136,7 @@ class Usage(Case):
         self.bad(2, "no argument", "presets", "x")
         self.bad(2, "no argument", "serve", "x")
         self.bad(2, "no argument", "doctor", "x")
-        self.bad(2, "--json is for --selftest", "doctor", "--json")
+        self.bad(2, "--json needs --selftest", "doctor", "--json")
         self.bad(2, "error, warn, info or debug", "scene", "--log-level", "loud")
         for port in ["", "-1", "65536", "80x", " 80", "99999999999999999999"]:
             self.bad(2, "0 to 65535", "serve", "--port", port)
@@ -145,7 +145,7 @@ class Usage(Case):
         for address in ("0.0.0.0", "::", "[::]", "192.0.2.1", "2001:db8::1"):
             self.bad(
                 2,
-                f"other machines reach --listen {address}: --token-file FILE says who may use the server, --insecure lets everybody",
+                f"other machines can reach --listen {address}: give --token-file FILE for users with tokens, or --insecure for everybody",
                 "serve",
                 "--listen",
                 address,
@@ -162,8 +162,8 @@ class Usage(Case):
                 reason,
                 *([] if "absent" in reason else ["--base-path", "x/"]),
             )
-        self.bad(2, "excludes SCENE", "scene", "--from", "a.png", "b.json")
-        self.bad(2, "excludes --preset", "scene", "--from", "a.png", "--preset", "m87")
+        self.bad(2, "--from cannot be used with SCENE", "scene", "--from", "a.png", "b.json")
+        self.bad(2, "--from cannot be used with --preset", "scene", "--from", "a.png", "--preset", "m87")
 
 
 class Names(Case):
@@ -268,7 +268,7 @@ class Files(Case):
         for order in "utf-16", "utf-16-le", "utf-16-be":
             self.bad(
                 2,
-                "it is UTF-16, and JSON is UTF-8",
+                "it is UTF-16; JSON must be UTF-8",
                 "scene",
                 self.write("a.json", '{"camera": {"r": 50}}'.encode(order)),
             )
@@ -312,8 +312,8 @@ class Files(Case):
             [
                 "Where it listens:",
                 "Who may use it:",
-                "How much at once, and for whom:",
-                "What it keeps, and how it ends:",
+                "Limits:",
+                "State and shutdown:",
                 "The device:",
                 "Log and configuration:",
             ],
@@ -329,7 +329,7 @@ class Files(Case):
     def test_not_pictures(self):
         for content in "{}", "", b"\x89HDF\r\n\x1a\n":
             self.bad(2, "wrote as png, npz, fits or exr", "scene", "--from", self.write("a.h5", content))
-        self.bad(2, "use --from", "scene", self.write("a.png", b"\x89PNG\r\n\x1a\n"))
+        self.bad(2, "give it with --from", "scene", self.write("a.png", b"\x89PNG\r\n\x1a\n"))
 
     def test_full_disk(self):
         with open("/dev/full", "wb") as full:

@@ -80,7 +80,7 @@ class LightCurve(Case):
         self.bad(2, "--end is missing", "light-curve", "-n", "3")
         self.bad(2, '--start: time is "x"', "light-curve", "--preset", "hot-spot", "--start", "x")
         self.bad(2, "--end: time is 10000000000000", "light-curve", "--preset", "hot-spot", "--end", "1e13")
-        for words, option, value in ("--format png: json or csv", "-f", "png"), ("frames", "-n", "1"):
+        for words, option, value in ("--format is png; it must be json or csv", "-f", "png"), ("frames", "-n", "1"):
             done = run("light-curve", option, value)
             self.assertEqual(done.returncode, 2)
             self.assertIn(words, done.stderr.decode())

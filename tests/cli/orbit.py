@@ -56,17 +56,17 @@ class Orbit(Case):
         for e, words in [
             ("1", "e is 1; it must be 0 up to, not including, 1"),
             ("-1", "not including"),
-            ("half", "a number is wanted"),
+            ("half", "a number is needed"),
         ]:
             self.bad(2, words, "orbit", "--p", "8", f"--e={e}")
         self.bad(2, "separatrix", "orbit", "--p", "6.9", "--e", "0.5")
-        self.bad(2, "energy is given beside p", "orbit", "--p", "8", "--energy", "0.9")
+        self.bad(2, "energy cannot be used with p", "orbit", "--p", "8", "--energy", "0.9")
         self.bad(2, "(at /orbit/e)", "orbit", "--p", "8")
         self.bad(2, "(at /orbit/angular_momentum)", "orbit", "--energy", "0.95")
         self.bad(2, "(at /orbit/position/r)", "orbit", "--v-phi", "0.3")
         self.bad(
             2,
-            "application/x-ndjson streams one orbit",
+            "application/x-ndjson cannot be used with a list of orbits",
             "orbit",
             "-",
             "-f",

@@ -46,10 +46,10 @@ class Physics(Case):
             self.assertEqual((file.getframerate(), file.getnframes(), file.readframes(1)), (48000, 12000, b"\xff\x7f"))
         with open(path, "rb") as file:
             self.assertEqual(self.good("physics", "qnm", "--mass-msun", "62", "--format", "wav"), file.read())
-        self.bad(2, "20 to 20000 Hz can be heard", "physics", "qnm", "--mass-msun", "4e6", "-o", path)
+        self.bad(2, "for an audible 20 to 20000 Hz", "physics", "qnm", "--mass-msun", "4e6", "-o", path)
         self.bad(
             2,
-            "spin is a range of 3 values; in a sound it must be one",
+            "spin is a range of 3 values; for a sound it must be one value",
             "physics",
             "qnm",
             "--spin",
@@ -57,7 +57,7 @@ class Physics(Case):
             "-o",
             path,
         )
-        self.bad(2, 'format is "wav", and for kerr must be', "physics", "kerr", "-o", path)
+        self.bad(2, 'format is "wav"; for kerr it must be', "physics", "kerr", "-o", path)
 
     def test_forms(self):
         options = ["physics", "disk-flux", "--mass-msun", "10", "--r", "5:25:5"]

@@ -25,11 +25,13 @@ class Pictures(Case):
         self.assertIn(hashlib.sha256(pathlib.Path(snapshot).read_bytes()).hexdigest().encode(), header)
 
     def test_pictures_that_cannot_be(self):
-        self.bad(2, "one %d in it", "playground", "-p", "emri", "--every", "1", "--picture", self.path("a.png"))
+        self.bad(
+            2, "it must contain one %d", "playground", "-p", "emri", "--every", "1", "--picture", self.path("a.png")
+        )
         self.bad(1, "cannot write", "playground", "-p", "emri", "--time", "1e9", "--picture", self.path("none/a.png"))
         self.bad(1, "cannot write", "playground", "-p", "emri", "--time", "1e9", "--series", self.path("none/a.csv"))
         self.bad(2, "the name must end in", "playground", "-p", "emri", "--picture", self.path("a.gif"))
-        self.bad(2, "--picture FILE, which is missing", "playground", "-p", "emri", "--every", "1")
+        self.bad(2, "--picture FILE is missing", "playground", "-p", "emri", "--every", "1")
         self.bad(
             2,
             "at /spacetime/spin",
@@ -40,7 +42,15 @@ class Pictures(Case):
             "--scene-set",
             "spacetime.spin=0.5",
         )
-        self.bad(2, "which is missing: --scene-set and --size", "playground", "-p", "emri", "--size", "64x36")
+        self.bad(
+            2,
+            "--picture FILE is missing; it is needed by --scene-set and --size",
+            "playground",
+            "-p",
+            "emri",
+            "--size",
+            "64x36",
+        )
         for words, *arguments in [
             (b"PATH=VALUE", "--scene-set", "camera"),
             (b"WIDTHxHEIGHT", "--size", "640"),

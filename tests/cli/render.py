@@ -125,20 +125,14 @@ class Pictures(Case):
         self.assertEqual(again, self.read("a.png"))
         self.bad(
             2,
-            'sky.image is "orion", and there is no such asset here; it must be null and names of --asset NAME=FILE',
+            'sky.image is "orion", which is not a known asset; it must be null, or the NAME of an --asset NAME=FILE',
             "render",
             *named,
             "-o",
             "-",
         )
         self.bad(
-            2,
-            f'sky.image is "{one}", and there is no such asset here',
-            "render",
-            "--from",
-            self.path("a.png"),
-            "-o",
-            "-",
+            2, f'sky.image is "{one}", which is not a known asset', "render", "--from", self.path("a.png"), "-o", "-"
         )
         self.bad(
             2,
@@ -167,7 +161,7 @@ class Pictures(Case):
             self.good("render", *named, "--set", "sky.image=null", "-o", "-"), alone
         )  # the later of the two is used
         self.bad(
-            2, "image.width is null where a number is wanted", "render", *SMALL, "--set", "image.width=null", "-o", "-"
+            2, "image.width is null where a number is needed", "render", *SMALL, "--set", "image.width=null", "-o", "-"
         )
         self.assertIn(b"the generated Milky Way takes its place", text(alone)[b"kerrd:approximations"])
         self.assertNotIn(b"Copyright", text(alone))
@@ -232,7 +226,7 @@ class Pictures(Case):
         self.assertIn(b'"layers":["r"]', text(self.read("a.png"))[b"kerrd:scene"])
         self.bad(
             2,
-            "image.layers holds 2; in a file of the format png it must hold one",
+            "image.layers has 2 layers; for a file of the format png it must have one",
             "render",
             *SMALL,
             "--set",
@@ -270,7 +264,7 @@ class Pictures(Case):
             for kind, body in chunks(png)
             if kind != b"tEXt"
         )
-        self.bad(2, "holds no scene", "scene", "--from", self.write("b.png", bare))
+        self.bad(2, "contains no scene", "scene", "--from", self.write("b.png", bare))
 
     def test_stats(self):
         done = run("render", *SMALL, "--stats", "-o", self.path("a.png"))
@@ -340,7 +334,7 @@ class Pictures(Case):
         self.assertNotIn(b"volume_", self.read("b.png"))
         self.bad(
             2,
-            "accuracy.tolerance is 1e-06: light through volumes is added up in 32 bits and holds 5e-05 and above",
+            "accuracy.tolerance is 1e-06; for light through volumes, in 32 bits, it must be at least 5e-05",
             "render",
             "-p",
             "thick-disk",

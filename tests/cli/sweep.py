@@ -411,7 +411,7 @@ class Sweep(support.Case):
             ("-o FILE is missing", "-x", "time=0,1"),
             ("the name must end in", "-x", "time=0,1", "-o", "a.png"),
             ("spacetime.spin is 2; it must be", "-x", "spacetime.spin=0,2", *out),
-            ("no cube has pictures of several sizes", "-x", "image.width=32,64", *out),
+            ("cannot be an axis of a cube", "-x", "image.width=32,64", *out),
             (
                 "with spacetime.spin 0 and disk.inner 2: disk.inner is 2 M",
                 "-x",

@@ -159,10 +159,10 @@ class Trace(Case):
 
     def test_refused(self):
         self.bad(2, "(at /rays)", *RAY, "--ray", "1,2")
-        self.bad(2, "no steps", *RAY[:7], "--engine", "closed")
+        self.bad(2, "takes no steps", *RAY[:7], "--engine", "closed")
         self.bad(2, "steps or path", *RAY, "--trace=all")
         self.bad(2, "not npy", *RAY, "--format", "npy")
-        self.bad(2, "only --trace", "rays", "--ray", "1,2", "--format", "text")
+        self.bad(2, "--format text needs --trace", "rays", "--ray", "1,2", "--format", "text")
         self.bad(2, "(at /spin)", *RAY, "--spin", "2")
         with open("/dev/full", "wb") as full:
             self.bad(1, "No space left", *RAY, stdout=full)

@@ -178,13 +178,15 @@ class View(Case):
             shown = Terminal(*SMALL, answer=answer)
             self.assertEqual((shown.code, shown.sent), (1, b""), answer)
             self.assertIn(
-                "this terminal can show no picture, neither by kitty's graphics nor as sixel: `kerrd render -o FILE.png`",
-                shown.stderr,
+                "this terminal supports neither kitty's graphics nor sixel: `kerrd render -o FILE.png`", shown.stderr
             )
             self.assertEqual(shown.stderr.count("\n"), 1)
             self.assertTrue(shown.kept)
             self.assertGreaterEqual(shown.seconds, seconds)
-        self.assertIn("or tmux", Terminal(*SMALL, answer=NEITHER, env={**os.environ, "TMUX": "/tmp/x,1,0"}).stderr)
+        self.assertIn(
+            "or the tmux in front of it",
+            Terminal(*SMALL, answer=NEITHER, env={**os.environ, "TMUX": "/tmp/x,1,0"}).stderr,
+        )
         # "44" and "64" are not a 4 in the list
         self.assertNotEqual(Terminal(*SMALL, answer=NEITHER.replace(b"6", b"44;64")).code, 0)
 
@@ -194,7 +196,7 @@ class View(Case):
         self.assertEqual((shown.code, shown.kept), (-signal.SIGINT, True))
 
     def test_no_terminal(self):
-        self.bad(1, "standard output is no terminal", "view", *SMALL)
+        self.bad(1, "standard output is not a terminal", "view", *SMALL)
         self.bad(2, "(at /image/width)", "view", "--set", "image.width=0")  # this is checked first
         self.bad(2, "kitty or sixel", "view", "--protocol", "iterm")
         _, png, rest = kitty(self.good("view", *SMALL, "--protocol", "kitty"))
@@ -276,7 +278,7 @@ class View(Case):
 
     def test_bad_pictures(self):
         png = self.rendered(*SMALL)
-        self.bad(2, "give it by --from", "view", self.path("same.png"), "--set", "camera.r=30", "--protocol", "kitty")
+        self.bad(2, "give it with --from", "view", self.path("same.png"), "--set", "camera.r=30", "--protocol", "kitty")
         chunk = lambda kind, data: (
             struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
         )

@@ -233,7 +233,7 @@ class Visibility(Case):
         ):
             self.bad(2, words, "spectrum", *args)
         ring = self.write("a.json", json.dumps({"preset": "m87"}))
-        self.bad(2, "beside a file that has a scene", "visibility", ring, "-p", "riaf")
+        self.bad(2, "cannot be used with a file that has a scene", "visibility", ring, "-p", "riaf")
         self.bad(2, "(at /u)", "visibility", "--u", "1")
 
 

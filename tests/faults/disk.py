@@ -92,7 +92,7 @@ class Operations(Case):
                 self.assertIn(
                     os.strerror(number),
                     told.read(),
-                    f"operation {n} has failed, and nobody was told; asked for at {faults.where(self.faults.failed_from)}",
+                    f"operation {n} has failed without a message; requested at {faults.where(self.faults.failed_from)}",
                 )
                 word = "whole, and the log says what failed"
             outcomes[word] += 1

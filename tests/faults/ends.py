@@ -19,7 +19,7 @@ BIG = {"image": {"width": 800, "height": 600, "samples": 2}, "time": 5}  # 1.4 M
 
 class Descriptors(state.Case):
     def test_none_is_left(self):
-        """While no descriptor is left, connected clients are answered and new ones are told why not. Nothing that was
+        """While no descriptor is left, connected clients are answered and new ones get an error with the reason. Nothing that was
         accepted is lost, and everything works when there are some again."""
         server = self.start()
         held = [http.client.HTTPConnection("127.0.0.1", server.port, timeout=30) for _ in range(3)]
@@ -70,7 +70,7 @@ class Descriptors(state.Case):
                 if answer:
                     self.assertIn(answer.status, (200, 503), "200: the job has just closed a file")
                 outcomes.append(f"{answer.status}: a new connection" if answer else "closed: a new connection")
-            self.assertGreaterEqual(outcomes.count("503: a new connection"), 15, "new ones are told")
+            self.assertGreaterEqual(outcomes.count("503: a new connection"), 15, "new ones get an error")
         finally:
             resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE, limits)
         self.assertTrue(daemon.eventually(lambda: server.get("/healthz").status == 200))

@@ -195,7 +195,7 @@ class Long(Case):
                 with self.assertRaises((OSError, daemon.http.client.HTTPException)):
                     server.get(RENDER + "&camera.inclination_deg=50")
                 self.assertEqual(server.wait(60), EXIT_DEVICE)
-                self.assertIn("no sign of life", server.said())
+                self.assertIn("has not responded", server.said())
                 self.faults.set(hang=0)
 
     def test_a_device_that_fails_while_it_hangs_is_not_opened_beside_itself(self):
@@ -210,7 +210,7 @@ class Long(Case):
             self.assertEqual(server.get(RENDER + "&disk.gas.amplitude=0.5").status, 500)  # this picture traces no rays
         self.assertEqual(server.wait(60), EXIT_DEVICE)
         self.assertEqual(self.faults.get("injected"), 1)
-        self.assertNotIn("opened again", server.said())
+        self.assertNotIn("reopened", server.said())
         self.assertEqual(self.faults.calls()["CreateDevice"], before)
 
 

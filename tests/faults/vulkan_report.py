@@ -35,8 +35,8 @@ def table(results):
         + ".",
         "",
         f"Each call of an entry point may fail with each of the codes that the specification lets it return: {possible} faults, in the column Of. All of them were tried in these scenarios: "
-        f"{', '.join(whole) or 'none'}. In the others each call failed with one of its codes, by turns, unless it but names an object, of which every eighth did. `tests/faults/vulkan.py --full` makes this "
-        "table, `--whole` says of which scenarios all are tried.",
+        f"{', '.join(whole) or 'none'}. In the others each call failed with one of its codes, by turns, except for calls that only name an object: every eighth of them failed. `tests/faults/vulkan.py --full` makes this "
+        "table, `--whole` chooses the scenarios in which all are tried.",
         "",
         "- `same`: the same bytes as without the fault; the driver was asked again, or for something that a picture can do without.",
         "- `recovered`: the same bytes, after the device was closed and opened once more.",

@@ -45,7 +45,7 @@ static bool is_small(const struct kd_playground *p)
 
 static void check(struct kd_playground *p)
 {
-    struct kd_dynamic_bodies *crowd = NULL;
+    struct kd_dynamic_bodies *dynamic = NULL;
     struct kd_error error = { 0 };
     for (size_t i = 0; i < p->n; i++)
         for (int k = 0; k < 3; k++)
@@ -55,10 +55,10 @@ static void check(struct kd_playground *p)
         return;
     check_status(p);
     check_snapshot(p);
-    const enum kd_status status = kd_playground_show(p, &crowd, &error);
+    const enum kd_status status = kd_playground_show(p, &dynamic, &error);
     if (status)
         kd_fuzz_refused(status, &error);
-    kd_dynamic_bodies_release(crowd);
+    kd_dynamic_bodies_release(dynamic);
 }
 
 static void change(struct kd_playground **p, const struct kd_fuzz_text *patch)

@@ -148,11 +148,11 @@ static void sky_shot(size_t i, char name[64], char json[640], struct shot *out)
     *out = (struct shot) { .name = name, .json = json };
 }
 
-static struct kd_dynamic_bodies *crowd_of(const struct shot *shot)
+static struct kd_dynamic_bodies *dynamic_of(const struct shot *shot)
 {
     struct kd_playground_progress progress;
     struct kd_playground *p = NULL;
-    struct kd_dynamic_bodies *crowd = NULL;
+    struct kd_dynamic_bodies *dynamic = NULL;
     struct kd_error error;
     enum kd_status status = kd_playground_read(shot->playground, strlen(shot->playground), &p, &error);
     if (!status)
@@ -160,23 +160,23 @@ static struct kd_dynamic_bodies *crowd_of(const struct shot *shot)
     if (!status && progress.slowed)
         status = kd_error_set(&error, KD_EINVAL, "the budget of sub-steps was spent after %g M", progress.done);
     if (!status)
-        status = kd_playground_show(p, &crowd, &error);
+        status = kd_playground_show(p, &dynamic, &error);
     kd_playground_destroy(p);
     if (status) {
         fprintf(stderr, "%s: %s\n", shot->name, error.message);
         exit(1);
     }
-    return crowd;
+    return dynamic;
 }
 
 static struct kd_frame render(const struct shot *shot, const struct kd_scene *scene)
 {
     struct kd_scene shown = *scene;
-    struct kd_dynamic_bodies *crowd = shot->playground ? crowd_of(shot) : NULL;
-    if (crowd)
-        kd_scene_show(&shown, crowd);
+    struct kd_dynamic_bodies *dynamic = shot->playground ? dynamic_of(shot) : NULL;
+    if (dynamic)
+        kd_scene_show(&shown, dynamic);
     struct kd_frame frame = studio_render(&shown);
-    kd_dynamic_bodies_release(crowd);
+    kd_dynamic_bodies_release(dynamic);
     return frame;
 }
 

@@ -83,9 +83,9 @@ static void symmetries(void **state)
           "\"camera\":{\"r\":30,\"observer\":\"zamo\",\"roll_deg\":-180}", FLIP_X | FLIP_Y },
         { "roll by a whole turn, looking aside", "\"camera\":{\"r\":30,\"yaw_deg\":5,\"pitch_deg\":3}",
           "\"camera\":{\"r\":30,\"yaw_deg\":5,\"pitch_deg\":3,\"roll_deg\":360}", 0 },
-        { "azimuth, of which the disk knows nothing", "\"camera\":{\"azimuth_deg\":0}",
+        { "azimuth, which does not change the disk", "\"camera\":{\"azimuth_deg\":0}",
           "\"camera\":{\"azimuth_deg\":77}", 0 },
-        { "mass and rate, of which a chosen temperature knows nothing", "\"disk\":{\"mdot_edd\":0.1}",
+        { "mass and rate, which do not change a chosen temperature", "\"disk\":{\"mdot_edd\":0.1}",
           "\"disk\":{\"mdot_edd\":3},\"spacetime\":{\"mass_msun\":10}", 0 },
     };
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {

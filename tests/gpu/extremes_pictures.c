@@ -91,7 +91,7 @@ static const struct picture pictures[] = {
       true, 0 },
     /* a = 0, r = L^(2/3) = 2.4957 M: E (r^(3/2) + a) - L, the divisor in g of an orbit there, vanishes in single
      * precision in some thirty pixels. */
-    { "inside the orbit of light, E = Omega L",
+    { "inside the photon orbit, E = Omega L",
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":80,\"centre_alpha\":-4,\"centre_beta\":2.2892487,"
       "\"field_m\":5e-5},"
       "\"image\":{\"width\":96,\"height\":96}}",

@@ -248,11 +248,11 @@ static struct lack {
     bool gives_up;
 } lack;
 
-static bool lacks(void *user, struct kd_compilation *c, bool aside)
+static bool lacks(void *user, struct kd_compilation *c, bool background)
 {
     assert_ptr_equal(user, &lack);
     lack.times++;
-    lack.background_renders += aside;
+    lack.background_renders += background;
     const uint32_t before = made();
     compiled(c);
     assert_int_equal(made(), before + 1);
@@ -327,26 +327,26 @@ static void bodies_are_held_while_kernels_are_compiled(void **state)
     struct kd_scene scene;
     struct kd_plan plan;
     struct kd_capacity capacity;
-    struct kd_dynamic_bodies *crowd;
+    struct kd_dynamic_bodies *dynamic;
     kd_scene_smooth(&scene);
     scene.image.width = 67;
     scene.image.height = 36;
-    OK(kd_dynamic_bodies_create(1, 0, 0, &crowd, &error));
-    crowd->bodies[0] = (struct kd_seen_body) { .r = 12, .s = 1, .radius = 1, .temperature_k = 6000, .brightness = 1 };
-    kd_scene_show(&scene, crowd);
+    OK(kd_dynamic_bodies_create(1, 0, 0, &dynamic, &error));
+    dynamic->bodies[0] = (struct kd_seen_body) { .r = 12, .s = 1, .radius = 1, .temperature_k = 6000, .brightness = 1 };
+    kd_scene_show(&scene, dynamic);
     kd_renderer_capacity(renderer, &capacity);
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
     kd_kernels_finish(&renderer->kernels, renderer->vk);
     struct kd_compilation *c = kd_compilation_begin(renderer, &scene, &plan);
     assert_non_null(c);
-    assert_int_equal(atomic_load(&crowd->holders), 2);
-    kd_dynamic_bodies_release(crowd);
+    assert_int_equal(atomic_load(&dynamic->holders), 2);
+    kd_dynamic_bodies_release(dynamic);
     OK(kd_compilation_run(c, goes_on, NULL, &error));
-    assert_int_equal(atomic_load(&crowd->holders), 1);
-    kd_dynamic_bodies_keep(crowd);
+    assert_int_equal(atomic_load(&dynamic->holders), 1);
+    kd_dynamic_bodies_keep(dynamic);
     kd_compilation_end(c);
-    assert_int_equal(atomic_load(&crowd->holders), 1);
-    kd_dynamic_bodies_release(crowd);
+    assert_int_equal(atomic_load(&dynamic->holders), 1);
+    kd_dynamic_bodies_release(dynamic);
 }
 
 int main(void)

@@ -52,17 +52,18 @@ static void every_level(void **state)
 {
     (void)state;
     enum { LEVELS = 65536, SIDES = 3, N = LEVELS * SIDES / 3 };
-    static const double aside[SIDES] = { -0.44, 0, 0.44 };
+    static const double background[SIDES] = { -0.44, 0, 0.44 };
     static float light[3 * N];
     static uint16_t found[3 * (N + KD_GROUP_SIZE * KD_POST_PIXELS)];
     for (int k = 0; k < LEVELS; k++)
         for (int side = 0; side < SIDES; side++) /* pixel k has the three sides as its channels */
-            light[3 * k + side] = (float)decode(fmin(fmax(k + aside[side], 0), LEVELS - 1) / (LEVELS - 1));
+            light[3 * k + side] = (float)decode(fmin(fmax(k + background[side], 0), LEVELS - 1) / (LEVELS - 1));
     for (int texels = 0; texels < 2; texels++) {
         post(texels, false, true, light, (struct kd_post_push) { .gain = 1, .pixels = N, .pixels_x = N }, found);
         for (int i = 0; i < 3 * N; i++)
             if (found[i] != i / 3)
-                fail_msg("light %.9g, level %d%+.2f, came out as %d", (double)light[i], i / 3, aside[i % 3], found[i]);
+                fail_msg("light %.9g, level %d%+.2f, came out as %d", (double)light[i], i / 3, background[i % 3],
+                         found[i]);
     }
 }
 

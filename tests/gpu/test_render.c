@@ -300,7 +300,7 @@ struct others {
     struct kd_scene scenes[2];
     struct kd_plan plans[2];
     struct kd_frame frames[2];
-    int crowd; /* number of additional kernels requested */
+    int dynamic; /* number of additional kernels requested */
     int calls;
 };
 
@@ -314,7 +314,7 @@ static bool let_others(void *user, double fraction)
         return true;
     OK(kd_render_in_background(o->r, &o->scenes[0], &o->plans[0], NULL, NULL, NULL, &o->frames[0], &error));
     OK(kd_render(o->r, &o->scenes[1], &o->plans[1], NULL, NULL, &o->frames[1], &error));
-    for (int i = 0; i < o->crowd; i++) {
+    for (int i = 0; i < o->dynamic; i++) {
         const struct kd_capacity c = capacity();
         struct kd_scene scene = small_scene();
         struct kd_plan plan;
@@ -335,7 +335,7 @@ static void test_asides(void **state)
     (void)state;
     const struct kd_capacity c = capacity();
     enum { KEPT = 8 };
-    struct others o = { .crowd = KEPT };
+    struct others o = { .dynamic = KEPT };
     struct kd_scene scene = small_scene();
     struct kd_plan plan;
     struct kd_frame beside, alone;
@@ -343,7 +343,7 @@ static void test_asides(void **state)
     scene.accuracy.profile = KD_PROFILE_HIGH;
     OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .validate = true, .passing = true }, &o.r,
                           &error));
-    o.r->kernels.kept = KEPT; /* the interleaved pictures evict all kernels of the picture */
+    o.r->kernels.limit = KEPT; /* the interleaved pictures evict all kernels of the picture */
     OK(kd_plan_make(&scene, &c, &plan, &error));
     plan.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
     for (int i = 0; i < 2; i++) {
@@ -385,22 +385,22 @@ static void test_a_map_that_is_handed_over(void **state)
     const struct kd_capacity c = capacity();
     struct kd_scene scene = small_scene();
     struct kd_plan plan;
-    struct kd_frame here, aside, again;
+    struct kd_frame here, background, again;
     struct kd_renderer *fresh;
     scene.image.samples = 0; /* auto */
     OK(kd_plan_make(&scene, &c, &plan, &error));
     assert_true(plan.adaptive);
     OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .passing = true }, &fresh, &error));
     OK(kd_render(fresh, &scene, &plan, NULL, NULL, &here, &error));
-    OK(kd_render_in_background(fresh, &scene, &plan, NULL, NULL, NULL, &aside, &error));
+    OK(kd_render_in_background(fresh, &scene, &plan, NULL, NULL, NULL, &background, &error));
     assert_true(timing_of(&here, "kernels") > 0 &&
-                isnan(timing_of(&aside, "kernels"))); /* the first one had to compile them */
-    assert_true(aside.lens_reused && aside.accuracy.followed > 0);
+                isnan(timing_of(&background, "kernels"))); /* the first one had to compile them */
+    assert_true(background.lens_reused && background.accuracy.followed > 0);
     kd_store_hand_over(&fresh->background_renders[0].store, &fresh->store, &plan);
     OK(kd_render(fresh, &scene, &plan, NULL, NULL, &again, &error));
     assert_true(again.lens_reused);
     kd_frame_finish(&again);
-    assert_same(&here, &aside);
+    assert_same(&here, &background);
     kd_renderer_destroy(fresh);
 }
 
@@ -422,7 +422,7 @@ static void test_rest(void **state)
     enum { VIEWS = 6, BLOCKS = 128 << 20 };
     struct kd_scene scene = small_scene();
     struct kd_renderer *fresh;
-    uint64_t kept[KD_N_KEPT_KINDS], sum = 0;
+    uint64_t kept[KD_N_CACHE_KINDS], sum = 0;
     OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .passing = true }, &fresh, &error));
     scene.image.samples = 2;
     scene.image.width = 1280;
@@ -440,21 +440,21 @@ static void test_rest(void **state)
         /* As if no memory, or all of this process's and much more, had been added since it was opened. */
         fresh->opened_bytes = fresh->started_bytes = often ? 0 : UINT64_MAX / 4;
         OK(kd_renderer_rest(fresh, &error));
-        kd_renderer_kept(fresh, kept);
+        kd_renderer_cached(fresh, kept);
         sum = 0;
-        for (int i = 0; i < KD_N_KEPT_KINDS; i++)
+        for (int i = 0; i < KD_N_CACHE_KINDS; i++)
             sum += kept[i];
         print_message("%.0f MiB were held on the device, %.0f are, %.0f are kept in all, %.0f of them without a name\n",
                       (double)held / 0x1p20, (double)kd_renderer_held(fresh) / 0x1p20, (double)sum / 0x1p20,
-                      (double)kept[KD_KEPT_OTHER] / 0x1p20);
+                      (double)kept[KD_CACHE_OTHER] / 0x1p20);
         if (often) /* other resident memory keeps its category after reopening */
-            assert_true(kept[KD_KEPT_OTHER] + kept[KD_KEPT_HEAP] > 1 << 20);
+            assert_true(kept[KD_CACHE_OTHER] + kept[KD_CACHE_HEAP] > 1 << 20);
         assert_true(kd_renderer_held(fresh) < held &&
                     kd_renderer_held(fresh) <= BLOCKS); /* each of the map's buffers may keep one */
         if (!often)
-            assert_in_range(kept[KD_KEPT_LENS_MAPS], 1, KD_REST_MAPS_BYTES);
+            assert_in_range(kept[KD_CACHE_LENS_MAPS], 1, KD_REST_MAPS_BYTES);
         after = rendered_by(fresh, &scene);
-        assert_int_equal(after.lens_reused, kept[KD_KEPT_LENS_MAPS] > 0);
+        assert_int_equal(after.lens_reused, kept[KD_CACHE_LENS_MAPS] > 0);
         assert_same(&before, &after);
     }
     kd_renderer_destroy(fresh);
@@ -474,7 +474,7 @@ static void test_what_idle_asides_keep_is_bounded(void **state)
     OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .passing = true }, &fresh, &error));
     scene.image.width = 1280;
     scene.image.height = 720;
-    uint64_t kept[KD_N_KEPT_KINDS], all = 0, one = 0;
+    uint64_t kept[KD_N_CACHE_KINDS], all = 0, one = 0;
     for (int i = 0; i <= VIEWS; i++) {
         scene.camera.inclination_deg = 33 + i % VIEWS + (i == VIEWS ? VIEWS - 1 : 0); /* the last one once more */
         OK(kd_plan_make(&scene, &c, &plan, &error));
@@ -486,9 +486,9 @@ static void test_what_idle_asides_keep_is_bounded(void **state)
             all += kd_store_bytes(&fresh->background_renders[k].store);
         one = i ? one : all;
     }
-    kd_renderer_kept(fresh, kept);
+    kd_renderer_cached(fresh, kept);
     print_message("%.0f MiB of one picture, %.0f of %d, %.0f of them lens maps\n", (double)one / 0x1p20,
-                  (double)all / 0x1p20, VIEWS, (double)kept[KD_KEPT_LENS_MAPS] / 0x1p20);
+                  (double)all / 0x1p20, VIEWS, (double)kept[KD_CACHE_LENS_MAPS] / 0x1p20);
     assert_true(VIEWS * one > KD_IDLE_ASIDES_BYTES + one);
     assert_in_range(all, one, KD_IDLE_ASIDES_BYTES + one);
     kd_renderer_destroy(fresh);
@@ -499,13 +499,13 @@ static void test_what_is_resident_is_counted_when_asked(void **state)
 {
     (void)state;
     const uint64_t started = renderer->started_bytes;
-    uint64_t kept[KD_N_KEPT_KINDS];
+    uint64_t kept[KD_N_CACHE_KINDS];
     renderer->started_bytes = UINT64_MAX / 4; /* as if more memory had been resident at the start, ... */
-    kd_renderer_kept(renderer, kept);
-    assert_int_equal(kept[KD_KEPT_OTHER], 0);
+    kd_renderer_cached(renderer, kept);
+    assert_int_equal(kept[KD_CACHE_OTHER], 0);
     renderer->started_bytes = 0; /* ... and as if none had been */
-    kd_renderer_kept(renderer, kept);
-    assert_true(kept[KD_KEPT_OTHER] > 1 << 20);
+    kd_renderer_cached(renderer, kept);
+    assert_true(kept[KD_CACHE_OTHER] > 1 << 20);
     renderer->started_bytes = started;
 }
 

@@ -328,9 +328,8 @@ static void here_and_gone(void **state)
     assert_int_equal(kd_render(renderer, &none, &plan, NULL, NULL, &frame, &why), KD_EINVAL);
     assert_string_equal(why.pointer, "/sky/image");
     assert_string_equal(why.message,
-                        "sky.image is \"00000000000000000000000000000000000000000000000000000000000000ff\", and the "
-                        "bytes of this asset are "
-                        "not here; it must be those of this test");
+                        "sky.image is \"00000000000000000000000000000000000000000000000000000000000000ff\", whose file "
+                        "is missing; it must be those of this test");
     const char *damaged = keep(32, 16, pixels, "");
     keeper.at[keeper.n - 1].png.data[keeper.at[keeper.n - 1].png.size - 20] ^= 1;
     none = scene_of(KD_SKY_IMAGE, damaged);

@@ -83,7 +83,7 @@ static void refused(void **state)
     size_t index;
     char why[640];
     (void)state;
-    FAILS(KD_EINVAL, "there is no device 5, only 0: llvmpipe", choose(5, "5", &index, why, &error));
+    FAILS(KD_EINVAL, "there is no device 5; there are 0: llvmpipe", choose(5, "5", &index, why, &error));
     FAILS(KD_EINVAL, "there is no device 99999999999999999999", choose(5, "99999999999999999999", &index, why, &error));
     FAILS(KD_EINVAL, "1: Ancient GPU (unusable)", choose(5, "radeon", &index, why, &error));
     FAILS(KD_EDEVICE, "device 1 (Ancient GPU) lacks Vulkan 1.2", choose(5, "1", &index, why, &error));

@@ -76,7 +76,7 @@ static void refused(void **state)
     (void)state;
     FAILS(KD_EINVAL, "there is no device 77", open_as("77", &vk, &error));
     assert_null(vk);
-    FAILS(KD_EINVAL, "no device is called 'no such thing'", open_as("no such thing", &vk, &error));
+    FAILS(KD_EINVAL, "no device has the name 'no such thing'", open_as("no such thing", &vk, &error));
     FAILS(KD_EINVAL, infos[0].name, open_as("no such thing", &vk, &error));
     assert_null(vk);
 }
@@ -92,7 +92,7 @@ static void for_pipelines_alone(void **state)
         &error));
     struct kd_vk_pipeline *pipeline = make_mix(vk, 3);
     assert_non_null(pipeline);
-    FAILS(KD_EINTERNAL, "pipelines alone", kd_vk_buffer_create(vk, 64, KD_VK_UPLOAD, "x", &buffer, &error));
+    FAILS(KD_EINTERNAL, "only for pipelines", kd_vk_buffer_create(vk, 64, KD_VK_UPLOAD, "x", &buffer, &error));
     assert_null(buffer);
     OK(kd_vk_submit(vk, NULL, &error)); /* nothing recorded */
     OK(kd_vk_wait(vk, 0, &error));

@@ -125,7 +125,7 @@ static void refused(void **state)
     struct kd_vk_pipeline_params params = { .name = "p", .spirv = mix_spv, .spirv_bytes = sizeof mix_spv - 1 };
     FAILS(KD_EINTERNAL, "not SPIR-V", kd_vk_pipeline_create(vk, &params, &none, &error));
     params.spirv_bytes++, params.n_buffers = KD_VK_MAX_BINDINGS + 1;
-    FAILS(KD_EINTERNAL, "13 buffers, at most 12", kd_vk_pipeline_create(vk, &params, &none, &error));
+    FAILS(KD_EINTERNAL, "13 buffers; there must be at most 12", kd_vk_pipeline_create(vk, &params, &none, &error));
     params.n_buffers = 2, params.push_bytes = 1u << 20;
     FAILS(KD_EINTERNAL, "push constants", kd_vk_pipeline_create(vk, &params, &none, &error));
     assert_null(none);
@@ -150,7 +150,7 @@ static void wide_binding(void **state)
                                 .pipeline = pipeline,
                                 .bindings = { { .buffer = big }, { .buffer = big, .size = 256, .write = true } },
                                 .push = &push };
-    FAILS(KD_ETOOBIG, "binds at most", kd_vk_dispatch(vk, &d, &error));
+    FAILS(KD_ETOOBIG, "on this device it must have at most", kd_vk_dispatch(vk, &d, &error));
     kd_vk_buffer_destroy(vk, big);
     kd_vk_pipeline_destroy(vk, pipeline);
 }

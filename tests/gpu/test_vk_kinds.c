@@ -171,7 +171,7 @@ static void refused(void **state)
     struct kd_vk_dispatch bad;
     for (int k = 0; k < 3; k++) {
         bad = good, bad.bindings[k].write = true;
-        FAILS(KD_EINTERNAL, "is no storage buffer", kd_vk_dispatch(vk, &bad, &error));
+        FAILS(KD_EINTERNAL, "is not a storage buffer", kd_vk_dispatch(vk, &bad, &error));
     }
     bad = good, bad.bindings[1].size = 7;
     FAILS(KD_EINTERNAL, "whole texels of 4 bytes", kd_vk_dispatch(vk, &bad, &error));
@@ -186,7 +186,7 @@ static void refused(void **state)
     FAILS(KD_EINTERNAL, "whole texels of 16 bytes", kd_vk_dispatch(vk, &bad, &error)); /* less than one texel */
     struct kd_vk_pipeline_params params = KINDS_PARAMS;
     params.kinds[1] = (enum kd_vk_kind)6;
-    FAILS(KD_EINTERNAL, "binding 1 is of kind 6", kd_vk_pipeline_create(vk, &params, &none, &error));
+    FAILS(KD_EINTERNAL, "binding 1 has the unknown kind 6", kd_vk_pipeline_create(vk, &params, &none, &error));
     kd_vk_buffer_destroy(vk, crumb);
     drop(vk, &set);
     kd_vk_pipeline_destroy(vk, pipeline);
@@ -209,9 +209,9 @@ static void limits(void **state)
         struct kd_vk_dispatch d = dispatch_of(pipeline, &set, 64);
         OK(kd_vk_fill(vk, "fill", large, 0, kd_vk_buffer_size(large), 0, &error));
         d.bindings[k].buffer = large;
-        FAILS(KD_ETOOBIG, "binds at most", kd_vk_dispatch(vk, &d, &error));
+        FAILS(KD_ETOOBIG, "on this device it must have at most", kd_vk_dispatch(vk, &d, &error));
         d.bindings[k].size = most[k] + 16;
-        FAILS(KD_ETOOBIG, "binds at most", kd_vk_dispatch(vk, &d, &error));
+        FAILS(KD_ETOOBIG, "on this device it must have at most", kd_vk_dispatch(vk, &d, &error));
         d.bindings[k].size = most[k];
         OK(kd_vk_dispatch(vk, &d, &error));
         finish(vk);

@@ -107,7 +107,7 @@ class Roles(Access):
         self.assertIsNone(answer.header("Set-Cookie"))
         self.assertEqual(
             problem["detail"],
-            "this server takes one of its access tokens, as Authorization: Bearer TOKEN or Kerrd-Access: TOKEN",
+            "this server needs an access token, as Authorization: Bearer TOKEN or Kerrd-Access: TOKEN",
         )
 
     def test_nobody_else_is_served(self):
@@ -422,17 +422,17 @@ class Files(daemon.unittest.TestCase):
     def test_lines_that_are_wrong(self):
         good = f"ann view {VIEW}\n"
         for text, said in (
-            ("", "holds no token"),
-            ("# ann view x\n\n", "holds no token"),
+            ("", "has no token"),
+            ("# ann view x\n\n", "has no token"),
             ("ann view\n", "line 1"),
             (good + "bob", "line 2"),
-            (good + f"bob render {RENDER} more", "it must be NAME ROLE TOKEN"),
+            (good + f"bob render {RENDER} more", "a line must be NAME ROLE TOKEN"),
             (f"ann admin {VIEW}", "the role must be view or render"),
             (f"ann View {VIEW}", "view or render"),
             ("ann view 0123456789abcde", "16 to 256"),
             (f"ann view {257 * 'a'}", "16 to 256"),
-            ('ann view 0123456789"abcdef', "made of letters"),
-            ("ann view 0123456789;abcdef", "made of letters"),
+            ('ann view 0123456789"abcdef', "consist of letters"),
+            ("ann view 0123456789;abcdef", "consist of letters"),
             (good + f"bob render {VIEW}", "the same token"),
             (good + f"ann render {RENDER}", "the same name"),
             (f"a/b view {VIEW}", "at most 32"),
@@ -446,7 +446,7 @@ class Files(daemon.unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for mode in (0o604, 0o602, 0o644, 0o660):
                 self.assertIn(
-                    f"by others (mode {mode:o}): chmod 600", self.start("--token-file", token_file(folder, LINES, mode))
+                    f"has mode {mode:o}: use chmod 600", self.start("--token-file", token_file(folder, LINES, mode))
                 )
             for mode in (0o600, 0o400, 0o640):
                 server = daemon.Daemon("--drain-ms", 10, "--token-file", token_file(folder, LINES, mode))

@@ -183,8 +183,8 @@ class Assets(Case):
             (good.replace(header, header[:-1] + b"?"), "damaged PNG file"),
             (good.replace(b"IHDR", b"JHDR"), "damaged PNG file"),
             (good.replace(b"IDAT", b"IDBT"), "damaged PNG file"),
-            (huge(32769, 1), "each side is 1 to 32768"),
-            (huge(0, 5), "each side is"),
+            (huge(32769, 1), "each side must be 1 to 32768"),
+            (huge(0, 5), "each side must be"),
             (huge(30000, 30000), "too short for its width and height"),
             (png(depth=8, before=chunk(b"ABCD", b"x")), "damaged PNG file"),
         ):
@@ -229,7 +229,7 @@ class Assets(Case):
         self.assertEqual(self.daemon.post("/v1/plan", scene).status, 200)
         scene["spacetime"]["spin"] = 0.6
         self.assertIn(
-            "of the spin 0.5, and spacetime.spin is 0.6",
+            "of spin 0.5; spacetime.spin is 0.6",
             self.assertProblem(self.daemon.post("/v1/plan", scene), 422, pointer="/volume/grid")["detail"],
         )
         self.assertIn(
@@ -256,7 +256,7 @@ class Assets(Case):
             self.assertProblem(self.put(png(8, 4), "application/x-npz"), 422, "invalid-asset")["detail"],
         )
         self.assertIn(
-            "header.spin is no number",
+            "header.spin is not a number",
             self.assertProblem(self.put(grid(2), "application/x-npz"), 422, "invalid-asset")["detail"],
         )
         self.assertIn(
@@ -269,7 +269,7 @@ class Assets(Case):
             # front
         )
         self.assertIn(
-            "its directory lies on several disks",
+            "it is split over several disks",
             self.assertProblem(self.put(elsewhere, "application/x-npz"), 422, "invalid-asset")["detail"],
         )
         self.assertEqual(self.delete(asset).status, 204)
@@ -299,8 +299,8 @@ class Assets(Case):
         self.assertProblem(self.put(png(), **{"Sec-Fetch-Site": "cross-site"}), 403, "cross-site")
 
     def test_many_at_once(self):
-        """A client that uploads the same bytes as others at the same time is told that it was the first, or waits, or
-        is told that they exist."""
+        """A client that uploads the same bytes as others at the same time gets 201 for the first upload, or waits, or
+        gets 200 for existing bytes."""
         picture, answers = png(300, 300, seed=9), []
         threads = [threading.Thread(target=lambda: answers.append(self.put(picture))) for _ in range(6)]
         for thread in threads:
@@ -334,7 +334,7 @@ class Limits(Case):
         kept = [self.made(png(seed=i)) for i in range(3)]
         problem = self.assertProblem(self.put(png(seed=3)), 429, "quota")
         self.assertIn("you have stored too many assets", problem["detail"])
-        self.assertEqual(self.put(png(seed=1)).status, 200, "what is there is told")
+        self.assertEqual(self.put(png(seed=1)).status, 200, "an existing asset is reported")
         self.delete(kept.pop())
         self.assertProblem(self.put(png(200, 100)), 429, "quota")  # 60 kB
         kept.append(self.made(png(100, 100)))
@@ -582,7 +582,7 @@ class Scenes(Case):
             for answer, at in self.answers(image):
                 problem = self.assertProblem(answer, 422, pointer=at)
                 self.assertIn(
-                    f'sky.image is "{image}", and there is no such asset here; it must be null and the SHA-256 of an asset that PUT /v1/assets has taken',
+                    f'sky.image is "{image}", which is not a known asset; it must be null, or the SHA-256 of an asset that PUT /v1/assets has stored',
                     problem["detail"],
                 )
 

@@ -39,7 +39,7 @@ class Below(daemon.Case):
             with self.subTest(target):
                 problem = self.assertProblem(self.daemon.get(target), 404, "not-found")
                 below = target.startswith(BASE + "/")
-                self.assertIn(BASE + "/openapi.json" if below else f"base path is {BASE} ", problem["detail"])
+                self.assertIn(BASE + "/openapi.json" if below else f"base path {BASE} ", problem["detail"])
         self.assertProblem(self.daemon.post("/v1/sessions", TINY), 404, "not-found")
 
     def test_the_page_asks_for_nothing_outside(self):
@@ -167,7 +167,7 @@ class Refused(unittest.TestCase):
             ("/ä", "letters, digits"),
             ("/a\nb", "letters, digits"),
             ("http://host/a", "begin with a slash"),
-            ("/" + "a" * 200, "longer than 200"),
+            ("/" + "a" * 200, "at most 200"),
         ):
             with self.subTest(base):
                 done = subprocess.run(

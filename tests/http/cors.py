@@ -229,18 +229,18 @@ class Tokens(access.Access):
 class Options(daemon.unittest.TestCase):
     def test_origins_that_are_none(self):
         for text, said in (
-            ("*", "* is not taken"),
-            ("https://*.example", "* is not taken"),
+            ("*", "* is not accepted"),
+            ("https://*.example", "* is not accepted"),
             ("", "SCHEME://HOST"),
             ("notebook.example", "SCHEME://HOST"),
             ("https://notebook.example/", "slash"),
-            ("https://notebook.example:8443/", "no slash"),
+            ("https://notebook.example:8443/", "without a slash"),
             ("https://Notebook.example", "lower case"),
             ("HTTPS://notebook.example", "lower case"),
             ("https://", "SCHEME"),
             ("://x", "SCHEME"),
-            ("https://x:443", "leave out the port"),
-            ("http://x:80", "leave out the port"),
+            ("https://x:443", "omit that port"),
+            ("http://x:80", "omit that port"),
             ("http://x:", "port"),
             ("http://x:port", "port"),
             (f"{GOOD}, {OTHER}", "SCHEME"),

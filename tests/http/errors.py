@@ -50,8 +50,8 @@ class Scenes(daemon.Case):
     def test_mistakes_of_who_writes_json_by_hand(self):
         """Each error is reported with its line and column; also in lists of rays, which have a parser of their own."""
         for value, words in (
-            (".5", "JSON has 0.5 for .5"),
-            ("NaN", "NaN, which JSON has not"),
+            (".5", ".5 is 0.5 in JSON"),
+            ("NaN", "NaN, which JSON lacks"),
             ("None", "null"),
             ("True", "true"),
             ("'1'", "double quotes"),
@@ -69,7 +69,7 @@ class Scenes(daemon.Case):
                     self.assertIn(words, problem["detail"])
                     self.assertIn(f"line 2, column {len(before.split(chr(10))[1]) + 1}:", problem["detail"])
         problem = self.assertProblem(self.daemon.post(RENDER, '{"camera": {"r": 10,\n }}'), 400, "malformed-json")
-        self.assertIn("line 2, column 2: a bracket behind a comma", problem["detail"])
+        self.assertIn("line 2, column 2: a bracket after a comma", problem["detail"])
         self.assertIn(
             "it is UTF-16",
             self.assertProblem(self.daemon.post(RENDER, "{}".encode("utf-16")), 400, "malformed-json")["detail"],

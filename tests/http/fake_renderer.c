@@ -160,12 +160,12 @@ enum kd_status kd_renderer_rest(struct kd_renderer *renderer, struct kd_error *e
     return KD_OK;
 }
 
-void kd_renderer_kept(const struct kd_renderer *renderer, uint64_t out[KD_N_KEPT_KINDS])
+void kd_renderer_cached(const struct kd_renderer *renderer, uint64_t out[KD_N_CACHE_KINDS])
 {
     (void)renderer;
-    for (size_t i = 0; i < KD_N_KEPT_KINDS; i++)
+    for (size_t i = 0; i < KD_N_CACHE_KINDS; i++)
         out[i] = 0;
-    out[KD_KEPT_KERNELS] = atomic_load(&rests) + 1024 * atomic_load(&compilations);
+    out[KD_CACHE_KERNELS] = atomic_load(&rests) + 1024 * atomic_load(&compilations);
 }
 
 uint64_t kd_renderer_kept_sum(const struct kd_renderer *renderer)
@@ -375,7 +375,7 @@ static enum kd_status draw(struct kd_renderer *renderer, const struct kd_scene *
     if (plan->told.on &&
         (!out->told || !out->told->each || (plan->told.steps && (!out->told->steps || !out->told->steps->steps)))) {
         kd_frame_finish(out);
-        return kd_error_set(error, KD_ENOMEM, "out of memory for what is told of a pixel");
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the report on a pixel");
     }
     if (kd_frame_add_layer(out, "rgb", 3, scene->image.bit_depth > 8 ? KD_LAYER_U16 : KD_LAYER_U8, error)) {
         kd_frame_finish(out);

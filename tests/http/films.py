@@ -119,7 +119,7 @@ class Given(Films):
     def test_without_ffmpeg(self):
         server, job, answer = self.film_of(None, {"scenes": [SCENE] * 2}, None)
         self.assertProblem(server.get(self.at(job, "/result?format=mp4")), 501, "not-installed")
-        self.assertIn("a zip holds", server.get(self.at(job, "/result?format=webm")).json()["detail"])
+        self.assertIn("a zip of numbered pictures", server.get(self.at(job, "/result?format=webm")).json()["detail"])
         self.assertEqual(server.get(self.at(job, "/result")).header("Content-Type"), "application/zip")
         for query in (
             "?format=mp4&rate=0",
@@ -301,7 +301,7 @@ class Kept(Films):
         server, job, answer = self.film_of(KEEPS, self.FRAMES, options=("--jobs-kib", 64))
         self.assertProblem(answer, 507, "disk-full")
         self.assertRegex(
-            answer.json()["detail"], r"^the film has [0-9.]+ MB, and the files of all jobs have [0-9.]+ of"
+            answer.json()["detail"], r"^the film has [0-9.]+ MB, too many beside the [0-9.]+ MB of all jobs"
         )
         self.assertEqual(server.get(self.at(job, "/result?format=png&frame=0")).status, 200)
         self.ended(server)

@@ -106,11 +106,14 @@ class Stop(unittest.TestCase):
         self.assertTrue(ended, "a machine that makes eight of them within a second needs larger ones here")
         for answer in ended:
             self.assertEqual((answer.status, answer.json()["type"]), (503, "urn:kerrd:problem:stopping"))
-            self.assertIn("before this was done", answer.json()["detail"])
+            self.assertIn("before the request was finished", answer.json()["detail"])
             self.assertTrue(answer.header("Retry-After"))
-        told = re.search(r"stopping: (\d) accepted works are unfinished.* after 1 s is ended \(--drain-seconds\)", said)
+        told = re.search(
+            r"stopping: (\d) accepted requests are unfinished.* after 1 s the rest is cancelled \(--drain-seconds\)",
+            said,
+        )
         self.assertTrue(told, said)
-        over = re.search(r"stopping: (\d) works are not done after 1 s and are ended", said)
+        over = re.search(r"stopping: (\d) requests are unfinished after 1 s and are cancelled", said)
         self.assertTrue(over, said)
         self.assertTrue(len(ended) <= int(over[1]) <= int(told[1]) <= 8, said)
 
@@ -221,7 +224,7 @@ class Telephone(unittest.TestCase):
             self.assertEqual(server.wait(60), 0)
             terminal.close()
             lines = told.decode().replace("\r", "").splitlines()
-            reached = [line.split()[-1] for line in lines if "reached at" in line]
+            reached = [line.split()[-1] for line in lines if "reachable at" in line]
             code = [
                 line.removeprefix("\033[30;107m").removesuffix("\033[0m")
                 for line in lines

@@ -115,7 +115,7 @@ class Once(Case):
             with self.subTest(key):
                 answer = self.ask("/v1/jobs", {"scene": SCENE}, None, **{"Idempotency-Key": key})
                 self.assertProblem(answer, 400, "bad-request")
-                self.assertRegex(answer.json()["detail"], "^Idempotency-Key is .*: it must be one string of 1 to 128")
+                self.assertRegex(answer.json()["detail"], "^Idempotency-Key is .*; it must be a string of 1 to 128")
         one, other = self.first_and_again("/v1/jobs", {"scene": SCENE}, '"quoted"', "quoted")
         self.assertSame(one, other)
 

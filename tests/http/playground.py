@@ -759,7 +759,7 @@ class Memory(daemon.Owned):
         held = self.daemon.metrics()["kerrd_playground_bytes"]
         answer = self.daemon.get(self.at(play, "/frame.png"))
         self.assertIn(answer.status, (429, 503), answer.body)
-        self.assertIn(b"a picture of a playground takes", answer.body)
+        self.assertIn(b"a picture of a playground needs", answer.body)
         self.assertEqual(
             (self.daemon.metrics()["kerrd_playground_bytes"], self.daemon.get(self.at(play)).status), (held, 200)
         )

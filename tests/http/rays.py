@@ -449,7 +449,7 @@ class Device(daemon.Case):
             self.assertTrue(answer["followed_again"] >= 0 and answer["beyond"] >= 0)
         self.assertEqual(found(tolerance="profile")["engine"], "closed")
         detail = self.daemon.post(RAYS, {"rays": [[1, 2]], "accuracy": {"tolerance": 1e-15}}).json()["detail"]
-        held = float(re.search(r"measured to hold ([0-9.e-]+) and above", detail)[1])
+        held = float(re.search(r"reaches ([0-9.e-]+) at best", detail)[1])
         self.assertTrue(1e-15 < held < 1e-12)
         self.assertLessEqual(found(tolerance=held)["holds"], held)
 

@@ -21,7 +21,7 @@ OFTEN = max(REPEATS, 8)
 OF_EACH_READER = {
     "header is cut",
     "density is cut",
-    "density is no array",
+    "density is not an array",
     "density is missing",
     "density has a wrong checksum",
     "density is beyond its limit",
@@ -119,7 +119,7 @@ def grids():
     for name in MEMBERS:
         yield f"{name} is missing", packed({k: v for k, v in members.items() if k != name})
         yield f"{name} is cut", packed({**members, name: members[name][:-1]})
-        yield f"{name} is no array", packed({**members, name: b"\0" * 200})
+        yield f"{name} is not an array", packed({**members, name: b"\0" * 200})
         yield f"{name} is of text", packed({**members, name: assets.npy("<U4", (2,), bytes(32))})
         yield f"{name} has a wrong checksum", set_entry(good, name.encode(), 16, b"\1\2\3\4")
         yield f"{name} is encrypted", set_entry(good, name.encode(), 8, b"\1\0")

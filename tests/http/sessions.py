@@ -319,7 +319,7 @@ class Sessions(daemon.Owned):
             self.patch(session, {"motion": {"time_rate": rate}})
             problem = self.assertProblem(self.strike(session), 409, "conflict")
             self.assertEqual(problem["pointer"], "/motion/time_rate")
-            self.assertIn(f"motion.time_rate is {rate}; for a hole to be struck it must be", problem["detail"])
+            self.assertIn(f"motion.time_rate is {rate}; for a strike it must be", problem["detail"])
         self.patch(session, {"motion": {"time_rate": 1}, "style": None, "spacetime": {"spin": 0.99999}})
         self.assertEqual(self.assertProblem(self.strike(session), 422, "invalid-scene")["pointer"], "/style/ringdown")
 

@@ -193,7 +193,7 @@ class Share(Case):
         ):
             problem = self.assertProblem(answer, 422, "invalid-scene")
             self.assertEqual(problem["pointer"], "/sky/image")
-            self.assertIn("names an asset of this server, which a link does not hold", problem["detail"])
+            self.assertIn("names an asset of this server, which a link cannot contain", problem["detail"])
 
     def test_hostile_links_are_refused_with_a_sentence(self):
         bomb = code_of("a" * 1_000_000)
@@ -263,7 +263,7 @@ class Share(Case):
 
 
 class Proxied(Case):
-    """The server is behind a proxy that terminates TLS and removes a prefix, of which it knows only by its option."""
+    """The server is behind a proxy that terminates TLS and removes a prefix, which the server knows only by its option."""
 
     options = ("--public-url", "https://holes.example/kerrd")
 
@@ -312,10 +312,10 @@ class Embedded(Case):
 
     def test_origins_that_are_none(self):
         for origin, says in (
-            ("null", "a page without an origin can have no frame"),
-            ("*", "each origin is named"),
+            ("null", "a page without an origin cannot embed"),
+            ("*", "it must be an origin"),
             ("https://blog.example/", "without a path"),
-            ("https://blog.example; script-src x", "an origin is SCHEME://HOST"),
+            ("https://blog.example; script-src x", "it must be SCHEME://HOST"),
         ):
             run = subprocess.run(
                 [*daemon.COMMAND, "--port", "0", "--embed-origin", origin], capture_output=True, text=True, timeout=60
@@ -351,13 +351,13 @@ class Option(unittest.TestCase):
         for url, says in (
             ("holes.example", "must begin with https:// or http://"),
             ("ftp://holes.example", "must begin with https:// or http://"),
-            ("https://", "a host, and perhaps a port, must follow"),
-            ("https://a b", "a host, and perhaps a port, must follow"),
-            ("https://holes.example:x", "a host, and perhaps a port, must follow"),
-            ("https://holes.example/", "without a slash at its end"),
+            ("https://", "after the scheme it must have a host and optionally a port"),
+            ("https://a b", "after the scheme it must have a host and optionally a port"),
+            ("https://holes.example:x", "after the scheme it must have a host and optionally a port"),
+            ("https://holes.example/", "without a final slash"),
             ("https://holes.example/a/../b", "a path like /some/prefix"),
             ("https://holes.example?x", "a path like /some/prefix"),
-            ("https://" + 300 * "a", "a host, and perhaps a port, must follow"),
+            ("https://" + 300 * "a", "after the scheme it must have a host and optionally a port"),
         ):
             with self.subTest(url):
                 run = subprocess.run(

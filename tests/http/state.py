@@ -130,7 +130,7 @@ class Stops(Case):
         status = self.status(job, server)
         self.assertEqual(
             (status["state"], status.get("delayed"), status["remaining_s"]),
-            ("waiting", "its frames are put in order", None),
+            ("waiting", "its frames are being sorted", None),
             status,
         )
         self.assertNotIn("delayed", self.until(job, "running", server, 60))
@@ -269,7 +269,7 @@ class Foreign(Case):
             timeout=20,
         )
         self.assertEqual(second.returncode, 1)
-        self.assertIn("jobs cannot be kept", second.stderr)
+        self.assertIn("jobs cannot be stored", second.stderr)
         self.assertEqual(os.listdir(os.path.join(self.folder, "elsewhere")), [])
 
     def test_a_request_of_another_version(self):

@@ -62,13 +62,15 @@ class Stop(unittest.TestCase):
                 told = answer()
                 self.assertEqual((told.status, told.json()["type"]), (503, "urn:kerrd:problem:stopping"))
                 self.assertTrue(told.header("Retry-After"))
-                self.assertIn("before this was done", told.json()["detail"])
+                self.assertIn("before the request was finished", told.json()["detail"])
             self.assertEqual(server.wait(30), 0)
             self.assertGreater(time.monotonic() - begun, 0.9)
             log.seek(0)
             said = log.read()
-        self.assertRegex(said, r"stopping: \d accepted works are unfinished.* after 1 s is ended \(--drain-seconds\)")
-        self.assertIn("are not done after 1 s and are ended", said)
+        self.assertRegex(
+            said, r"stopping: \d accepted requests are unfinished.* after 1 s the rest is cancelled \(--drain-seconds\)"
+        )
+        self.assertIn("are unfinished after 1 s and are cancelled", said)
 
     def test_idle(self):
         server = daemon.Daemon("--drain-ms", 100)
@@ -113,7 +115,7 @@ class Stop(unittest.TestCase):
         self.assertTrue(daemon.eventually(lambda: server.get(f"/v1/jobs/{job['id']}").json()["state"] == "done"))
         for told in (
             "missed its deadline",
-            "opened again 3 times",
+            "reopened 3 times",
         ):  # a request that loses the device twice gets an error; and the fourth loss is one too many
             answer = server.get(RENDER + "&time=-1")
             self.assertEqual((answer.status, answer.json()["type"]), (500, "urn:kerrd:problem:device-lost"))

@@ -94,7 +94,7 @@ class Sweeps(Case):
         self.delete(self.make({"scene": {"image": {"width": 2, "height": 2}}, "axes": more}))
         large = {"scene": {"image": {"width": 4000, "height": 4000}}, "axes": more}
         self.assertIn(
-            "more than the 86400 s a job may take",
+            "for one job it must be at most 86400 s",
             self.assertProblem(self.daemon.post("/v1/jobs", large), 422, "too-large")["detail"],
         )
         numbers = {
@@ -103,11 +103,12 @@ class Sweeps(Case):
             "axes": {"style.exposure": "0:10/1000"},
         }
         self.assertIn(
-            "GB, more than", self.assertProblem(self.daemon.post("/v1/jobs", numbers), 422, "too-large")["detail"]
+            "GB; all jobs together must have at most",
+            self.assertProblem(self.daemon.post("/v1/jobs", numbers), 422, "too-large")["detail"],
         )
 
     def test_how_many_cubes_are_fetched_at_once(self):
-        """One client may fetch three. One that was told to wait may fetch when one of the three has finished."""
+        """One client may fetch three. A client that was refused may fetch when one of the three has finished."""
         job = self.make(
             {
                 "scene": {"image": {"width": 1000, "height": 1000, "layers": ["rgb"]}},

@@ -180,7 +180,7 @@ def mode(m, a, omega, sep, final):
     """The mode by the secant method from the guess; None if the guess was too far off. Near a = 1 the wave changes fast
     at the horizon and its series cancels, so that more digits are used."""
     gap = 2 * np.sqrt((1 - a) * (1 + a))
-    exact = final or a > 0.6 or omega.imag < -0.4  # overtones lose so many digits that 16 are not enough either
+    exact = final or a > 0.6 or omega.imag < -0.4  # for overtones 16 digits are not enough either
     mp.dps = (26 if final else 16) + int(0.5 * abs((2 + gap) * omega - a * m) / gap)
     terms, reach = (4 * mp.dps, 2.5 * mp.dps) if exact else (50, 25)
     small, start = (mpf(10) ** -12, mpf(10) ** -8) if final else (1e-6, 1e-4)

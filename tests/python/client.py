@@ -451,7 +451,9 @@ class Saved(Case):
             self.assertRaisesRegex(ValueError, "ra and dec here, both", kerrd.to_ehtim, frame, ra=3.0)
             self.assertRaisesRegex(ValueError, "source.mjd of the scene, or by mjd", kerrd.to_ehtim, frame)
             nowhere = dataclasses.replace(frame, shows={**frame.scene, "source": {"name": "none"}})
-            self.assertRaisesRegex(ValueError, "the place of the source must be told", kerrd.to_ehtim, nowhere, mjd=1.0)
+            self.assertRaisesRegex(
+                ValueError, "the position of the source is missing", kerrd.to_ehtim, nowhere, mjd=1.0
+            )
             for missing, message in (
                 ("jy_per_pixel", "no layer"),
                 ("intensity", "ask for it"),

@@ -190,7 +190,7 @@ class Cluster(unittest.TestCase):
                 self.assertEqual(film.namelist(), [f"{k:06}.png" for k in range(200)])
                 self.assertEqual([name for name in one.namelist() if one.read(name) != film.read(name)], [])
             self.assertEqual(pathlib.Path(made).read_bytes(), pathlib.Path(folder, "one.zip").read_bytes())
-            with self.assertRaisesRegex(kerrd.KerrdError, "of another request"):
+            with self.assertRaisesRegex(kerrd.KerrdError, "belong to another request"):
                 kerrd.dask.film(
                     {**document, "frames": 210}, pathlib.Path(folder, "film.zip"), self.dask, state=state, binary=KERRD
                 )

@@ -95,7 +95,7 @@ static void refused(double tolerance, const char *part)
 static void what_none_holds(void **state)
 {
     (void)state;
-    refused(0.99e-11, "1.01e-11 and above (mino-rkn6 f64 with 16 steps)");
+    refused(0.99e-11, "1.01e-11 at best (mino-rkn6 f64 with 16 steps)");
     expect(1.01e-11, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16); /* a tolerance that a message offers is accepted */
     table.n = 4;                                                 /* a device without double precision */
     refused(0.99e-6, "mino-rkn6 f32 with 8 steps");

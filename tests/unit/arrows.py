@@ -156,7 +156,7 @@ def wrong(src):
 
 
 def circle(known):
-    """Files of which each includes the next, and the last one the first; [] if there is no circle."""
+    """Files in a circle, where each includes the next and the last includes the first; [] if there is none."""
     done, way = set(), []
 
     def follow(file):

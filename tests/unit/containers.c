@@ -223,8 +223,8 @@ static void too_many_members(void **state)
         clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begun);
         assert_int_equal(kd_unzip_open(bytes, size + 98, &zip, &error), KD_EINVAL);
         clock_gettime(CLOCK_THREAD_CPUTIME_ID, &done);
-        assert_non_null(strstr(error.message,
-                               liar ? "has not as many entries as it says" : "at most 1024 members, and has 700000"));
+        assert_non_null(strstr(error.message, liar ? "another number of entries than it states"
+                                                   : "at most 1024 members; it has 700000"));
         assert_true((double)(done.tv_sec - begun.tv_sec) + 1e-9 * (double)(done.tv_nsec - begun.tv_nsec) < 0.5);
         assert_null(zip.members);
     }

@@ -111,20 +111,22 @@ static void what_cannot_be(void **state)
     (void)state;
     struct kd_accuracy_request asked_accuracy = NONE;
     asked_accuracy.tolerance = 1e-15;
-    refuse(asked_accuracy, true, "/accuracy/tolerance", "stands in for this device's, was measured to hold");
+    refuse(asked_accuracy, true, "/accuracy/tolerance",
+           "whose table replaces the missing table of this device, reaches");
     asked_accuracy.tolerance = 1e-9;
     assert_int_equal(settle(asked_accuracy, false).engine, KD_ENGINE_CLOSED); /* needs no device */
     asked_accuracy.precision = KD_PRECISION_F32;
-    refuse(asked_accuracy, false, "/accuracy/tolerance", "stands in for this device's, was measured to hold");
+    refuse(asked_accuracy, false, "/accuracy/tolerance",
+           "whose table replaces the missing table of this device, reaches");
     asked_accuracy.precision = -1;
     asked_accuracy.steps = 8;
-    refuse(asked_accuracy, true, "/accuracy/steps", "beside a tolerance");
+    refuse(asked_accuracy, true, "/accuracy/steps", "with a tolerance");
     asked_accuracy.steps = 0;
     asked_accuracy.engine = KD_ENGINE_CLOSED;
     refuse(asked_accuracy, true, "/accuracy/tolerance", "closed");
     asked_accuracy = (struct kd_accuracy_request)NONE;
     asked_accuracy.steps = 8;
-    refuse(asked_accuracy, true, "/accuracy/steps", "takes no steps");
+    refuse(asked_accuracy, true, "/accuracy/steps", "which takes none");
     asked_accuracy.engine = KD_ENGINE_MINO_RKN6;
     asked_accuracy.steps = 6;
     refuse(asked_accuracy, true, "/accuracy/steps", "a multiple of 4");

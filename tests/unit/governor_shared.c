@@ -177,7 +177,7 @@ static void who_waits_is_not_taken_for_resting(void **state)
     }
 }
 
-/* One governor that is told its share */
+/* One governor that knows its share */
 
 static void with_share(struct simulation *s, double share, enum pattern pattern, double ms)
 {

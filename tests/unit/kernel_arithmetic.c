@@ -77,7 +77,7 @@ static void no_kernel_asks_for_nan(void **state)
     (void)state;
     for (size_t k = 0; k < KERNELS; k++)
         if (asks_for_nan(&kernels[k]) || asks_for_nan(&as_made[k]))
-            fail_msg("%s: isnan or isinf, of which a driver may make false: use kd_is_finite", kernels[k].kernel);
+            fail_msg("%s: isnan or isinf, which a driver may replace by false: use kd_is_finite", kernels[k].kernel);
 }
 
 static bool is_precise(const struct spirv *s, uint32_t id)

@@ -164,9 +164,9 @@ static void what_cannot_be_is_refused(void **state)
     } bad[] = {
         { "{\"image\":{\"layers\":[\"r_3\"]}}", "/image/layers", "below accuracy.orders, 3" },
         { "{\"image\":{\"layers\":[\"r\",\"intensity_1\"]},\"accuracy\":{\"orders\":1}}", "/image/layers",
-          "holds intensity_1" },
+          "has intensity_1" },
         { "{\"image\":{\"layers\":[\"temperature\"]},\"disk\":{\"model\":\"none\"}}", "/image/layers",
-          "where nothing has a temperature" },
+          "needs matter with a temperature" },
         { "{\"image\":{\"layers\":[\"r\"],\"layer_min\":5,\"layer_max\":5}}", "/image/layer_min",
           "less than image.layer_max" },
         { "{\"image\":{\"layers\":[\"g\"],\"layer_min\":0}}", "/image/layer_min", "logarithmic" },

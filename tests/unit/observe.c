@@ -182,7 +182,7 @@ static void test_csv_that_is_refused(void **state)
     static const struct {
         const char *text, *why;
     } rows[] = {
-        { "", "this is no observation" },
+        { "", "the file is not an observation" },
         { "#SRC:M87\n", "line 1 must have a date" },
         { "#SRC:,DATE(MJD):57848,FREQ:227GHz\n", "must name its source" },
         { "#SRC:M87,DATE(MJD):nan,FREQ:227GHz\n", "must have a date" },
@@ -190,13 +190,13 @@ static void test_csv_that_is_refused(void **state)
         { HEAD, "no visibility with a weight above 0" },
         { HEAD "1,AA,AP,1,2,3,4,5\n", "line 2 of the CSV: a line of columns must come before it" },
         { HEAD "#time(UTC),T1,T2,U(lambda),V(lambda),RRamp(Jy)\n", "line 2 of the CSV: its columns are" },
-        { HEAD COLUMNS "1,AA,AP,1,2,3,4\n", "line 3 of the CSV: its fields must be 8" },
-        { HEAD COLUMNS "1,AA,AP,1,2,3,4,5,6\n", "its fields must be 8" },
+        { HEAD COLUMNS "1,AA,AP,1,2,3,4\n", "line 3 of the CSV: there must be 8 fields" },
+        { HEAD COLUMNS "1,AA,AP,1,2,3,4,5,6\n", "there must be 8 fields" },
         { HEAD COLUMNS "1,AA,AP,1,2,x,4,5\n", "its amplitude is \"x\"; it must be a number" },
         { HEAD COLUMNS "nan,AA,AP,1,2,3,4,5\n", "its time is \"nan\"; it must be a number" },
         { HEAD COLUMNS "1,AA,AP,1e300,2,3,4,5\n", "visibility 1: its u is 1e+300; it must be a number up to 1e+18" },
         { HEAD COLUMNS "1,AA,AP,1,2,3,4,0\n", "its error is 0; it must be above 0" },
-        { HEAD COLUMNS "1,AA,AA,1,2,3,4,5\n", "both its stations are AA" },
+        { HEAD COLUMNS "1,AA,AA,1,2,3,4,5\n", "both stations are AA" },
         { HEAD COLUMNS "1,A A,AP,1,2,3,4,5\n", "the name of a station has the byte 32" },
         { HEAD COLUMNS "1,,AP,1,2,3,4,5\n", "has 0 letters; it must have 1 to 11" },
     };

@@ -155,8 +155,8 @@ static void crossings(void **state)
                   fabs(p->delay - x->delay) <= factor * x->error_delay))
                 fail_msg("a = %.17g, q = %.17g, (%.17g, %.17g) crossing %d: r %.15g, %.15g; phi %.15g, %.15g; delay "
                          "%.15g, %.15g",
-                         ray.hole.a, ray.hole.q, ray.alpha, ray.beta, p->crossing, p->r, x->r, p->phi, x->phi,
-                         p->delay, x->delay);
+                         ray.hole.a, ray.hole.q, ray.alpha, ray.beta, p->crossing, p->r, x->r, p->phi, x->phi, p->delay,
+                         x->delay);
         }
     }
     assert_true(met > 400);

@@ -97,7 +97,7 @@ static void places_are_the_quadratures(void **state)
     }
 }
 
-/* Both methods, with so many steps that only rounding, including that of the constants, remains. */
+/* Both methods, with enough steps that only rounding, including that of the constants, remains. */
 static void paths_are_the_quadratures(void **state)
 {
     (void)state;

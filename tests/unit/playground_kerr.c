@@ -152,7 +152,7 @@ static void circles_go_round_evenly(void **state)
 
 /* If the budget ends within a stride, all bodies are where they were at its beginning, at one common time; the next
  * calls bring them, to the bit, to where a single call with enough budget does, also through a snapshot. One call
- * takes at most so many steps, however long a stride is. */
+ * takes at most that number of steps, however long a stride is. */
 static void bodies_are_at_one_time(void **state)
 {
     (void)state;

@@ -10,11 +10,11 @@
 
 static struct kd_dynamic_bodies *shown(struct kd_playground *p)
 {
-    struct kd_dynamic_bodies *crowd;
+    struct kd_dynamic_bodies *dynamic;
     struct kd_error error = { 0 };
-    if (kd_playground_show(p, &crowd, &error))
+    if (kd_playground_show(p, &dynamic, &error))
         fail_msg("%s", error.message);
-    return crowd;
+    return dynamic;
 }
 
 /* The place shown is the body's. The energy of a body that moves by Newton's law, u^2/2, becomes (gamma v)^2/2, and its
@@ -28,8 +28,8 @@ static void bodies(void **state)
                        .mass = 1e-6, .radius = 0.3, .temperature_k = 4000, .x = { 0, 3, 4 }, .v = { -0.6, 0, 0.5 } });
     playground_put(p, (struct kd_playground_body) {
                           .mass = 1e-6, .radius = 0.2, .temperature_k = 9000, .x = { 2.5, 0, 0 }, .v = { -1, 0, 0 } });
-    struct kd_dynamic_bodies *crowd = shown(p);
-    const struct kd_seen_body *b = &crowd->bodies[0];
+    struct kd_dynamic_bodies *dynamic = shown(p);
+    const struct kd_seen_body *b = &dynamic->bodies[0];
     double v2 = 0;
     for (int k = 0; k < 3; k++)
         v2 += b->velocity[k] * b->velocity[k];
@@ -39,10 +39,10 @@ static void bodies(void **state)
     assert_true(fabs(b->velocity[0] / b->velocity[2] - 0.4 / 0.6) < 1e-9 &&
                 fabs(b->velocity[1] / b->velocity[2] + 0.3 / 0.6) < 1e-9);
     assert_true(b->radius == 0.3 && b->temperature_k == 4000 && b->brightness == 1 && b->which == 0 &&
-                crowd->bodies[1].which == 1);
-    assert_true(fabs(crowd->bodies[1].velocity[0] + M_SQRT1_2) < 1e-12 && crowd->approximate && crowd->time == 0 &&
-                !crowd->debris.rows);
-    kd_dynamic_bodies_release(crowd);
+                dynamic->bodies[1].which == 1);
+    assert_true(fabs(dynamic->bodies[1].velocity[0] + M_SQRT1_2) < 1e-12 && dynamic->approximate &&
+                dynamic->time == 0 && !dynamic->debris.rows);
+    kd_dynamic_bodies_release(dynamic);
     kd_playground_destroy(p);
 
     struct kd_playground_params kerr = playground_quiet();
@@ -51,8 +51,9 @@ static void bodies(void **state)
     p = playground_make(kerr);
     playground_put(p, (struct kd_playground_body) {
                           .mass = 1e-6, .radius = 0.3, .temperature_k = 4000, .x = { 9, 0, 0 }, .v = { 0.1, 0.4, 0 } });
-    crowd = shown(p);
-    assert_true(!crowd->approximate && crowd->bodies[0].velocity[0] == 0.1 && crowd->bodies[0].velocity[2] == 0.4);
+    dynamic = shown(p);
+    assert_true(!dynamic->approximate && dynamic->bodies[0].velocity[0] == 0.1 &&
+                dynamic->bodies[0].velocity[2] == 0.4);
     struct kd_scene scene;
     struct kd_error error = { 0 };
     kd_scene_defaults(&scene);
@@ -61,7 +62,7 @@ static void bodies(void **state)
     assert_string_equal(error.pointer, "/spacetime/spin");
     scene.spacetime.spin = 0.9;
     assert_int_equal(kd_playground_may_show(p, &scene, &error), KD_OK);
-    kd_dynamic_bodies_release(crowd);
+    kd_dynamic_bodies_release(dynamic);
     kd_playground_destroy(p);
 }
 
@@ -88,16 +89,16 @@ static struct kd_dynamic_bodies *grid_of(const struct kd_debris_piece *pieces, s
     const float worths[KD_DEBRIS_SOURCES] = { (float)worth };
     struct kd_show_place *places = malloc(n * sizeof *places);
     struct kd_dynamic_bodies_debris grid;
-    struct kd_dynamic_bodies *crowd;
+    struct kd_dynamic_bodies *dynamic;
     assert_non_null(places);
     kd_show_places(pieces, n, places);
     kd_show_grid(places, n, &grid);
-    assert_int_equal(kd_dynamic_bodies_create(0, grid.rows, grid.columns, &crowd, NULL), KD_OK);
-    grid.nodes = crowd->debris.nodes;
-    crowd->debris = grid;
-    kd_show_share_out(pieces, places, n, worths, false, &crowd->debris);
+    assert_int_equal(kd_dynamic_bodies_create(0, grid.rows, grid.columns, &dynamic, NULL), KD_OK);
+    grid.nodes = dynamic->debris.nodes;
+    dynamic->debris = grid;
+    kd_show_share_out(pieces, places, n, worths, false, &dynamic->debris);
     free(places);
-    return crowd;
+    return dynamic;
 }
 
 struct sums { double worth, r, phi; };
@@ -141,8 +142,8 @@ static void debris_is_all_there(void **state)
             vr += u;
             vphi += w;
         }
-        struct kd_dynamic_bodies *crowd = grid_of(pieces, n, 1.0 / N);
-        const struct kd_dynamic_bodies_debris *d = &crowd->debris;
+        struct kd_dynamic_bodies *dynamic = grid_of(pieces, n, 1.0 / N);
+        const struct kd_dynamic_bodies_debris *d = &dynamic->debris;
         const struct sums s = sums_of(d);
         printf("shape %d: %u rows of %u of %u a turn\n", shape, d->rows, d->columns, d->turn);
         assert_int_equal(d->pieces, n - free_);
@@ -152,7 +153,7 @@ static void debris_is_all_there(void **state)
         assert_true(fabs(s.worth / all - 1) < 1e-4 && fabs(s.phi - vphi / N) < 1e-4 * all);
         if (shape != 1) /* in the cloud z is not 0, and the velocity along e_r not that along the plane */
             assert_true(fabs(s.r / (vr / N) - 1) < 1e-3);
-        kd_dynamic_bodies_release(crowd);
+        kd_dynamic_bodies_release(dynamic);
     }
     free(pieces);
 }
@@ -164,8 +165,8 @@ static void a_piece_is_at_its_place(void **state)
     for (int k = 0; k < 200; k++) {
         const double r = 3 * pow(1000, chance()), phi = 2 * M_PI * (k < 20 ? 1 - 1e-4 * k : chance());
         const struct kd_debris_piece one = piece(r, phi, 0, 0, 0);
-        struct kd_dynamic_bodies *crowd = grid_of(&one, 1, 1);
-        const struct kd_dynamic_bodies_debris *d = &crowd->debris;
+        struct kd_dynamic_bodies *dynamic = grid_of(&one, 1, 1);
+        const struct kd_dynamic_bodies_debris *d = &dynamic->debris;
         const double cell = 2 * M_PI / d->turn;
         double row = 0, x = 0, y = 0;
         for (uint32_t i = 0; i < d->rows * d->columns; i++) {
@@ -176,7 +177,7 @@ static void a_piece_is_at_its_place(void **state)
         }
         assert_true(fabs(cell * row - log(r)) < 1e-2 * cell);
         assert_true(fabs(remainder(atan2(y, x) - phi, 2 * M_PI)) < 2e-2 * cell);
-        kd_dynamic_bodies_release(crowd);
+        kd_dynamic_bodies_release(dynamic);
     }
 }
 
@@ -196,14 +197,14 @@ static void a_star_is_shown(void **state)
     assert_true(p->rate == rate && rate > 0);
     looks.debris_per_body = 500; /* applies to pieces torn off from now on; the existing ones keep their weight */
     assert_int_equal(kd_playground_set(p, &looks, &error), KD_OK);
-    struct kd_dynamic_bodies *crowd = shown(p);
-    const struct sums s = sums_of(&crowd->debris);
-    printf("%u pieces on %u rows of %u of %u a turn, %g of the star, |z|/r %.2g\n", crowd->debris.pieces,
-           crowd->debris.rows, crowd->debris.columns, crowd->debris.turn, s.worth, crowd->debris.thick);
-    assert_int_equal(crowd->debris.pieces, p->debris.alive);
+    struct kd_dynamic_bodies *dynamic = shown(p);
+    const struct sums s = sums_of(&dynamic->debris);
+    printf("%u pieces on %u rows of %u of %u a turn, %g of the star, |z|/r %.2g\n", dynamic->debris.pieces,
+           dynamic->debris.rows, dynamic->debris.columns, dynamic->debris.turn, s.worth, dynamic->debris.thick);
+    assert_int_equal(dynamic->debris.pieces, p->debris.alive);
     assert_true(fabs(s.worth - p->debris.alive / 50000.0) < 1e-4 && s.worth > 0.4 && s.worth < 0.7);
-    assert_true(crowd->debris.depth == 3 && crowd->debris.temperature_k == 7000 && crowd->time == p->t);
-    kd_dynamic_bodies_release(crowd);
+    assert_true(dynamic->debris.depth == 3 && dynamic->debris.temperature_k == 7000 && dynamic->time == p->t);
+    kd_dynamic_bodies_release(dynamic);
     kd_playground_destroy(p);
 }
 
@@ -259,9 +260,9 @@ static void a_piece_keeps_its_worth(void **state)
     struct kd_playground_params params = p->params;
     params.debris_per_body = 500;
     assert_int_equal(kd_playground_set(p, &params, &error), KD_OK);
-    struct kd_dynamic_bodies *crowd = shown(p);
-    assert_true(fabs(sums_of(&crowd->debris).worth - first) < 1e-4 && first > 0.9);
-    kd_dynamic_bodies_release(crowd);
+    struct kd_dynamic_bodies *dynamic = shown(p);
+    assert_true(fabs(sums_of(&dynamic->debris).worth - first) < 1e-4 && first > 0.9);
+    kd_dynamic_bodies_release(dynamic);
     const uint32_t before = p->debris.alive;
     playground_put(
         p, (struct kd_playground_body) { .mass = 1e-6, .radius = 0.47, .x = { 0, 60, 0 }, .v = { 0.15, -0.03, 0 } });
@@ -270,13 +271,13 @@ static void a_piece_keeps_its_worth(void **state)
     assert_int_equal(p->debris.last_source, 2);
     assert_int_equal(kd_playground_write(p, true, &text), KD_OK);
     assert_int_equal(kd_playground_read((const char *)text.data, text.size, &q, &error), KD_OK);
-    crowd = shown(q);
+    dynamic = shown(q);
     uint32_t of[2] = { 0, 0 };
     for (uint32_t i = 0; i < q->debris.used; i++)
         of[q->debris.pieces[i].source - 1] += q->debris.pieces[i].stage != KD_DEBRIS_FREE;
     assert_true(of[0] <= before && of[1] > 100);
-    assert_true(fabs(sums_of(&crowd->debris).worth - of[0] / 4000.0 - of[1] / 500.0) < 1e-3);
-    kd_dynamic_bodies_release(crowd);
+    assert_true(fabs(sums_of(&dynamic->debris).worth - of[0] / 4000.0 - of[1] / 500.0) < 1e-3);
+    kd_dynamic_bodies_release(dynamic);
     kd_buffer_finish(&text);
     kd_playground_destroy(p);
     kd_playground_destroy(q);
@@ -293,10 +294,10 @@ static void nowhere(void **state)
     pieces[3].x[1] = NAN;
     pieces[4].x[0] = INFINITY;
     pieces[5].x[2] = 1e20;
-    struct kd_dynamic_bodies *crowd = grid_of(pieces, 7, 1);
-    assert_int_equal(crowd->debris.pieces + crowd->debris.hidden, 7);
-    assert_true(crowd->debris.pieces == 2 && fabs(sums_of(&crowd->debris).worth - 2) < 1e-5);
-    kd_dynamic_bodies_release(crowd);
+    struct kd_dynamic_bodies *dynamic = grid_of(pieces, 7, 1);
+    assert_int_equal(dynamic->debris.pieces + dynamic->debris.hidden, 7);
+    assert_true(dynamic->debris.pieces == 2 && fabs(sums_of(&dynamic->debris).worth - 2) < 1e-5);
+    kd_dynamic_bodies_release(dynamic);
 }
 
 int main(void)

@@ -81,7 +81,7 @@ static void lists_of_any_kind(void **state)
     assert_int_equal(kd_scene_set(&scene, "bodies.2.shape", "ball", &error), KD_OK);
     assert_int_equal(kd_scene_set(&scene, "stops.2.time", "0.25", &error), KD_OK);
     assert_int_equal(kd_scene_set(&scene, "stops.3.time", "0.25", &error), KD_EINVAL);
-    assert_string_equal(error.message, "there is no stops.3: stops is a list, whose elements are stops.0 to stops.2");
+    assert_string_equal(error.message, "there is no stops.3: stops is a list with elements from stops.0 to stops.2");
     assert_int_equal(kd_scene_set(&scene, "start.time", "0.75", &error), KD_OK);
     assert_true(scene.bodies.count == 3 && scene.bodies.at[2].shape == 0 && scene.stops.at[2].time == 0.25 &&
                 scene.stops.at[0].time == 0.75);
@@ -137,7 +137,7 @@ static void assets_are_resolved(void **state)
     assert_int_equal(kd_scene_validate(&scene, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/bodies/1/texture");
     assert_string_equal(error.message,
-                        "bodies.1.texture is \"sky\", which is no SHA-256, and no name of an asset that is known here");
+                        "bodies.1.texture is \"sky\"; it must be a SHA-256, or the name of a known asset");
     assert_int_equal(kd_scene_resolve(&scene, &assets, &error), KD_OK);
     assert_int_equal(asked, 4);
     assert_memory_equal(&scene, &same, sizeof scene);
@@ -151,7 +151,7 @@ static void assets_are_resolved(void **state)
     assert_int_equal(kd_scene_resolve(&scene, &assets, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/bodies/0/texture");
     assert_string_equal(error.message,
-                        "bodies.0.texture is \"ground\", and there is no such asset here; it must be null and sky");
+                        "bodies.0.texture is \"ground\", which is not a known asset; it must be null and sky");
     assert_memory_equal(&scene, &same, sizeof scene);
     assert_int_equal(kd_scene_set(&scene, "bodies.0.texture", "", &error), KD_OK); /* none */
     assert_int_equal(kd_scene_resolve(&scene, &assets, &error), KD_OK);
@@ -348,7 +348,7 @@ static void schema_and_reference(void **state)
     text.size = 0;
     assert_int_equal(kd_scene_reference(&text), KD_OK);
     const char *page = (const char *)text.data;
-    assert_non_null(strstr(page, "A list of up to 20, `[]` unless something else is said; N counts from 0.\n"));
+    assert_non_null(strstr(page, "A list of at most 20 elements, by default `[]`; N counts from 0.\n"));
     assert_non_null(strstr(page, "Old names are still read: `finish` is `stops.2`, `start` is `stops.0`.\n"));
     assert_non_null(strstr(page, "| `stops.N.sound` | look | asset | `null` |"));
     kd_buffer_finish(&text);

@@ -106,7 +106,7 @@ static void refuse(const void *data, size_t size, const char *why)
     char credit[KD_SKY_CREDIT];
     assert_int_equal(kd_sky_image(data, size, &p, credit, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/sky/image");
-    assert_ptr_equal(strstr(error.message, "sky.image cannot be taken: "), error.message);
+    assert_ptr_equal(strstr(error.message, "sky.image cannot be used: "), error.message);
     if (!strstr(error.message, why))
         fail_msg("%s", error.message);
     assert_null(p.texels);
@@ -119,8 +119,7 @@ static void bad_files(void **state)
     struct kd_buffer square = file(32, 32, 8, pixels, NULL, 0), flat = file(14, 7, 8, pixels, NULL, 0),
                      off = file(33, 16, 8, pixels, NULL, 0), good = file(64, 32, 8, pixels, NULL, 0);
     refuse(square.data, square.size,
-           "a picture of 32 x 32 pixels; it must be one of the whole sky, twice as wide as it is high, of 16 to 4096 "
-           "rows");
+           "a picture of 32 x 32 pixels; it must show the whole sky, twice as wide as high, with 16 to 4096 rows");
     refuse(flat.data, flat.size, "14 x 7 pixels");
     refuse(off.data, off.size, "33 x 16 pixels");
     refuse("text", 4, "not a PNG file");
@@ -164,8 +163,8 @@ static void credits(void **state)
 
 enum { WIDTH = 512, HEIGHT = 256 };
 
-/* What is left of a pattern along the meridians, a wave with a period of so many texels, in the row of that latitude
- * at a level: its amplitude, and the row's mean. */
+/* What is left of a pattern along the meridians, a wave with a period of that number of texels, in the row of that
+ * latitude at a level: its amplitude, and the row's mean. */
 static void wave(bool even, double period, double latitude, int level, double *amplitude, double *mean)
 {
     struct kd_sky_picture p = { WIDTH, HEIGHT, malloc(3 * sizeof(float) * WIDTH * HEIGHT), even };

@@ -277,9 +277,9 @@ static void a_cube_has_one_shape(void **state)
     assert_int_equal(kd_cube_compare(&shape, 1, &scene, &plan, &error), KD_OK);
     assert_int_equal(kd_cube_compare(&shape, 2, &scene, &wide, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/axes");
-    assert_non_null(strstr(error.message, "scene 2 is 65 x 36 pixels and scene 0 is 64 x 36"));
+    assert_non_null(strstr(error.message, "scene 2 has 65 x 36 pixels and scene 0 has 64 x 36"));
     assert_int_equal(kd_cube_compare(&shape, 3, &scene, &pair, &error), KD_EINVAL);
-    assert_non_null(strstr(error.message, "scene 3 is 128 x 36 pixels"));
+    assert_non_null(strstr(error.message, "scene 3 has 128 x 36 pixels"));
     assert_int_equal(kd_cube_compare(&shape, 4, &other, &plan, &error), KD_EINVAL);
     assert_non_null(strstr(error.message, "scene 4 has other layers"));
     assert_int_equal(kd_cube_compare(&shape, 0, &other, &plan, &error), KD_OK); /* another sweep */

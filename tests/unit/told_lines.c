@@ -152,7 +152,7 @@ static void test_lines(void **state)
         } else if (profiles > SHORT && t.error > 0.7 * profile.error)
             describe(&q, profile.error, t);
     }
-    print_message("%d of %d beyond what was told\n", beyond, asked);
+    print_message("%d of %d beyond the stated error\n", beyond, asked);
     assert_true(1000 * beyond <= asked);
 }
 

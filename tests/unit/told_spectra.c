@@ -134,7 +134,7 @@ static void test_spectra(void **state)
             print_message("a = %.17g, i = %.17g, %g to %g M, limb %d: told %.2e, off by %.2e +- %.1e\n", q.spin,
                           q.inclination_deg, q.params.inner, q.params.outer, (int)q.params.limb, told, off, known);
     }
-    print_message("%d of %d beyond what was told\n", beyond, asked);
+    print_message("%d of %d beyond the stated error\n", beyond, asked);
     assert_true(1000 * beyond <= asked);
 }
 

@@ -253,7 +253,7 @@ class Falling(Browser):
         for star, told in ((clear, True), (lost, False)):
             page.mouse.move(box["x"] + star["x"], box["y"] + star["y"])
             self.assertTrue(daemon.eventually(lambda: page.is_visible("#star") == told), star)
-        page.wait_for_timeout(400)  # longer than the delay after which a resting pointer is told
+        page.wait_for_timeout(400)  # longer than the delay after which a resting pointer shows a name
         self.assertFalse(page.is_visible("#star"), lost)
 
     def test_a_name_stays_while_the_picture_turns(self):

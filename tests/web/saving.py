@@ -236,7 +236,7 @@ class Saving(Browser):
 
     def test_what_cannot_be_saved_is_said(self):
         self.expected = "422"
-        for lang, told in (("en", "GiB are allowed"), ("it", "GiB di memoria")):
+        for lang, told in (("en", "GiB (limit: "), ("it", "GiB di memoria")):
             page = self.open("lang=" + lang)
             self.choose(page, "own", 32768, 32768)
             page.click("#save")

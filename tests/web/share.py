@@ -184,7 +184,7 @@ class Share(Browser):
             lambda route: route.fulfill(
                 status=422,
                 content_type="application/problem+json",
-                body='{"detail": "sky.image names an asset of this server, which a link does not hold; it must be null"}',
+                body='{"detail": "sky.image names an asset of this server, which a link cannot contain; it must be null"}',
             ),
         )
         page.click("#send")

@@ -98,10 +98,10 @@ void kd_completions_fish(struct kd_writer *w)
         if (command)
             kd_write(w, "complete -c kerrd -n '__kerrd_is help' -a %s\n", context.name);
     }
-    kd_write(w, "complete -c kerrd -n '__kerrd_is' -a help -d 'what the options of a command are'\n"
-                "complete -c kerrd -n '__kerrd_is' -s '?' -l help -d 'Give this help list'\n"
-                "complete -c kerrd -n '__kerrd_is' -l usage -d 'Give a short usage message'\n"
-                "complete -c kerrd -n '__kerrd_is' -s V -l version -d 'Print program version'\n");
+    kd_write(
+        w, "complete -c kerrd -n '__kerrd_is' -a help -d 'print the options of a command'\ncomplete -c kerrd -n "
+           "'__kerrd_is' -s '?' -l help -d 'Give this help list'\ncomplete -c kerrd -n '__kerrd_is' -l usage -d 'Give "
+           "a short usage message'\ncomplete -c kerrd -n '__kerrd_is' -s V -l version -d 'Print program version'\n");
     for (size_t i = 0; kd_context_at(i, &context); i++)
         write_context(w, &context);
     kd_write(w, "\n");

@@ -131,8 +131,8 @@ static void write_settings(struct kd_writer *w)
         gap = ", ";
     }
     kd_write(w, "\n");
-    write_text(w, "the options of these names, where no flag gives them; a switch is yes or no, several --host have "
-                  "commas between");
+    write_text(w, "the options with these names, if no flag gives them; a switch is yes or no, several values of "
+                  "--host are separated by commas");
     kd_write(w, "\n");
 }
 
@@ -172,14 +172,11 @@ static void write_examples(struct kd_writer *w, const char *command)
 
 static void write_exit_status(struct kd_writer *w)
 {
-    kd_write(w, ".SH EXIT STATUS\n"
-                ".TP\n.B 0\nIt is done.\n"
-                ".TP\n.B 1\nIt has failed: a device, a disk, a full queue.\n"
-                ".TP\n.B 2\nThe input or the usage is bad.\n"
-                ".TP\n.B 3\nThe device was lost or hangs: the same command may do it when it is given again.\n"
-                ".PP\nWhere the reader of a pipe has left, SIGPIPE ends it without a word.\n"
-                "Complaints are one line on standard error, which names what is wrong, and its JSON pointer where it "
-                "has one.\n");
+    kd_write(w, ".SH EXIT STATUS\n.TP\n.B 0\nSuccess.\n.TP\n.B 1\nFailure, for example of a device or a disk, or "
+                "because a queue is full.\n.TP\n.B 2\nThe input or the usage is bad.\n.TP\n.B 3\nThe device was lost "
+                "or hangs. The same command may succeed if it is repeated.\n.PP\nIf the reader of a pipe is gone, "
+                "SIGPIPE ends kerrd without a message.\nAn error is one line on standard error. It names the fault, "
+                "and its JSON pointer if there is one.\n");
 }
 
 /* Whether a text of the page mentions `kerrd NAME`. */

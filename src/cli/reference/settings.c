@@ -48,12 +48,11 @@ static void write_row(struct kd_writer *w, const struct kd_cli_setting *setting)
 
 void kd_settings_page(struct kd_writer *w)
 {
-    kd_write(w, "# Options of `kerrd serve`\n\n"
-                "Each may be a flag, a variable of the environment, or a member of the object in the file that "
-                "`--config` or `KERRD_CONFIG` names. The flag counts first, then the\n"
-                "environment, then the file, then the default: [operations](operations.md). This page is generated: "
-                "`build/src/cli/reference/kd_cli_reference options > docs/options.md`.\n\n"
-                "| flag | environment | file | which is | default | what it is |\n|---|---|---|---|---|---|\n");
+    kd_write(w, "# Options of `kerrd serve`\n\nAn option is a flag, an environment variable, or a member of the object "
+                "in the file that `--config` or `KERRD_CONFIG` names. A flag overrides the\nenvironment, which "
+                "overrides the file, which overrides the default: [operations](operations.md). This page is generated: "
+                "`build/src/cli/reference/kd_cli_reference options > docs/options.md`.\n\n| flag | environment | file "
+                "| value | default | meaning |\n|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < KD_SERVE_COUNT; i++)
         write_row(w, &kd_serve_settings[i]);
 }

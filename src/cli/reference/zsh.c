@@ -100,7 +100,7 @@ void kd_completions_zsh(struct kd_writer *w)
     kd_write(w, "_kerrd_commands=(\n");
     for (size_t i = 0; kd_context_at(i, &context); i++) {
         if (i == kd_n_commands)
-            kd_write(w, "    'help:what the options of a command are'\n)\n_kerrd_physics=(\n");
+            kd_write(w, "    'help:print the options of a command'\n)\n_kerrd_physics=(\n");
         kd_write(w, "    '");
         write_text(w, i < kd_n_commands ? context.name : strchr(context.name, ' ') + 1, ":\\");
         kd_write(w, ":");

@@ -108,9 +108,9 @@ enum kd_status kd_disk_spectrum(const struct kd_disk_image *image, const struct 
         flux[i] *= planck, other[i] *= planck, rough[i] *= planck;
         largest = fmax(largest, flux[i]);
         if (!isfinite(flux[i]) || !isfinite(other[i]) || !isfinite(rough[i]))
-            status = kd_error_field(error, "/spin",
-                                    "spin is %.17g: the sum is no number at %.9g Hz, so near an extremal hole",
-                                    image->hole.a, frequencies[i]);
+            status = kd_error_field(
+                error, "/spin", "spin is %.17g, so close to an extremal hole that the flux at %.9g Hz is not a number",
+                image->hole.a, frequencies[i]);
     }
     *error_out = 0;
     const double sure = image->cos_i < EDGE_ON ? 4 : 1;

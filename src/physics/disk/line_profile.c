@@ -338,8 +338,8 @@ enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct k
     struct sum sums[LEVELS + 1];
     if (params->emissivity == KD_LINE_LAMPPOST &&
         !kd_lamppost_init(&lamp, &image->hole, params->height, params->photon_index, params->inner, params->outer))
-        return kd_error_field(error, "/height", "height is %.9g: its light is not found on the whole disk",
-                              params->height);
+        return kd_error_field(error, "/height",
+                              "height is %.9g, from where no rays to all radii of the disk were found", params->height);
     struct work *work = malloc(sizeof *work);
     const size_t most = (size_t)bins + 2 * LOOKED + 4;
     double *in = calloc(most * (LEVELS + 2), sizeof *in);
@@ -355,7 +355,8 @@ enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct k
                                               .error = left };
         gather(&all, &sums[n], share);
         if (!(sums[n].total > 0 && isfinite(profile->total)))
-            status = kd_error_field(error, "/spin", "spin is %.17g: the sum is no number, so near an extremal hole",
+            status = kd_error_field(error, "/spin",
+                                    "spin is %.17g, so close to an extremal hole that the profile is not a number",
                                     image->hole.a);
     }
     free(work);

@@ -179,14 +179,15 @@ static double newton(const struct kd_ring_image *ring, double phi, double *chi, 
                      struct kd_null_crossing *here)
 {
     const double h = 1e-7;
-    struct kd_null_crossing aside;
+    struct kd_null_crossing shifted;
     double f = mismatch(ring, *chi, *log_rho, here), g = turn(here->phi - phi), g_rho;
     if (!isfinite(f))
         return INFINITY;
     double f_rho = slope(ring, *chi, *log_rho, f, &g_rho, here->phi);
     /* Along the ring's image r_n hardly changes, so one of the two difference steps is taken along it. */
-    double f_chi = mismatch(ring, *chi + h, *log_rho, &aside) - f, along = isfinite(f_chi) ? f_chi / f_rho : NAN;
-    double f_on = (mismatch(ring, *chi + h, *log_rho - along, &aside) - f) / h, g_on = turn(aside.phi - here->phi) / h;
+    double f_chi = mismatch(ring, *chi + h, *log_rho, &shifted) - f, along = isfinite(f_chi) ? f_chi / f_rho : NAN;
+    double f_on = (mismatch(ring, *chi + h, *log_rho - along, &shifted) - f) / h,
+           g_on = turn(shifted.phi - here->phi) / h;
     double determinant = f_on * g_rho - f_rho * g_on;
     double step = (f_rho * g - g_rho * f) / determinant, rest = (g_on * f - f_on * g) / determinant;
     double d_rho = rest - along / h * step;

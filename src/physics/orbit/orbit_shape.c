@@ -158,10 +158,9 @@ enum kd_status kd_orbit_from_shape(const struct kd_hole *hole, double p, double 
     *o = of_shape(hole, p, e, x);
     double least = p < 12.5 ? kd_orbit_separatrix(hole, e, x) : 0;
     if (p < least && (e > 0 || !exists(o)))
-        return kd_error_field(error, "/p",
-                              "p is %.16g; with this spin, e and inclination_deg an orbit has its turning points "
-                              "there only above %.9g, the separatrix",
-                              p, least);
+        return kd_error_field(
+            error, "/p", "p is %.16g; with this spin, e and inclination_deg it must be above the separatrix at %.9g", p,
+            least);
     o->fate = p < least ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND;
     return KD_OK;
 }

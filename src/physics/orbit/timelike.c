@@ -119,11 +119,10 @@ enum kd_status kd_orbit_from_constants(const struct kd_hole *hole, double energy
     if (status)
         return status;
     if (!(carter >= 0))
-        return kd_error_field(
-            error, "/carter",
-            "carter is %.16g; it must be 0 or more; a motion that never crosses the equator (Q < 0) is "
-            "given by position and velocity",
-            carter);
+        return kd_error_field(error, "/carter",
+                              "carter is %.16g; it must be 0 or more; a motion that never crosses the equator (Q < 0) "
+                              "needs position and velocity",
+                              carter);
     if (!isnan(r) && !(r > hole->outer))
         return kd_error_field(error, "/r", "r is %.16g; it must be above the horizon at %.9g", r, hole->outer);
     *o = (struct kd_orbit) {
@@ -131,7 +130,7 @@ enum kd_status kd_orbit_from_constants(const struct kd_hole *hole, double energy
     };
     kd_orbit_set_constants(o);
     if (!find_range(o, 1 / r) && !isnan(r))
-        return kd_error_field(error, "/r", "r is %.16g, where a particle of these constants cannot be", r);
+        return kd_error_field(error, "/r", "r is %.16g, which no particle with these constants reaches", r);
     if (!(o->w_high > 0) || !to_the_future(o))
         return kd_error_field(error, "/energy", "energy is %.16g: no particle outside the horizon has these constants",
                               energy);
@@ -199,7 +198,7 @@ static enum kd_status check_state(const struct kd_hole *hole, double r, double t
         return kd_error_field(error, "/velocity/frame", "%s at r = %.16g, inside %s, which ends at %.9g here: use %s",
                               row->why, r, row->edge, row->outside(hole, at.u), kd_observer_others(&at, others));
     if (!(speed < 1))
-        return kd_error_field(error, "/velocity", "the speed is %.16g; it must be below 1, that of light", speed);
+        return kd_error_field(error, "/velocity", "the speed is %.16g c; it must be below 1", speed);
     return KD_OK;
 }
 
@@ -276,8 +275,7 @@ enum kd_status kd_orbit_from_state(const struct kd_hole *hole, double r, double 
         .u_rate = -p.polar * at.s,
     };
     if (!find_range_of_circle(o, start) && !find_range(o, start->w) && !find_range_at_turn(o, start))
-        return kd_error_field(error, "/position/r", "the motion from r = %.16g cannot be followed in double precision",
-                              r);
+        return kd_error_field(error, "/position/r", "double precision cannot follow the motion from r = %.16g", r);
     if (start->w_rate == 0) { /* exactly at the nearer turning point */
         bool outer = fabs(o->w_low - start->w) < fabs(o->w_high - start->w);
         *(outer ? &o->w_low : &o->w_high) = start->w;

@@ -19,18 +19,18 @@
     X(STATIC, static, "at rest with respect to infinity", "outside the ergosphere, r > 1 + sqrt(1 - a^2 cos^2 i)", \
       kd_kerr_ergosphere(hole, u), "the ergosphere", "nothing is at rest") \
     X(ZAMO, zamo, "with zero angular momentum", "outside the horizon", hole->outer, "the horizon", "everything falls") \
-    X(KEPLERIAN, keplerian, "on a circular orbit towards +phi, as the disk, whose highest latitude is here", \
-      "outside the orbit of light that goes round with the disk", kd_observer_light_orbit(hole, u, 1), \
-      "the orbit of light", "nothing goes round freely") \
-    X(RETROGRADE, retrograde, "on a circular orbit towards -phi, against the disk, whose highest latitude is here", \
-      "outside the orbit of light that goes round against the disk", kd_observer_light_orbit(hole, u, -1), \
-      "the orbit of light", "nothing goes round freely") \
+    X(KEPLERIAN, keplerian, "on a circular orbit towards +phi like the disk, at its highest latitude", \
+      "outside the photon orbit that co-rotates with the disk", kd_observer_light_orbit(hole, u, 1), \
+      "the photon orbit", "there is no circular orbit") \
+    X(RETROGRADE, retrograde, "on a circular orbit towards -phi, against the disk, at its highest latitude", \
+      "outside the photon orbit that counter-rotates", kd_observer_light_orbit(hole, u, -1), "the photon orbit", \
+      "there is no circular orbit") \
     X(INFALL, infall, "in free fall, by default from rest at infinity", \
       "outside the inner horizon, r > 1 - sqrt(1 - a^2)", hole->inner, "the inner horizon", "the model ends")
 #define KD_OBSERVERS(X) \
     KD_OBSERVERS_OF_NO_NUMBERS(X) \
-    X(VELOCITY, velocity, "with any velocity past the one of zero angular momentum", "outside the horizon", \
-      hole->outer, "the horizon", "everything falls")
+    X(VELOCITY, velocity, "with any velocity relative to the observer of zero angular momentum", \
+      "outside the horizon", hole->outer, "the horizon", "everything falls")
 
 #define KD_OBSERVER_NAME_(NAME, word, ...) KD_OBSERVER_##NAME,
 enum kd_observer { KD_OBSERVERS(KD_OBSERVER_NAME_) KD_OBSERVER_COUNT };

@@ -41,7 +41,7 @@ uint32_t kd_engine_most_steps(enum kd_engine engine)
 enum kd_status kd_engine_steps_error(enum kd_engine engine, uint32_t steps, struct kd_error *error)
 {
     return kd_error_field(error, "/accuracy/steps",
-                          "steps is %u, and for %s must be a multiple of 4 up to %u, or 0 for the engine's default",
+                          "steps is %u; for %s it must be a multiple of 4 up to %u, or 0 for the engine's default",
                           steps, kd_engine_name(engine), kd_engine_most_steps(engine));
 }
 
@@ -67,13 +67,13 @@ static enum kd_status by_tolerance(const struct kd_accuracy_request *asked_accur
     struct kd_accuracy_choice choice;
     if (asked_accuracy->steps)
         return kd_error_field(error, "/accuracy/steps",
-                              "steps is %u beside a tolerance, which chooses them: it must be 0",
+                              "steps is %u; with a tolerance, which determines the steps, it must be 0",
                               asked_accuracy->steps);
     if (asked_accuracy->engine == KD_ENGINE_CLOSED)
-        return kd_error_field(
-            error, "/accuracy/tolerance",
-            "tolerance is %.9g beside the engine \"closed\", which has one accuracy, that of its precision",
-            asked_accuracy->tolerance);
+        return kd_error_field(error, "/accuracy/tolerance",
+                              "tolerance is %.9g; it cannot be used with the engine \"closed\", whose accuracy depends "
+                              "only on its precision",
+                              asked_accuracy->tolerance);
     const struct kd_accuracy_limits limits = { asked_accuracy->engine,
                                                float64 ? asked_accuracy->precision : KD_PRECISION_F32 };
     enum kd_status status = kd_accuracy_choose(table, asked_accuracy->tolerance, &limits, &choice, error);
@@ -117,12 +117,13 @@ enum kd_status kd_setting_of(const struct kd_accuracy_request *asked_accuracy, c
     else
         *out = by_profile(asked_accuracy, float64);
     if (!status && out->precision == KD_PRECISION_F64 && !float64 && out->engine != KD_ENGINE_CLOSED)
-        return kd_error_field(error, "/accuracy/precision",
-                              "precision is f64, which this device has not: it must be f32, or "
-                              "the engine \"closed\"");
+        return kd_error_field(
+            error, "/accuracy/precision",
+            "precision is f64, which this device lacks; it must be f32, or the engine must be \"closed\"");
     if (!status && out->engine == KD_ENGINE_CLOSED && asked_accuracy->steps)
         return kd_error_field(error, "/accuracy/steps",
-                              "the closed engine takes no steps: steps must be 0, or the engine another one");
+                              "steps cannot be used with the closed engine, which takes none: it must be 0, or the "
+                              "engine must be another");
     if (!status && (asked_accuracy->steps % 4 || asked_accuracy->steps > kd_engine_most_steps(out->engine)))
         return kd_engine_steps_error(out->engine, asked_accuracy->steps, error);
     return status;

@@ -175,5 +175,6 @@ enum kd_status kd_accuracy_from_json(const char *text, size_t length, struct kd_
     cJSON_ArrayForEach(item, rows) good =
         good && out->n < KD_ACCURACY_ROWS && row_from_json(item, &out->rows[out->n++]);
     cJSON_Delete(root);
-    return good && out->n ? KD_OK : kd_error_set(error, KD_EINVAL, "this is no accuracy table of format %d", FORMAT);
+    return good && out->n ? KD_OK
+                          : kd_error_set(error, KD_EINVAL, "this is not an accuracy table of format %d", FORMAT);
 }

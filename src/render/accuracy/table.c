@@ -29,15 +29,15 @@ static enum kd_status refuse(const struct kd_accuracy_table *table, const struct
     bool stands_in = table == kd_accuracy_built_in();
     if (!best)
         return kd_error_field(error, "/accuracy/tolerance",
-                              "the accuracy table of this device has no row that can be relied on "
-                              "for what was asked; `kerrd bench accuracy` makes a new one");
+                              "the accuracy table of this device has no reliable row for this request; `kerrd bench "
+                              "accuracy` makes a new table");
     /* The number is rounded up, so that a request for the printed number succeeds. */
-    return kd_error_field(error, "/accuracy/tolerance",
-                          "tolerance is %.3g, %s was measured to hold %.3g and above (%s %s with %u steps); the engine "
-                          "\"closed\" is what it was measured against",
-                          tolerance, stands_in ? "llvmpipe, whose table stands in for this device's," : "this device",
-                          1.01 * kd_accuracy_holds(best), kd_engine_name(best->engine),
-                          kd_precision_name(best->precision), best->steps);
+    return kd_error_field(
+        error, "/accuracy/tolerance",
+        "tolerance is %.3g; %s reaches %.3g at best (%s %s with %u steps); the engine \"closed\", the reference of "
+        "these measurements, is more accurate",
+        tolerance, stands_in ? "llvmpipe, whose table replaces the missing table of this device," : "this device",
+        1.01 * kd_accuracy_holds(best), kd_engine_name(best->engine), kd_precision_name(best->precision), best->steps);
 }
 
 static bool within(const struct kd_accuracy_limits *limits, const struct kd_accuracy_row *row)

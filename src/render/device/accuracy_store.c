@@ -49,7 +49,7 @@ static enum kd_status load(const char *path, struct kd_buffer *text, struct kd_a
 {
     if (!path)
         return kd_error_set(error, KD_EIO,
-                            "there is nowhere to keep an accuracy table: neither XDG_CACHE_HOME nor HOME is set");
+                            "there is no folder for an accuracy table: neither XDG_CACHE_HOME nor HOME is set");
     enum kd_status status = read_file(path, text, error);
     if (!status && kd_accuracy_from_json((const char *)text->data, text->size, table, NULL))
         status =

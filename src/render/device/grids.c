@@ -23,9 +23,8 @@ static enum kd_status read_asset(const struct kd_assets *assets, const char *has
     struct kd_asset_bytes bytes;
     struct kd_error why = { 0 };
     if (!assets || !assets->take(assets->user, hash, &bytes))
-        return kd_error_field(error, "/volume/grid",
-                              "volume.grid is \"%s\", and the bytes of this asset are not here; it must be %s", hash,
-                              assets ? assets->allowed : "none where there are no assets");
+        return kd_error_field(error, "/volume/grid", "volume.grid is \"%s\", whose file is missing; it must be %s",
+                              hash, assets ? assets->allowed : "null, because there are no assets");
     enum kd_status status = kd_matter_grid_read(bytes.data, bytes.size, out, &why);
     assets->give_back(assets->user, &bytes);
     if (status == KD_EINVAL)
@@ -38,8 +37,8 @@ static const char *hash_of(const struct kd_scene *scene) { return *scene->volume
 static struct kd_cached_documents_grid *kept_of(struct kd_grids *all, const char *hash)
 {
     for (int i = 0; i < KD_GRIDS; i++)
-        if (!strcmp(all->kept[i].of, hash))
-            return &all->kept[i];
+        if (!strcmp(all->entries[i].of, hash))
+            return &all->entries[i];
     return NULL;
 }
 
@@ -51,7 +50,7 @@ static enum kd_status grid_of(struct kd_renderer *r, const struct kd_scene *scen
     enum kd_status status = KD_OK;
     if (!at || (nodes && !at->grid.nodes)) {
         if (!at)
-            at = &r->grids.kept[r->grids.n++ % KD_GRIDS];
+            at = &r->grids.entries[r->grids.n++ % KD_GRIDS];
         kd_matter_grid_finish(&at->grid);
         *at->of = 0;
         KD_TRY(*scene->volume.grid ? read_asset(r->panoramas.assets, scene->volume.grid, &at->grid, error)
@@ -145,7 +144,7 @@ static void finish(void *own, struct kd_vk *vk)
 void kd_grids_finish(struct kd_grids *grids)
 {
     for (int i = 0; i < KD_GRIDS; i++)
-        kd_matter_grid_finish(&grids->kept[i].grid);
+        kd_matter_grid_finish(&grids->entries[i].grid);
     *grids = (struct kd_grids) { 0 };
 }
 

@@ -12,7 +12,7 @@ struct kd_grids {
     struct kd_cached_documents_grid {
         char of[KD_ASSET_NAME];     /* the asset's hash; "": the slot is free */
         struct kd_matter_grid grid; /* nodes: present until uploaded, up to 64 MiB; otherwise NULL */
-    } kept[KD_GRIDS];
+    } entries[KD_GRIDS];
     uint32_t n; /* number of grids read so far; the next one replaces the oldest */
 };
 void kd_grids_finish(struct kd_grids *grids);

@@ -40,7 +40,7 @@ struct kd_renderer {
     struct kd_store store;
     struct kd_prepared prepared;
     struct kd_background_render background_renders[KD_BACKGROUND_RENDERS];
-    uint64_t asides_used;
+    uint64_t backgrounds_used;
     /* buffers of rays/device.c, reused for the next list: the list, its results, and both on the host */
     struct kd_vk_buffer *rays[2][3];
     struct kd_rays_pace {
@@ -49,7 +49,7 @@ struct kd_renderer {
         uint32_t steps, orders, size;
     } rays_pace;
     bool passing; /* this and the next two as in kd_renderer_params */
-    bool (*lacks)(void *user, struct kd_compilation *compilation, bool aside);
+    bool (*lacks)(void *user, struct kd_compilation *compilation, bool background);
     void *lacks_user;
     struct kd_emit_state *emit; /* numbers and tables of the emitters, as of the last frame */
     struct kd_panoramas panoramas;
@@ -59,17 +59,17 @@ struct kd_renderer {
     struct kd_capacity capacity; /* not reduced to the host's limit, which kd_renderer_capacity applies */
     struct kd_memory_watch memory;
     _Atomic uint64_t held; /* bytes of device buffers, as of the last frame */
-    _Atomic uint64_t kept_bytes[KD_N_KEPT_KINDS];
+    _Atomic uint64_t kept_bytes[KD_N_CACHE_KINDS];
     _Atomic uint64_t opened_bytes;                /* bytes that were resident after the device was last opened */
     _Atomic uint64_t started_bytes, started_heap; /* after the device was first opened: bytes resident; bytes of the
                                                    * heap in use */
     struct kd_accuracy_table *accuracy; /* accuracy table of this device, as on disk when the renderer was created;
                                          * NULL: none */
     struct kd_verdict verdict;
-    struct kd_capacity kept; /* as stored in the file */
-    uint32_t frames;         /* number of frames so far, as learn.c counts them */
-    bool probing;            /* a pass costs the smallest of the measured costs instead of their mean */
-    char name[800];          /* the next two, joined */
+    struct kd_capacity stored; /* as stored in the file */
+    uint32_t frames;           /* number of frames so far, as learn.c counts them */
+    bool probing;              /* a pass costs the smallest of the measured costs instead of their mean */
+    char name[800];            /* the next two, joined */
     char device[256], driver[520];
 };
 

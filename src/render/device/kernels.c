@@ -346,7 +346,7 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
     return kd_kernels_get_of(kernels, vk, &sources[kernel], constants, n, out, error);
 }
 
-static size_t room_of(const struct kd_kernels *kernels) { return kernels->kept ? kernels->kept : KD_KERNELS_KEPT; }
+static size_t room_of(const struct kd_kernels *kernels) { return kernels->limit ? kernels->limit : KD_KERNELS_KEPT; }
 
 /* The entry of a kernel; NULL if there is none. */
 static struct kd_kernel_entry *find(struct kd_kernels *kernels, const struct kd_vk_pipeline_params *source,

@@ -31,7 +31,7 @@ enum kd_kernel {
     KD_KERNEL_STAR_IMAGES_TEXELS,
     KD_KERNEL_TRANSFER,
     KD_KERNEL_TRANSFER_TEXELS, /* the transfer kernel, reading texels */
-    KD_KERNEL_TRANSFER_PROBE,  /* for a single ray, of which each emitter is reported; the next one: through volumes */
+    KD_KERNEL_TRANSFER_PROBE,  /* for a single ray, with a report of each emitter; the next one: through volumes */
     KD_KERNEL_MARCH_PROBE,
     KD_KERNEL_LAYERS,
     KD_KERNEL_MARCH,        /* the transfer and layers kernels for scenes with volumes */
@@ -89,7 +89,7 @@ struct kd_kernel_requests {
 };
 struct kd_kernels {
     struct kd_kernel_entry entries[KD_KERNELS_KEPT];
-    size_t kept; /* number of entries in use; 0: all. A test sets it before the first request */
+    size_t limit; /* number of entries in use; 0: all. A test sets it before the first request */
     uint64_t clock;
     bool noting;
     struct kd_kernel_requests wishes;

@@ -14,7 +14,7 @@ struct kd_normal {
     double scale;
 };
 struct kd_normalised {
-    struct kd_normal kept[KD_NORMALISED];
+    struct kd_normal entries[KD_NORMALISED];
     uint32_t n; /* number of densities stored so far */
 };
 

@@ -12,9 +12,8 @@ static enum kd_status take(const struct kd_assets *assets, const char *hash, str
 {
     if (assets && assets->take(assets->user, hash, out))
         return KD_OK;
-    return kd_error_field(error, "/sky/image",
-                          "sky.image is \"%s\", and the bytes of this asset are not here; it must be %s", hash,
-                          assets ? assets->allowed : "none where there are no assets");
+    return kd_error_field(error, "/sky/image", "sky.image is \"%s\", whose file is missing; it must be %s", hash,
+                          assets ? assets->allowed : "null, because there are no assets");
 }
 
 static enum kd_status fill(struct kd_panorama *p, struct kd_sky_picture *picture, struct kd_error *error)
@@ -168,7 +167,7 @@ static struct kd_panorama_key key_of(const struct kd_scene *scene)
     return key;
 }
 
-static struct kd_panorama *kept(struct kd_panoramas *all, const char *of)
+static struct kd_panorama *cached(struct kd_panoramas *all, const char *of)
 {
     for (int i = 0; i < KD_PANORAMAS; i++)
         if (!strcmp(all->at[i].of, of))
@@ -197,7 +196,7 @@ static void begin(struct kd_panoramas *all, const struct kd_panorama_key *key)
     struct kd_panorama_key *same = asked(all, key->of);
     if (same)
         same->ahead &= key->ahead;
-    if (kept(all, key->of) || same || is_broken(all, key->of) || all->n_asked == KD_PANORAMAS_ASKED)
+    if (cached(all, key->of) || same || is_broken(all, key->of) || all->n_asked == KD_PANORAMAS_ASKED)
         return;
     all->asked[all->n_asked++] = *key;
     if (all->runs)
@@ -228,7 +227,7 @@ void kd_panorama_ahead(struct kd_panoramas *all, const char *hash)
     snprintf(key.of, sizeof key.of, "%s", hash);
     snprintf(key.sky.image, sizeof key.sky.image, "%s", hash);
     pthread_mutex_lock(&all->lock);
-    if (!all->n_asked && kept(all, "")) /* a free slot */
+    if (!all->n_asked && cached(all, "")) /* a free slot */
         begin(all, &key);
     pthread_mutex_unlock(&all->lock);
 }
@@ -238,7 +237,7 @@ static struct kd_panorama *wait_for(struct kd_panoramas *all, const struct kd_pa
 {
     if (!is_broken(all, key->of) && !strcmp(all->broken, key->of)) /* a failure for lack of memory is tried again */
         *all->broken = 0;
-    while (!kept(all, key->of) && strcmp(all->broken, key->of)) {
+    while (!cached(all, key->of) && strcmp(all->broken, key->of)) {
         begin(all, key);
         if (asked(all, key->of) || all->runs) {
             pthread_cond_wait(&all->changed, &all->lock);
@@ -250,7 +249,7 @@ static struct kd_panorama *wait_for(struct kd_panoramas *all, const struct kd_pa
             make_first(all);
         all->runs = false;
     }
-    return kept(all, key->of);
+    return cached(all, key->of);
 }
 
 enum kd_status kd_panorama_of(struct kd_panoramas *all, const struct kd_scene *scene, const struct kd_panorama **out,

@@ -26,15 +26,16 @@ struct kd_renderer_params {
     /* called on another thread when kd_renderer_sky_begin may have a new result; may be NULL */
     void (*sky_made)(void *user);
     void *sky_user;
-    /* Called when a picture needs kernels that were not foreseen; takes ownership of the compilation. aside: as in
+    /* Called when a picture needs kernels that were not foreseen; takes ownership of the compilation. background: as in
      * kd_render_in_background, so that others may use the renderer before this returns. False: the picture is
      * abandoned, KD_ECANCELLED. NULL: the thread with the device makes them. */
-    bool (*lacks)(void *user, struct kd_compilation *compilation, bool aside);
+    bool (*lacks)(void *user, struct kd_compilation *compilation, bool background);
     void *lacks_user;
     bool passing;          /* another renderer uses the same device: measured speeds are not stored */
     bool compiles_only;    /* as kd_vk_params: pictures are black, and no Milky Way is made */
     uint32_t deadline_ms;  /* as kd_vk_params */
-    uint64_t memory_bytes; /* limit for pictures, including those rendered aside; 0: set by the device and the host */
+    uint64_t memory_bytes; /* limit for pictures, including those rendered in the background; 0: set by the device and
+                              the host */
 };
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
                                   struct kd_error *error);

@@ -27,28 +27,28 @@ void kd_renderer_begin_count(struct kd_renderer *r)
 
 static uint64_t more_than(uint64_t a, uint64_t b) { return a > b ? a - b : 0; }
 
-static uint64_t named_bytes(const struct kd_renderer *r, uint64_t out[KD_N_KEPT_KINDS])
+static uint64_t named_bytes(const struct kd_renderer *r, uint64_t out[KD_N_CACHE_KINDS])
 {
     uint64_t sum = 0;
-    for (size_t i = 0; i < KD_N_KEPT_KINDS; i++)
-        sum += out[i] = i == KD_KEPT_HEAP || i == KD_KEPT_OTHER ? 0 : atomic_load(&r->kept_bytes[i]);
+    for (size_t i = 0; i < KD_N_CACHE_KINDS; i++)
+        sum += out[i] = i == KD_CACHE_HEAP || i == KD_CACHE_OTHER ? 0 : atomic_load(&r->kept_bytes[i]);
     return sum;
 }
 
 uint64_t kd_renderer_kept_sum(const struct kd_renderer *r)
 {
-    uint64_t each[KD_N_KEPT_KINDS], named = named_bytes(r, each);
+    uint64_t each[KD_N_CACHE_KINDS], named = named_bytes(r, each);
     return named + more_than(resident_bytes(), r->opened_bytes + named);
 }
 
 /* Resident memory that belongs to no other kind is either in the heap or `other`. Device memory is counted in full
  * although some pages may never have been touched; the heap is therefore limited to what is left. */
-void kd_renderer_kept(const struct kd_renderer *r, uint64_t out[KD_N_KEPT_KINDS])
+void kd_renderer_cached(const struct kd_renderer *r, uint64_t out[KD_N_CACHE_KINDS])
 {
     const uint64_t left = more_than(resident_bytes(), r->started_bytes + named_bytes(r, out)),
-                   heap = more_than(kd_allocator_used(), r->started_heap + out[KD_KEPT_KERNELS]);
-    out[KD_KEPT_HEAP] = heap < left ? heap : left;
-    out[KD_KEPT_OTHER] = left - out[KD_KEPT_HEAP];
+                   heap = more_than(kd_allocator_used(), r->started_heap + out[KD_CACHE_KERNELS]);
+    out[KD_CACHE_HEAP] = heap < left ? heap : left;
+    out[KD_CACHE_OTHER] = left - out[KD_CACHE_HEAP];
 }
 
 void kd_renderer_count(struct kd_renderer *r)
@@ -58,13 +58,13 @@ void kd_renderer_count(struct kd_renderer *r)
     for (size_t i = 0; i < KD_BACKGROUND_RENDERS; i++)
         maps += kd_store_map_bytes(&r->background_renders[i].store);
     atomic_store(&r->held, held);
-    atomic_store(&r->kept_bytes[KD_KEPT_LENS_MAPS], maps);
-    atomic_store(&r->kept_bytes[KD_KEPT_BUFFERS], held > maps ? held - maps : 0);
-    atomic_store(&r->kept_bytes[KD_KEPT_KERNELS], kd_kernels_spirv_bytes(&r->kernels));
-    atomic_store(&r->kept_bytes[KD_KEPT_PANORAMAS], kd_panoramas_bytes(&r->panoramas));
+    atomic_store(&r->kept_bytes[KD_CACHE_LENS_MAPS], maps);
+    atomic_store(&r->kept_bytes[KD_CACHE_BUFFERS], held > maps ? held - maps : 0);
+    atomic_store(&r->kept_bytes[KD_CACHE_KERNELS], kd_kernels_spirv_bytes(&r->kernels));
+    atomic_store(&r->kept_bytes[KD_CACHE_PANORAMAS], kd_panoramas_bytes(&r->panoramas));
 }
 
-static void empty_asides(struct kd_renderer *r)
+static void empty_backgrounds(struct kd_renderer *r)
 {
     for (size_t i = 0; i < KD_BACKGROUND_RENDERS; i++) {
         struct kd_background_render *a = &r->background_renders[i];
@@ -78,7 +78,7 @@ static void empty_asides(struct kd_renderer *r)
 /* Frees everything that can be freed while the device stays open. */
 static void give_back(struct kd_renderer *r)
 {
-    empty_asides(r);
+    empty_backgrounds(r);
     kd_store_rest(&r->store, KD_REST_MAPS_BYTES);
     kd_prepared_finish(&r->prepared, r->vk);
     for (size_t i = 0; i < sizeof r->rays / sizeof **r->rays; i++) {
@@ -117,7 +117,7 @@ enum kd_status kd_renderer_rest(struct kd_renderer *r, struct kd_error *error)
     const uint64_t sum = kd_renderer_kept_sum(r);
     if (sum <= KD_REST_BYTES)
         return KD_OK;
-    kd_log(KD_LOG_INFO, "%.0f MiB are kept at rest: the device is opened again", (double)sum / 0x1p20);
+    kd_log(KD_LOG_INFO, "%.0f MiB remain in use at rest; the device is reopened", (double)sum / 0x1p20);
     return open_again(r, error);
 done:
     return status;

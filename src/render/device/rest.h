@@ -5,14 +5,14 @@
 #include "render/device/renderer.h"
 
 /* X(kind, its label in /metrics) */
-#define KD_KEPT_KINDS(X) \
+#define KD_CACHE_KINDS(X) \
     X(LENS_MAPS, "lens_maps") \
     X(BUFFERS, "buffers") X(KERNELS, "kernels") X(PANORAMAS, "panoramas") X(HEAP, "heap") X(OTHER, "other")
-enum kd_cached_documents_kind {
-#define KD_KEPT_ENUM(kind, word) KD_KEPT_##kind,
-    KD_KEPT_KINDS(KD_KEPT_ENUM)
-#undef KD_KEPT_ENUM
-        KD_N_KEPT_KINDS
+enum kd_cache_kind {
+#define KD_CACHE_ENUM(kind, word) KD_CACHE_##kind,
+    KD_CACHE_KINDS(KD_CACHE_ENUM)
+#undef KD_CACHE_ENUM
+        KD_N_CACHE_KINDS
 };
 
 /* Bounds of what stays after kd_renderer_rest. Device memory is allocated in blocks of 64 MiB (vk/memory.c): one map
@@ -20,8 +20,8 @@ enum kd_cached_documents_kind {
 #define KD_REST_MAPS_BYTES (64ull << 20) /* the latest lens map, or none if it is larger */
 #define KD_REST_KERNELS 16u              /* the latest ones: as many as one view and its refinement need */
 #define KD_REST_PANORAMAS 1u             /* the latest one, up to 45 MB */
-/* Limit for buffers of finished pictures that were rendered aside (kd_render_in_background), besides those of the last
- * one: their lens maps may serve the next picture. */
+/* Limit for buffers of finished pictures that were rendered in the background (kd_render_in_background), besides those
+ * of the last one: their lens maps may serve the next picture. */
 #define KD_IDLE_ASIDES_BYTES (128ull << 20)
 /* Lens maps kept besides the one in use. */
 #define KD_KEPT_MAPS_BYTES (512ull << 20)
@@ -35,17 +35,17 @@ enum kd_cached_documents_kind {
 /* The label of a kind; NULL after the last. */
 static inline const char *kd_cached_documents_word(size_t kind)
 {
-#define KD_KEPT_WORD(kind, word) word,
-    static const char *const words[] = { KD_KEPT_KINDS(KD_KEPT_WORD) };
-#undef KD_KEPT_WORD
-    return kind < KD_N_KEPT_KINDS ? words[kind] : NULL;
+#define KD_CACHE_WORD(kind, word) word,
+    static const char *const words[] = { KD_CACHE_KINDS(KD_CACHE_WORD) };
+#undef KD_CACHE_WORD
+    return kind < KD_N_CACHE_KINDS ? words[kind] : NULL;
 }
 /* Bytes of each kind. The device's kinds are as of the latest frame or rest; kernels are counted by their SPIR-V. The
  * last two kinds, `heap` and `other`, divide what is resident beyond the kinds above and beyond the size of the process
  * when it first opened the device. heap: memory in use on the heap, mostly what lavapipe has compiled. other: code,
  * stacks, freed memory that was not yet returned, and blocks of a MiB and more in use for rendering, encoding or
  * sending. Reads a file in /proc and inspects the heap, about a millisecond. Any thread. */
-void kd_renderer_kept(const struct kd_renderer *renderer, uint64_t out[KD_N_KEPT_KINDS]);
+void kd_renderer_cached(const struct kd_renderer *renderer, uint64_t out[KD_N_CACHE_KINDS]);
 /* The sum of all kinds, without inspecting the heap, and without what remained after the device was reopened. Any
  * thread. */
 uint64_t kd_renderer_kept_sum(const struct kd_renderer *renderer);
@@ -53,7 +53,7 @@ uint64_t kd_renderer_kept_sum(const struct kd_renderer *renderer);
 void kd_renderer_count(struct kd_renderer *renderer);
 /* Frees everything except what the bounds above name, and returns the host's free memory to the kernel. Later pictures
  * are the same. Those of the latest view take no longer, unless the device had to be reopened (KD_REST_BYTES). Errors
- * as kd_renderer_reopen. Render thread only, while nothing is being rendered, here or aside. */
+ * as kd_renderer_reopen. Render thread only, while nothing is being rendered, here or in the background. */
 enum kd_status kd_renderer_rest(struct kd_renderer *renderer, struct kd_error *error);
 /* Call after the process has opened the device for the first time: what is resident now is not counted as kept. */
 void kd_renderer_begin_count(struct kd_renderer *renderer);

@@ -95,7 +95,7 @@ void kd_verdict_recall(struct kd_renderer *r)
     free(path);
     if (n)
         understand(r, text, n);
-    r->kept = r->capacity;
+    r->stored = r->capacity;
 }
 
 /* Whether a figure has changed enough for the file to be written again. */
@@ -107,7 +107,7 @@ void kd_verdict_keep(struct kd_renderer *r)
     bool changed = false;
     kd_renderer_capacity(r, &capacity);
     for (int i = 0; i < KD_FIGURE_COUNT; i++)
-        changed |= differs(capacity.ns[i], r->kept.ns[i]);
+        changed |= differs(capacity.ns[i], r->stored.ns[i]);
     if (r->verdict.result == KD_PASSED && capacity.measured && changed)
         kd_verdict_save(r, capacity);
 }

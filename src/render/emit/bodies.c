@@ -38,13 +38,13 @@ static double omega_of(const struct kd_scene *scene, const struct kd_body *body)
 size_t kd_bodies_count(const struct kd_scene *scene)
 {
     const struct kd_body *on[KD_SCENE_BODIES];
-    return kd_scene_bodies(scene, on) + (scene->crowd.at ? scene->crowd.at->n : 0);
+    return kd_scene_bodies(scene, on) + (scene->dynamic.at ? scene->dynamic.at->n : 0);
 }
 
 size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body *out)
 {
     const struct kd_body *on[KD_SCENE_BODIES];
-    const size_t n = kd_scene_bodies(scene, on), others = scene->crowd.at ? scene->crowd.at->n : 0;
+    const size_t n = kd_scene_bodies(scene, on), others = scene->dynamic.at ? scene->dynamic.at->n : 0;
     const double time = scene->top.time - kd_particle_delay(scene);
     for (size_t i = 0; i < n; i++) {
         const struct kd_vantage at = kd_body_vantage(scene, on[i]);
@@ -62,7 +62,7 @@ size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body *out)
         b->phi = on[i]->phase_deg * (M_PI / 180) + remainder(motion_of(on[i], &at, b->velocity) * time, 2 * M_PI);
     }
     if (others)
-        memcpy(out + n, scene->crowd.at->bodies, others * sizeof *out);
+        memcpy(out + n, scene->dynamic.at->bodies, others * sizeof *out);
     for (size_t i = n; i < n + others; i++)
         out[i].which += KD_SCENE_BODIES;
     return n + others;
@@ -83,8 +83,8 @@ static unsigned varies(const struct kd_scene *scene)
 static size_t unseen_of(const struct kd_scene *scene)
 {
     size_t unseen = 0;
-    for (size_t i = 0; scene->crowd.at && i < scene->crowd.at->n; i++)
-        unseen += !kd_bodies_seen(&scene->crowd.at->bodies[i], kd_scene_hole(scene));
+    for (size_t i = 0; scene->dynamic.at && i < scene->dynamic.at->n; i++)
+        unseen += !kd_bodies_seen(&scene->dynamic.at->bodies[i], kd_scene_hole(scene));
     return unseen;
 }
 
@@ -98,9 +98,10 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
                                  i + 1 == n ? "." : "");
     if (others && used < KD_EMIT_TOLD)
         used += (size_t)snprintf(out + used, KD_EMIT_TOLD - used, "%s%zu %s of a playground at %.6g M of its time.",
-                                 n ? " " : "", others, others > 1 ? "bodies" : "body", scene->crowd.at->time);
+                                 n ? " " : "", others, others > 1 ? "bodies" : "body", scene->dynamic.at->time);
     if (unseen_of(scene) && used < KD_EMIT_TOLD)
-        snprintf(out + used, KD_EMIT_TOLD - used, " Not shown, as they have no radius or are at the horizon: %zu.",
+        snprintf(out + used, KD_EMIT_TOLD - used,
+                 " Bodies that are not shown, because they have no radius or are at the horizon: %zu.",
                  unseen_of(scene));
 }
 
@@ -121,8 +122,8 @@ static struct kd_seen_body *listed(const struct kd_scene *scene, size_t *n)
 static bool is_lit(const struct kd_scene *scene)
 {
     struct kd_illumination lit;
-    for (size_t i = 0; scene->crowd.at && i < scene->crowd.at->n; i++)
-        if (scene->crowd.at->bodies[i].albedo > 0)
+    for (size_t i = 0; scene->dynamic.at && i < scene->dynamic.at->n; i++)
+        if (scene->dynamic.at->bodies[i].albedo > 0)
             return kd_illumination_of(scene, &lit);
     return false;
 }
@@ -240,21 +241,21 @@ static bool large(const struct kd_scene *scene, const struct kd_setting *rays)
     for (size_t i = kd_scene_bodies(scene, on); i; i--)
         if (on[i - 1]->radius > 0.1 * on[i - 1]->r)
             return true;
-    for (size_t i = 0; scene->crowd.at && i < scene->crowd.at->n; i++)
-        if (scene->crowd.at->bodies[i].radius > 0.1 * scene->crowd.at->bodies[i].r)
+    for (size_t i = 0; scene->dynamic.at && i < scene->dynamic.at->n; i++)
+        if (scene->dynamic.at->bodies[i].radius > 0.1 * scene->dynamic.at->bodies[i].r)
             return true;
     return false;
 }
 
 static bool shown(const struct kd_scene *scene, const struct kd_setting *rays)
 {
-    return (void)rays, scene->crowd.at && scene->crowd.at->n;
+    return (void)rays, scene->dynamic.at && scene->dynamic.at->n;
 }
 static bool lit_ones(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, is_lit(scene); }
 static bool dark(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, !is_lit(scene); }
 static bool by_potential(const struct kd_scene *scene, const struct kd_setting *rays)
 {
-    return shown(scene, rays) && scene->crowd.at->approximate;
+    return shown(scene, rays) && scene->dynamic.at->approximate;
 }
 
 #define WHEN(name, condition) \
@@ -264,39 +265,37 @@ WHEN(unseen, unseen_of(scene))
 
 static const struct kd_sentence sentences[] = {
     { "bodies.flat",
-      "bodies: opaque spheres in their own frames; near a body space is taken as flat and light as straight: no "
-      "tides, no gravity of its own, no shadows",
+      "bodies: opaque spheres in their own frames; space near a body is taken as flat, and light there as straight; no "
+      "tides, no gravity of the body, no shadows",
       NULL },
     { "bodies.unlit", "bodies: no light of the disk falls on them", dark },
     { "bodies.lit",
-      "bodies: they scatter, evenly to all sides, the light of an unobscured smooth disk, taken along straight "
-      "lines from 16 rings of 24 places; three moments of its direction are kept",
+      "bodies: they scatter light of the disk isotropically; this light comes along straight lines from 16 rings of 24 "
+      "points of an unobscured smooth disk, reduced to three moments of its direction",
       lit_ones },
     { "bodies.large",
-      "bodies: one whose radius exceeds a tenth of its distance from the hole is drawn in the flat space of its "
-      "centre, where its shape is not the true one",
+      "bodies: a body whose radius exceeds a tenth of its distance from the hole is drawn in the flat space of its "
+      "centre, so that its shape is wrong",
       large },
     { "bodies.black-body",
-      "bodies: they shine as black bodies of one temperature, with a chosen linear law of limb darkening", NULL },
-    { "bodies.fast", "bodies: fast light: shown where they are at one coordinate time; the light's delay is ignored",
-      NULL },
+      "bodies: each shines as a black body of one temperature, with a chosen linear law of limb darkening", NULL },
+    { "bodies.fast", "bodies: fast light: all are shown at one coordinate time; the light's delay is ignored", NULL },
     { "bodies.still",
-      "bodies: those that fall or have a chosen velocity stay where they are placed; the velocity only shifts "
-      "their light",
+      "bodies: a falling body, or one with a chosen velocity, stays at its place; its velocity only shifts its light",
       stands },
     { "bodies.playground",
-      "bodies: those of a playground are shown at its time, with velocities relative to observers of zero "
-      "angular momentum",
+      "bodies: bodies of a playground are shown at its time, with velocities relative to observers of zero angular "
+      "momentum",
       shown },
     { "bodies.potential",
-      "bodies: those of a playground move in a potential; its r is taken as the Boyer-Lindquist radius, its "
-      "velocity as gamma v",
+      "bodies: bodies of a playground move in a potential; its r is taken as the Boyer-Lindquist radius, its velocity "
+      "as gamma v",
       by_potential },
-    { "bodies.not-shown", "bodies: some of a playground are not shown: they have no radius, or are at the horizon",
-      unseen },
+    { "bodies.not-shown",
+      "bodies: some bodies of a playground are not shown, because they have no radius or are at the horizon", unseen },
     { "bodies.bolometric", "bodies: brightness is bolometric (g^4), colour is that of the visible part of the spectrum",
       bolometric },
-    { "bodies.small", "bodies: one that is smaller than a pixel may lie between its rays", NULL },
+    { "bodies.small", "bodies: rays may miss a body that is smaller than a pixel", NULL },
 };
 
 const struct kd_emitter kd_emit_bodies = {
@@ -310,7 +309,7 @@ const struct kd_emitter kd_emit_bodies = {
     .device_bytes = device_bytes,
     .fill = fill,
     .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(bodies),
-                 KD_SCENE_PART(top), KD_SCENE_PART(crowd) },
+                 KD_SCENE_PART(top), KD_SCENE_PART(dynamic) },
     .sentences = sentences,
     .n_sentences = sizeof sentences / sizeof *sentences,
     .reads = &kd_emit_disk,

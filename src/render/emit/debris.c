@@ -8,9 +8,12 @@
 
 #define REFERENCE 1000.0 /* M^2: the area over which one body's debris has the optical depth `depth` */
 
-static const struct kd_dynamic_bodies_debris *of(const struct kd_scene *scene) { return &scene->crowd.at->debris; }
+static const struct kd_dynamic_bodies_debris *of(const struct kd_scene *scene) { return &scene->dynamic.at->debris; }
 
-static bool present(const struct kd_scene *scene) { return scene->crowd.at && of(scene)->rows && of(scene)->depth > 0; }
+static bool present(const struct kd_scene *scene)
+{
+    return scene->dynamic.at && of(scene)->rows && of(scene)->depth > 0;
+}
 static uint32_t traits(const struct kd_scene *scene)
 {
     return scene->disk.band == KD_BAND_VISIBLE ? KD_TRAIT_VISIBLE : 0;
@@ -71,7 +74,7 @@ static enum kd_status prepare(const struct kd_emitter_buffers_work *work, const 
     struct own *o = work->own;
     const uint64_t bytes = sizeof(float) * words(of(scene));
     enum kd_status status;
-    if (o->generation == scene->crowd.generation)
+    if (o->generation == scene->dynamic.generation)
         return KD_OK;
     forget(o);
     KD_TRY(kd_emitter_buffers_at_least(work, &o->device, bytes, KD_VK_DEVICE, "debris", error));
@@ -79,7 +82,7 @@ static enum kd_status prepare(const struct kd_emitter_buffers_work *work, const 
     memcpy(kd_vk_buffer_map(o->staging), of(scene)->nodes, bytes);
     KD_TRY(kd_vk_copy(work->vk, "upload", o->device, 0, o->staging, 0, bytes, error));
     KD_TRY(kd_vk_submit(work->vk, NULL, error));
-    o->generation = scene->crowd.generation;
+    o->generation = scene->dynamic.generation;
 done:
     return status;
 }
@@ -105,25 +108,24 @@ static const struct kd_emitter_buffers own = {
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
 WHEN(thick, of(scene)->thick > 0.02)
 WHEN(hidden, of(scene)->hidden)
-WHEN(by_potential, scene->crowd.at->approximate)
+WHEN(by_potential, scene->dynamic.at->approximate)
 WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
 
 static const struct kd_sentence sentences[] = {
     { "debris.plane",
-      "debris: projected onto the disk's plane at its r and azimuth, as a density of pieces on a grid: a stream "
-      "is at least one cell wide",
+      "debris: projected onto the disk's plane at its r and azimuth, as a density on a grid; a stream is at least one "
+      "cell wide",
       NULL },
-    { "debris.no-height",
-      "debris: it lies more than a fiftieth of r off that plane in the mean; its height is not shown", thick },
+    { "debris.no-height", "debris: its mean distance from that plane exceeds r/50; its height is not shown", thick },
     { "debris.black-body",
-      "debris: a black body of one chosen temperature; its optical depth is a chosen number times its column "
-      "density, at any angle",
+      "debris: a black body of one chosen temperature; its optical depth is a chosen number times its column density, "
+      "independent of angle",
       NULL },
     { "debris.mean",
-      "debris: its light is shifted by the mean velocity within the plane at each place; no heating by shocks, "
-      "no spread of velocities",
+      "debris: its light is shifted by the local mean velocity within the plane; no heating by shocks, no spread of "
+      "velocities",
       NULL },
-    { "debris.fast", "debris: fast light: shown where it is at one coordinate time; the light's delay is ignored",
+    { "debris.fast", "debris: fast light: all of it is shown at one coordinate time; the light's delay is ignored",
       NULL },
     { "debris.potential",
       "debris: it moves in a potential; its r is taken as the Boyer-Lindquist radius, its velocity as gamma v",
@@ -145,7 +147,7 @@ const struct kd_emitter kd_emit_debris = {
     .device_bytes = device_bytes,
     .reach = reach,
     .fill = fill,
-    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(disk), KD_SCENE_PART(crowd) },
+    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(disk), KD_SCENE_PART(dynamic) },
     .sentences = sentences,
     .n_sentences = sizeof sentences / sizeof *sentences,
     .reads = &kd_emit_disk,

@@ -133,16 +133,16 @@ WHEN(fast, stirs(scene) && !scene->disk.slow_light)
 
 static const struct kd_sentence sentences[] = {
     { "gas.turbulence",
-      "gas: turbulence is procedural noise, not a solution of magnetohydrodynamics; it multiplies the flux, and "
-      "so changes temperature and colour, and the optical depth where one is used",
+      "gas: turbulence is procedural noise, not a solution of magnetohydrodynamics; it multiplies the flux, which "
+      "changes temperature and colour, and the optical depth if disk.optical_depth is not 0",
       turbulent },
     { "gas.rings",
       "gas: the pattern turns as rigid rings that blend into each other, each with the angular velocity of its "
       "middle; it drifts but does not shear",
       turbulent },
     { "gas.octaves",
-      "gas: octaves finer than the area that a ray covers on the disk fade to their mean: the light varies in "
-      "time by up to a tenth less than with 64 rays a pixel",
+      "gas: octaves finer than a ray's footprint on the disk fade to their mean; the light then varies in time by up "
+      "to a tenth less than with 64 rays a pixel",
       turbulent },
     { "gas.fast", "gas: fast light: shown at one coordinate time; the light's delay is ignored", fast },
     { "gas.depth",

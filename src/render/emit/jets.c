@@ -52,9 +52,9 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
 
 static const struct kd_sentence sentences[] = {
     { "jets.drawn",
-      "jets: stylised cones of optically thin gas along the spin axis, which moves outwards along the radius at "
-      "one speed relative to observers of zero angular momentum; no magnetic field and no synchrotron spectrum: "
-      "brightness is proportional to g^(2 + index), and the colour is that of a chosen temperature, not shifted",
+      "jets: stylised cones of optically thin gas along the spin axis; the gas moves radially outwards at one speed "
+      "relative to observers of zero angular momentum; no magnetic field and no synchrotron spectrum: brightness is "
+      "proportional to g^(2 + index), and the colour is that of a chosen temperature, without shift",
       NULL },
 };
 

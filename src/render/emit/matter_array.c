@@ -49,7 +49,7 @@ enum kd_status kd_matter_array_take(const struct kd_unzip *zip, const char *name
         KD_TRY(kd_matter_refuse(name, "the element type must be <f8 or <f4", error));
     if (!npy.items || npy.items > most) {
         char told[100];
-        snprintf(told, sizeof told, "has %llu numbers, it must have 1 to %zu", (unsigned long long)npy.items, most);
+        snprintf(told, sizeof told, "has %llu numbers; it must have 1 to %zu", (unsigned long long)npy.items, most);
         KD_TRY(kd_matter_refuse(name, told, error));
     }
     out->numbers = out->file.data + npy.header_size;

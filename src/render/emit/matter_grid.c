@@ -79,9 +79,9 @@ static enum kd_status check_header(struct kd_matter_grid *grid, const cJSON *hea
                 *version = cJSON_GetObjectItemCaseSensitive(header, "version");
     const char *azimuth = text_of(header, "azimuth");
     if (strcmp(text_of(header, "format"), "kerrd-grid") || !cJSON_IsNumber(version) || version->valuedouble != 1)
-        return kd_matter_refuse("header", "has not the format \"kerrd-grid\" of version 1", error);
+        return kd_matter_refuse("header", "is not of the format \"kerrd-grid\", version 1", error);
     if (!cJSON_IsNumber(spin) || !(fabs(spin->valuedouble) <= 1))
-        return kd_matter_refuse("header.spin", "is no number from -1 to 1", error);
+        return kd_matter_refuse("header.spin", "is not a number from -1 to 1", error);
     grid->spin = spin->valuedouble;
     grid->ingoing = !strcmp(azimuth, "kerr-schild");
     if (!grid->ingoing && strcmp(azimuth, "boyer-lindquist"))
@@ -102,7 +102,7 @@ static enum kd_status take_header(struct kd_matter_reader *r, struct kd_error *e
         status = kd_matter_no_memory(error);
     else if (!status)
         status = cJSON_IsObject(header) ? check_header(&r->grid, header, error)
-                                        : kd_matter_refuse("header", "is no JSON object", error);
+                                        : kd_matter_refuse("header", "is not a JSON object", error);
     cJSON_Delete(header);
     kd_buffer_finish(&bytes);
     kd_buffer_finish(&text);
@@ -118,17 +118,17 @@ static enum kd_status check_even(const char *name, const struct kd_matter_array 
     const double first = logarithmic ? log(begin) : begin, last = logarithmic ? log(end) : end,
                  step = (last - first) / (double)(a->n - 1);
     if (a->dimensions != 1 || a->n < 2)
-        return kd_matter_refuse(name, "is no list of 2 numbers or more", error);
+        return kd_matter_refuse(name, "is not a list of 2 numbers or more", error);
     for (size_t i = 0; i < a->n; i++) {
         const double value = kd_matter_array_at(a, i), at = logarithmic ? log(value) : value,
                      want = first + step * (double)i;
         if (value >= least && value <= most && fabs(at - want) <= EVEN * step)
             continue;
-        snprintf(what, sizeof what, "%zu is %.9g; it must be a number from %.4g to %.4g in even steps%s, here %.9g", i,
+        snprintf(what, sizeof what, "%zu is %.9g; it must be a number from %.4g to %.4g in equal steps%s, here %.9g", i,
                  value, least, most, logarithmic ? " of their logarithm" : "", logarithmic ? exp(want) : want);
         return kd_matter_refuse(name, what, error);
     }
-    return step > 0 ? KD_OK : kd_matter_refuse(name, "does not grow", error);
+    return step > 0 ? KD_OK : kd_matter_refuse(name, "is not in ascending order", error);
 }
 
 static enum kd_status take_round(struct kd_matter_reader *r, struct kd_error *error)
@@ -146,8 +146,8 @@ static enum kd_status take_round(struct kd_matter_reader *r, struct kd_error *er
     const double turn = (end - begin) / (double)(a.n - 1) * (double)a.n, parts = rint(2 * M_PI / turn);
     if (!(parts >= 1 && parts <= PARTS && fabs(turn * parts / (2 * M_PI) - 1) < EVEN))
         KD_TRY(kd_matter_refuse("phi",
-                                "does not go round once, nor a whole part of that, down to a 64th: its last is a step "
-                                "before the first again",
+                                "must cover a full turn, or 1/n of it with n up to 64; its last node must be one step "
+                                "before the first repeats",
                                 error));
     g->layers = (uint32_t)a.n;
     g->phi = begin;
@@ -187,7 +187,8 @@ static enum kd_status take_places(struct kd_matter_reader *r, struct kd_error *e
     const double step = (g->theta[1] - g->theta[0]) / (double)(g->columns - 1);
     if (g->theta[0] > 1.001 * step || g->theta[1] < M_PI - 1.001 * step)
         KD_TRY(kd_matter_refuse(
-            "theta", "does not go from pole to pole: its first is more than a step from 0, or its last from pi",
+            "theta",
+            "must go from pole to pole; its first is more than a step from 0, or its last more than a step from pi",
             error));
     KD_TRY(take_round(r, error));
     if ((uint64_t)g->rows * g->columns * g->layers > KD_MATTER_NODES) {
@@ -197,9 +198,9 @@ static enum kd_status take_places(struct kd_matter_reader *r, struct kd_error *e
         KD_TRY(kd_matter_refuse("r", what, error));
     }
     if ((g->rows - 1) / log(g->r[1] / g->r[0]) > FINEST)
-        KD_TRY(kd_matter_refuse("r", "has more than 1024 rows where r grows by a factor of e", error));
+        KD_TRY(kd_matter_refuse("r", "must have at most 1024 rows per factor e in r", error));
     if (g->columns < 3)
-        KD_TRY(kd_matter_refuse("theta", "has fewer than 3 numbers: there must be one off the axis", error));
+        KD_TRY(kd_matter_refuse("theta", "must have at least 3 numbers, so that one is off the axis", error));
 done:
     return status;
 }
@@ -270,8 +271,7 @@ static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struc
     if (!(radius > edge && s2 > AXIS) || fabs(norm + 1) <= UNIT)
         return KD_OK;
     return refuse_number(g, "the velocity's u.u at u_con_t", i, norm,
-                         "-1 within a hundredth, as of a velocity of unit length in the components that the grid names",
-                         error);
+                         "-1 within a hundredth, as for a four-velocity in the coordinates that the grid names", error);
 }
 
 /* An empty node has no temperature. It gets the mean of its non-empty neighbours, so that interpolation next to it

@@ -345,12 +345,12 @@ static bool slow(const struct kd_scene *scene, const struct kd_setting *rays)
 
 static const struct kd_sentence sentences[] = {
     { "particles.count",
-      "particles: brightness is that of the smooth disk times the number of particles over its mean; opacity is "
-      "that of the smooth disk",
+      "particles: brightness is that of the smooth disk times the ratio of the number of particles to its mean; "
+      "opacity is that of the smooth disk",
       NULL },
     { "particles.epicycles",
-      "particles: epicycles to first order about circular orbits, with a chosen number of particles per radius; "
-      "no pressure, no collisions",
+      "particles: epicycles to first order about circular orbits, with a chosen radial distribution of particles; no "
+      "pressure, no collisions",
       NULL },
     { "particles.fast",
       "particles: fast light: the whole disk is shown at one coordinate time, and the light's delay is ignored", fast },

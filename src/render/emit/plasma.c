@@ -238,11 +238,11 @@ static const struct kd_sentence sentences[] = {
     { "plasma.unpolarised",
       "volume: all polarisations of light are absorbed equally, so that the light is not polarised", is_unpolarised },
     { "plasma.gold",
-      "volume: the analytic model of Gold et al. 2020, which was made to compare programs; it ends at its edges",
+      "volume: the analytic model of Gold et al. 2020, made for the comparison of programs; it ends at its edges",
       is_gold },
     { "plasma.powers",
-      "volume: electrons and magnetic field follow power laws of r, which solve no equation of motion; they end "
-      "at their edges, and 7 scale heights from the plane",
+      "volume: electrons and magnetic field follow power laws of r, not an equation of motion; they end at their "
+      "edges, and 7 scale heights from the plane",
       is_powers },
     { "plasma.torus",
       "volume: the torus of Fishbone & Moncrief 1976, which is in equilibrium without its magnetic field; the "

@@ -68,8 +68,8 @@ static void reach(const struct kd_scene *scene, double radii[2])
 
 static const struct kd_sentence sentences[] = {
     { "plunge.free",
-      "particles: inside the ISCO gas falls freely with the energy and angular momentum of the ISCO; it is grey "
-      "and has one chosen temperature; its optical depth is its surface density over the disk's at the ISCO; no "
+      "particles: inside the ISCO gas falls freely with the energy and angular momentum of the ISCO; it is grey, with "
+      "one chosen temperature, and its optical depth is the ratio of its surface density to the disk's at the ISCO; no "
       "stress, no heating",
       NULL },
 };

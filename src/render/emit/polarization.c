@@ -66,12 +66,12 @@ static const struct kd_sentence sentences[] = {
       "changes it on its way: no Faraday rotation",
       NULL },
     { "polarization.field",
-      "polarization: synchrotron: only direction and fraction depend on the field; brightness and colour are "
-      "the disk's at any angle to it",
+      "polarization: synchrotron: only direction and fraction depend on the field; brightness and colour are those of "
+      "the disk, whatever the angle to the field",
       by_field },
     { "polarization.scatter",
       "polarization: scattering: the fraction is that of a deep, plane atmosphere of electrons (Chandrasekhar 1960); "
-      "its limb darkening, and light that returns to the disk, are left out",
+      "its limb darkening, and light that returns to the disk, are ignored",
       by_electrons },
     { "polarization.none", "polarization: light of volumes, bodies and the sky is unpolarised", beside },
 };

@@ -122,10 +122,10 @@ static bool noise(const struct kd_scene *scene, const struct kd_setting *rays)
 static const struct kd_sentence sentences[] = {
     { "sky.grid", "sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift", drawn },
     { "sky.noise",
-      "sky: from so near the horizon it is noise: for most pixels a neighbouring pixel, or the last digit of "
-      "the ray's constants, leads more than 0.1 rad away",
+      "sky: noise, because the camera is so close to the horizon: for most pixels, one pixel or the last digit of the "
+      "ray's constants changes the direction by more than 0.1 rad",
       noise },
-    { "sky.made-up", "sky: stars are generated; each magnitude has as many as the real sky", made_up },
+    { "sky.made-up", "sky: stars are generated, with the numbers of the real sky in each magnitude", made_up },
     { "sky.hipparcos",
       "sky: stars of the Hipparcos catalogue, all at infinity; the catalogue is nearly complete only to "
       "magnitude 8",
@@ -137,22 +137,19 @@ static const struct kd_sentence sentences[] = {
     { "sky.faint",
       "sky: images of stars that would brighten their pixel by less than 0.03 of sky.brightness are left out", starry },
     { "sky.rim",
-      "sky: images of stars closer to the critical curve than 3e-5 of its radius are left out; in pixels so "
-      "fine that Sirius would be visible there, the limit is where Sirius is no longer visible, and at least "
-      "1e-7",
+      "sky: images of stars closer to the critical curve than 3e-5 of its radius are left out; for fine pixels the "
+      "limit is where Sirius is no longer visible, at least 1e-7",
       rimmed },
     { "sky.few-rays",
-      "sky: next to the critical curve of so fast a hole, so fine a picture would need more rays than are "
-      "followed (524288): images of stars are left out where the sky is demagnified so much that only a few of "
-      "the brightest would be visible",
+      "sky: close to the critical curve this spin and picture size need more than the 524288 rays that are followed; "
+      "images of stars are left out where the sky is so demagnified that only a few of the brightest would be visible",
       thinned },
     { "sky.no-rim",
-      "sky: next to the critical curve, images of stars are left out in pixels that cover more than 0.15 rad of "
-      "the sky",
+      "sky: close to the critical curve, images of stars are left out in pixels that cover more than 0.15 rad of the "
+      "sky",
       rimless },
     { "sky.milky-way",
-      "sky: the light between the stars is a generated Milky Way, which does not match the real one place by "
-      "place",
+      "sky: the light between the stars is a generated Milky Way, which differs from the real one in its details",
       milky },
     { "sky.no-image", "sky: sky.model is \"image\" but sky.image is not set: the generated Milky Way takes its place",
       stands_in },

@@ -83,8 +83,7 @@ static const struct kd_sentence sentences[] = {
     { "spots.chosen", "spots: their brightness and colour are chosen, not computed; they absorb nothing", NULL },
     { "spots.no-shift", "spots: the Doppler shift or the gravitational redshift of the gas is switched off",
       without_shift },
-    { "spots.fast", "spots: fast light: shown where they are at one coordinate time; the light's delay is ignored",
-      fast },
+    { "spots.fast", "spots: fast light: all are shown at one coordinate time; the light's delay is ignored", fast },
 };
 
 const struct kd_emitter kd_emit_spots = {

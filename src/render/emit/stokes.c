@@ -96,8 +96,8 @@ static const struct kd_sentence sentences[] = {
       "constant over each short step; I differs from that of unpolarised transfer",
       NULL },
     { "stokes.thermal",
-      "polarization: thermal synchrotron light by the fits of Pandya et al. 2016 and Dexter 2016 (V); where the field "
-      "lies along the ray, and where electrons are not hot, V is limited so that at most 99 % of I is polarised",
+      "polarization: thermal synchrotron light by the fits of Pandya et al. 2016 and Dexter 2016 (V); if the field is "
+      "along the ray, or electrons are not hot, V is limited so that at most 99 % of I is polarised",
       is_thermal },
     { "stokes.power",
       "polarization: synchrotron light of a power law by the fits of Pandya et al. 2016; at most 99 % of I is "
@@ -116,9 +116,9 @@ static const struct kd_sentence sentences[] = {
       "= 1/2 by Shcherbakov 2008); there are no cold electrons",
       turns_dexters },
     { "stokes.faraday-kappa",
-      "polarization: Faraday rotation and conversion of a kappa distribution alone by the fits of Marszewski et al. "
-      "2021, made for frequencies above 100 gyrofrequencies and a tenth of (kappa w)^2 of them times sin(theta); in "
-      "between kappa 3.5, 4, 4.5 and 5, by the way to each",
+      "polarization: Faraday rotation and conversion of a kappa distribution by the fits of Marszewski et al. 2021 "
+      "alone, made for frequencies above 100 gyrofrequencies and above 0.1 (kappa w)^2 sin(theta) gyrofrequencies; "
+      "between kappa 3.5, 4, 4.5 and 5 they are interpolated",
       turns_kappa },
     { "stokes.no-faraday", "polarization: Faraday rotation and conversion are left out", turns_not },
     { "stokes.disorder",

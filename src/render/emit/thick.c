@@ -70,22 +70,20 @@ static bool by_profile(const struct kd_scene *scene, const struct kd_setting *ra
 
 static const struct kd_sentence sentences[] = {
     { "thick.height",
-      "thick disk: a chosen height, Gaussian, with the thin disk's temperature, flux and optical depth at each "
-      "distance from the axis; no torus in equilibrium, and it "
-      "ends at 4.5 heights",
+      "thick disk: a Gaussian profile of a chosen height, with the thin disk's temperature, flux and optical depth at "
+      "each distance from the axis; it is not a torus in equilibrium, and it ends at 4.5 heights",
       NULL },
     { "thick.rotation",
       "thick disk: at any height its gas has the angular velocity of the circular orbit in the plane at its "
       "distance from the axis",
       NULL },
     { "thick.black-body",
-      "thick disk: the sum of emission and absorption along each ray, without scattering; what it emits is that of a "
-      "black body of the thin disk's temperature, from top to "
-      "bottom",
+      "thick disk: emission and absorption are integrated along each ray, without scattering; at any height the source "
+      "is a black body of the thin disk's temperature",
       NULL },
     { "thick.tolerance",
-      "thick disk: light through its turbulence is found to 2e-2, 1e-2, 1e-3, 1e-4 or 5e-5 by accuracy.profile, from "
-      "draft to reference: coarser than through smooth volumes",
+      "thick disk: light through its turbulence has an error of 2e-2, 1e-2, 1e-3, 1e-4 or 5e-5 for accuracy.profile "
+      "from draft to reference, larger than through smooth volumes",
       by_profile },
 };
 

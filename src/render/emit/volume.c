@@ -42,13 +42,13 @@ static bool unshifted(const struct kd_scene *scene, const struct kd_setting *ray
 
 static const struct kd_sentence sentences[] = {
     { "volume.made-up",
-      "volume: invented matter, the same everywhere between its edges, at rest for observers of zero angular "
-      "momentum; it ends 1 % outside the horizon; it is grey, with the colour of a chosen temperature, and its "
-      "light is bolometric whatever disk.band is",
+      "volume: invented, uniform matter, at rest for observers of zero angular momentum; it ends 1 % outside the "
+      "horizon; it is grey, with the colour of a chosen temperature, and its light is bolometric, independent of "
+      "disk.band",
       NULL },
     { "volume.no-shift",
-      "volume: the frequency shift of the matter is switched off, and lengths are those of the observer's "
-      "affine parameter",
+      "volume: the frequency shift of the matter is switched off; lengths are measured by the observer's affine "
+      "parameter",
       unshifted },
 };
 

@@ -11,18 +11,18 @@
 static const char introduction[] =
     "# What is approximated\n"
     "\n"
-    "A plan lists the sentences that are in force in its scene (`kerrd plan`), and every picture carries them. The "
-    "header `Kerrd-Approximations`\n"
-    "has their names, and `GET /v1/approximations` the sentence of each name. Those \"if there are such\" are found "
-    "while "
-    "a picture is rendered: only the picture has them. These are all of them. This page is "
-    "generated from the emitters\n"
-    "(`src/render/emit/emitter.h`), `src/render/plan/plan.c`, `src/render/output/notes.c` and "
-    "`src/render/rays/answer.c`; do not edit it.\n"
-    "The chapters on the [physics](physics/README.md) say what stands behind them.\n"
+    "Every plan (`kerrd plan`) and every picture lists the approximations of its scene. Those in force \"if there are "
+    "such\" are\n"
+    "found while a picture is rendered, so that only the picture has them. The header `Kerrd-Approximations` has "
+    "their\n"
+    "names, and `GET /v1/approximations` the sentence of each name. This page has all of them. It is generated from "
+    "the\n"
+    "emitters (`src/render/emit/emitter.h`), `src/render/plan/plan.c`, `src/render/output/notes.c` and\n"
+    "`src/render/rays/answer.c`; do not edit it. The chapters on the [physics](physics/README.md) explain them.\n"
     "\n"
-    "Not modelled, and so not in the list of any picture: the motion of gas by its own forces, magnetic fields that "
-    "are carried along by gas, light that is scattered on its way.\n";
+    "No scene models these, so that no list has them: the motion of gas by its own forces, magnetic fields that gas "
+    "carries\n"
+    "along, and scattering of light on its way.\n";
 
 static const char present[] = "in each scene that has it", sometimes[] = "in some scenes";
 
@@ -47,7 +47,7 @@ static enum kd_status add_emitter(struct kd_buffer *page, const struct kd_emitte
         KD_TRY(add_row(page, emitter->sentences[i].name, emitter->sentences[i].text,
                        emitter->sentences[i].in_force ? sometimes : present));
     if (emitter->kind)
-        KD_TRY(kd_buffer_printf(page, "\nThe sentences of the %s hold as well.\n", emitter->kind->name));
+        KD_TRY(kd_buffer_printf(page, "\nThe sentences of the %s apply as well.\n", emitter->kind->name));
 done:
     return status;
 }

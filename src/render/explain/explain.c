@@ -89,14 +89,15 @@ static void say_why(struct kd_explained *x)
     if (x->told->through <= 0 && !x->told->given_up) {
         const struct kd_probed_place *hides = hiding(x->told);
         if (x->told->met.met)
-            SAY(" Nothing of that is seen: it ends on a surface at r = %.6g M.", 1 / (double)x->told->met.w);
+            SAY(" None of this is visible: the ray ends on a surface at r = %.6g M.", 1 / (double)x->told->met.w);
         else if (hides)
-            SAY(" Nothing of that is seen: what it crosses at r = %.6g M hides all behind.", 1 / (double)hides->w);
+            SAY(" None of this is visible: what the ray crosses at r = %.6g M hides everything behind it.",
+                1 / (double)hides->w);
         else
-            SAY(" Nothing of that is seen: the matter that it goes through hides all behind.");
+            SAY(" None of this is visible: the matter along the ray hides everything behind it.");
     }
     if (x->told->given_up)
-        SAY(" The picture's engine gave it up, and shows it in magenta.");
+        SAY(" The picture's engine could not follow the ray, and shows the pixel in magenta.");
 #undef SAY
 }
 
@@ -155,7 +156,7 @@ enum kd_status kd_explain(const struct kd_picture *picture, struct kd_explained 
     enum kd_status status;
     *x = (struct kd_explained) { 0 };
     if (!picture->frame->told)
-        return kd_error_set(error, KD_EINTERNAL, "the frame tells of no pixel");
+        return kd_error_set(error, KD_EINTERNAL, "the frame has no report on a pixel");
     KD_TRY(explain(picture, &picture->frame->told->middle, x, error));
     KD_TRY(kd_ray_path_draw(&x->motion, &x->frame, x->crossings, x->end.n_crossings, &x->path, error));
 done:
@@ -273,7 +274,7 @@ enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_e
         kd_text_clip(shown, sizeof shown, text);
         return kd_error_field(
             error, "/at",
-            "at is \"%s\"; it must be X,Y: pixels from the upper left corner, below %u across and %u down", shown,
+            "at is \"%s\"; it must be X,Y in pixels from the upper left corner, X below %u and Y below %u", shown,
             width, plan->height);
     }
     kd_plan_follow_all(plan);
@@ -315,7 +316,7 @@ enum kd_status kd_explain_trace(const char *text, struct kd_plan *plan, struct k
     kd_text_clip(shown, sizeof shown, text);
     if (strcmp(text, "steps"))
         return kd_error_field(error, "/trace",
-                              "trace is \"%s\"; it must be \"steps\": those of the engine along the ray", shown);
+                              "trace is \"%s\"; it must be \"steps\", for the engine's steps along the ray", shown);
     plan->told.steps = true;
     return KD_OK;
 }

@@ -77,36 +77,36 @@ static int why_from_within(const struct kd_ray_motion *m, enum kd_ray_fate fate,
 {
     if (fate == KD_RAY_ESCAPED)
         return snprintf(out, size,
-                        "Followed back it leaves the hole through the horizon, as it came in, and escapes to the sky.");
+                        "Followed back, the ray leaves the hole through the horizon and escapes to the sky.");
     if (isfinite(m->turning_r))
         return snprintf(out, size,
-                        "Followed back it leaves the hole through the horizon, rises to r = %.6g M, turns, and falls "
-                        "to the horizon of the hole's past.",
+                        "Followed back, the ray leaves the hole through the horizon, rises to r = %.6g M, turns, and "
+                        "falls to the horizon of the hole's past.",
                         m->turning_r);
-    return snprintf(out, size,
-                    "Followed back it stays within up to the horizon of the hole's past: nothing outside has sent it.");
+    return snprintf(
+        out, size, "Followed back, the ray stays inside, to the horizon of the hole's past: it has no source outside.");
 }
 
 int kd_ray_motion_why(const struct kd_ray_motion *m, enum kd_ray_fate fate, char *out, size_t size)
 {
     if (fate == KD_RAY_UNDECIDED)
         return snprintf(out, size,
-                        "Followed back it is so close to the critical curve that double precision does not tell "
+                        "Followed back, the ray is so close to the critical curve that double precision cannot decide "
                         "whether it escapes.");
     if (m->within)
         return why_from_within(m, fate, out, size);
     if (fate == KD_RAY_ESCAPED && isfinite(m->turning_r))
-        return snprintf(out, size, "Followed back it turns at r = %.6g M and escapes to the sky.", m->turning_r);
+        return snprintf(out, size, "Followed back, the ray turns at r = %.6g M and escapes to the sky.", m->turning_r);
     if (fate == KD_RAY_ESCAPED)
         return snprintf(
             out, size,
-            "Followed back it leaves the observer outwards, and escapes to the sky without a turning point.");
+            "Followed back, the ray leaves the observer outwards and escapes to the sky without a turning point.");
     if (isfinite(m->turning_r))
-        return snprintf(out, size, "Followed back it rises to r = %.6g M, turns, and falls to the horizon.",
+        return snprintf(out, size, "Followed back, the ray rises to r = %.6g M, turns, and falls to the horizon.",
                         m->turning_r);
     if (!m->ray.outward)
-        return snprintf(out, size, "Followed back it falls to the horizon: it has no turning point outside of it.");
-    return snprintf(out, size, "Followed back it ends at the horizon.");
+        return snprintf(out, size, "Followed back, the ray falls to the horizon without a turning point.");
+    return snprintf(out, size, "Followed back, the ray ends at the horizon.");
 }
 
 enum kd_status kd_ray_path_draw(const struct kd_ray_motion *m, const struct kd_ray_path_frame *frame,

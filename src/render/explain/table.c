@@ -108,8 +108,8 @@ static enum kd_status put_light(const struct kd_explained *x, struct kd_buffer *
     for (size_t i = 0; i < t->n_ends; i++)
         KD_TRY(put_glow(&t->ends[i], t->ends[i].points ? "points" : "end", out));
     if (t->lost)
-        KD_TRY(
-            kd_buffer_printf(out, "%zu records of the ray had no room and are not told; its sum has them\n", t->lost));
+        KD_TRY(kd_buffer_printf(out, "%zu records of the ray did not fit and are not listed; the sum includes them\n",
+                                t->lost));
     KD_TRY(kd_buffer_printf(out, "%-19s %35s   %11.4e %11.4e %11.4e\n", "ray", "", (double)t->light[0],
                             (double)t->light[1], (double)t->light[2]));
     KD_TRY(kd_buffer_printf(out, "%-19s %35s   %11.4e %11.4e %11.4e\n", "pixel", "", (double)x->pixel->radiance[0],

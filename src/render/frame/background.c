@@ -66,7 +66,7 @@ static void make_room_in_background(struct kd_renderer *r, uint64_t bytes)
 
 /* Limits the memory of idle background renders other than the last one, even if there is room: the oldest are
  * emptied. */
-static void bound_idle_asides(struct kd_renderer *r)
+static void bound_idle_backgrounds(struct kd_renderer *r)
 {
     for (;;) {
         struct kd_background_render *oldest = NULL, *last = NULL;
@@ -96,17 +96,17 @@ static struct kd_background_render *enter_background_render(struct kd_renderer *
     if (!a)
         return NULL;
     a->busy = true;
-    a->used = ++r->asides_used;
+    a->used = ++r->backgrounds_used;
     make_room_in_background(r, plan->device_bytes);
     if (!kd_store_has(&a->store, plan))
         kd_store_hand_over(&r->store, &a->store, plan);
     return a;
 }
 
-static enum kd_status render_aside(struct kd_renderer *renderer, const struct kd_scene *scene,
-                                   const struct kd_plan *plan, const struct kd_light_sum *others,
-                                   kd_progress_fn progress, const struct kd_preview_hook *preview, void *user,
-                                   struct kd_frame *out, struct kd_error *error)
+static enum kd_status render_background(struct kd_renderer *renderer, const struct kd_scene *scene,
+                                        const struct kd_plan *plan, const struct kd_light_sum *others,
+                                        kd_progress_fn progress, const struct kd_preview_hook *preview, void *user,
+                                        struct kd_frame *out, struct kd_error *error)
 {
     if (kd_plan_is_parted(plan))
         return kd_frame_parted(&(struct kd_parted) { renderer, scene, plan, true, progress, user }, out, error);
@@ -123,7 +123,7 @@ static enum kd_status render_aside(struct kd_renderer *renderer, const struct kd
         .r = renderer,
         .store = &a->store,
         .prepared = &a->prepared,
-        .aside = true,
+        .background = true,
         .scene = &scaled,
         .plan = plan,
         .others = others,
@@ -134,7 +134,7 @@ static enum kd_status render_aside(struct kd_renderer *renderer, const struct kd
     };
     enum kd_status status = kd_frame_run(&job, out);
     a->busy = false;
-    bound_idle_asides(renderer);
+    bound_idle_backgrounds(renderer);
     kd_renderer_count(renderer);
     if (!status)
         out->density_scale = scale;
@@ -152,14 +152,14 @@ enum kd_status kd_render_in_background(struct kd_renderer *renderer, const struc
                                        const struct kd_preview_hook *preview, void *user, struct kd_frame *out,
                                        struct kd_error *error)
 {
-    return render_aside(renderer, scene, plan, NULL, progress, preview, user, out, error);
+    return render_background(renderer, scene, plan, NULL, progress, preview, user, out, error);
 }
 
 enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                              const struct kd_light_sum *others, bool aside, kd_progress_fn progress,
+                              const struct kd_light_sum *others, bool background, kd_progress_fn progress,
                               const struct kd_preview_hook *preview, void *user, struct kd_frame *out,
                               struct kd_error *error)
 {
-    return aside ? render_aside(renderer, scene, plan, others, progress, preview, user, out, error)
-                 : render_here(renderer, scene, plan, others, progress, user, out, error);
+    return background ? render_background(renderer, scene, plan, others, progress, preview, user, out, error)
+                      : render_here(renderer, scene, plan, others, progress, user, out, error);
 }

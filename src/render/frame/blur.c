@@ -24,25 +24,24 @@ enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_ca
                               "image.tile.width is %u; with motion_blur it must be 0: the whole picture",
                               plan->cut.width);
     if (plan->strips)
-        return kd_error_set(
-            error, KD_ETOOBIG,
-            "the picture fits on the device only in %u strips, and motion_blur needs it in one piece: lower "
-            "image.width and image.height",
-            plan->strips);
+        return kd_error_set(error, KD_ETOOBIG,
+                            "the picture fits on the device only in %u strips, but motion_blur needs one piece: lower "
+                            "image.width and image.height",
+                            plan->strips);
     if (!plan->picture || plan->n_layers)
-        return kd_error_field(
-            error, "/image/layers",
-            "image.layers names numbers; with motion_blur it must be \"rgb\": only light has a mean that can be seen");
+        return kd_error_field(error, "/image/layers",
+                              "image.layers names maps of numbers; with motion_blur it must be \"rgb\", because only "
+                              "light can be averaged");
     bring_light(plan);
     plan->blur.samples = samples;
     plan->blur.shutter = shutter;
     plan->host_bytes += (uint64_t)(SUM + LIGHT) * plan->width * plan->height;
     plan->estimate_ms *= samples;
     if (capacity->host_bytes && plan->host_bytes > capacity->host_bytes)
-        return kd_error_set(error, KD_ETOOBIG,
-                            "the picture and the light that its motion blur adds up take %.3g GB of this machine's "
-                            "memory, of which %.3g GB are left",
-                            1e-9 * (double)plan->host_bytes, 1e-9 * (double)capacity->host_bytes);
+        return kd_error_set(
+            error, KD_ETOOBIG,
+            "the picture with motion blur needs %.3g GB of this machine's memory; only %.3g GB are free",
+            1e-9 * (double)plan->host_bytes, 1e-9 * (double)capacity->host_bytes);
     return KD_OK;
 }
 
@@ -84,14 +83,14 @@ static enum kd_status add(const struct kd_blurred *b, struct part *part, unsigne
     if (plan.width != b->plan->width || plan.height != b->plan->height || plan.eyes != b->plan->eyes || !plan.picture ||
         plan.n_layers)
         KD_TRY(kd_error_field(error, "/image",
-                              "the picture is of another size or kind at the end of the shutter's opening than at its "
-                              "begin: motion_blur takes one"));
+                              "the picture changes its size or kind while the shutter is open; with motion_blur both "
+                              "must stay the same"));
     if (plan.strips || plan.cut.width)
         KD_TRY(kd_error_set(error, KD_ETOOBIG,
                             "a picture of the blurred frame no longer fits on the device in one piece"));
     bring_light(&plan);
-    KD_TRY(b->aside ? kd_render_in_background(b->renderer, &scene, &plan, go_on, NULL, part, &frame, error)
-                    : kd_render(b->renderer, &scene, &plan, go_on, part, &frame, error));
+    KD_TRY(b->background ? kd_render_in_background(b->renderer, &scene, &plan, go_on, NULL, part, &frame, error)
+                         : kd_render(b->renderer, &scene, &plan, go_on, part, &frame, error));
     const float *light = frame.layers[1].data;
     for (size_t i = 0; i < (size_t)3 * frame.width * frame.height; i++)
         sum->sum[i] += light[i];
@@ -113,8 +112,8 @@ enum kd_status kd_render_blurred(const struct kd_blurred *b, struct kd_frame *ou
     for (; part.done < n - 1 && !status; part.done++)
         status = add(b, &part, n - 1 - part.done, &others, error);
     if (!status)
-        status = kd_render_mean(b->renderer, b->scene, b->plan, &others, b->aside, go_on, b->preview ? &looks : NULL,
-                                &part, out, error);
+        status = kd_render_mean(b->renderer, b->scene, b->plan, &others, b->background, go_on,
+                                b->preview ? &looks : NULL, &part, out, error);
     if (!status)
         out->others_traced = others.traced;
     free(others.sum);

@@ -22,14 +22,14 @@ struct kd_blur {
 enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_capacity *capacity, struct kd_plan *plan,
                             struct kd_error *error);
 
-/* Parameters for kd_render or, if `aside`, kd_render_in_background. preview: shows sample 0, which is rendered last,
- * without the other samples. */
+/* Parameters for kd_render or, if `background`, kd_render_in_background. preview: shows sample 0, which is rendered
+ * last, without the other samples. */
 struct kd_blurred {
     struct kd_renderer *renderer;
     const struct kd_blur *blur;
     const struct kd_scene *scene; /* the scene of sample 0; its plan is from kd_blur_plan */
     const struct kd_plan *plan;
-    bool aside;
+    bool background;
     kd_progress_fn progress;
     const struct kd_preview_hook *preview;
     void *user;

@@ -12,8 +12,8 @@ struct kd_compilation {
     struct kd_renderer *renderer;
     bool picture; /* the kernels of a whole picture, which is rendered: the scene by its plan */
     struct kd_scene scene;
-    struct kd_dynamic_bodies *crowd; /* the scene's bodies of a playground, by a reference of our own: the requester may
-                                      * be gone by then */
+    struct kd_dynamic_bodies *dynamic; /* the scene's bodies of a playground, by a reference of our own: the requester
+                                        * may be gone by then */
     struct kd_plan plan;
     struct kd_kernel_requests wishes;
     kd_progress_fn progress;
@@ -62,8 +62,8 @@ struct kd_compilation *kd_compilation_begin(struct kd_renderer *r, const struct 
         return NULL;
     c->picture = true;
     c->scene = *scene;
-    c->crowd = (struct kd_dynamic_bodies *)scene->crowd.at;
-    kd_dynamic_bodies_keep(c->crowd);
+    c->dynamic = (struct kd_dynamic_bodies *)scene->dynamic.at;
+    kd_dynamic_bodies_keep(c->dynamic);
     c->plan = *plan;
     c->plan.audit = 0; /* a device that computes nothing has nothing to audit */
     return c;
@@ -86,7 +86,7 @@ static enum kd_status dispatch_each(struct kd_compilation *c, struct kd_renderer
         KD_TRY(kd_vk_submit(own->vk, NULL, error));
         KD_TRY(kd_vk_wait(own->vk, 0, error));
         if (!c->progress(c->user, 0))
-            KD_TRY(kd_error_set(error, KD_ECANCELLED, "the kernels are wanted no more"));
+            KD_TRY(kd_error_set(error, KD_ECANCELLED, "the kernels are no longer needed"));
     }
 done:
     kd_vk_buffer_destroy(own->vk, any);
@@ -139,7 +139,7 @@ enum kd_status kd_compilation_run(struct kd_compilation *c, kd_progress_fn progr
     if (late && !c->status)
         kd_compiled_add(c->renderer, &c->wishes);
     if (c->status && c->status != KD_ECANCELLED)
-        kd_log(KD_LOG_DEBUG, "kernels could not be compiled beside the device: %s", c->error.message);
+        kd_log(KD_LOG_DEBUG, "kernels could not be compiled on the second device: %s", c->error.message);
     if (c->status == KD_EDEVICE && error)
         *error = c->error;
     return c->status == KD_EDEVICE ? KD_EDEVICE : KD_OK;
@@ -153,7 +153,7 @@ void kd_compilation_end(struct kd_compilation *c)
 
 void kd_compilation_drop(struct kd_compilation *c)
 {
-    kd_dynamic_bodies_release(c->crowd);
+    kd_dynamic_bodies_release(c->dynamic);
     free(c);
 }
 
@@ -162,10 +162,9 @@ bool kd_compilation_helps(const struct kd_renderer *r)
     char dir[4096];
     const enum kd_vk_compiling how = kd_vk_compiling(r->vk, dir);
     if (how == KD_VK_COMPILES_LATE_KEEPS_NOTHING)
-        kd_log(
-            KD_LOG_WARN,
-            "%.200s keeps no compiled kernels here (%.300s cannot be written, or MESA_SHADER_CACHE_DISABLE is set): a "
-            "picture whose kernels are new holds the device for some seconds while they are compiled",
-            r->driver, *dir ? dir : "its folder");
+        kd_log(KD_LOG_WARN,
+               "%.200s stores no compiled kernels (%.300s is not writable, or MESA_SHADER_CACHE_DISABLE is set): a "
+               "picture with new kernels occupies the device for some seconds during their compilation",
+               r->driver, *dir ? dir : "its folder");
     return how != KD_VK_COMPILES_LATE_KEEPS_NOTHING;
 }

@@ -18,7 +18,7 @@ static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacit
     enum kd_status status;
     /* A quarter of the memory is for the renderer's cached maps, so that background renders fit beside these. A
      * background render keeps its own lens map only. */
-    j->store->memory_bytes = j->aside ? j->plan->device_bytes : c->memory_bytes / 4;
+    j->store->memory_bytes = j->background ? j->plan->device_bytes : c->memory_bytes / 4;
     KD_TRY(kd_store_lens_map(j->store, j->plan, &j->lens, reused, j->error));
     KD_TRY(kd_store_frame(j->store, j->plan, j->plan->adaptive ? 16 : kd_frame_bit_depth(j->frame), j->error));
     kd_emit_update(r->emit, j->scene, j->plan->width * j->plan->band_rows);
@@ -229,7 +229,7 @@ done:
 /* Drops all cached buffers after a defect of the program, which may have corrupted them. The device is idle. */
 static void begin_anew(struct kd_frame_job *job)
 {
-    kd_log(KD_LOG_ERROR, "a defect of kerrd: %s", job->error ? job->error->message : "no word of what it is");
+    kd_log(KD_LOG_ERROR, "a fault in kerrd: %s", job->error ? job->error->message : "no details");
     kd_store_empty(job->store);
     kd_prepared_finish(job->prepared, job->r->vk);
 }

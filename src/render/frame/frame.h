@@ -69,11 +69,11 @@ struct kd_light_sum {
     double *sum;
     unsigned n, traced; /* traced: lens maps that were traced for these pictures */
 };
-/* As kd_render (or kd_render_in_background if `aside`), for a picture whose light is averaged with that of others;
+/* As kd_render (or kd_render_in_background if `background`), for a picture whose light is averaged with that of others;
  * called by frame/blur.h. plan->radiance must be true, and plan->eyes 1. The error of refined pixels is not measured.
  */
 enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                              const struct kd_light_sum *others, bool aside, kd_progress_fn progress,
+                              const struct kd_light_sum *others, bool background, kd_progress_fn progress,
                               const struct kd_preview_hook *preview, void *user, struct kd_frame *out,
                               struct kd_error *error);
 

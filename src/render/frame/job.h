@@ -13,8 +13,8 @@ struct kd_frame_job {
     struct kd_renderer *r;
     struct kd_store *store;
     struct kd_prepared *prepared;
-    bool aside;                                /* progress may render other pictures */
-    struct kd_vk_time times[KD_VK_MAX_PASSES]; /* if `aside`: device times of finished work */
+    bool background;                           /* progress may render other pictures */
+    struct kd_vk_time times[KD_VK_MAX_PASSES]; /* if `background`: device times of finished work */
     size_t n_times;
     double away_ms; /* time spent in progress */
     const struct kd_scene *scene;

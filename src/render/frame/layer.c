@@ -11,7 +11,7 @@ enum kd_status kd_frame_add_layer(struct kd_frame *frame, const char *name, uint
     struct kd_layer layer = { .channels = channels, .type = type };
     size_t bytes = (size_t)frame->width * frame->height * kd_layer_pixel_bytes(&layer);
     if (frame->n_layers == KD_FRAME_MAX_LAYERS)
-        return kd_error_set(error, KD_ETOOBIG, "a frame has %d layers at most, and no room for \"%s\"",
+        return kd_error_set(error, KD_ETOOBIG, "a frame has at most %d layers; there is no room for \"%s\"",
                             KD_FRAME_MAX_LAYERS, name);
     snprintf(layer.name, sizeof layer.name, "%s", name);
     layer.data = malloc(bytes);

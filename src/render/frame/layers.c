@@ -145,11 +145,11 @@ static enum kd_status check_light(struct kd_frame_job *j)
         for (size_t k = 0; k < all && kind->of == KD_OF_LIGHT; k++)
             n += isinf(((const float *)layer->data)[k]) != 0;
         if (n)
-            return kd_error_field(j->error, "/image/layers",
-                                  "image.layers asks for %s, which is beyond 3.4e38%s%s in %zu of %zu pixels: more "
-                                  "than its numbers of 32 bits hold. "
-                                  "The matter must be dimmer: a smaller density, temperature or emissivity of `volume`",
-                                  layer->name, *kind->unit ? " " : "", kind->unit, n, all);
+            return kd_error_field(
+                j->error, "/image/layers",
+                "image.layers has %s, which exceeds 3.4e38%s%s, the largest number of 32 bits, in %zu of %zu pixels: "
+                "the matter must be dimmer, with a smaller density, temperature or emissivity of `volume`",
+                layer->name, *kind->unit ? " " : "", kind->unit, n, all);
     }
     return KD_OK;
 }

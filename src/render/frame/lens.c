@@ -2,7 +2,7 @@
 #include "render/frame/lens.h"
 
 #include "render/view/camera.h"
-#include "render/view/critical_kept.h"
+#include "render/view/critical_cache.h"
 #include "render/lens/listed.h"
 #include "render/device/prepare.h"
 #include "render/frame/sample.h"
@@ -411,7 +411,7 @@ static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed)
     enum kd_status status = KD_OK;
     if (needed) {
         kd_critical_pixels_finish(&j->lens->pixels);
-        status = kd_critical_kept(j->scene, &j->lens->pixels, j->error);
+        status = kd_critical_cache(j->scene, &j->lens->pixels, j->error);
     }
     const struct kd_frame_list list = {
         .pixels = &j->lens->pixels,

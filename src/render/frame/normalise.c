@@ -181,12 +181,12 @@ done:
 }
 
 /* The latest scale found for this scene or, if `held`, for this matter; 0 if there is none. */
-static double known(const struct kd_normalised *kept, const struct kd_normal *wanted, bool held)
+static double known(const struct kd_normalised *cache, const struct kd_normal *wanted, bool held)
 {
-    const uint32_t n = kept->n < KD_NORMALISED ? kept->n : KD_NORMALISED;
+    const uint32_t n = cache->n < KD_NORMALISED ? cache->n : KD_NORMALISED;
     double of_matter = 0;
     for (uint32_t i = 1; i <= n; i++) {
-        const struct kd_normal *at = &kept->kept[(kept->n - i) % KD_NORMALISED];
+        const struct kd_normal *at = &cache->entries[(cache->n - i) % KD_NORMALISED];
         if (!strcmp(at->hash, wanted->hash))
             return at->scale;
         if (held && !(of_matter > 0) && !strcmp(at->matter, wanted->matter))
@@ -229,7 +229,7 @@ done:
 enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene *scene, const struct kd_plan *plan,
                                   kd_progress_fn progress, void *user, double *scale, struct kd_error *error)
 {
-    struct kd_normalised *kept = &renderer->normalised;
+    struct kd_normalised *cache = &renderer->normalised;
     struct kd_normal found;
     *scale = 1;
     if (!(scene->volume.normalise_to_jy > 0))
@@ -241,11 +241,11 @@ enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene 
     if (!(*density_of(scene) > 0))
         return refuse(&s, "there is no matter, and the flux is", 0);
     KD_TRY(keys_of(&s, &found));
-    found.scale = known(kept, &found, plan->reuse_normalisation);
+    found.scale = known(cache, &found, plan->reuse_normalisation);
     if (!(found.scale > 0)) {
         s.most = log(DENSEST / *density_of(scene));
         KD_TRY(search(&s, &found.scale));
-        kept->kept[kept->n++ % KD_NORMALISED] = found;
+        cache->entries[cache->n++ % KD_NORMALISED] = found;
     }
     *scale = found.scale;
     *density_of(scene) *= found.scale;

@@ -50,8 +50,8 @@ void kd_frame_probe_both(struct kd_frame *to, const struct kd_frame *from)
 enum kd_status kd_frame_render_part(const struct kd_parted *p, const struct kd_scene *scene, const struct kd_plan *plan,
                                     kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
 {
-    return p->aside ? kd_render_in_background(p->renderer, scene, plan, progress, NULL, user, out, error)
-                    : kd_render(p->renderer, scene, plan, progress, user, out, error);
+    return p->background ? kd_render_in_background(p->renderer, scene, plan, progress, NULL, user, out, error)
+                         : kd_render(p->renderer, scene, plan, progress, user, out, error);
 }
 
 enum kd_status kd_frame_parted(const struct kd_parted *p, struct kd_frame *out, struct kd_error *error)

@@ -43,7 +43,8 @@ static void keep_times(struct kd_frame_job *j)
 static enum kd_status away(struct kd_frame_job *j, bool (*tell)(struct kd_frame_job *job, void *what), void *what,
                            bool *go_on)
 {
-    if (j->aside) { /* other pictures then need not wait for this picture's work, and their times do not include it */
+    if (j->background) { /* other pictures then need not wait for this picture's work, and their times do not include it
+                          */
         enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
         if (status)
             return status;
@@ -51,14 +52,14 @@ static enum kd_status away(struct kd_frame_job *j, bool (*tell)(struct kd_frame_
     }
     double left = kd_clock_ms();
     *go_on = tell(j, what);
-    if (j->aside) {
+    if (j->background) {
         j->away_ms += kd_clock_ms() - left;
         kd_vk_times_reset(j->r->vk);
     }
     return KD_OK;
 }
 
-static bool tell_lack(struct kd_frame_job *j, void *what) { return j->r->lacks(j->r->lacks_user, what, j->aside); }
+static bool tell_lack(struct kd_frame_job *j, void *what) { return j->r->lacks(j->r->lacks_user, what, j->background); }
 
 enum kd_status kd_frame_await_kernels(struct kd_frame_job *j, kd_kernels_ask_fn ask, const void *user)
 {

@@ -220,7 +220,7 @@ static void set_light(struct kd_stars_push *push, const struct kd_frame_job *j, 
     const struct kd_window window = kd_scene_window(j->scene);
     push->pixels_y = kd_frame_band_rows(j, band);
     push->up = 0u - window.top - kd_frame_band_first(j, band);
-    push->aside = 0u - window.left;
+    push->rightward = 0u - window.left;
 }
 
 /* Processes rows `first` to `end` of the band `from`; their light goes to the band `to`. */

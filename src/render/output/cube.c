@@ -16,7 +16,8 @@ _Static_assert(KD_CUBE_ACCURACY >= KD_ACCURACY_TEXT, "all of it");
 
 static enum kd_status unreadable(unsigned scene, struct kd_error *error)
 {
-    return kd_error_set(error, KD_EIO, "the file of scene %u cannot be read, or is not as the others are", scene);
+    return kd_error_set(error, KD_EIO, "the file of scene %u cannot be read, or differs in its form from the others",
+                        scene);
 }
 
 static enum kd_status no_memory(struct kd_error *error)
@@ -34,9 +35,8 @@ enum kd_status kd_cube_check(const struct kd_sweep *sweep, struct kd_error *erro
             if (kd_scene_same_path(sweep->axes[i].path, shapes[k])) {
                 snprintf(pointer, sizeof pointer, "/axes/%s", shapes[k]);
                 return kd_error_field(error, pointer,
-                                      "%s is an axis, and no cube has pictures of several sizes or layers; they need "
-                                      "files of their own, as "
-                                      "\"pictures\" or \"fits\"",
+                                      "%s cannot be an axis of a cube, because a cube has one size and one set of "
+                                      "layers: use separate files, with output \"pictures\" or \"fits\"",
                                       shapes[k]);
             }
     return KD_OK;
@@ -52,15 +52,16 @@ enum kd_status kd_cube_compare(struct kd_cube_shape *shape, unsigned number, con
     if (shape->width != width || shape->height != height)
         return kd_error_field(
             error, "/axes",
-            "scene %u is %u x %u pixels and scene 0 is %u x %u, and no cube has pictures of several sizes", number,
+            "scene %u has %u x %u pixels and scene 0 has %u x %u; all pictures of a cube must have one size", number,
             width, height, shape->width, shape->height);
     bool same = layers->count == shape->layers.count;
     for (int i = 0; i < layers->count && same; i++)
         same = layers->at[i].word == shape->layers.at[i].word && layers->at[i].number == shape->layers.at[i].number;
     return same ? KD_OK
-                : kd_error_field(error, "/axes",
-                                 "scene %u has other layers than scene 0, and no cube has pictures of several kinds",
-                                 number);
+                : kd_error_field(
+                      error, "/axes",
+                      "scene %u has other layers than scene 0; all pictures of a cube must have the same layers",
+                      number);
 }
 
 size_t kd_cube_holds(const struct kd_gather_source *source)
@@ -75,7 +76,7 @@ enum kd_status kd_cube_open(const struct kd_gather_source *source, struct kd_cub
     *out = (struct kd_cube) { .source = source };
     return source->sweep && source->n == source->sweep->scenes
                ? KD_OK
-               : kd_error_set(error, KD_EINVAL, "only the scenes of a sweep make a cube");
+               : kd_error_set(error, KD_EINVAL, "a cube needs the scenes of a sweep");
 }
 
 void kd_cube_finish(struct kd_cube *cube)
@@ -180,9 +181,8 @@ static enum kd_status keep_text(struct kd_cube_texts *texts, const struct kd_buf
         if (!strcmp(texts->at[i], (const char *)text.data))
             goto done;
     if (*there && texts->n == KD_CUBE_TEXTS)
-        KD_TRY(kd_error_set(error, KD_ETOOBIG,
-                            "the scenes tell more than %d different texts in %.6s: no more can be held", KD_CUBE_TEXTS,
-                            key));
+        KD_TRY(kd_error_set(error, KD_ETOOBIG, "the scenes have too many different texts in %.6s (limit %d)", key,
+                            KD_CUBE_TEXTS));
     char *copy = *there ? strdup((const char *)text.data) : NULL;
     if (*there && !copy)
         KD_TRY(no_memory(error));

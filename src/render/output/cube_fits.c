@@ -73,7 +73,7 @@ static enum kd_status put_notes(struct kd_buffer *cards, const struct kd_cube *c
     }
     if (credits.size)
         KD_TRY(kd_fits_text(cards, "KDCREDIT", (const char *)credits.data, NULL));
-    KD_TRY(kd_fits_comment(cards, "KDSCENE is the scene, of which the fields in KDAXES take their values"));
+    KD_TRY(kd_fits_comment(cards, "KDSCENE is the scene; the fields in KDAXES vary along the axes"));
     KD_TRY(put_json(cards, sweep));
 done:
     kd_buffer_finish(&devices);

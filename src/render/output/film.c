@@ -80,9 +80,8 @@ static enum kd_status load(struct film *f, struct kd_error *error)
     if (!source->size(source->user, f->next, &size) || size < HEAD)
         return kd_error_set(error, KD_EIO, "the file of frame %u cannot be read", f->next);
     if (size > PICTURE_MAX)
-        return kd_error_set(error, KD_ETOOBIG,
-                            "the picture of frame %u has %.0f MB, more than the %u that a film takes", f->next,
-                            1e-6 * (double)size, PICTURE_MAX >> 20);
+        return kd_error_set(error, KD_ETOOBIG, "the picture of frame %u has %.0f MB; in a film it must have at most %u",
+                            f->next, 1e-6 * (double)size, PICTURE_MAX >> 20);
     for (uint64_t left = size; left && !status; left -= left < sizeof zeros ? left : sizeof zeros)
         status = kd_buffer_append(&f->picture, zeros, left < sizeof zeros ? (size_t)left : sizeof zeros);
     if (status)
@@ -94,7 +93,8 @@ static enum kd_status load(struct film *f, struct kd_error *error)
         memcpy(f->size, here, sizeof f->size);
     if (memcmp(f->size, here, sizeof f->size))
         return kd_error_field(error, "/format",
-                              "frame %u is %u x %u pixels and frame 0 %u x %u: a film has one size, a zip holds any",
+                              "frame %u has %u x %u pixels and frame 0 has %u x %u; all frames of a film must have one "
+                              "size; a zip may have several",
                               f->next, be32(here), be32(here + 4), be32(f->size), be32(f->size + 4));
     return KD_OK;
 }
@@ -143,11 +143,12 @@ static enum kd_status begin(struct film *f, struct kd_error *error)
     KD_TRY(kd_png_decode(f->picture.data, f->picture.size, &shown, error));
     const char *scene = kd_png_text_find(&shown, "kerrd:scene");
     if (!scene || strlen(scene) > SCENE_MAX) {
-        status = !scene ? kd_error_set(error, KD_EIO, "the picture of frame 0 holds no scene")
-                        : kd_error_set(error, KD_ETOOBIG,
-                                       "the scene is a text of %zu bytes, and the head of a film holds %d: a zip keeps "
-                                       "it in each picture",
-                                       strlen(scene), SCENE_MAX);
+        status =
+            !scene ? kd_error_set(error, KD_EIO, "the picture of frame 0 contains no scene")
+                   : kd_error_set(
+                         error, KD_ETOOBIG,
+                         "the scene has %zu bytes; in a film it must have at most %d; a zip stores it in each picture",
+                         strlen(scene), SCENE_MAX);
         goto done;
     }
     KD_TRY(kd_buffer_printf(&comment, "comment=%s", scene));
@@ -174,14 +175,14 @@ static enum kd_status begin(struct film *f, struct kd_error *error)
                                  NULL };
     memcpy(argv + n, rest, sizeof rest);
     if ((f->fd = nameless()) < 0)
-        status = kd_error_set(error, errno == ENOSPC ? KD_EFULL : KD_EIO, "there is no room for a film: %s",
-                              strerror(errno));
+        status =
+            kd_error_set(error, errno == ENOSPC ? KD_EFULL : KD_EIO, "cannot create the film: %s", strerror(errno));
     else
         status = kd_program_start(argv, f->fd, bytes_of(f->source) + MORE, &f->program, error);
     if (status == KD_EABSENT)
-        kd_error_set(error, KD_EABSENT,
-                     "films are encoded by the program ffmpeg, which is not found on the PATH; a zip holds the "
-                     "numbered pictures");
+        kd_error_set(
+            error, KD_EABSENT,
+            "the program ffmpeg, which encodes films, is not on the PATH; a zip of numbered pictures does not need it");
 done:
     if (status == KD_ENOMEM)
         kd_error_set(error, KD_ENOMEM, "out of memory for a film");
@@ -222,7 +223,7 @@ static enum kd_status feed(struct film *f, struct kd_error *error)
     if (!kd_program_over(&f->program, &code))
         return kd_program_idle_ms(&f->program, moved, kd_clock_ms()) < IDLE_MS
                    ? KD_OK
-                   : kd_error_set(error, KD_EIO, "ffmpeg has done nothing for %.0f s, at frame %u of %u",
+                   : kd_error_set(error, KD_EIO, "ffmpeg has made no progress for %.0f s, at frame %u of %u",
                                   1e-3 * IDLE_MS, f->next, f->source->n);
     f->done = true;
     if (!code && f->next == f->source->n)
@@ -231,7 +232,7 @@ static enum kd_status feed(struct film *f, struct kd_error *error)
     kd_program_reason(&f->program, reason);
     return kd_error_set(
         error, strstr(f->program.said, "No space left") || strstr(f->program.last, "No space left") ? KD_EFULL : KD_EIO,
-        "ffmpeg failed at frame %u: %s", f->next, *reason ? reason : "it did not say why");
+        "ffmpeg failed at frame %u: %s", f->next, *reason ? reason : "without an error message");
 }
 
 static enum kd_status give(struct film *f, struct kd_buffer *out, bool *over, struct kd_error *error)
@@ -240,7 +241,7 @@ static enum kd_status give(struct film *f, struct kd_buffer *out, bool *over, st
     ssize_t n = pread(f->fd, piece, sizeof piece, (off_t)f->given);
     *over = n == 0;
     if (n < 0 || (*over && !f->given))
-        return kd_error_set(error, KD_EIO, "the film cannot be read: %s",
+        return kd_error_set(error, KD_EIO, "cannot read the film: %s",
                             n < 0 ? strerror(errno) : "ffmpeg wrote nothing");
     f->given += (uint64_t)n;
     return kd_buffer_append(out, piece, (size_t)n) ? kd_error_set(error, KD_ENOMEM, "out of memory for a film") : KD_OK;

@@ -136,7 +136,7 @@ static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *o
     struct kd_buffer text = { 0 };
     enum kd_status status = kd_fits_find(data, size, "KDSCENE", &text);
     status = status ? kd_error_set(error, status,
-                                   "the FITS file holds no scene: its primary header has no whole card KDSCENE")
+                                   "the FITS file contains no scene: its primary header has no complete card KDSCENE")
                     : kd_notes_scene((const char *)text.data, text.size, out, error);
     kd_buffer_finish(&text);
     return status;

@@ -157,13 +157,13 @@ enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene 
             KD_TRY(put_number(cards, numbers[i].key, numbers[i].value, numbers[i].comment));
     if (kd_scene_is_radio(s) && !varies(sweep, "volume.frequency_ghz") && !varies(sweep, "volume.model"))
         KD_TRY(kd_fits_real(cards, "FREQ", s->volume.frequency_ghz * 1e9, "Hz; that is observed"));
-    if (s->crowd.at) {
-        KD_TRY(kd_fits_real(cards, "PLAY_T", s->crowd.at->time, "M; time of the playground that is shown"));
-        KD_TRY(kd_fits_real(cards, "PLAY_N", (double)s->crowd.at->n, "its bodies"));
-        KD_TRY(kd_fits_real(cards, "PLAY_D", s->crowd.at->debris.pieces, "its pieces of debris"));
+    if (s->dynamic.at) {
+        KD_TRY(kd_fits_real(cards, "PLAY_T", s->dynamic.at->time, "M; time of the playground that is shown"));
+        KD_TRY(kd_fits_real(cards, "PLAY_N", (double)s->dynamic.at->n, "its bodies"));
+        KD_TRY(kd_fits_real(cards, "PLAY_D", s->dynamic.at->debris.pieces, "its pieces of debris"));
     }
-    if (s->crowd.at && *s->crowd.at->snapshot)
-        KD_TRY(kd_fits_text(cards, "PLAYSHA", s->crowd.at->snapshot, "SHA-256"));
+    if (s->dynamic.at && *s->dynamic.at->snapshot)
+        KD_TRY(kd_fits_text(cards, "PLAYSHA", s->dynamic.at->snapshot, "SHA-256"));
 done:
     return status;
 }

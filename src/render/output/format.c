@@ -36,7 +36,7 @@ static enum kd_status check_layers(const struct kd_format *format, const struct 
         return KD_OK;
     return kd_error_field(
         error, "/image/layers",
-        "image.layers holds %d; in a file of the format %s it must hold one; fits, exr, npz and npy hold all",
+        "image.layers has %d layers; for a file of the format %s it must have one; fits, exr, npz and npy take several",
         scene->image.layers.count, format->name);
 }
 
@@ -74,7 +74,8 @@ static enum kd_status refuse_file(struct kd_error *error)
                                     --left > 1 ? ", "
                                     : left     ? " or "
                                                : "");
-    return kd_error_set(error, KD_EINVAL, "the file must be one that kerrd wrote as %s, which hold their scene", names);
+    return kd_error_set(error, KD_EINVAL, "the file must be one that kerrd wrote as %s; only these contain their scene",
+                        names);
 }
 
 enum kd_status kd_format_scene(const void *data, size_t size, struct kd_scene *out, struct kd_error *error)
@@ -83,7 +84,7 @@ enum kd_status kd_format_scene(const void *data, size_t size, struct kd_scene *o
     if (!format)
         return refuse_file(error);
     if (!format->scene)
-        return kd_error_set(error, KD_EINVAL, "files of the format %s hold no scene", format->name);
+        return kd_error_set(error, KD_EINVAL, "files of the format %s contain no scene", format->name);
     return format->scene(data, size, out, error);
 }
 

@@ -120,7 +120,7 @@ static enum kd_status join_approximations(const struct kd_picture *picture, stru
  * is shown, and cannot be read back as a scene. */
 static enum kd_status put_scene(const struct kd_picture *picture, struct kd_notes *notes)
 {
-    const struct kd_dynamic_bodies *crowd = picture->scene->crowd.at;
+    const struct kd_dynamic_bodies *dynamic = picture->scene->dynamic.at;
     struct kd_buffer *out = &notes->scene;
     enum kd_status status = kd_scene_to_json(picture->scene, out);
     if (status)
@@ -129,11 +129,11 @@ static enum kd_status put_scene(const struct kd_picture *picture, struct kd_note
         snprintf(notes->hash, sizeof notes->hash, "%s", picture->hash);
     else
         kd_sha256(out->data, out->size, notes->hash);
-    if (!crowd)
+    if (!dynamic)
         return KD_OK;
     out->size--; /* removes the last brace */
     return kd_buffer_printf(out, ",\"" PLAYGROUND "\":{\"t\":%.17g,\"bodies\":%zu,\"debris\":%u,\"snapshot\":\"%s\"}}",
-                            crowd->time, crowd->n, crowd->debris.pieces, crowd->snapshot);
+                            dynamic->time, dynamic->n, dynamic->debris.pieces, dynamic->snapshot);
 }
 
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error)
@@ -164,9 +164,8 @@ enum kd_status kd_notes_scene(const char *text, size_t length, struct kd_scene *
 {
     if (length && memmem(text, length, ",\"" PLAYGROUND "\":{", sizeof PLAYGROUND + 4))
         return kd_error_set(error, KD_EINVAL,
-                            "the picture shows a playground, which its scene does not hold: make it again of the "
-                            "playground's snapshot, by "
-                            "kerrd playground SNAPSHOT.json --picture FILE");
+                            "the picture shows a playground, which is not part of its scene: render it from the "
+                            "playground's snapshot with kerrd playground SNAPSHOT.json --picture FILE");
     struct kd_scene scene;   /* *out must not change if the document is refused */
     kd_scene_smooth(&scene); /* for fields that this complete document lacks, because they did not exist when it was
                               * written */

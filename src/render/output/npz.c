@@ -110,7 +110,8 @@ static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *o
         status = kd_error_set(error, KD_ENOMEM, "out of memory for the notes of an NPZ file");
     else
         status = printed ? kd_notes_scene(printed, strlen(printed), out, error)
-                         : kd_error_set(error, KD_EINVAL, "the NPZ file holds no scene: it has no notes.json with one");
+                         : kd_error_set(error, KD_EINVAL,
+                                        "the NPZ file contains no scene: its notes.json is missing or has none");
     cJSON_free(printed);
     cJSON_Delete(notes);
     kd_buffer_finish(&text);

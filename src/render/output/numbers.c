@@ -11,7 +11,7 @@ enum kd_status kd_numbers_of(const struct kd_picture *picture, struct kd_numbers
         to->unit = kd_layer_kinds[layer.kind].unit;
         to->layer = kd_frame_layer(picture->frame, layer.kind == KD_LAYER_rgb ? "radiance" : to->name);
         if (!to->layer)
-            return kd_error_set(error, KD_EINVAL, "the frame has not all layers that image.layers names");
+            return kd_error_set(error, KD_EINVAL, "the frame lacks a layer that image.layers names");
     }
     return KD_OK;
 }

@@ -126,12 +126,12 @@ enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t m
     list->n = list->n ? list->n : there;
     if (list->n > there)
         return kd_error_field(error, "/count",
-                              "count is %zu; it must be 1 to %zu: from the %u particles, first %u, stride %u", list->n,
+                              "count is %zu; it must be 1 to %zu for %u particles with first %u and stride %u", list->n,
                               there, list->grid.count, list->first, list->stride);
     if (most && list->n * row > most)
         return kd_error_field(error, "/count",
-                              "count is %zu with %zu bytes a particle; it must be 1 to %llu: the rest with first, or "
-                              "fewer with stride",
+                              "count is %zu with %zu bytes a particle; it must be 1 to %llu in one answer: first gives "
+                              "the rest, stride fewer",
                               list->n, row, (unsigned long long)(most / row));
     list->orbits = needs_orbits(list);
     if (list->orbits)

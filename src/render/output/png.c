@@ -81,8 +81,7 @@ static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *o
         status = kd_notes_scene(text, strlen(text), out, error);
     } else {
         status = kd_error_set(error, KD_EINVAL,
-                              "the picture holds no scene: it was not made by kerrd, or its text "
-                              "was stripped");
+                              "the picture contains no scene: it was not made by kerrd, or its text was removed");
     }
     kd_png_finish(&picture);
     return status;

@@ -46,22 +46,22 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
     const bool disk = scene->disk.model != KD_DISK_NONE;
     if (scene->sky.model != KD_SKY_CATALOGUE)
         return kd_error_field(error, "/sky/model",
-                              "sky.model is not \"catalogue\": the stars of no other sky have names");
+                              "sky.model must be \"catalogue\", because only its stars have names");
     if (scene->camera.projection == KD_PROJECTION_RING)
         return kd_error_field(error, "/camera/projection",
-                              "camera.projection is \"ring\", which has no stars to name: it must be another one");
+                              "camera.projection is \"ring\", whose stars have no names; it must be another");
     if (kd_scene_has_tile(scene))
         return kd_error_field(
             error, "/image/tile/width",
-            "image.tile.width is %d; it must be 0 where stars are named: places are those of the whole picture",
+            "image.tile.width is %d; for names of stars it must be 0, because positions are those of the whole picture",
             scene->tile.width);
     if (scene->camera.stereo == KD_STEREO_PAIR)
         return kd_error_field(error, "/camera/stereo",
-                              "camera.stereo is \"pair\"; it must be \"none\" where stars are named: places in a "
-                              "picture are those of one eye");
+                              "camera.stereo is \"pair\"; for names of stars it must be \"none\", because positions "
+                              "are those of one eye");
     if (scene->camera.stereo != KD_STEREO_NONE)
         return kd_error_field(error, "/camera/stereo",
-                              "camera.stereo is \"pair\", whose stars are not named: it must be \"none\"");
+                              "camera.stereo is \"pair\"; for names of stars it must be \"none\"");
     scene->image.samples = 1;
     scene->image.critical_factor = 1;
     scene->image.layers = (struct kd_words) { 2, { { KD_LAYER_sky_theta, -1 }, { KD_LAYER_sky_phi, -1 } } };
@@ -331,7 +331,7 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
     enum kd_status status = list ? KD_OK : KD_ENOMEM;
     (void)effort, (void)memory;
     if (!theta || !phi)
-        KD_TRY(kd_error_set(error, KD_EINVAL, "the frame does not say where in the sky its rays end"));
+        KD_TRY(kd_error_set(error, KD_EINVAL, "the frame has no directions of its rays on the sky"));
     KD_TRY(status);
     list->picture = picture;
     list->rays = kd_sky_rays_of(picture->scene);

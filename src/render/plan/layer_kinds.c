@@ -87,54 +87,53 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
     kd_layer_name(layer, name);
     if (layer.order >= scene->accuracy.orders)
         return kd_error_field(error, "/image/layers",
-                              "image.layers holds %s; its image orders must be below accuracy.orders, %d", name,
+                              "image.layers has %s; its image orders must be below accuracy.orders, %d", name,
                               scene->accuracy.orders);
     if ((kd_emit_along(scene) || kd_emit_met(scene)) && kd_layer_kinds[layer.kind].of == KD_OF_LIGHT &&
         layer.order >= 0)
-        return kd_error_field(error, "/image/layers",
-                              "image.layers holds %s; where there it must be volumes or bodies is %.*s: their light "
-                              "is between the crossings",
-                              name, (int)strlen(kd_layer_kinds[layer.kind].name), name);
+        return kd_error_field(
+            error, "/image/layers",
+            "image.layers has %s; with volumes or bodies, whose light is between the crossings, it must be %.*s", name,
+            (int)strlen(kd_layer_kinds[layer.kind].name), name);
     if (kd_layer_is_polarized(layer.kind) && scene->polarization.model == KD_POLARIZATION_NONE)
-        return kd_error_field(error, "/image/layers",
-                              "image.layers holds %s with polarization.model \"none\", where no light is polarised: "
-                              "it must be another",
-                              name);
+        return kd_error_field(
+            error, "/image/layers",
+            "image.layers has %s, which needs polarised light: polarization.model must not be \"none\"", name);
     if (layer.kind == KD_LAYER_stokes_v && scene->polarization.model != KD_POLARIZATION_TRANSFER)
-        return kd_error_field(error, "/image/layers",
-                              "image.layers holds stokes_v, which needs polarization.model \"transfer\": other light "
-                              "is not polarised circularly");
+        return kd_error_field(
+            error, "/image/layers",
+            "image.layers has stokes_v, which needs circular polarisation: polarization.model must be \"transfer\"");
     if (kd_layer_is_polarized(layer.kind) && scene->camera.projection == KD_PROJECTION_RING)
         return kd_error_field(error, "/image/layers",
-                              "image.layers holds %s with camera.projection \"ring\", where a picture has no up: it "
-                              "must hold other layers",
+                              "image.layers has %s, which camera.projection \"ring\" cannot show, because its picture "
+                              "has no upward direction",
                               name);
     if ((layer.kind == KD_LAYER_brightness_temperature || layer.kind == KD_LAYER_specific_intensity ||
          layer.kind == KD_LAYER_jy_per_pixel) &&
         !kd_scene_is_radio_alone(scene))
         return kd_error_field(
             error, "/image/layers",
-            "image.layers holds %s, which needs a scene where nothing but a volume at a radio frequency shines: "
-            "volume.model \"gold\", \"riaf\", \"torus\" or \"grid\", "
-            "disk.model and sky.model \"none\", no jets, spots or bodies",
+            "image.layers has %s, which needs a scene where only a volume at a radio frequency shines: volume.model "
+            "\"gold\", \"riaf\", \"torus\" or \"grid\", disk.model and sky.model \"none\", no jets, spots or bodies",
             name);
     if (layer.kind == KD_LAYER_jy_per_pixel && !kd_layers_have_flux(scene))
-        return kd_error_field(error, "/image/layers",
-                              "image.layers holds %s, which must be of one picture from camera.r \"infinity\", not in "
-                              "the projection \"ring\": there each pixel is the same part of the sky. "
-                              "specific_intensity is known to every camera",
-                              name);
+        return kd_error_field(
+            error, "/image/layers",
+            "image.layers has %s, which needs pixels of equal solid angle: camera.r must be \"infinity\", without "
+            "stereo, and the projection not \"ring\"; specific_intensity works with every camera",
+            name);
     if (scene->disk.height > 0 && scene->disk.model != KD_DISK_NONE && kd_layer_kinds[layer.kind].of == KD_OF_CROSSING)
         return kd_error_field(error, "/image/layers",
-                              "image.layers holds %s, which is of the place where a thin disk is crossed, with "
-                              "disk.height %.9g: it must be 0",
-                              name, scene->disk.height);
+                              "image.layers has %s, which needs a thin disk: disk.height is %.9g; it must be 0", name,
+                              scene->disk.height);
     if (kd_emit_along(scene) && layer.kind == KD_LAYER_optical_depth)
-        return kd_error_field(error, "/image/layers",
-                              "image.layers holds %s, which is that of one crossing: there must be no volumes", name);
+        return kd_error_field(
+            error, "/image/layers",
+            "image.layers has %s, which belongs to one crossing of the disk: there must be no volumes", name);
     if (layer.kind == KD_LAYER_temperature && scene->disk.model == KD_DISK_NONE && !kd_emit_met(scene))
-        return kd_error_field(error, "/image/layers",
-                              "image.layers holds %s with disk.model \"none\", where nothing has a temperature", name);
+        return kd_error_field(
+            error, "/image/layers",
+            "image.layers has %s, which needs matter with a temperature: disk.model must not be \"none\"", name);
     return KD_OK;
 }
 

@@ -39,9 +39,9 @@ static enum kd_status make_pair(const struct kd_scene *scene, const struct kd_ne
     struct kd_plan plan, next;
     enum kd_status status;
     if (needs->light && needs->no_image)
-        KD_TRY(kd_error_field(
-            error, "/camera/stereo",
-            "camera.stereo is \"pair\"; it must be \"none\" where light is measured: there is one flux for each eye"));
+        KD_TRY(kd_error_field(error, "/camera/stereo",
+                              "camera.stereo is \"pair\"; for a measurement of light it must be \"none\", because each "
+                              "eye has its own flux"));
     KD_TRY(kd_plan_make_for(&left, needs, capacity, &plan, error));
     KD_TRY(kd_plan_make_for(&right, needs, capacity, &next, error));
     add(&plan, &next);
@@ -123,7 +123,7 @@ done:
 static enum kd_status refuse_strips(struct kd_error *error, const struct kd_error *why)
 {
     const struct kd_error whole = *error;
-    return kd_error_set(error, KD_ETOOBIG, "%.250s; in strips it may fit, but %.200s", whole.message, why->message);
+    return kd_error_set(error, KD_ETOOBIG, "%.250s; strips might fit, but %.200s", whole.message, why->message);
 }
 
 /* Uses as few strips as fit. If the scene needs something that no tile can have, the picture is too large: `error` is

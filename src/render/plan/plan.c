@@ -62,23 +62,24 @@ static const struct sentence {
 } sentences[] = {
     { "disk.orders", "disk: image orders beyond accuracy.orders are left out", crossings },
     { "volumes.march",
-      "volumes: light is integrated in 32 bits with three points per step; the number of steps follows the "
-      "texture, the optical depth and the ray; the requested accuracy is a target, and an error of some 5e-5 "
-      "always remains; the error is measured on a sample of rays with steps half as long",
+      "volumes: light is integrated in 32 bits with three points per step; the number of steps depends on the texture, "
+      "the optical depth and the ray; the requested accuracy is a target, and an error of about 5e-5 always remains; "
+      "the error is measured on a sample of rays with steps half as long",
       volumes },
     { "volumes.sketch",
-      "volumes: a sketch while the view changes: light to some 5 %, as measured, and turbulence without the "
-      "octaves that a pixel reduces below a seventh of the first, another 7 %, which is not measured",
+      "volumes: a sketch while the view changes: a measured error of about 5 %, and another 7 %, which is not "
+      "measured, because fine octaves of the turbulence are left out",
       sketched },
     { "sky.sketch",
-      "sky: while the view changes, images of stars that would brighten their pixel by less than sky.brightness "
-      "are left out, and those next to the critical curve in pixels that cover more than 0.15 rad of the sky; "
-      "the others are up to a fifth of a ray off",
+      "sky: while the view changes, images of stars are left out if they would brighten their pixel by less than "
+      "sky.brightness, or if their pixel at the critical curve covers more than 0.15 rad of the sky; the others are "
+      "displaced by up to a fifth of a ray's width",
       bright },
     { "colour.gamut", "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance",
       crossings },
     { "image.few-rays",
-      "image: pixels at the critical curve have few rays; a photon ring thinner than a pixel shows as dots", few_rays },
+      "image: pixels at the critical curve have few rays, so that a photon ring thinner than a pixel appears dotted",
+      few_rays },
     { "image.adaptive",
       "image: pixels that differ from the mean of their neighbours by twice image.pixel_error have 16 rays, the "
       "others one; where the lens map is smooth these rays are interpolated; the remaining error is measured on "
@@ -87,26 +88,24 @@ static const struct sentence {
     { "image.one-ray",
       "image: maps, the ring projection and light curves have one ray a pixel if image.samples is \"auto\"",
       not_adapted },
-    { "post.film", "post: a film-like tone curve; pixel values are not proportional to radiance", film },
+    { "post.film", "post: a tone curve like that of film; pixel values are not proportional to radiance", film },
     { "post.neutral",
       "post: a neutral tone curve; light above 0.8 of white is compressed, and pixel values are not proportional to "
       "radiance",
       neutral },
     { "post.bloom",
-      "post: a lens's glare; part of the bright light is spread around its place; the total is conserved, and "
-      "light that would leave the picture stays at its edge",
+      "post: glare of a lens: part of bright light is spread around its position; the total is conserved, and light "
+      "that would leave the picture stays at its edge",
       bloom },
     { "post.beam",
       "post: a Gaussian beam represents a telescope: no gaps between stations, no noise, no reconstruction; no "
       "light comes from beyond the picture's edge",
       beam },
     { "post.near-beam",
-      "post: for a near observer the beam has, at the hole, the width that it has when seen from "
-      "spacetime.distance_pc",
-      near_beam },
+      "post: for a near observer the beam has the same width at the hole as from spacetime.distance_pc", near_beam },
     { "flux.near",
-      "flux: that of a near camera is scaled by the square of its distance from the hole over "
-      "spacetime.distance_pc; if matter surrounds the camera, no telescope would measure such a flux",
+      "flux: the flux at a near camera is multiplied by (camera.r / spacetime.distance_pc)^2; if matter surrounds the "
+      "camera, no telescope would measure this flux",
       near_flux },
     { "post.heat",
       "post: false colours; brightness is that of the model's band, not a brightness temperature at a radio "
@@ -115,21 +114,22 @@ static const struct sentence {
     { "sky.cut", "sky: images of stars are cut at the edges of the bands in which a picture of this size is rendered",
       cut },
     { "volume.normalised",
-      "volume: the density is that at which a picture of 128 pixels has the flux volume.normalise_to_jy; "
-      "smaller pictures find it, which the estimated time leaves out; answers give the factor as density_scale",
+      "volume: the density is chosen so that a picture of 128 pixels has the flux volume.normalise_to_jy; smaller "
+      "pictures determine it, whose time the estimate ignores; answers give the factor as density_scale",
       normalised },
     { "volume.held",
-      "volume: while the view is dragged the density is the last one found for this matter, from another view, "
-      "so that the flux differs from volume.normalise_to_jy until the view rests",
+      "volume: while the view is dragged, the density is the last one found for this matter in another view; the flux "
+      "differs from volume.normalise_to_jy until the view rests",
       held },
     { "layers.one-ray", "layers: maps of places and angles show one ray a pixel, not a mean over the pixel", maps },
     { "layers.false-colour", "layers: a picture of a map has false colours; FITS, EXR, NPZ and NPY have its numbers",
       coloured },
     { "projection.ring",
-      "projection: distances to the critical curve on a logarithmic scale, as no eye sees them; areas are not "
-      "to scale",
+      "projection: distances to the critical curve are on a logarithmic scale, which no camera shows; areas are not to "
+      "scale",
       projected },
-    { "projection.angles", "projection: angles as distances, over half the sky or all of it; areas are not to scale",
+    { "projection.angles",
+      "projection: a map of half of the sky or all of it; angles become distances, and areas are not to scale",
       rounded },
     { "camera.stereo",
       "camera: each eye of a pair is an observer of the same kind at the same time, displaced from the middle "
@@ -145,8 +145,8 @@ static const struct sentence {
       "64 bits",
       single },
     { "arithmetic.f32-listed",
-      "arithmetic: 32-bit, by an engine whose rays are not followed again: within about 1e-5 of the critical "
-      "curve they are given up, or their fate may be wrong",
+      "arithmetic: 32-bit, by an engine whose rays are not followed again in 64 bits: within about 1e-5 of the "
+      "critical curve rays may be lost, or their fate may be wrong",
       single_listed },
     { "arithmetic.f64", "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits", twice },
     { "rays.kerr-schild", "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md gives the cost",
@@ -206,12 +206,12 @@ static enum kd_status too_fine(double tolerance, const struct kd_capacity *c, st
     double best = INFINITY;
     for (uint32_t i = 0; i < c->accuracy->n; i++)
         best = fmin(best, kd_accuracy_holds(&c->accuracy->rows[i]));
-    return kd_error_field(
-        error, "/accuracy/tolerance",
-        "accuracy.tolerance is %.3g: a picture keeps radii in 32 bits and holds %.3g and above; lists of rays "
-        "(POST /v1/rays, kerrd rays) hold %.3g%s",
-        tolerance, KEPT, 1.01 * best,
-        c->accuracy_measured ? " on this device" : ", by the table of llvmpipe that stands in for this device's");
+    return kd_error_field(error, "/accuracy/tolerance",
+                          "accuracy.tolerance is %.3g; for a picture, with radii in 32 bits, it must be at least %.3g; "
+                          "lists of rays (POST /v1/rays, kerrd rays) reach %.3g%s",
+                          tolerance, KEPT, 1.01 * best,
+                          c->accuracy_measured ? " on this device"
+                                               : ", by the table of llvmpipe, because this device has none");
 }
 
 static double ergosphere(const struct kd_scene *scene)
@@ -228,9 +228,8 @@ static enum kd_status may_list(const struct kd_scene *scene, const struct kd_set
     if (outside(scene) || by->engine == KD_ENGINE_CLOSED)
         return KD_OK;
     return kd_error_field(error, "/accuracy/engine",
-                          "accuracy.engine is \"%s\" in %s; inside the ergosphere, camera.r %.9g, it must be "
-                          "\"auto\", \"closed\" or a Mino engine "
-                          "in f32, or the camera outside %.9g M",
+                          "accuracy.engine is \"%s\" in %s; inside the ergosphere, at camera.r %.9g, it must be "
+                          "\"auto\", \"closed\" or a Mino engine in f32, or the camera must be outside %.9g M",
                           kd_engine_name(by->engine), kd_precision_name(by->precision), scene->camera.r,
                           ergosphere(scene));
 }
@@ -242,7 +241,7 @@ static enum kd_status ring(struct kd_accuracy_request *asked_accuracy, struct kd
 {
     if (asked_accuracy->precision == KD_PRECISION_F32)
         return kd_error_field(error, "/accuracy/precision",
-                              "accuracy.precision is \"f32\", and in the ring projection must be \"f64\" or \"auto\"");
+                              "accuracy.precision is \"f32\"; in the ring projection it must be \"f64\" or \"auto\"");
     asked_accuracy->precision = KD_PRECISION_F64;
     asked_accuracy->profile = KD_PROFILE_REFERENCE;
     if (asked_accuracy->engine < 0 && !asked_accuracy->steps) {
@@ -270,16 +269,14 @@ static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *s
     struct kd_setting *by = &plan->setting;
     if (kd_emit_slow_along(scene))
         return kd_error_field(error, "/disk/slow_light",
-                              "disk.slow_light is true; within the horizon, camera.r %.9g, it must be false: no far "
-                              "clock tells when light "
-                              "of the gas arrives there",
+                              "disk.slow_light is true; inside the horizon, at camera.r %.9g, it must be false, "
+                              "because coordinate time does not define the light's delay there",
                               scene->camera.r);
     if (plan->path != KD_LENS_MAP)
-        return kd_error_field(
-            error, "/accuracy/engine",
-            "accuracy.engine is \"%s\" in %s; within the horizon, camera.r %.9g, it must be a Mino engine in "
-            "f32, without delay of light",
-            kd_engine_name(by->engine), kd_precision_name(by->precision), scene->camera.r);
+        return kd_error_field(error, "/accuracy/engine",
+                              "accuracy.engine is \"%s\" in %s; inside the horizon, at camera.r %.9g, it must be a "
+                              "Mino engine in f32, without the light's delay",
+                              kd_engine_name(by->engine), kd_precision_name(by->precision), scene->camera.r);
     for (double quicker = (1 + 6 / scene->camera.r) / 4; quicker > 1.2 && !asked_accuracy->steps && by->steps < 1024;
          quicker /= 4)
         by->steps *= 2;
@@ -304,15 +301,14 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
     if (isfinite(scene->accuracy.tolerance) && isinf(asked_accuracy.tolerance))
         by->holds = KEPT;
     if (plan->ring && by->precision == KD_PRECISION_F32)
-        return kd_error_field(
-            error, "/accuracy/tolerance",
-            "accuracy.tolerance is %.3g: the ring projection needs f64, which this device has not; it must be "
-            "\"profile\"",
-            asked_accuracy.tolerance);
+        return kd_error_field(error, "/accuracy/tolerance",
+                              "accuracy.tolerance is %.3g; in the ring projection it must be \"profile\", because this "
+                              "device lacks the f64 that a tolerance needs",
+                              asked_accuracy.tolerance);
     if (closed32 && !closed_form)
         return kd_error_field(error, "/accuracy/precision",
-                              "the closed form in f32 is for an observer beyond %.9g M, outside the orbits of "
-                              "light, and knows no delay of light: it must be f64",
+                              "accuracy.precision must be f64 for the closed form: in f32 it needs an observer outside "
+                              "%.9g M, beyond the photon orbits, and has no delay of light",
                               beyond_orbits(scene));
     if (closed_form && by->precision == KD_PRECISION_F32 && (closed32 || asked_accuracy.engine < 0) &&
         !asked_accuracy.steps) {
@@ -334,11 +330,11 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
         return from_within(plan, scene, &asked_accuracy, error);
     if (kd_plan_holds(plan, KD_LENS_DELAY) && !outside(scene) && !scene->disk.slow_light)
         return kd_error_field(error, "/image/layers",
-                              "image.layers holds delay, which is not known inside the ergosphere, camera.r %.9g",
+                              "image.layers has delay, which is not computed inside the ergosphere, at camera.r %.9g",
                               scene->camera.r);
     if (kd_plan_holds(plan, KD_LENS_DELAY) && !outside(scene))
         return kd_error_field(error, "/disk/slow_light",
-                              "disk.slow_light is true; inside the ergosphere, camera.r %.9g, it must be false",
+                              "disk.slow_light is true; inside the ergosphere, at camera.r %.9g, it must be false",
                               scene->camera.r);
     return map ? KD_OK : may_list(scene, by, error);
 }
@@ -401,23 +397,21 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
         plan.beam = kd_beam_of(scene);
     plan.quantities |= plan.orders ? KD_LENS_W | (plan.ring ? KD_LENS_ALPHA : 0) : 0;
     if (plan.light && !kd_scene_is_flat(scene))
-        return kd_error_field(error, "/camera/projection",
-                              "camera.projection is \"ring\", \"equirectangular\" or \"fulldome\"; it must be "
-                              "\"plane\" or \"pinhole\" where light is "
-                              "measured: areas of the others are not to scale");
+        return kd_error_field(
+            error, "/camera/projection",
+            "camera.projection is \"ring\", \"equirectangular\" or \"fulldome\"; for a measurement of light it must be "
+            "\"plane\" or \"pinhole\", because areas of the others are not to scale");
     enum kd_status status;
     if (plan.ring && (kd_emit_along(scene) || kd_emit_met(scene)))
         return kd_error_field(error, "/camera/projection",
-                              "camera.projection is \"ring\", whose rays are listed, where light is followed through "
-                              "volumes and to bodies: "
-                              "it must be another");
+                              "camera.projection is \"ring\"; with volumes or bodies it must be another");
     KD_TRY(kd_layers_check(scene, error));
     KD_TRY(kd_plan_beam_fits(&plan, capacity, error));
     KD_TRY(choose(&plan, scene, capacity, error));
     if (kd_emit_along(scene) && scene->accuracy.tolerance < KD_MARCH_HOLDS)
         KD_TRY(kd_error_field(
             error, "/accuracy/tolerance",
-            "accuracy.tolerance is %.3g: light through volumes is added up in 32 bits and holds %.3g and above",
+            "accuracy.tolerance is %.3g; for light through volumes, in 32 bits, it must be at least %.3g",
             scene->accuracy.tolerance, KD_MARCH_HOLDS));
     plan.meets = kd_emit_met(scene);
     if (kd_emit_along(scene) || plan.meets)

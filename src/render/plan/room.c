@@ -6,7 +6,7 @@
 
 #include "interface.h"
 #include "render/plan/photometry.h"
-#include "render/view/critical_kept.h"
+#include "render/view/critical_cache.h"
 #include "render/view/layout.h"
 #include "render/view/rim_grid.h"
 
@@ -50,17 +50,16 @@ static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_ba
     bytes += plan->device_bytes - fixed;
     if (bytes <= most && !c->host_memory && c->host_bytes && host > c->host_bytes) {
         where = "host";
-        by = "what the host has left";
+        by = "the free memory of the host";
         bytes = host;
         most = c->host_bytes;
     }
     if (bytes <= most)
         return KD_OK;
-    return kd_error_set(
-        error, KD_ETOOBIG,
-        "the picture needs %.2f GiB of %s memory, %.2f GiB are allowed (by %s): lower image.width, image.height or "
-        "image.samples",
-        (double)bytes / (1 << 30), where, (double)most / (1 << 30), by);
+    return kd_error_set(error, KD_ETOOBIG,
+                        "the picture needs %.2f GiB of %s memory; it must be at most %.2f GiB (limit: %s): lower "
+                        "image.width, image.height or image.samples",
+                        (double)bytes / (1 << 30), where, (double)most / (1 << 30), by);
 }
 
 /* Bytes of a beam: its rows of cells and its grids. */
@@ -78,8 +77,8 @@ enum kd_status kd_plan_beam_fits(const struct kd_plan *plan, const struct kd_cap
     if (!plan->beam.cell || bytes <= buffer_bytes(c))
         return KD_OK;
     return kd_error_set(error, KD_ETOOBIG,
-                        "at this picture size a beam of style.beam_uas needs a buffer of %llu bytes; the device allows "
-                        "%llu: lower image.width and image.height, or raise style.beam_uas",
+                        "at this picture size style.beam_uas needs a buffer of %llu bytes; on this device it must be "
+                        "at most %llu: lower image.width and image.height, or raise style.beam_uas",
                         (unsigned long long)bytes, (unsigned long long)buffer_bytes(c));
 }
 
@@ -100,12 +99,13 @@ enum kd_status kd_plan_bands(struct kd_plan *plan, const struct kd_scene *scene,
     uint64_t rows = (buffer_bytes(c) - 64 - going_on - 256 * plan->n_layers) / widest, fit = rows_of_groups(plan, c);
     if (rows < 1)
         return kd_error_set(error, KD_ETOOBIG,
-                            "one row of the picture needs %llu bytes, this device binds %llu at once",
+                            "one row of the picture needs %llu bytes; on this device it must be at most %llu",
                             (unsigned long long)widest, (unsigned long long)buffer_bytes(c));
     if (fit < 1 || (uint64_t)plan->width * plan->side > groups_x(c) * KD_GROUP_SIZE)
-        return kd_error_set(
-            error, KD_ETOOBIG, "one row of the picture has %llu rays, this device dispatches %llu workgroups of %d",
-            (unsigned long long)plan->width * plan->side, (unsigned long long)groups_x(c), KD_GROUP_SIZE);
+        return kd_error_set(error, KD_ETOOBIG,
+                            "one row of the picture has %llu rays, too many for %llu workgroups of %d on this device",
+                            (unsigned long long)plan->width * plan->side, (unsigned long long)groups_x(c),
+                            KD_GROUP_SIZE);
     rows = least(rows, fit);
     plan->band_rows = (uint32_t)(rows < plan->height ? rows : plan->height);
     plan->bands = (plan->height + plan->band_rows - 1) / plan->band_rows;
@@ -135,7 +135,7 @@ enum kd_status kd_plan_critical(struct kd_plan *plan, const struct kd_scene *sce
     if (plan->ring || side <= plan->side ||
         !(plan->orders > 1 || plan->ends || plan->march.steps)) /* the direct image is not thin anywhere */
         return KD_OK;
-    enum kd_status status = kd_critical_kept(scene, &list, error);
+    enum kd_status status = kd_critical_cache(scene, &list, error);
     uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->planes * side * side + 2));
     kd_critical_pixels_finish(&list);
     if (status || !n)

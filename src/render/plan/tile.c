@@ -16,34 +16,34 @@ static enum kd_status picture(const struct kd_scene *scene, bool map, struct kd_
 {
     const struct kd_style *style = &scene->style;
     if (map && (isinf(scene->image.layer_min) || isinf(scene->image.layer_max)))
-        return kd_error_field(error, isinf(scene->image.layer_min) ? "/image/layer_min" : "/image/layer_max",
-                              "image.layer_%s is \"auto\", and in a tile must be a number: its own "
-                              "would not be those of the whole picture",
-                              isinf(scene->image.layer_min) ? "min" : "max");
+        return kd_error_field(
+            error, isinf(scene->image.layer_min) ? "/image/layer_min" : "/image/layer_max",
+            "image.layer_%s is \"auto\"; in a tile it must be a number, because \"auto\" depends on the whole picture",
+            isinf(scene->image.layer_min) ? "min" : "max");
     if (map && scene->image.legend)
         return kd_error_field(
             error, "/image/legend",
-            "image.legend is true; in a tile it must be false: the bar stands in a corner of the whole picture");
+            "image.legend is true; in a tile it must be false, because the bar is in a corner of the whole picture");
     if (map)
         return KD_OK;
     if (isinf(style->exposure))
         return kd_error_field(error, "/style/exposure",
-                              "style.exposure is \"auto\"; in a tile it must be a number: its own would not be that of "
-                              "the whole picture; a small picture of "
-                              "the same scene tells one");
+                              "style.exposure is \"auto\"; in a tile it must be a number, because \"auto\" depends on "
+                              "the whole picture; a small picture of the same scene gives one");
     if (style->bloom > 0)
         return kd_error_field(
             error, "/style/bloom",
-            "style.bloom is %.9g; in a tile it must be 0: a lens spreads light over the whole picture", style->bloom);
+            "style.bloom is %.9g; in a tile it must be 0, because a lens spreads light over the whole picture",
+            style->bloom);
     if (style->beam_uas > 0)
         return kd_error_field(
             error, "/style/beam_uas",
-            "style.beam_uas is %.9g; in a tile it must be 0: a beam spreads light over the whole picture",
+            "style.beam_uas is %.9g; in a tile it must be 0, because a beam spreads light over the whole picture",
             style->beam_uas);
     if (style->colour_bar)
-        return kd_error_field(
-            error, "/style/colour_bar",
-            "style.colour_bar is true; in a tile it must be false: the bar stands in a corner of the whole picture");
+        return kd_error_field(error, "/style/colour_bar",
+                              "style.colour_bar is true; in a tile it must be false, because the bar is in a corner of "
+                              "the whole picture");
     return KD_OK;
 }
 
@@ -59,12 +59,12 @@ enum kd_status kd_tile_check(const struct kd_scene *scene, const struct kd_needs
     if (kd_scene_adapts(scene))
         return kd_error_field(
             error, "/image/samples",
-            "image.samples is \"auto\"; in a tile it must be 1 to 8: rays are chosen by what the whole picture shows");
+            "image.samples is \"auto\"; in a tile it must be 1 to 8, because \"auto\" depends on the whole picture");
     if (needs->no_image)
-        return kd_error_field(
-            error, "/image/tile/width",
-            "image.tile.width is %d; it must be 0 where light is measured: it is that of the whole picture",
-            scene->tile.width);
+        return kd_error_field(error, "/image/tile/width",
+                              "image.tile.width is %d; for a measurement of light it must be 0, because the light is "
+                              "that of the whole picture",
+                              scene->tile.width);
     const size_t n = kd_layers_of(scene, layers, &shown);
     return needs->radiance ? KD_OK : picture(scene, n == 1 && !shown, error);
 }

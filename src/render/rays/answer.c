@@ -112,17 +112,15 @@ static const struct {
         "the energy and angular momentum of the ISCO; pressure is ignored" },
       NULL },
     { { "rays.infinity",
-        "g is relative to infinity: an observer at a finite radius multiplies by its own nu/E_infinity" },
+        "g is relative to infinity; for an observer at a finite radius, multiply it by the observer's nu/E_infinity" },
       is_labelled },
     { { "rays.f32", "rays in 32-bit arithmetic; within about 1e-5 of the critical curve the fate may be wrong" },
       is_single },
-    { { "rays.from-1000",
-        "the engine starts rays from infinity at 1000 M, at the exact place given by their constants, and takes "
-        "their momentum there as their direction of escape, which is good to 1e-6 rad" },
+    { { "rays.from-1000", "the engine starts rays from infinity at 1000 M, at the exact position given by their "
+                          "constants; the direction of escape is the momentum there, accurate to 1e-6 rad" },
       is_compared },
-    { { "rays.again",
-        "rays whose error exceeds the tolerance were followed again in double precision and, if needed, in closed "
-        "form; the error of each ray tells which still exceed it" },
+    { { "rays.again", "rays whose error exceeds the tolerance were followed again in double precision and, if needed, "
+                      "in closed form; the error of each ray shows which still exceed it" },
       is_held },
 };
 

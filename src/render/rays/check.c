@@ -32,14 +32,15 @@ static enum kd_status check_accuracy(const struct kd_rays_params *p, struct kd_e
     if (status)
         return status;
     if ((unsigned)p->engine >= KD_ENGINE_COUNT || (unsigned)p->precision > KD_PRECISION_F64)
-        return kd_error_field(error, "/accuracy", "there is no such engine or precision");
+        return kd_error_field(error, "/accuracy", "the engine or the precision does not exist");
     if (closed && p->precision != KD_PRECISION_F64)
         return kd_error_field(
             error, "/accuracy/precision",
-            "the closed engine works in double precision: precision must be \"f64\", or the engine another one");
+            "the closed engine works in double precision: precision must be \"f64\", or the engine must be another");
     if (closed && p->steps)
         return kd_error_field(error, "/accuracy/steps",
-                              "the closed engine takes no steps: steps must be 0, or the engine another one");
+                              "steps cannot be used with the closed engine, which takes none: it must be 0, or the "
+                              "engine must be another");
     if (p->steps % 4 || p->steps > kd_engine_most_steps(p->engine))
         return kd_engine_steps_error(p->engine, p->steps, error);
     return KD_OK;

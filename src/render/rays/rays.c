@@ -87,7 +87,8 @@ static enum kd_status trace_on_device(struct kd_renderer *renderer, const struct
                                       struct kd_error *error)
 {
     if (!renderer)
-        return kd_error_field(error, "/accuracy/engine", "engine %s needs a device", kd_engine_name(params->engine));
+        return kd_error_field(error, "/accuracy/engine", "engine %s needs a Vulkan device",
+                              kd_engine_name(params->engine));
     enum kd_status status;
     KD_TRY(kd_rays_device(renderer, params, rays, crossings, ends, progress, user, error));
     kd_rays_redshift(params, rays, crossings, ends);

@@ -178,7 +178,8 @@ static enum kd_status read_outermost(struct document *d, const cJSON *item)
         if (!status && !cJSON_IsArray(item))
             status = wrong_type(d, item, "/rays", "an array of pairs of numbers [alpha, beta]");
         if (!status && item->child)
-            status = kd_error_field(d->error, "/rays", "the name of the array is to be written as \"rays\", unescaped");
+            status =
+                kd_error_field(d->error, "/rays", "the name of the array must be written as \"rays\", without escapes");
         return status;
     }
     for (size_t i = 0; i < 2; i++) {
@@ -251,7 +252,7 @@ static enum kd_status read_without_rays(struct document *d, const char *text, si
 {
     size_t kept = start < end ? 2 : 0, rest_length = start + kept + length - end;
     if (rest_length > KD_SCENE_JSON_MAX)
-        return kd_error_set(d->error, KD_EINVAL, "the document has %zu bytes besides its rays; it must have at most %u",
+        return kd_error_set(d->error, KD_EINVAL, "the document has %zu bytes without its rays; it must have at most %u",
                             rest_length, KD_SCENE_JSON_MAX);
     enum kd_status status = kd_scan_json_part(text, 0, start, d->error);
     if (!status)
@@ -368,7 +369,7 @@ static enum kd_status check_belongings(const struct kd_rays_params *p, struct kd
         if (belongs[i].value == belongs[i].idle)
             continue;
         if (p->observer != 1 + (int)belongs[i].of)
-            return kd_error_field(error, f->pointer, "%s is %.9g, and belongs to motion \"%s\"", f->name,
+            return kd_error_field(error, f->pointer, "%s is %.9g; it can be used only with motion \"%s\"", f->name,
                                   belongs[i].value, kd_observers[belongs[i].of].word);
         enum kd_status status = kd_rays_field_check(f->name, belongs[i].value, error);
         if (status)

@@ -14,8 +14,8 @@ static bool judge(void *user, const struct kd_selftest_row *row)
     struct kd_verdict *s = user;
     s->checks++;
     if (!row->ok && !s->failed++)
-        snprintf(s->worst, sizeof s->worst, "%s, by %s: error %.2g, allowed %.2g", row->what, row->by, row->error,
-                 row->bound);
+        snprintf(s->worst, sizeof s->worst, "%s, compared with %s: error %.2g, limit %.2g", row->what, row->by,
+                 row->error, row->bound);
     return true;
 }
 
@@ -61,14 +61,14 @@ static void tell(const struct kd_renderer *r, enum kd_status status, const struc
 {
     const struct kd_verdict *s = &r->verdict;
     if (status)
-        kd_log(KD_LOG_ERROR, "the self-test of %s could not be made: %s", r->name, why->message);
+        kd_log(KD_LOG_ERROR, "the self-test of %s could not run: %s", r->name, why->message);
     else if (s->failed)
         kd_log(KD_LOG_ERROR,
-               "%u of %u checks of the self-test FAILED on %s: what it computes may be wrong (%s); `kerrd doctor "
-               "--selftest` shows all of them",
+               "%u of %u checks of the self-test FAILED on %s; its results may be wrong (%s); `kerrd doctor "
+               "--selftest` shows all checks",
                s->failed, s->checks, r->name, s->worst);
     else
-        kd_log(KD_LOG_INFO, "the self-test passed on %s, its first start here: %u checks in %.1f s", r->name, s->checks,
+        kd_log(KD_LOG_INFO, "the self-test at the first start on %s passed: %u checks in %.1f s", r->name, s->checks,
                s->seconds);
 }
 

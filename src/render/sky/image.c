@@ -111,16 +111,16 @@ enum kd_status kd_sky_image(const void *data, size_t size, struct kd_sky_picture
     *out = (struct kd_sky_picture) { 0 };
     KD_TRY(kd_png_look(data, size, &about, &why)); /* reads the size before memory is allocated */
     if (!kd_asset_is_panorama(about.width, about.height))
-        KD_TRY(kd_error_set(&why, KD_EINVAL,
-                            "a picture of %u x %u pixels; it must be one of the whole sky, twice as wide as it is "
-                            "high, of %d to %d rows",
-                            about.width, about.height, KD_PANORAMA_LEAST, KD_PANORAMA_MOST));
+        KD_TRY(kd_error_set(
+            &why, KD_EINVAL,
+            "a picture of %u x %u pixels; it must show the whole sky, twice as wide as high, with %d to %d rows",
+            about.width, about.height, KD_PANORAMA_LEAST, KD_PANORAMA_MOST));
     KD_TRY(kd_png_decode(data, size, &png, &why));
     KD_TRY(convert(&png, out, &why));
     take_credit(&png, credit);
 done:
     kd_png_finish(&png);
     if (status == KD_EINVAL)
-        return kd_error_field(error, "/sky/image", "sky.image cannot be taken: %s", why.message);
+        return kd_error_field(error, "/sky/image", "sky.image cannot be used: %s", why.message);
     return status ? kd_error_set(error, status, "%s", why.message) : KD_OK;
 }

@@ -214,7 +214,8 @@ bool kd_camera_seen(const struct kd_camera_exact *c, const double d[3], double *
     const bool flat = c->sight == KD_SIGHT_PLANE;
     const struct vec k = { d[0] - (flat ? c->c0x : 0), d[1] - (flat ? c->c0y : 0), flat ? 0 : d[2] };
     const double depth = along(&k, c->c0x, c->c0y, c->c0z), size = c->cxx * c->cxx + c->cxy * c->cxy + c->cxz * c->cxz;
-    double right = along(&k, c->cxx, c->cxy, c->cxz) / size, up = along(&k, c->cyx, c->cyy, c->cyz) / size, off, aside;
+    double right = along(&k, c->cxx, c->cxy, c->cxz) / size, up = along(&k, c->cyx, c->cyy, c->cyz) / size, off,
+           lateral;
     switch (c->sight) {
     case KD_SIGHT_SPHERE:
         off = hypot(right, depth);
@@ -222,8 +223,8 @@ bool kd_camera_seen(const struct kd_camera_exact *c, const double d[3], double *
         up = atan2(up, off) / (0.5 * M_PI * c->turn_y);
         break;
     case KD_SIGHT_DOME:
-        aside = hypot(right, up);
-        off = aside > 0 ? atan2(aside, depth) / (0.5 * M_PI * c->turn_x * aside) : 0;
+        lateral = hypot(right, up);
+        off = lateral > 0 ? atan2(lateral, depth) / (0.5 * M_PI * c->turn_x * lateral) : 0;
         right *= off, up *= off;
         break;
     case KD_SIGHT_PINHOLE:

@@ -37,13 +37,13 @@ static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a
  * components of a unit vector. */
 static struct spot turned(const struct kd_camera_exact *c, double right, double up, double ahead)
 {
-    const double quarter = 0.5 * M_PI, aside = hypot(right, up), off = atan2(aside, ahead) / (quarter * c->turn_x);
+    const double quarter = 0.5 * M_PI, lateral = hypot(right, up), off = atan2(lateral, ahead) / (quarter * c->turn_x);
     if (c->sight == KD_SIGHT_SPHERE)
         return (struct spot) { c->middle_x + atan2(right, ahead) / (quarter * c->turn_x),
                                c->middle_y - atan2(up, hypot(right, ahead)) / (quarter * c->turn_y), true };
-    if (!(aside > 0))
+    if (!(lateral > 0))
         return (struct spot) { c->middle_x, c->middle_y, ahead > 0 };
-    return (struct spot) { c->middle_x + off * right / aside, c->middle_y - off * up / aside, true };
+    return (struct spot) { c->middle_x + off * right / lateral, c->middle_y - off * up / lateral, true };
 }
 
 /* The place of a point of the curve in the picture: the inverse of kd_camera_label. half: 1, the upper half of the

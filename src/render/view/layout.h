@@ -68,7 +68,7 @@ _Static_assert(sizeof(struct kd_slice) <= 128 && sizeof(struct kd_footprint_push
 
 /* Cameras of a frame, in one buffer at offsets at which a binding may begin. In order: for rays of the grid; for rays
  * at the critical curve; for extra rays of refined pixels, on the grid and at the curve; for rays that measure the
- * remaining error; for the whole picture of which this one may be a tile. */
+ * remaining error; for the whole picture, if this one is a tile. */
 enum {
     KD_CAMERA_GRID,
     KD_CAMERA_CRITICAL,

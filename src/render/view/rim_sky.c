@@ -342,9 +342,9 @@ enum kd_status kd_rim_sky(const struct kd_scene *scene, const struct kd_rim *rim
     case KD_OK: return KD_OK;
     case KD_ENOMEM: return kd_error_set(error, KD_ENOMEM, "out of memory for rays next to the critical curve");
     default:
-        return kd_error_field(
-            error, "/camera",
-            "camera is where a ray next to the critical curve does not escape: no stars can be sought there");
+        return kd_error_field(error, "/camera",
+                              "images of stars cannot be computed at this camera position, because a ray close to the "
+                              "critical curve does not escape");
     }
 }
 

@@ -40,6 +40,6 @@ enum MHD_Result kd_handle_accuracy(struct kd_request *request)
     enum MHD_Result refused;
     if (request->task)
         return deliver(request);
-    struct reading *reading = kd_task_begin(request, request->server->turns, &kind, &refused);
+    struct reading *reading = kd_task_begin(request, request->server->scheduler, &kind, &refused);
     return reading ? kd_task_submit(&reading->task) : refused;
 }

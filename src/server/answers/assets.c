@@ -86,7 +86,7 @@ static void finish(struct kd_task *task)
     kd_asset_put_finish(&p->put);
     /* the answer was not sent, so the client does not know the new asset */
     if (p->put.created && task->request->status != MHD_HTTP_CREATED)
-        kd_asset_store_remove_later(server->assets, p->put.asset, server->turns);
+        kd_asset_store_remove_later(server->assets, p->put.asset, server->scheduler);
     if (p->put.asset)
         kd_asset_release(server->assets, p->put.asset);
 }
@@ -106,7 +106,7 @@ static enum kd_slice_result work(struct kd_task *task, double until_ms)
     if (!status)
         status = kd_asset_put_go_on(&p->put, until_ms, &how, &error);
     kd_task_fail(task, status, &error);
-    task->turns.due_ms = kd_clock_ms() + AGAIN_MS;
+    task->scheduled.due_ms = kd_clock_ms() + AGAIN_MS;
     return status || how == KD_ASSET_OVER ? KD_SLICE_LAST : how == KD_ASSET_WAIT ? KD_SLICE_PARK : KD_SLICE_MORE;
 }
 
@@ -166,11 +166,11 @@ static bool wrong_type(const struct kd_request *request, char text[200])
     const bool observed = said && (!strcmp(said, KD_ASSET_UVFITS_TYPE) || !strcmp(said, KD_ASSET_CSV_TYPE)),
                begins = begin && body->size >= strlen(begin) && !memcmp(body->data, begin, strlen(begin));
     if (!is && observed && !begins) {
-        snprintf(text, 200, "the asset is said to be %s by its Content-Type; it must begin with \"%s\"", said, begin);
+        snprintf(text, 200, "the asset is %s by its Content-Type; it must begin with \"%s\"", said, begin);
         return true;
     }
     if (said && is)
-        snprintf(text, 200, "the asset is said to be %s by its Content-Type, and its bytes are those of %s", said, is);
+        snprintf(text, 200, "the asset is %s by its Content-Type, but its bytes are those of %s", said, is);
     return said && is;
 }
 
@@ -182,7 +182,7 @@ static enum MHD_Result put(struct kd_request *request)
     char fault[200];
     if (wrong_type(request, fault))
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_ASSET, .detail = fault });
-    struct putting *p = kd_task_begin(request, request->server->turns, &KIND, &refused);
+    struct putting *p = kd_task_begin(request, request->server->scheduler, &KIND, &refused);
     return p ? kd_task_submit(&p->task) : refused;
 }
 
@@ -289,9 +289,9 @@ static const struct kd_task_kind REMOVAL = { "assets", sizeof(struct removing), 
 
 static enum MHD_Result refuse_unknown(struct kd_request *request)
 {
-    return kd_reply_problem(request,
-                            &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
-                                                   .detail = "there is no asset of this SHA-256, or no longer" });
+    return kd_reply_problem(
+        request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
+                                        .detail = "there is no asset with this SHA-256, or it was deleted" });
 }
 
 static enum MHD_Result deliver_removal(struct kd_request *request)
@@ -312,7 +312,7 @@ static enum MHD_Result begin_removal(struct kd_request *request, struct kd_asset
 {
     enum MHD_Result refused = MHD_NO;
     struct removing *r =
-        request->connection ? kd_task_create(request, request->server->turns, &REMOVAL, &refused) : NULL;
+        request->connection ? kd_task_create(request, request->server->scheduler, &REMOVAL, &refused) : NULL;
     if (r) {
         r->asset = asset;
         return kd_task_submit(&r->task);
@@ -340,5 +340,5 @@ enum MHD_Result kd_handle_asset(struct kd_request *request)
         return kd_reply_unmatched(request);
     return kd_reply_problem(
         request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
-                                        .detail = "deleting an asset takes its token: Authorization: Bearer TOKEN" });
+                                        .detail = "deleting an asset needs its token: Authorization: Bearer TOKEN" });
 }

@@ -61,8 +61,8 @@ static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_er
     }
     if (ms > server->longest_s * 1e3)
         return kd_error_set(error, KD_ETOOBIG,
-                            "%u pictures and what is made of them would take about %.0f s, more than the %u s that an "
-                            "answer may take: fewer pixels, frequencies or baselines, or check \"none\", take less",
+                            "%u pictures and their evaluation would take about %.0f s; it must be at most %u s: reduce "
+                            "pixels, frequencies or baselines, or set check \"none\"",
                             n, ms * 1e-3, server->longest_s);
     return KD_OK;
 }
@@ -79,7 +79,7 @@ static enum kd_status begin(struct job *job, struct kd_error *error)
     if (status)
         return status;
     KD_TRY(plan_pictures(job, &bytes, error));
-    KD_TRY(kd_task_hold(task->request->server, task->turns.client, bytes, &task->held, &task->quota, error));
+    KD_TRY(kd_task_hold(task->request->server, task->scheduled.client, bytes, &task->held, &task->quota, error));
     /* An integral without pictures is computed in one slice: mostly in some hundredths of a second, and in 0.3 s for
      * the largest request. */
     KD_TRY(kd_integral_run_begin(&job->run, &job->request, error));
@@ -91,7 +91,7 @@ static void rendered(struct kd_render_job *picture)
 {
     struct job *job = picture->user;
     kd_task_fail(&job->task, picture->status, &picture->error);
-    kd_scheduler_wake(job->task.queue, &job->task.turns);
+    kd_scheduler_wake(job->task.queue, &job->task.scheduled);
 }
 
 /* Pushes the next picture to the render queue. */
@@ -205,12 +205,12 @@ enum MHD_Result kd_handle_integral(struct kd_request *request)
     if (format >= 3)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
                                                                 .offered = OFFERED,
-                                                                .detail = "integrals are offered as " OFFERED });
+                                                                .detail = "integrals are available as " OFFERED });
     if (request->target.n_pairs)
         return kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS,
-                                            .detail = "parameters belong to the document, not to the query" });
-    struct job *job = kd_task_begin(request, request->server->turns, &KIND, &refused);
+                                            .detail = "parameters must be in the document, not in the query" });
+    struct job *job = kd_task_begin(request, request->server->scheduler, &KIND, &refused);
     if (!job)
         return refused;
     job->format = (enum kd_integral_format)format;

@@ -6,7 +6,7 @@
 #include "server/render/queue.h"
 #include "server/render/thumbnails.h"
 #include "server/job/jobs.h"
-#include "server/playground/plays.h"
+#include "server/playground/sessions.h"
 #include "server/session/sessions.h"
 
 static enum kd_status add(struct kd_buffer *out, const char *name, const char *type, const char *help, double value)
@@ -28,17 +28,17 @@ static enum kd_status add_answers(struct kd_buffer *out, struct kd_server *serve
 
 static enum kd_status add_jobs(struct kd_buffer *out, const struct kd_jobs_counts *jobs)
 {
-    return kd_buffer_printf(out,
-                            "# HELP kerrd_jobs Jobs that are kept, by state.\n# TYPE kerrd_jobs gauge\n"
-                            "kerrd_jobs{state=\"waiting\"} %u\nkerrd_jobs{state=\"running\"} %u\n"
-                            "kerrd_jobs{state=\"done\"} %u\nkerrd_jobs{state=\"failed\"} %u\n",
-                            jobs->waiting, jobs->running, jobs->done, jobs->failed);
+    return kd_buffer_printf(
+        out,
+        "# HELP kerrd_jobs Stored jobs, by state.\n# TYPE kerrd_jobs gauge\nkerrd_jobs{state=\"waiting\"} "
+        "%u\nkerrd_jobs{state=\"running\"} %u\nkerrd_jobs{state=\"done\"} %u\nkerrd_jobs{state=\"failed\"} %u\n",
+        jobs->waiting, jobs->running, jobs->done, jobs->failed);
 }
 
 struct counts {
     struct kd_sessions_counts sessions;
     struct kd_jobs_counts jobs;
-    struct kd_playground_sessions_counts plays;
+    struct kd_playground_sessions_counts playgrounds;
 };
 
 /* Runs on the thread of the health routes, which must not block. If a lock is held for long, for example while a job is
@@ -47,15 +47,15 @@ static struct counts count(struct kd_server *server)
 {
     struct counts now;
     bool sessions = kd_sessions_counts(server->sessions, &now.sessions), jobs = kd_jobs_counts(server->jobs, &now.jobs);
-    const bool plays = kd_playground_sessions_counts(server->plays, &now.plays);
+    const bool playgrounds = kd_playground_sessions_counts(server->playgrounds, &now.playgrounds);
     pthread_mutex_lock(&server->lock);
     if (sessions)
         server->sessions_counts = now.sessions;
     if (jobs)
         server->jobs_counts = now.jobs;
-    if (plays)
-        server->plays_counts = now.plays;
-    now = (struct counts) { server->sessions_counts, server->jobs_counts, server->plays_counts };
+    if (playgrounds)
+        server->playgrounds_counts = now.playgrounds;
+    now = (struct counts) { server->sessions_counts, server->jobs_counts, server->playgrounds_counts };
     pthread_mutex_unlock(&server->lock);
     return now;
 }
@@ -72,35 +72,35 @@ enum MHD_Result kd_handle_metrics(struct kd_request *request)
         const char *name, *type, *help;
         double value;
     } rows[] = {
-        { "requests", "gauge", "Requests begun and not yet answered in full.", atomic_load(&s->requests) },
-        { "renders_unfinished", "gauge", "Pictures and device work waiting, being rendered or encoded.",
+        { "requests", "gauge", "Requests in progress.", atomic_load(&s->requests) },
+        { "renders_unfinished", "gauge", "Pictures and other device work that wait, are rendered or are encoded.",
           kd_render_queue_unfinished(s->renders) },
-        { "device_reopened_total", "counter", "Times that the device failed and was opened again.",
+        { "device_reopened_total", "counter", "Number of times that the device failed and was reopened.",
           kd_render_queue_reopened(s->renders) },
-        { "render_backlog_seconds", "gauge", "Estimated time of what waits for the device.",
+        { "render_backlog_seconds", "gauge", "Estimated device time of the waiting work.",
           1e-3 * kd_render_queue_backlog_ms(s->renders) },
-        { "rays_unfinished", "gauge", "Requests for rays under way.", kd_scheduler_unfinished(s->rays) },
-        { "turns_unfinished", "gauge", "Orbits, long quantities and checks of jobs under way.",
-          kd_scheduler_unfinished(s->turns) },
+        { "rays_unfinished", "gauge", "Requests for rays in progress.", kd_scheduler_unfinished(s->rays) },
+        { "turns_unfinished", "gauge", "Orbits, long quantities and checks of jobs in progress.",
+          kd_scheduler_unfinished(s->scheduler) },
         { "sessions", "gauge", "Live sessions.", now.sessions.sessions },
-        { "session_viewers", "gauge", "Requests and streams that follow sessions.", now.sessions.viewers },
+        { "session_viewers", "gauge", "Requests and streams that wait for frames of sessions.", now.sessions.viewers },
         { "thumbnails_rendered_total", "counter", "Small pictures of presets rendered, each once.",
           kd_thumbnails_rendered(s->thumbnails) },
         { "session_frames_total", "counter", "Frames of sessions encoded.", (double)now.sessions.frames },
-        { "session_bytes_total", "counter", "Bytes of these frames, however many took them.",
+        { "session_bytes_total", "counter", "Bytes of these frames, independent of the number of viewers.",
           (double)now.sessions.bytes },
-        { "playgrounds", "gauge", "Live playgrounds.", now.plays.plays },
-        { "playground_watchers", "gauge", "Requests and streams that follow playgrounds.", now.plays.watchers },
-        { "playground_bytes", "gauge", "Memory that they may take.", (double)now.plays.bytes },
-        { "playground_steps_total", "counter", "Sub-steps that they have gone on by themselves.",
-          (double)now.plays.steps },
-        { "playground_events_total", "counter", "What has happened in them.", (double)now.plays.events },
+        { "playgrounds", "gauge", "Live playgrounds.", now.playgrounds.open },
+        { "playground_watchers", "gauge", "Requests and streams that wait for changes of playgrounds.",
+          now.playgrounds.watchers },
+        { "playground_bytes", "gauge", "Reserved memory of the playgrounds.", (double)now.playgrounds.bytes },
+        { "playground_steps_total", "counter", "Sub-steps of running playgrounds.", (double)now.playgrounds.steps },
+        { "playground_events_total", "counter", "Events in playgrounds.", (double)now.playgrounds.events },
         { "job_frames_total", "counter", "Frames of jobs finished.", (double)now.jobs.frames },
         { "job_bytes", "gauge", "Bytes of the frames of all jobs on disk.", (double)now.jobs.bytes },
-        { "assets", "gauge", "Assets that are kept.", assets },
+        { "assets", "gauge", "Stored assets.", assets },
         { "asset_bytes", "gauge", "Bytes of all assets.", (double)asset_bytes },
         { "bodies_bytes", "gauge", "Bodies being received.", (double)kd_bytes_held(s->bodies) },
-        { "replies_bytes", "gauge", "Answers not yet taken by their clients.", (double)kd_bytes_held(s->replies) },
+        { "replies_bytes", "gauge", "Answers that their clients have not read.", (double)kd_bytes_held(s->replies) },
         { "serving", "gauge", "1 until the server has been asked to stop.", atomic_load(&s->phase) == KD_SERVING },
     };
     enum kd_status status;

@@ -25,7 +25,7 @@ static const char *const types[] = { [KD_ORBIT_JSON] = "application/json",
 
 /* A job with two owners, the request and the scheduler; the last one to release it frees it. */
 struct kd_orbits_job {
-    struct kd_scheduler_job turns; /* must be the first member */
+    struct kd_scheduler_job scheduled; /* must be the first member */
     struct kd_server *server;
     _Atomic unsigned holders;
     enum kd_orbit_format format;
@@ -51,7 +51,7 @@ static void unref(struct kd_orbits_job *job)
 {
     if (atomic_fetch_sub(&job->holders, 1) != 1)
         return;
-    kd_bytes_give(job->server->replies, job->turns.client, job->held);
+    kd_bytes_give(job->server->replies, job->scheduled.client, job->held);
     kd_orbit_feed_finish(&job->feed);
     kd_orbit_request_finish(&job->request);
     kd_buffer_finish(&job->out);
@@ -68,7 +68,7 @@ void kd_orbits_job_abandon(struct kd_orbits_job *job)
     bool wake = !job->finished;
     pthread_mutex_unlock(&job->lock);
     if (wake) /* the job is still in the scheduler; if it is about to finish, it is not parked */
-        kd_scheduler_wake(job->server->turns, &job->turns);
+        kd_scheduler_wake(job->server->scheduler, &job->scheduled);
     unref(job);
 }
 
@@ -86,7 +86,7 @@ static enum kd_status over(struct kd_orbits_job *job, struct kd_error *error)
     pthread_mutex_lock(&job->lock);
     bool gone = !job->mhd || kd_socket_abandoned(job->socket);
     pthread_mutex_unlock(&job->lock);
-    return kd_task_over(job->server, job->server->turns, gone, job->deadline_ms, error);
+    return kd_task_over(job->server, job->server->scheduler, gone, job->deadline_ms, error);
 }
 
 static bool stopped(void *user)
@@ -102,7 +102,7 @@ static enum kd_status hold(struct kd_orbits_job *job, struct kd_error *error)
     size_t bytes = job->format == KD_ORBIT_NDJSON ? 2 * FULL : rows * BYTES_PER_SAMPLE + r->n * BYTES_PER_ORBIT;
     if (r->many)
         bytes += kd_orbit_batch_bytes(r);
-    return kd_task_hold(job->server, job->turns.client, bytes, &job->held, &job->quota, error);
+    return kd_task_hold(job->server, job->scheduled.client, bytes, &job->held, &job->quota, error);
 }
 
 static enum kd_status read_body(struct kd_orbits_job *job, struct kd_error *error)
@@ -118,7 +118,7 @@ static enum kd_status read_body(struct kd_orbits_job *job, struct kd_error *erro
         status = kd_orbit_feed_init(&job->feed, &job->request, job->format, error);
     job->feed.batch.stop = stopped;
     job->feed.batch.user = job;
-    job->turns.shared = job->request.many;
+    job->scheduled.shared = job->request.many;
     return status;
 }
 
@@ -166,9 +166,9 @@ static enum kd_slice_result one_piece(struct kd_orbits_job *job)
     return room ? KD_SLICE_MORE : KD_SLICE_PARK;
 }
 
-static enum kd_slice_result take_turn(struct kd_scheduler_job *turns)
+static enum kd_slice_result take_turn(struct kd_scheduler_job *scheduled)
 {
-    struct kd_orbits_job *job = (struct kd_orbits_job *)turns;
+    struct kd_orbits_job *job = (struct kd_orbits_job *)scheduled;
     struct kd_error error = { 0 };
     if (job->state == READING)
         job->queue_ms = (job->begun_ms = kd_clock_ms()) - job->submitted_ms;
@@ -184,9 +184,9 @@ static enum kd_slice_result take_turn(struct kd_scheduler_job *turns)
     return status ? end(job, status, &error) : KD_SLICE_MORE;
 }
 
-static void done(struct kd_scheduler_job *turns)
+static void done(struct kd_scheduler_job *scheduled)
 {
-    struct kd_orbits_job *job = (struct kd_orbits_job *)turns;
+    struct kd_orbits_job *job = (struct kd_orbits_job *)scheduled;
     struct kd_error error = { 0 };
     if (!job->status && job->request.many) {
         enum kd_status status = over(job, &error);
@@ -234,7 +234,7 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
     }
     pthread_mutex_unlock(&job->lock);
     if (wake)
-        kd_scheduler_wake(job->server->turns, &job->turns);
+        kd_scheduler_wake(job->server->scheduler, &job->scheduled);
     return over ? MHD_CONTENT_READER_END_OF_STREAM : (ssize_t)n;
 }
 
@@ -296,13 +296,13 @@ static enum MHD_Result submit(struct kd_request *request, enum kd_orbit_format f
     struct kd_orbits_job *job = calloc(1, sizeof *job);
     if (!job)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
-    job->turns.turn = take_turn;
-    job->turns.done = done;
+    job->scheduled.turn = take_turn;
+    job->scheduled.done = done;
     job->server = server;
     job->format = format;
     job->owner = request;
     job->mhd = request->mhd;
-    snprintf(job->turns.client, sizeof job->turns.client, "%s", request->client);
+    snprintf(job->scheduled.client, sizeof job->scheduled.client, "%s", request->client);
     job->socket = kd_connection_socket(request->connection);
     job->suspended = true;
     job->submitted_ms = kd_clock_ms();
@@ -313,7 +313,7 @@ static enum MHD_Result submit(struct kd_request *request, enum kd_orbit_format f
     request->orbits = job;
     /* Suspend first, because the job may be done before push returns. */
     MHD_suspend_connection(request->mhd);
-    kd_scheduler_push(server->turns, &job->turns);
+    kd_scheduler_push(server->scheduler, &job->scheduled);
     return MHD_YES;
 }
 
@@ -327,12 +327,12 @@ enum MHD_Result kd_handle_orbits(struct kd_request *request)
     if (format < 0)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
                                                                 .offered = OFFERED,
-                                                                .detail = "orbits are offered as " OFFERED });
+                                                                .detail = "orbits are available as " OFFERED });
     if (request->target.n_pairs)
         return kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_ORBIT,
-                                            .detail = "parameters belong to the document, not to the query" });
-    if (!kd_task_admit(request, request->server->turns, "orbits", &refused))
+                                            .detail = "parameters must be in the document, not in the query" });
+    if (!kd_task_admit(request, request->server->scheduler, "orbits", &refused))
         return refused;
     return submit(request, (enum kd_orbit_format)format);
 }

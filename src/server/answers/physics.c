@@ -91,7 +91,7 @@ static enum kd_status hold(struct job *job, const struct kd_quantity_request *as
     size_t numbers = asked->quantity->n_outputs + asked->quantity->n_parameters;
     size_t bytes = kd_quantity_points(asked) * numbers * (sizeof(double) + BYTES_PER_NUMBER);
     bytes += job->form == FORM_WAV ? KD_SOUND_BYTES : 0;
-    return kd_task_hold(job->task.request->server, job->task.turns.client, bytes, &job->task.held, &job->task.quota,
+    return kd_task_hold(job->task.request->server, job->task.scheduled.client, bytes, &job->task.held, &job->task.quota,
                         error);
 }
 
@@ -160,7 +160,7 @@ static const struct kd_task_kind KIND = { "long quantities", sizeof(struct job),
 
 static enum MHD_Result begin(struct kd_request *request, const struct kd_quantity_request *asked, enum form form)
 {
-    struct kd_scheduler *workers = request->server->turns;
+    struct kd_scheduler *workers = request->server->scheduler;
     struct kd_error error = { 0 };
     enum MHD_Result refused;
     bool here = kd_quantity_cost_ms(asked) <= MOMENT_MS && form != FORM_WAV;
@@ -189,7 +189,7 @@ enum MHD_Result kd_handle_quantity(struct kd_request *request)
         return refuse(request, &error);
     if (form == FORM_NONE) {
         char detail[80];
-        snprintf(detail, sizeof detail, "%s is offered as %s", quantity->name, offered(quantity));
+        snprintf(detail, sizeof detail, "%s is available as %s", quantity->name, offered(quantity));
         return kd_reply_problem(
             request,
             &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = offered(quantity), .detail = detail });

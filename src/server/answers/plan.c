@@ -78,7 +78,7 @@ static enum MHD_Result plan_sweep(struct kd_request *request)
         return deliver(request);
     if (kd_scene_query_check(&request->target, false, request->route->own, &error))
         return refuse(request, &error);
-    struct sweep *s = kd_task_begin(request, request->server->turns, &KIND, &refused);
+    struct sweep *s = kd_task_begin(request, request->server->scheduler, &KIND, &refused);
     if (!s)
         return refused;
     snprintf(s->preset, sizeof s->preset, "%s", preset ? preset : "");

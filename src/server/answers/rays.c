@@ -140,8 +140,8 @@ static enum kd_status read_query(const struct kd_target *target, bool npy, struc
     KD_TRY(kd_target_distinct(target, error));
     if (target->n_pairs && !npy)
         KD_TRY(kd_error_field(error, "",
-                              "the query may hold parameters beside a body of " KD_NPY_TYPE
-                              " only; in JSON they belong to the document"));
+                              "the query may have parameters only with a body of " KD_NPY_TYPE
+                              "; with JSON they must be in the document"));
     for (size_t i = 0; i < target->n_pairs; i++)
         KD_TRY(kd_rays_request_set(request, target->pairs[i].name, target->pairs[i].value, error));
 done:
@@ -159,7 +159,7 @@ enum MHD_Result kd_handle_rays(struct kd_request *request)
     if (choose_format(request) < 0)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
                                                                 .offered = OFFERED,
-                                                                .detail = "rays are offered as " OFFERED });
+                                                                .detail = "rays are available as " OFFERED });
     bool npy = kd_media_type_is(request->header.content_type, KD_NPY_TYPE);
     kd_rays_request_init(&rays);
     if (read_query(&request->target, npy, &rays, &error))

@@ -29,7 +29,7 @@ static enum kd_status read_body(struct kd_rays_job *job, struct kd_error *error)
     kd_render_queue_capacity(server->renders, &capacity);
     KD_TRY(kd_rays_request_settle(request, &capacity, error));
     KD_TRY(kd_rays_request_check(request, error));
-    KD_TRY(kd_task_hold(server, job->task.turns.client, kd_rays_answer_bytes(&request->params, request->n),
+    KD_TRY(kd_task_hold(server, job->task.scheduled.client, kd_rays_answer_bytes(&request->params, request->n),
                         &job->task.held, &job->task.quota, error));
     double *alpha_beta = request->alpha_beta;
     request->alpha_beta = NULL;
@@ -66,7 +66,7 @@ static void device_done(struct kd_render_job *device)
 {
     struct kd_rays_job *job = device->user;
     kd_task_fail(&job->task, device->status, &device->error);
-    kd_scheduler_wake(job->task.queue, &job->task.turns);
+    kd_scheduler_wake(job->task.queue, &job->task.scheduled);
 }
 
 static enum kd_status push_to_device(struct kd_rays_job *job, struct kd_error *error)
@@ -101,7 +101,7 @@ static enum kd_slice_result begin(struct kd_rays_job *job)
     job->read_ms = job->traced_from_ms - job->task.begun_ms;
     bool device = !status && job->answer.params.engine != KD_ENGINE_CLOSED;
     job->where = device ? KD_RAYS_ON_DEVICE : KD_RAYS_HERE;
-    job->task.turns.shared = !device;
+    job->task.scheduled.shared = !device;
     if (device)
         status = push_to_device(job, &error);
     kd_task_fail(&job->task, status, &error);

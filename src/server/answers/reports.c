@@ -21,9 +21,9 @@ enum MHD_Result kd_handle_ready(struct kd_request *request)
     if (kd_render_queue_lost(request->server->renders, &error))
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .detail = error.message });
     if (atomic_load(&request->server->phase) != KD_SERVING)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
-                                                                .retry_after = 1,
-                                                                .detail = "the server has been asked to stop" });
+        return kd_reply_problem(
+            request,
+            &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1, .detail = "the server is stopping" });
     return kd_reply_send(request, MHD_HTTP_OK, kd_reply_static(ready, sizeof ready - 1, request->route->answer));
 }
 
@@ -36,11 +36,11 @@ enum MHD_Result kd_handle_device(struct kd_request *request)
 
 enum MHD_Result kd_handle_cached_document(struct kd_request *request)
 {
-    const struct kd_served *document = kd_cached_documents_find(request->server->kept, request->target.path);
+    const struct kd_served *document = kd_cached_documents_find(request->server->documents, request->target.path);
     char preset[128];
     if (!document && request->rest &&
         snprintf(preset, sizeof preset, "/v1/presets/%s", kd_scene_preset_name_now(request->rest)) < (int)sizeof preset)
-        document = kd_cached_documents_find(request->server->kept, preset);
+        document = kd_cached_documents_find(request->server->documents, preset);
     struct kd_scene scene;
     struct kd_error error = { 0 };
     if (document)

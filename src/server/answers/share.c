@@ -17,7 +17,7 @@
 
 #define JSON_TYPE "application/json"
 #define PLAIN_TITLE "Black hole"
-#define PLAIN_ABOUT "A Kerr black hole with a thin disk of gas, its light followed ray by ray"
+#define PLAIN_ABOUT "A Kerr black hole with a thin disk of gas, ray-traced"
 
 static enum kd_status tell_preset(const char *name, struct kd_shared *out)
 {
@@ -257,7 +257,7 @@ enum MHD_Result kd_handle_oembed(struct kd_request *request)
     const char *url = kd_target_value(&request->target, "url"), *format = kd_target_value(&request->target, "format");
     if (!url)
         return refuse(request, KD_PROBLEM_INVALID_PARAMETERS,
-                      "url is missing: it must be the address of a shared scene, as /v1/share makes it", "/url");
+                      "url is missing; it must be the address of a shared scene from /v1/share", "/url");
     if (format && strcmp(format, "json"))
         return refuse(request, KD_PROBLEM_INVALID_PARAMETERS, "format must be json", "/format");
     if (!width_of(request, &width, &error))

@@ -10,14 +10,13 @@
 static const struct {
     const char *tag, *title, *asks, *wrong, *later, *label, *button;
 } words[] = {
-    { "en", "kerrd: access token", "This server takes an access token. Whoever runs it gives it to you.",
+    { "en", "kerrd: access token", "This server needs an access token. Ask its operator for one.",
       "The server does not know this token.",
-      "Too many wrong tokens have come from your address: in a few seconds one is looked at again.", "Access token",
-      "Go in" },
-    { "it", "kerrd: token d’accesso", "Questo server chiede un token d’accesso. Lo dà chi lo gestisce.",
+      "Too many wrong tokens have come from your address. Try again in a few seconds.", "Access token", "Go in" },
+    { "it", "kerrd: token d’accesso", "Questo server richiede un token d’accesso. Chiedilo a chi lo gestisce.",
       "Il server non conosce questo token.",
-      "Dal tuo indirizzo sono arrivati troppi token sbagliati: tra qualche secondo ne sarà guardato un altro.",
-      "Token d’accesso", "Entra" },
+      "Dal tuo indirizzo sono arrivati troppi token sbagliati. Riprova tra qualche secondo.", "Token d’accesso",
+      "Entra" },
 };
 enum { LANGUAGES = sizeof words / sizeof *words };
 

@@ -38,7 +38,7 @@ enum kd_status kd_asset_look(const void *data, size_t size, struct kd_asset_abou
 {
     struct kd_png_about png;
     if (size > KD_ASSET_BYTES)
-        return kd_error_set(error, KD_EINVAL, "an asset must have at most %zu bytes, this one has %zu", KD_ASSET_BYTES,
+        return kd_error_set(error, KD_EINVAL, "an asset must have at most %zu bytes; this one has %zu", KD_ASSET_BYTES,
                             size);
     if (kd_matter_grid_is(data, size))
         return kd_matter_grid_look(data, size, out->nodes, &out->spin, error);
@@ -48,7 +48,7 @@ enum kd_status kd_asset_look(const void *data, size_t size, struct kd_asset_abou
     if (status)
         return status;
     if ((uint64_t)png.width * png.height > KD_ASSET_PIXELS)
-        return kd_error_set(error, KD_EINVAL, "an asset may have %llu pixels, this one has %u x %u",
+        return kd_error_set(error, KD_EINVAL, "an asset must have at most %llu pixels; this one has %u x %u",
                             (unsigned long long)KD_ASSET_PIXELS, png.width, png.height);
     out->width = png.width;
     out->height = png.height;
@@ -67,7 +67,7 @@ enum kd_status kd_asset_folder_open(const char *state, int *out, struct kd_error
     if (parent >= 0)
         close(parent);
     return *out >= 0 ? KD_OK
-                     : kd_error_set(error, KD_EIO, "assets cannot be kept in %.300s: %s", state, strerror(cause));
+                     : kd_error_set(error, KD_EIO, "assets cannot be stored in %.300s: %s", state, strerror(cause));
 }
 
 static void name_of(const char *hash, const char *kind, char out[FILE_NAME])
@@ -126,10 +126,10 @@ static const char *read_bytes(int folder, struct kd_asset_about *about, struct k
         read = kd_read_file(folder, name, O_NOFOLLOW, KD_ASSET_BYTES, bytes);
     }
     if (!read)
-        return "its bytes cannot be read";
+        return "its data cannot be read";
     kd_sha256(bytes->data, bytes->size, hash);
     if (strcmp(hash, about->hash) || kd_asset_look(bytes->data, bytes->size, about, NULL))
-        return "its bytes are damaged";
+        return "its data are damaged";
     about->size = bytes->size;
     return NULL;
 }
@@ -184,7 +184,7 @@ enum kd_status kd_asset_folder_load(int folder,
         const char *why =
             read_record(folder, hash, &about) ? read_bytes(folder, &about, &bytes) : "its record cannot be read";
         if (why)
-            kd_log(KD_LOG_WARN, "asset %.4s... is left alone: %s", hash, why);
+            kd_log(KD_LOG_WARN, "asset %.4s... is skipped: %s", hash, why);
         else
             found(user, &about, &bytes);
         kd_buffer_finish(&bytes);
@@ -220,7 +220,7 @@ enum kd_status kd_asset_folder_write(int folder, const struct kd_asset_about *ab
                               cause == ENOSPC || cause == EDQUOT || cause == EFBIG    ? KD_EFULL
                               : cause == EMFILE || cause == ENFILE || cause == ENOMEM ? KD_ENOMEM
                                                                                       : KD_EIO,
-                              "the asset cannot be kept: %s", strerror(cause));
+                              "the asset cannot be stored: %s", strerror(cause));
         kd_asset_folder_remove(folder, about->hash);
     }
     kd_buffer_finish(&text);

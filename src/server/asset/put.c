@@ -284,9 +284,9 @@ enum kd_status kd_asset_put_begin(struct kd_asset_put *put, struct kd_asset_stor
     p->about.created = (double)time(NULL);
     sha256_init(&p->hash);
     if (!kd_secret_make(p->about.token, sizeof p->about.token))
-        return kd_error_set(error, KD_EIO, "there are no random numbers for a token");
+        return kd_error_set(error, KD_EIO, "no random numbers are available for a token");
     return size > KD_ASSET_BYTES
-               ? kd_error_set(error, KD_EINVAL, "an asset must have at most %zu bytes, this one has %zu",
+               ? kd_error_set(error, KD_EINVAL, "an asset must have at most %zu bytes; this one has %zu",
                               KD_ASSET_BYTES, size)
                : KD_OK;
 }

@@ -69,7 +69,7 @@ static void load(void *user, const struct kd_asset_about *about, struct kd_buffe
     struct kd_asset_store *store = user;
     struct kd_asset *asset = kd_asset_make(store, about, bytes->data, bytes->size, "");
     if (!asset) {
-        kd_log(KD_LOG_WARN, "asset %.4s... is left alone: there is no memory for it", about->hash);
+        kd_log(KD_LOG_WARN, "asset %.4s... is skipped: out of memory", about->hash);
         return;
     }
     asset->state = KD_ASSET_READY;
@@ -108,7 +108,7 @@ enum kd_status kd_asset_store_create(const struct kd_asset_limits *limits, struc
         return kd_error_set(error, KD_ENOMEM, "out of memory");
     store->limits = *limits;
     store->assets = (struct kd_assets) { find_for_scene, take, give_back,
-                                         "null and the SHA-256 of an asset that PUT /v1/assets has taken", store };
+                                         "null, or the SHA-256 of an asset that PUT /v1/assets has stored", store };
     store->folder = -1;
     pthread_mutex_init(&store->lock, NULL);
     *out = store;

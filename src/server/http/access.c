@@ -63,15 +63,15 @@ static const char *fault_of(const struct kd_access *access, const char *name, co
                             const char *more, struct entry *entry)
 {
     if (!role || !token || more)
-        return "it must be NAME ROLE TOKEN";
+        return "a line must be NAME ROLE TOKEN";
     if (strlen(name) > KD_ACCESS_NAME_MAX || name[strspn(name, LETTERS "-._@")])
-        return "a name has at most 32 letters, digits and -._@";
+        return "a name must have at most 32 letters, digits and -._@";
     if (!parse_role(role, &entry->visitor.role))
         return "the role must be view or render";
     if (strlen(token) < KD_ACCESS_TOKEN_MIN || strlen(token) > KD_ACCESS_TOKEN_MAX)
-        return "a token has 16 to 256 characters";
+        return "a token must have 16 to 256 characters";
     if (token[strspn(token, TOKEN_CHARACTERS)])
-        return "a token is made of letters, digits and -._~=";
+        return "a token must consist of letters, digits and -._~=";
     if (kd_access_find(access, token))
         return "another line has the same token";
     for (size_t i = 0; i < access->n; i++)
@@ -115,7 +115,8 @@ static enum kd_status add_lines(struct kd_access *access, const char *path, char
         status = add_line(access, path, ++number, line, error);
     }
     if (!status && !access->n)
-        return kd_error_set(error, KD_EINVAL, "the token file %.200s holds no token: a line is NAME ROLE TOKEN", path);
+        return kd_error_set(error, KD_EINVAL, "the token file %.200s has no token: a line must be NAME ROLE TOKEN",
+                            path);
     return status;
 }
 
@@ -127,10 +128,10 @@ static enum kd_status read_text(const char *path, struct kd_buffer *text, struct
     if (about.st_mode & (S_IROTH | S_IWOTH | S_IWGRP))
         return kd_error_set(
             error, KD_EINVAL,
-            "the token file %.200s may be read or written by others (mode %03o): chmod 600 keeps it to its owner", path,
-            (unsigned)about.st_mode & 0777);
+            "the token file %.200s must be readable and writable by its owner only, and has mode %03o: use chmod 600",
+            path, (unsigned)about.st_mode & 0777);
     if (memchr(text->data ? text->data : (void *)"", 0, text->size))
-        return kd_error_set(error, KD_EINVAL, "the token file %.200s is no text: it holds a zero byte", path);
+        return kd_error_set(error, KD_EINVAL, "the token file %.200s is not a text: it has a zero byte", path);
     return kd_buffer_append(text, "", 1) ? kd_error_set(error, KD_ENOMEM, "out of memory") : KD_OK;
 }
 
@@ -258,7 +259,7 @@ bool kd_access_check(struct kd_request *request, struct kd_problem *problem)
         .type = KD_PROBLEM_WRONG_TOKENS,
         .close = request->body_announced,
         .retry_after = guesses_wait_s(request, &brought),
-        .detail = "too many wrong access tokens have come from this address; in a few seconds one is looked at again"
+        .detail = "too many wrong access tokens have come from this address; try again in a few seconds"
     };
     if (problem->retry_after) {
         request->visitor = NULL;
@@ -267,13 +268,12 @@ bool kd_access_check(struct kd_request *request, struct kd_problem *problem)
     *problem = (struct kd_problem) {
         .type = KD_PROBLEM_UNAUTHORIZED,
         .close = request->body_announced,
-        .detail =
-            "this server takes one of its access tokens, as Authorization: Bearer TOKEN or " KD_ACCESS_HEADER ": TOKEN"
+        .detail = "this server needs an access token, as Authorization: Bearer TOKEN or " KD_ACCESS_HEADER ": TOKEN"
     };
     if (!request->visitor)
         return false;
     problem->type = KD_PROBLEM_ROLE;
-    problem->detail = "this changes or keeps something at the server, which takes a token of the role render; yours is "
-                      "of the role view";
+    problem->detail =
+        "a request that changes or stores something needs a token with the role render; yours has the role view";
     return !request->route || kd_role_may(request->visitor->role, request->route, kd_route_method(request->method));
 }

@@ -13,16 +13,16 @@ static const char *fault(const char *text)
     if (*text != '/')
         return "it must begin with a slash";
     if (strlen(text) > KD_BASE_PATH_MOST)
-        return "it is longer than 200 characters";
+        return "it must have at most 200 characters";
     _Static_assert(KD_BASE_PATH_MOST == 200, "the sentence says so");
     for (const char *at = text; *at;) {
         const char *segment = at + 1;
         size_t n = strspn(segment, CHARACTERS);
         at = segment + n;
         if (*at && *at != '/')
-            return "its segments may hold letters, digits and - . _ ~ @ alone";
+            return "its segments must consist of letters, digits and - . _ ~ @";
         if (!n)
-            return *at ? "it holds two slashes in a row" : "it must not end with a slash";
+            return *at ? "it must not have two slashes in a row" : "it must not end with a slash";
         if ((n == 1 && *segment == '.') || (n == 2 && !strncmp(segment, "..", 2)))
             return "no segment of it may be . or ..";
     }
@@ -36,14 +36,13 @@ enum kd_status kd_base_path_init(struct kd_base_path *base, const char *text, st
     *base = (struct kd_base_path) { 0 };
     if (wrong) {
         kd_text_clip(given, sizeof given, text);
-        return kd_error_set(error, KD_EINVAL, "the base path is \"%s\": %s; \"/some/prefix\" is one", given, wrong);
+        return kd_error_set(error, KD_EINVAL, "the base path is \"%s\": %s, as in \"/some/prefix\"", given, wrong);
     }
     snprintf(base->path, sizeof base->path, "%s", text ? text : "");
-    snprintf(base->unknown, sizeof base->unknown, "there is no such path; %s/openapi.json lists those there are",
-             base->path);
+    snprintf(base->unknown, sizeof base->unknown, "there is no such path; %s/openapi.json lists all paths", base->path);
     snprintf(base->outside, sizeof base->outside,
-             "this server's base path is %s (kerrd serve --base-path): only what is below it is answered, and "
-             "/healthz, /readyz and /metrics",
+             "this server answers only paths below its base path %s (kerrd serve --base-path), and /healthz, /readyz "
+             "and /metrics",
              base->path);
     return KD_OK;
 }

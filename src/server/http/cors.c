@@ -30,29 +30,29 @@ static const char *fault_of(const char *origin)
     if (!strcmp(origin, "null"))
         return NULL;
     if (strchr(origin, '*'))
-        return "each origin is named; * is not taken";
+        return "it must be an origin; * is not accepted";
     const char *host = strstr(origin, "://");
     if (!host || host == origin || strspn(origin, NAME "+-.") != (size_t)(host - origin))
-        return "an origin is SCHEME://HOST or SCHEME://HOST:PORT, in lower case, or null";
+        return "it must be SCHEME://HOST or SCHEME://HOST:PORT in lower case, or null";
     host += 3;
     const char *port = strrchr(host, *host == '[' ? ']' : ':');
     if (port && *host == '[')
         port = port[1] == ':' ? port + 1 : NULL;
     const size_t size = port ? (size_t)(port - host) : strlen(host);
     if (!size || strspn(host, NAME "-._[:]") < size)
-        return "an origin is SCHEME://HOST or SCHEME://HOST:PORT, in lower case and without a path or a slash behind "
-               "it";
+        return "it must be SCHEME://HOST or SCHEME://HOST:PORT in lower case, without a path and a final slash";
     if (port && (!port[1] || strlen(port + 1) > 5 || port[1 + strspn(port + 1, "0123456789")]))
-        return "a port is a number, and no slash stands behind it";
+        return "the port must be a number, without a slash after it";
     if (port && ((!strncmp(origin, "http://", 7) && !strcmp(port, ":80")) ||
                  (!strncmp(origin, "https://", 8) && !strcmp(port, ":443"))))
-        return "browsers leave out the port that goes with the scheme, and so must this";
+        return "it must not have the default port of the scheme, because browsers omit that port";
     return NULL;
 }
 
 static const char *embed_fault_of(const char *origin)
 {
-    return strcmp(origin, "null") ? fault_of(origin) : "a page without an origin can have no frame of this server";
+    return strcmp(origin, "null") ? fault_of(origin)
+                                  : "it must not be null, because a page without an origin cannot embed this server";
 }
 
 static enum kd_status add_one(struct kd_cors *cors, const char *origin, bool embeds, struct kd_error *error)
@@ -172,7 +172,7 @@ enum MHD_Result kd_cors_preflight(struct kd_request *request)
                 .type = KD_PROBLEM_CROSS_SITE,
                 .close = request->body_announced,
                 .detail =
-                    "the Origin that a browser asks for is none of those that --cors-origin or --embed-origin names" });
+                    "the Origin of the browser's request is not among those of --cors-origin and --embed-origin" });
     request->route = NULL;
     if (!kd_route_find(request, &nowhere) && !request->route)
         return kd_reply_problem(request, &nowhere);

@@ -10,7 +10,7 @@ struct kd_sessions_counts {
 };
 
 struct kd_playground_sessions_counts {
-    unsigned plays, watchers;
+    unsigned open, watchers;
     uint64_t bytes;         /* upper bound of the memory of all playgrounds */
     uint64_t steps, events; /* totals since the start; steps: sub-steps of running playgrounds */
 };

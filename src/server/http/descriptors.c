@@ -51,7 +51,8 @@ unsigned kd_descriptors_for(unsigned connections)
     while (n > 4 && !fit(n, limit.rlim_cur))
         n--;
     if (n < connections)
-        kd_log(KD_LOG_WARN, "%llu descriptors (ulimit -n) are enough for %u connections, not for %u",
+        kd_log(KD_LOG_WARN,
+               "%llu descriptors (ulimit -n) are enough for %u connections; the limits of this server need %u",
                (unsigned long long)limit.rlim_cur, n, connections);
     return n;
 }

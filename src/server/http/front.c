@@ -58,13 +58,12 @@ static void refuse(struct kd_front *front, struct guest *guest, bool quota)
 {
     if (guest->spare)
         kd_problem_send_raw(guest->socket, KD_PROBLEM_CROWDED,
-                            "this server has no descriptor left for another connection", NULL);
+                            "this server has no free descriptor for another connection", NULL);
     else if (quota)
         kd_problem_send_raw(guest->socket, KD_PROBLEM_QUOTA,
                             "you have too many open connections (limit for one client)", NULL);
     else
-        kd_problem_send_raw(guest->socket, KD_PROBLEM_CROWDED, "more connections are open than this server takes",
-                            NULL);
+        kd_problem_send_raw(guest->socket, KD_PROBLEM_CROWDED, "too many connections are open", NULL);
     kd_connection_linger(guest->connection);
     send_away(front, guest);
 }
@@ -110,7 +109,7 @@ static struct guest *admit(struct kd_front *front, int socket, const struct sock
     struct kd_connection *connection = guest ? kd_connections_add(front->params.connections, socket, client) : NULL;
     if (!connection) {
         free(guest);
-        kd_problem_send_raw(socket, KD_PROBLEM_NO_MEMORY, "there is no memory for another connection", NULL);
+        kd_problem_send_raw(socket, KD_PROBLEM_NO_MEMORY, "out of memory for another connection", NULL);
         close(socket);
         return NULL;
     }
@@ -145,7 +144,7 @@ static void make_room(struct kd_front *front)
     else if (front->reserve >= 0) {
         close(front->reserve);
         front->reserve = -1;
-        kd_log(KD_LOG_WARN, "no descriptor is left for another connection");
+        kd_log(KD_LOG_WARN, "no free descriptor for another connection");
     } else
         poll(NULL, 0, FULL_MS);
 }

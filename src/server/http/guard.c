@@ -77,7 +77,7 @@ static enum MHD_Result look(void *cls, enum MHD_ValueKind kind, const char *key,
     else if (!strcasecmp(key, "Transfer-Encoding")) {
         scan->encodings++;
         if (strcasecmp(value, "chunked"))
-            scan->fault = "the only Transfer-Encoding taken is chunked";
+            scan->fault = "Transfer-Encoding must be chunked";
     } else if (!strcasecmp(key, "Content-Length")) {
         scan->lengths++;
         if (!parse_length(value, &scan->header->content_length))
@@ -91,15 +91,15 @@ static const char *framing_fault(const struct scan *scan, bool http10)
     if (scan->fault)
         return scan->fault;
     if (scan->lengths > 1)
-        return "Content-Length is given more than once";
+        return "Content-Length must be given at most once";
     if (scan->encodings > 1)
-        return "Transfer-Encoding is given more than once";
+        return "Transfer-Encoding must be given at most once";
     if (scan->lengths && scan->encodings)
-        return "Content-Length and Transfer-Encoding are both given";
+        return "Content-Length cannot be used with Transfer-Encoding";
     if (scan->encodings && http10)
-        return "HTTP/1.0 has no Transfer-Encoding";
+        return "Transfer-Encoding cannot be used with HTTP/1.0";
     if (scan->types > 1)
-        return "Content-Type is given more than once";
+        return "Content-Type must be given at most once";
     return NULL;
 }
 
@@ -118,8 +118,7 @@ static const char *wrong_host(struct kd_header *header)
                  size <= strspn(header->host, "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-_[:]");
     snprintf(name, sizeof name, "%.*s", whole && size ? (int)size : 4, whole && size ? header->host : "NAME");
     snprintf(header->wrong_host, sizeof header->wrong_host,
-             "the Host is \"%s\", none of the names this server answers to; kerrd serve --host %s adds it", given,
-             name);
+             "the Host is \"%s\", which is not a name of this server; kerrd serve --host %s adds it", given, name);
     return header->wrong_host;
 }
 
@@ -145,7 +144,7 @@ bool kd_guard_check(struct MHD_Connection *connection, const char *version, cons
     header->host = authority ? authority : header->host_text;
     if (!kd_host_is_sound(header->host))
         return refuse(problem, KD_PROBLEM_BAD_REQUEST,
-                      authority ? "the host in the request target is none" : "Host is no host");
+                      authority ? "the host in the request target is not valid" : "Host is not a valid host");
     if (!kd_host_listed(header->host, hosts))
         return refuse(problem, KD_PROBLEM_MISDIRECTED, wrong_host(header));
     return true;

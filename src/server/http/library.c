@@ -29,15 +29,12 @@ static const struct refusal {
     enum kd_problem_type type;
     const char *detail;
 } refusals[] = {
-    { 400, KD_PROBLEM_BAD_REQUEST,
-      "the request line, a header line or the chunks of the body are not as HTTP/1.1 has them" },
-    { 413, KD_PROBLEM_BODY_TOO_LARGE,
-      "the length of the body, or a line between its chunks, is more than this server takes" },
-    { 414, KD_PROBLEM_URI_TOO_LONG, "the address is longer than a header may be, 32 KiB" },
-    { 431, KD_PROBLEM_HEADER_TOO_LARGE, "the header is larger than 32 KiB" },
-    { 500, KD_PROBLEM_BAD_REQUEST,
-      "a line of the header, or between chunks of the body, is longer than this server takes" },
-    { 505, KD_PROBLEM_HTTP_VERSION, "the request line names another version of HTTP" },
+    { 400, KD_PROBLEM_BAD_REQUEST, "the request line, a header line or a chunk of the body is not valid HTTP/1.1" },
+    { 413, KD_PROBLEM_BODY_TOO_LARGE, "the body, or a line between its chunks, is too long" },
+    { 414, KD_PROBLEM_URI_TOO_LONG, "the address is too long; a header must have at most 32 KiB" },
+    { 431, KD_PROBLEM_HEADER_TOO_LARGE, "the header is too large; it must have at most 32 KiB" },
+    { 500, KD_PROBLEM_BAD_REQUEST, "a line of the header, or between chunks of the body, is too long" },
+    { 505, KD_PROBLEM_HTTP_VERSION, "the request line must name HTTP/1.1 or HTTP/1.0" },
 };
 
 /* Finds the refusal that a log line reports; NULL if it reports none. */

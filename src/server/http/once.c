@@ -43,8 +43,8 @@ bool kd_once_read(struct kd_request *request, struct kd_problem *problem, char t
     const bool good = !value.data || key_of((const char *)value.data, key);
     if (!good) {
         snprintf(text, KD_ONCE_TEXT,
-                 KD_ONCE_HEADER " is %.140s: it must be one string of 1 to %d characters of ASCII in double quotes, "
-                                "without quotes and backslashes between them",
+                 KD_ONCE_HEADER " is %.140s; it must be a string of 1 to %d ASCII characters in double quotes, without "
+                                "quotes and backslashes inside",
                  (const char *)value.data, KD_ONCE_MOST);
         *problem = (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = text };
     } else if (value.data) {
@@ -83,13 +83,13 @@ enum kd_once_verdict kd_once_begin(struct kd_request *request, const struct kd_o
         return KD_ONCE_AGAIN;
     if (earlier || is_under_way(request)) {
         *refused = kd_reply_problem(
-            request, &(struct kd_problem) {
-                         .type = earlier ? KD_PROBLEM_KEY_REUSED : KD_PROBLEM_CONFLICT,
-                         .retry_after = earlier ? 0 : 1,
-                         .detail = earlier ? "what was made with this " KD_ONCE_HEADER
-                                             " is there, and was asked for by another address or body: another "
-                                             "request must have another key"
-                                           : "a request with this " KD_ONCE_HEADER " is under way" });
+            request,
+            &(struct kd_problem) { .type = earlier ? KD_PROBLEM_KEY_REUSED : KD_PROBLEM_CONFLICT,
+                                   .retry_after = earlier ? 0 : 1,
+                                   .detail = earlier ? "the resource made with this " KD_ONCE_HEADER
+                                                       " belongs to a request with another address or body; a "
+                                                       "different request must have a different key"
+                                                     : "a request with this " KD_ONCE_HEADER " is in progress" });
         return KD_ONCE_REFUSED;
     }
     request->once_next = request->server->once;

@@ -10,22 +10,22 @@
 
 /* X(name, HTTP status, word in the type's URI, title) */
 #define KD_PROBLEMS(X) \
-    X(BAD_REQUEST, 400, "bad-request", "The request is not sound HTTP") \
+    X(BAD_REQUEST, 400, "bad-request", "The request is not valid HTTP") \
     X(MALFORMED_JSON, 400, "malformed-json", "The body cannot be read as a JSON object") \
-    X(UNAUTHORIZED, 401, "unauthorized", "This server takes a token") \
+    X(UNAUTHORIZED, 401, "unauthorized", "This server needs a token") \
     X(ROLE, 403, "role", "The role of your token does not allow this") \
-    X(CROSS_SITE, 403, "cross-site", "Pages of other sites may not use this server") \
-    X(FORBIDDEN, 403, "forbidden", "This takes a token") \
-    X(NOT_FOUND, 404, "not-found", "There is nothing under this address") \
-    X(METHOD, 405, "method-not-allowed", "This address does not take this method") \
-    X(NOT_ACCEPTABLE, 406, "not-acceptable", "No offered media type is acceptable") \
-    X(NOT_READY, 409, "not-ready", "What this asks for is not there yet") \
-    X(CONFLICT, 409, "conflict", "What there is does not allow it now") \
+    X(CROSS_SITE, 403, "cross-site", "Pages of other sites must not use this server") \
+    X(FORBIDDEN, 403, "forbidden", "This request needs a token") \
+    X(NOT_FOUND, 404, "not-found", "There is nothing at this address") \
+    X(METHOD, 405, "method-not-allowed", "This address does not accept this method") \
+    X(NOT_ACCEPTABLE, 406, "not-acceptable", "No available media type is acceptable") \
+    X(NOT_READY, 409, "not-ready", "The requested resource is not ready yet") \
+    X(CONFLICT, 409, "conflict", "The present state does not allow this request") \
     X(TIMEOUT, 408, "timeout", "The request took too long to arrive") \
-    X(PRECONDITION, 412, "precondition-failed", "What there is is not what If-Match names") \
+    X(PRECONDITION, 412, "precondition-failed", "The resource does not match If-Match") \
     X(BODY_TOO_LARGE, 413, "body-too-large", "The body is too large") \
     X(URI_TOO_LONG, 414, "uri-too-long", "The address is too long") \
-    X(MEDIA_TYPE, 415, "unsupported-media-type", "The body's media type is not taken here") \
+    X(MEDIA_TYPE, 415, "unsupported-media-type", "The media type of the body is not accepted here") \
     X(MISDIRECTED, 421, "misdirected", "This host name is not served here") \
     X(RANGE, 416, "range-not-satisfiable", "The range is beyond the end") \
     X(INVALID_SCENE, 422, "invalid-scene", "The scene is not valid") \
@@ -34,22 +34,22 @@
     X(INVALID_ORBIT, 422, "invalid-orbit", "The request for orbits is not valid") \
     X(INVALID_JOB, 422, "invalid-job", "The request for a job is not valid") \
     X(INVALID_PLAYGROUND, 422, "invalid-playground", "The request for a playground is not valid") \
-    X(INVALID_ASSET, 422, "invalid-asset", "The asset is not one that is taken") \
-    X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders") \
-    X(KEY_REUSED, 422, "idempotency-key-reused", "The Idempotency-Key is that of another request") \
-    X(QUOTA, 429, "quota", "This client has as much as one may") \
+    X(INVALID_ASSET, 422, "invalid-asset", "The asset is not of an accepted kind") \
+    X(TOO_LARGE, 422, "too-large", "The scene is too large for this server") \
+    X(KEY_REUSED, 422, "idempotency-key-reused", "The Idempotency-Key belongs to another request") \
+    X(QUOTA, 429, "quota", "This client has reached its limit") \
     X(WRONG_TOKENS, 429, "wrong-tokens", "Too many wrong tokens have come from this address") \
     X(HEADER_TOO_LARGE, 431, "header-too-large", "The header is too large") \
     X(INTERNAL, 500, "internal", "The server failed") \
     X(DEVICE_LOST, 500, "device-lost", "The device failed") \
-    X(ABSENT, 501, "not-installed", "This server lacks a program that this takes") \
+    X(ABSENT, 501, "not-installed", "This server lacks a program that the request needs") \
     X(NO_MEMORY, 503, "out-of-memory", "Memory ran out") \
     X(QUEUE_FULL, 503, "queue-full", "Too many requests are waiting") \
     X(CROWDED, 503, "too-many-connections", "Too many connections are open") \
     X(STOPPING, 503, "stopping", "The server is stopping") \
-    X(DISK_FULL, 507, "disk-full", "There is no room on the disk") \
-    X(ASSETS_FULL, 507, "assets-full", "There is no room for more assets") \
-    X(HTTP_VERSION, 505, "http-version", "Only HTTP/1.1 and HTTP/1.0 are spoken here")
+    X(DISK_FULL, 507, "disk-full", "The disk is full") \
+    X(ASSETS_FULL, 507, "assets-full", "The store of assets is full") \
+    X(HTTP_VERSION, 505, "http-version", "The server supports only HTTP/1.1 and HTTP/1.0")
 
 enum kd_problem_type {
 #define KD_PROBLEM_ENUM(name, ...) KD_PROBLEM_##name,

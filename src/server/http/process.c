@@ -66,10 +66,10 @@ enum kd_status kd_process_write(struct kd_buffer *out)
     } rows[] = {
         { "cpu_seconds_total", "counter", "Processor time, user and system.", p.cpu_s },
         { "open_fds", "gauge", "Open file descriptors.", kd_descriptors_open() },
-        { "max_fds", "gauge", "Open file descriptors that are allowed.", most_descriptors() },
+        { "max_fds", "gauge", "Limit of open file descriptors.", most_descriptors() },
         { "virtual_memory_bytes", "gauge", "Virtual memory.", p.virtual_bytes },
         { "resident_memory_bytes", "gauge", "Resident memory.", p.resident_bytes },
-        { "start_time_seconds", "gauge", "When it was started, since 1970.", p.start_s },
+        { "start_time_seconds", "gauge", "Start time in seconds since 1970.", p.start_s },
     };
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < sizeof rows / sizeof *rows && !status; i++)

@@ -23,7 +23,7 @@ static enum kd_status refuse(const char *text, const char *wrong, struct kd_erro
 {
     char given[80];
     kd_text_clip(given, sizeof given, text);
-    return kd_error_set(error, KD_EINVAL, "the public URL is \"%s\": %s; \"https://example.org\" is one", given, wrong);
+    return kd_error_set(error, KD_EINVAL, "the public URL is \"%s\": %s, as in \"https://example.org\"", given, wrong);
 }
 
 enum kd_status kd_public_url_make(const char *text, const struct kd_base_path *base, char **out, char **host,
@@ -40,9 +40,10 @@ enum kd_status kd_public_url_make(const char *text, const struct kd_base_path *b
     const size_t n = strcspn(begin, "/?#");
     snprintf(name, sizeof name, "%.*s", (int)n, begin);
     if (n > HOST_MOST || !kd_host_is_sound(name))
-        return refuse(text, "a host, and perhaps a port, must follow", error);
+        return refuse(text, "after the scheme it must have a host and optionally a port", error);
     if (begin[n] && kd_base_path_init(&own, begin + n, NULL))
-        return refuse(text, "behind the host it may have a path like /some/prefix, without a slash at its end", error);
+        return refuse(text, "after the host it must have nothing or a path like /some/prefix, without a final slash",
+                      error);
     const char *path = begin[n] ? "" : base->path;
     *out = malloc(strlen(text) + strlen(path) + 1);
     *host = strndup(name, *name == '[' ? strcspn(name, "]") + 1 : strcspn(name, ":"));

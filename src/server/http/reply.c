@@ -92,9 +92,8 @@ void kd_reply_location(const struct kd_request *request, struct MHD_Response *re
 /* Allocates nothing. */
 enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd)
 {
-    static const char text[] =
-        "{\"type\":\"urn:kerrd:problem:out-of-memory\",\"title\":\"Memory ran out\",\"status\":503,"
-        "\"detail\":\"there is no memory, not even to say for what\"}\n";
+    static const char text[] = "{\"type\":\"urn:kerrd:problem:out-of-memory\",\"title\":\"Memory ran "
+                               "out\",\"status\":503,\"detail\":\"out of memory\"}\n";
     struct MHD_Response *response = kd_reply_static(text, sizeof text - 1, "application/problem+json");
     if (!response)
         return MHD_NO;
@@ -124,7 +123,7 @@ bool kd_reply_matches(struct kd_request *request, const char *etag)
 enum MHD_Result kd_reply_unmatched(struct kd_request *request)
 {
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_PRECONDITION,
-                                                            .detail = "nothing here has an ETag that If-Match names" });
+                                                            .detail = "no resource here has an ETag of If-Match" });
 }
 
 static bool only_asks(const struct kd_request *request)
@@ -233,11 +232,11 @@ enum MHD_Result kd_reply_cancelled(struct kd_request *request)
 {
     if (!atomic_load(&request->server->ended))
         return MHD_NO; /* the client has disconnected */
-    return kd_reply_problem(request,
-                            &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
-                                                   .retry_after = 1,
-                                                   .detail = "the server has stopped before this was done: ask again "
-                                                             "when it is back, or another one" });
+    return kd_reply_problem(
+        request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
+                                        .retry_after = 1,
+                                        .detail = "the server stopped before the request was finished: repeat it when "
+                                                  "the server is back, or at another server" });
 }
 
 bool kd_reply_only(struct kd_request *request, const char *const *known, enum MHD_Result *refused)
@@ -256,7 +255,7 @@ enum MHD_Result kd_reply_json(struct kd_request *request, enum kd_status status,
 {
     if (status) {
         struct kd_error error;
-        kd_error_set(&error, status, "the document could not be made");
+        kd_error_set(&error, status, "the document could not be written");
         kd_buffer_finish(json);
         return kd_reply_error(request, &error);
     }

@@ -119,8 +119,8 @@ static enum MHD_Result beyond(struct kd_request *request, const struct kd_repres
     char size[40], detail[120];
     const char *range = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Range");
     snprintf(size, sizeof size, "bytes */%" PRIu64, r->size);
-    snprintf(detail, sizeof detail, "Range is %.40s, and there are %" PRIu64 " bytes: it must begin before their end",
-             range, r->size);
+    snprintf(detail, sizeof detail, "Range is %.40s; for %" PRIu64 " bytes it must begin before their end", range,
+             r->size);
     give_up(r);
     return kd_reply_problem(request,
                             &(struct kd_problem) { .type = KD_PROBLEM_RANGE, .content_range = size, .detail = detail });

@@ -11,7 +11,8 @@
 #include <string.h>
 #include <sys/socket.h>
 
-/* So many hexadecimal digits in a row are an id or a token. Whoever has it may read or change the object. */
+/* Least number of hexadecimal digits in a row that are an id or a token. Whoever has it may read or change the object.
+ */
 #define SECRET 16
 #define SHOWN 4 /* digits of an id or token that are logged */
 

@@ -94,7 +94,7 @@ bool kd_route_find(struct kd_request *request, struct kd_problem *problem)
             return true;
         *problem = (struct kd_problem) { .type = KD_PROBLEM_METHOD,
                                          .allow = kd_route_allow(route),
-                                         .detail = "the Allow header names the methods this address takes" };
+                                         .detail = "the Allow header lists the methods of this address" };
         return false;
     }
     return refuse(problem, base->unknown);

@@ -126,7 +126,7 @@ enum MHD_Result kd_handle_session_frame(struct kd_request *request);     /* sess
 enum MHD_Result kd_handle_session_picture(struct kd_request *request);
 enum MHD_Result kd_handle_session_frames(struct kd_request *request);
 enum MHD_Result kd_handle_session_events(struct kd_request *request);
-enum MHD_Result kd_handle_plays(struct kd_request *request); /* playground/routes.c */
+enum MHD_Result kd_handle_playgrounds(struct kd_request *request); /* playground/routes.c */
 enum MHD_Result kd_handle_play(struct kd_request *request);
 enum MHD_Result kd_handle_play_step(struct kd_request *request);
 enum MHD_Result kd_handle_play_snapshot(struct kd_request *request);

@@ -77,16 +77,16 @@ struct kd_server {
     unsigned drain_ms, drain_s, longest_s;
     struct kd_connections *connections;
     struct kd_render_queue *renders;
-    struct kd_scheduler *rays;  /* scheduler of requests for rays */
-    struct kd_scheduler *turns; /* scheduler of orbits, long quantities, paths of sessions, checks of jobs */
+    struct kd_scheduler *rays;      /* scheduler of requests for rays */
+    struct kd_scheduler *scheduler; /* scheduler of orbits, long quantities, paths of sessions, checks of jobs */
     struct kd_quota (*quota)(const struct kd_server *server, const char *client); /* NULL: no limit of device time */
     struct kd_sessions *sessions;
-    struct kd_playground_sessions *plays;
+    struct kd_playground_sessions *playgrounds;
     struct kd_jobs *jobs;
     struct kd_job_whole *cubes; /* cubes being downloaded (job/archive.c); HTTP thread only */
     struct kd_request *once;    /* requests under way that have an Idempotency-Key; HTTP thread only */
     struct kd_asset_store *assets;
-    struct kd_cached_documents *kept;
+    struct kd_cached_documents *documents;
     struct kd_thumbnails *thumbnails;
     char etag_tail[20]; /* part of a picture's ETag besides the scene: version and device */
 
@@ -111,7 +111,7 @@ struct kd_server {
     pthread_mutex_t lock;                      /* protects all members below */
     struct kd_sessions_counts sessions_counts; /* the counts that were last read */
     struct kd_jobs_counts jobs_counts;
-    struct kd_playground_sessions_counts plays_counts;
+    struct kd_playground_sessions_counts playgrounds_counts;
     pthread_cond_t changed;
     bool stopped;
 };

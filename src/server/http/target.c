@@ -26,14 +26,14 @@ static enum kd_status decode(char *text, bool plus, struct kd_error *error)
         if (c == '%') {
             int high = hex(from[1]), low = high < 0 ? -1 : hex(from[2]);
             if (low < 0)
-                return kd_error_set(error, KD_EINVAL, "the request target holds a %% without two hexadecimal digits");
+                return kd_error_set(error, KD_EINVAL, "the request target has a %% without two hexadecimal digits");
             c = high << 4 | low;
             from += 2;
         } else if (c == '+' && plus) {
             c = ' ';
         }
         if (c < 0x20 || c == 0x7f)
-            return kd_error_set(error, KD_EINVAL, "the request target holds a control character");
+            return kd_error_set(error, KD_EINVAL, "the request target has a control character");
         *to++ = (char)c;
     }
     *to = 0;
@@ -49,7 +49,7 @@ static enum kd_status add_pair(struct kd_target *target, char *pair, struct kd_e
     if (!*pair)
         return KD_OK;
     if (target->n_pairs == KD_TARGET_PAIRS)
-        return kd_error_set(error, KD_EINVAL, "the query holds more than %d parameters", KD_TARGET_PAIRS);
+        return kd_error_set(error, KD_EINVAL, "the query must have at most %d parameters", KD_TARGET_PAIRS);
     char *value = strchr(pair, '=');
     if (value)
         *value++ = 0;
@@ -119,7 +119,7 @@ enum kd_status kd_target_distinct(const struct kd_target *target, struct kd_erro
     for (size_t i = 1; i < target->n_pairs; i++)
         for (size_t k = 0; k < i; k++)
             if (!strcmp(target->pairs[k].name, target->pairs[i].name))
-                return kd_error_field(error, "", "the query gives %.100s twice", target->pairs[i].name);
+                return kd_error_field(error, "", "the query has %.100s twice", target->pairs[i].name);
     return KD_OK;
 }
 

@@ -39,201 +39,202 @@ static _Thread_local struct kd_scheduler *mine;
 static _Thread_local struct kd_scheduler_job *under_way;
 static _Thread_local double piece_ms; /* when the current slice began or was last resumed */
 
-static void append(struct kd_scheduler *turns, struct kd_scheduler_job *job)
+static void append(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
     if (job->listed)
         return;
     job->next = NULL;
     job->listed = true;
-    *turns->end = job;
-    turns->end = &job->next;
-    pthread_cond_signal(&turns->changed);
+    *scheduler->end = job;
+    scheduler->end = &job->next;
+    pthread_cond_signal(&scheduler->changed);
 }
 
-static void take_out(struct kd_scheduler *turns, struct kd_scheduler_job *job)
+static void take_out(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
     if (!job->listed)
         return;
-    struct kd_scheduler_job **link = &turns->first;
+    struct kd_scheduler_job **link = &scheduler->first;
     while (*link != job)
         link = &(*link)->next;
     *link = job->next;
-    if (turns->end == &job->next)
-        turns->end = link;
+    if (scheduler->end == &job->next)
+        scheduler->end = link;
     job->listed = false;
 }
 
-static void unpark(struct kd_scheduler *turns, struct kd_scheduler_job *job)
+static void unpark(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
-    struct kd_scheduler_job **link = &turns->parked;
+    struct kd_scheduler_job **link = &scheduler->parked;
     while (*link != job)
         link = &(*link)->next;
     *link = job->next;
     job->parked = false;
-    append(turns, job);
+    append(scheduler, job);
 }
 
-static void park(struct kd_scheduler *turns, struct kd_scheduler_job *job, bool away)
+static void park(struct kd_scheduler *scheduler, struct kd_scheduler_job *job, bool away)
 {
-    if (job->woken || (atomic_load(&turns->cancel) && !away)) {
-        append(turns, job);
+    if (job->woken || (atomic_load(&scheduler->cancel) && !away)) {
+        append(scheduler, job);
         return;
     }
     job->parked = true;
     job->away = away;
-    job->next = turns->parked;
-    turns->parked = job;
+    job->next = scheduler->parked;
+    scheduler->parked = job;
     if (job->due_ms > 0)
-        pthread_cond_signal(&turns->changed); /* a sleeping worker must wake earlier */
+        pthread_cond_signal(&scheduler->changed); /* a sleeping worker must wake earlier */
 }
 
 /* Resumes the jobs whose parking time has ended. Returns the time at which the next one ends, or INFINITY. */
-static double unpark_due(struct kd_scheduler *turns)
+static double unpark_due(struct kd_scheduler *scheduler)
 {
     double next = INFINITY;
-    const double now = turns->parked ? kd_clock_ms() : 0;
-    for (struct kd_scheduler_job *job = turns->parked, *after; job; job = after) {
+    const double now = scheduler->parked ? kd_clock_ms() : 0;
+    for (struct kd_scheduler_job *job = scheduler->parked, *after; job; job = after) {
         after = job->next;
         if (!(job->due_ms > 0) || job->away)
             continue;
         if (job->due_ms <= now)
-            unpark(turns, job);
+            unpark(scheduler, job);
         else
             next = fmin(next, job->due_ms);
     }
     return next;
 }
 
-static void sleep_until(struct kd_scheduler *turns, double ms)
+static void sleep_until(struct kd_scheduler *scheduler, double ms)
 {
     struct timespec t = { .tv_sec = (time_t)(fmin(ms, 1e15) * 1e-3),
                           .tv_nsec = (long)(fmod(fmin(ms, 1e15), 1e3) * 1e6) };
     if (isinf(ms))
-        pthread_cond_wait(&turns->changed, &turns->lock);
+        pthread_cond_wait(&scheduler->changed, &scheduler->lock);
     else
-        pthread_cond_clockwait(&turns->changed, &turns->lock, CLOCK_MONOTONIC, &t);
+        pthread_cond_clockwait(&scheduler->changed, &scheduler->lock, CLOCK_MONOTONIC, &t);
 }
 
-static void accept(struct kd_scheduler *turns, struct kd_scheduler_job *job)
+static void accept(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
-    job->next_accepted = turns->accepted;
-    job->accepted_at = &turns->accepted;
+    job->next_accepted = scheduler->accepted;
+    job->accepted_at = &scheduler->accepted;
     if (job->next_accepted)
         job->next_accepted->accepted_at = &job->next_accepted;
-    turns->accepted = job;
-    turns->n_accepted++;
+    scheduler->accepted = job;
+    scheduler->n_accepted++;
 }
 
-static void unref(struct kd_scheduler *turns, struct kd_scheduler_job *job)
+static void unref(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
     *job->accepted_at = job->next_accepted;
     if (job->next_accepted)
         job->next_accepted->accepted_at = job->accepted_at;
-    turns->n_accepted--;
+    scheduler->n_accepted--;
 }
 
 /* Lists a job again, if it may have a further slice now. While a slice of a shared job is suspended no other slice of
  * it begins: each would occupy a thread. */
-static void list_again(struct kd_scheduler *turns, struct kd_scheduler_job *job)
+static void list_again(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
     if (!job->paused && !job->over)
-        append(turns, job);
+        append(scheduler, job);
 }
 
 /* Runs a slice of the first job in the list. Locked on entry and exit. */
-static void give_turn(struct kd_scheduler *turns, struct kd_scheduler_job *job)
+static void give_turn(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
-    take_out(turns, job);
+    take_out(scheduler, job);
     job->workers++;
     job->woken = false;
     if (job->shared)
-        list_again(turns, job); /* so that other workers can join */
-    pthread_mutex_unlock(&turns->lock);
+        list_again(scheduler, job); /* so that other workers can join */
+    pthread_mutex_unlock(&scheduler->lock);
     under_way = job;
     piece_ms = kd_clock_ms();
     kd_watch_turn_begins();
     enum kd_slice_result turn = job->turn(job);
     kd_watch_turn_ends();
     under_way = NULL; /* done may free the job, and never suspends */
-    pthread_mutex_lock(&turns->lock);
+    pthread_mutex_lock(&scheduler->lock);
     job->workers--;
     if (turn == KD_SLICE_LAST)
         job->over = true;
     if (job->over)
-        take_out(turns, job);
+        take_out(scheduler, job);
     else if (turn == KD_SLICE_PARK || turn == KD_SLICE_AWAY)
-        park(turns, job, turn == KD_SLICE_AWAY);
+        park(scheduler, job, turn == KD_SLICE_AWAY);
     else
-        list_again(turns, job);
+        list_again(scheduler, job);
     if (!job->over || job->workers)
         return;
-    unref(turns, job);
-    pthread_mutex_unlock(&turns->lock);
+    unref(scheduler, job);
+    pthread_mutex_unlock(&scheduler->lock);
     kd_watch_turn_begins();
     job->done(job);
     kd_watch_turn_ends();
-    pthread_mutex_lock(&turns->lock);
-    turns->unfinished--;
+    pthread_mutex_lock(&scheduler->lock);
+    scheduler->unfinished--;
 }
 
 /* Runs the first entry of the list: resumes the thread of a suspended slice, or runs a job's slice on this thread.
  * Locked on entry and exit. */
-static void go_on(struct kd_scheduler *turns)
+static void go_on(struct kd_scheduler *scheduler)
 {
-    struct kd_scheduler_job *job = turns->first;
-    turns->busy++;
+    struct kd_scheduler_job *job = scheduler->first;
+    scheduler->busy++;
     if (!job->turn) {
-        take_out(turns, job);
+        take_out(scheduler, job);
         pthread_cond_signal(&((struct paused *)job)->resumed);
         return;
     }
-    give_turn(turns, job);
-    turns->busy--;
+    give_turn(scheduler, job);
+    scheduler->busy--;
 }
 
 static void let_others_go_first(void);
 
 static void *work(void *user)
 {
-    struct kd_scheduler *turns = user;
-    mine = turns;
+    struct kd_scheduler *scheduler = user;
+    mine = scheduler;
     kd_pause_hook = let_others_go_first;
-    pthread_mutex_lock(&turns->lock);
-    while (!turns->closing) {
-        const double next = unpark_due(turns);
-        if (turns->first && turns->busy < turns->n_workers) {
-            go_on(turns);
+    pthread_mutex_lock(&scheduler->lock);
+    while (!scheduler->closing) {
+        const double next = unpark_due(scheduler);
+        if (scheduler->first && scheduler->busy < scheduler->n_workers) {
+            go_on(scheduler);
             continue;
         }
-        turns->idle++;
-        sleep_until(turns, next);
-        turns->idle--;
+        scheduler->idle++;
+        sleep_until(scheduler, next);
+        scheduler->idle--;
     }
-    pthread_mutex_unlock(&turns->lock);
+    pthread_mutex_unlock(&scheduler->lock);
     return NULL;
 }
 
 /* Starts another thread. Called with the lock, or before other threads exist. */
-static bool start_thread(struct kd_scheduler *turns)
+static bool start_thread(struct kd_scheduler *scheduler)
 {
-    if (turns->n_threads == THREADS_MAX || pthread_create(&turns->threads[turns->n_threads], NULL, work, turns))
+    if (scheduler->n_threads == THREADS_MAX ||
+        pthread_create(&scheduler->threads[scheduler->n_threads], NULL, work, scheduler))
         return false;
-    turns->n_threads++;
+    scheduler->n_threads++;
     return true;
 }
 
 /* Suspends the current slice until its place in the list is reached. Locked on entry and exit. */
-static void pause_turn(struct kd_scheduler *turns)
+static void pause_turn(struct kd_scheduler *scheduler)
 {
     struct paused me = { .resumed = PTHREAD_COND_INITIALIZER };
-    append(turns, &me.place);
-    turns->busy--;
-    pthread_cond_signal(&turns->changed);
-    while (me.place.listed && !turns->closing)
-        pthread_cond_wait(&me.resumed, &turns->lock);
+    append(scheduler, &me.place);
+    scheduler->busy--;
+    pthread_cond_signal(&scheduler->changed);
+    while (me.place.listed && !scheduler->closing)
+        pthread_cond_wait(&me.resumed, &scheduler->lock);
     if (me.place.listed) { /* shutdown: no worker resumes it any more */
-        take_out(turns, &me.place);
-        turns->busy++;
+        take_out(scheduler, &me.place);
+        scheduler->busy++;
     }
     pthread_cond_destroy(&me.resumed);
 }
@@ -242,21 +243,21 @@ static void pause_turn(struct kd_scheduler *turns)
  * can run these, the slice continues. */
 static void let_others_go_first(void)
 {
-    struct kd_scheduler *turns = mine;
+    struct kd_scheduler *scheduler = mine;
     struct kd_scheduler_job *job = under_way;
     if (!job || kd_clock_ms() - piece_ms < PIECE_MS)
         return;
     kd_watch_turn_ends();
-    pthread_mutex_lock(&turns->lock);
-    unpark_due(turns);
-    take_out(turns, job);
+    pthread_mutex_lock(&scheduler->lock);
+    unpark_due(scheduler);
+    take_out(scheduler, job);
     job->paused++;
-    if (turns->first && !turns->closing && (turns->idle || start_thread(turns)))
-        pause_turn(turns);
+    if (scheduler->first && !scheduler->closing && (scheduler->idle || start_thread(scheduler)))
+        pause_turn(scheduler);
     job->paused--;
     if (job->shared)
-        list_again(turns, job);
-    pthread_mutex_unlock(&turns->lock);
+        list_again(scheduler, job);
+    pthread_mutex_unlock(&scheduler->lock);
     under_way = job;
     piece_ms = kd_clock_ms();
     kd_watch_turn_begins();
@@ -270,98 +271,99 @@ static unsigned cores(void)
 
 enum kd_status kd_scheduler_create(unsigned limit, unsigned share, struct kd_scheduler **out, struct kd_error *error)
 {
-    struct kd_scheduler *turns = calloc(1, sizeof *turns);
-    if (!turns)
+    struct kd_scheduler *scheduler = calloc(1, sizeof *scheduler);
+    if (!scheduler)
         return kd_error_set(error, KD_ENOMEM, "out of memory");
-    turns->limit = limit;
-    turns->share = share;
-    turns->end = &turns->first;
-    pthread_mutex_init(&turns->lock, NULL);
-    pthread_cond_init(&turns->changed, NULL);
-    pthread_mutex_lock(&turns->lock);
-    turns->n_workers = cores();
+    scheduler->limit = limit;
+    scheduler->share = share;
+    scheduler->end = &scheduler->first;
+    pthread_mutex_init(&scheduler->lock, NULL);
+    pthread_cond_init(&scheduler->changed, NULL);
+    pthread_mutex_lock(&scheduler->lock);
+    scheduler->n_workers = cores();
     bool started = true;
-    for (unsigned i = 0; i < turns->n_workers && started; i++)
-        started = start_thread(turns);
-    pthread_mutex_unlock(&turns->lock);
+    for (unsigned i = 0; i < scheduler->n_workers && started; i++)
+        started = start_thread(scheduler);
+    pthread_mutex_unlock(&scheduler->lock);
     if (!started) {
-        kd_scheduler_destroy(turns);
+        kd_scheduler_destroy(scheduler);
         return kd_error_set(error, KD_ENOMEM, "a worker thread could not be started");
     }
-    *out = turns;
+    *out = scheduler;
     return KD_OK;
 }
 
-void kd_scheduler_destroy(struct kd_scheduler *turns)
+void kd_scheduler_destroy(struct kd_scheduler *scheduler)
 {
-    if (!turns)
+    if (!scheduler)
         return;
-    pthread_mutex_lock(&turns->lock);
-    turns->closing = true;
-    pthread_cond_broadcast(&turns->changed);
-    for (struct kd_scheduler_job *job = turns->first; job; job = job->next)
+    pthread_mutex_lock(&scheduler->lock);
+    scheduler->closing = true;
+    pthread_cond_broadcast(&scheduler->changed);
+    for (struct kd_scheduler_job *job = scheduler->first; job; job = job->next)
         if (!job->turn)
             pthread_cond_signal(&((struct paused *)job)->resumed);
-    pthread_mutex_unlock(&turns->lock);
-    for (unsigned i = 0; i < turns->n_threads; i++)
-        pthread_join(turns->threads[i], NULL);
-    pthread_cond_destroy(&turns->changed);
-    pthread_mutex_destroy(&turns->lock);
-    free(turns);
+    pthread_mutex_unlock(&scheduler->lock);
+    for (unsigned i = 0; i < scheduler->n_threads; i++)
+        pthread_join(scheduler->threads[i], NULL);
+    pthread_cond_destroy(&scheduler->changed);
+    pthread_mutex_destroy(&scheduler->lock);
+    free(scheduler);
 }
 
-enum kd_status kd_scheduler_admit(struct kd_scheduler *turns, const char *client, bool *quota, struct kd_error *error)
+enum kd_status kd_scheduler_admit(struct kd_scheduler *scheduler, const char *client, bool *quota,
+                                  struct kd_error *error)
 {
     unsigned own = 0;
-    pthread_mutex_lock(&turns->lock);
-    unsigned n = turns->n_accepted;
-    for (const struct kd_scheduler_job *job = turns->accepted; job; job = job->next_accepted)
+    pthread_mutex_lock(&scheduler->lock);
+    unsigned n = scheduler->n_accepted;
+    for (const struct kd_scheduler_job *job = scheduler->accepted; job; job = job->next_accepted)
         own += !strcmp(job->client, client);
-    pthread_mutex_unlock(&turns->lock);
-    *quota = n < turns->limit && own >= turns->share;
-    if (n >= turns->limit)
-        return kd_error_set(error, KD_EBUSY, "too many such requests are under way (limit %u)", n);
-    return *quota ? kd_error_set(error, KD_EBUSY, "you have too many such requests under way (limit %u for one client)",
-                                 own)
+    pthread_mutex_unlock(&scheduler->lock);
+    *quota = n < scheduler->limit && own >= scheduler->share;
+    if (n >= scheduler->limit)
+        return kd_error_set(error, KD_EBUSY, "too many such requests are in progress (limit %u)", n);
+    return *quota ? kd_error_set(error, KD_EBUSY,
+                                 "you have too many such requests in progress (limit %u for one client)", own)
                   : KD_OK;
 }
 
-void kd_scheduler_push(struct kd_scheduler *turns, struct kd_scheduler_job *job)
+void kd_scheduler_push(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
-    pthread_mutex_lock(&turns->lock);
-    accept(turns, job);
-    turns->unfinished++;
-    append(turns, job);
-    pthread_mutex_unlock(&turns->lock);
+    pthread_mutex_lock(&scheduler->lock);
+    accept(scheduler, job);
+    scheduler->unfinished++;
+    append(scheduler, job);
+    pthread_mutex_unlock(&scheduler->lock);
 }
 
-void kd_scheduler_wake(struct kd_scheduler *turns, struct kd_scheduler_job *job)
+void kd_scheduler_wake(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
-    pthread_mutex_lock(&turns->lock);
+    pthread_mutex_lock(&scheduler->lock);
     job->woken = true;
     if (job->parked)
-        unpark(turns, job);
-    pthread_mutex_unlock(&turns->lock);
+        unpark(scheduler, job);
+    pthread_mutex_unlock(&scheduler->lock);
 }
 
-unsigned kd_scheduler_unfinished(struct kd_scheduler *turns)
+unsigned kd_scheduler_unfinished(struct kd_scheduler *scheduler)
 {
-    pthread_mutex_lock(&turns->lock);
-    unsigned n = turns->unfinished;
-    pthread_mutex_unlock(&turns->lock);
+    pthread_mutex_lock(&scheduler->lock);
+    unsigned n = scheduler->unfinished;
+    pthread_mutex_unlock(&scheduler->lock);
     return n;
 }
 
-void kd_scheduler_cancel(struct kd_scheduler *turns)
+void kd_scheduler_cancel(struct kd_scheduler *scheduler)
 {
-    pthread_mutex_lock(&turns->lock);
-    atomic_store(&turns->cancel, true);
-    for (struct kd_scheduler_job *job = turns->parked, *next; job; job = next) {
+    pthread_mutex_lock(&scheduler->lock);
+    atomic_store(&scheduler->cancel, true);
+    for (struct kd_scheduler_job *job = scheduler->parked, *next; job; job = next) {
         next = job->next;
         if (!job->away)
-            unpark(turns, job);
+            unpark(scheduler, job);
     }
-    pthread_mutex_unlock(&turns->lock);
+    pthread_mutex_unlock(&scheduler->lock);
 }
 
-bool kd_scheduler_cancelled(struct kd_scheduler *turns) { return atomic_load(&turns->cancel); }
+bool kd_scheduler_cancelled(struct kd_scheduler *scheduler) { return atomic_load(&scheduler->cancel); }

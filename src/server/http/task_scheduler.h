@@ -38,20 +38,21 @@ struct kd_scheduler;
 /* limit: the most unfinished jobs; share: the most of them that one client may have */
 enum kd_status kd_scheduler_create(unsigned limit, unsigned share, struct kd_scheduler **out, struct kd_error *error);
 /* All jobs must be finished. Accepts NULL. */
-void kd_scheduler_destroy(struct kd_scheduler *turns);
+void kd_scheduler_destroy(struct kd_scheduler *scheduler);
 
 /* Tests whether the client may add a job: KD_OK or KD_EBUSY. *quota: true if the limit is the client's share. Called by
  * the thread that adds the job. */
-enum kd_status kd_scheduler_admit(struct kd_scheduler *turns, const char *client, bool *quota, struct kd_error *error);
-void kd_scheduler_push(struct kd_scheduler *turns, struct kd_scheduler_job *job);
+enum kd_status kd_scheduler_admit(struct kd_scheduler *scheduler, const char *client, bool *quota,
+                                  struct kd_error *error);
+void kd_scheduler_push(struct kd_scheduler *scheduler, struct kd_scheduler_job *job);
 /* Wakes a parked job, including one whose current slice is about to park it. The job must not have finished. Any
  * thread. */
-void kd_scheduler_wake(struct kd_scheduler *turns, struct kd_scheduler_job *job);
-unsigned kd_scheduler_unfinished(struct kd_scheduler *turns);
+void kd_scheduler_wake(struct kd_scheduler *scheduler, struct kd_scheduler_job *job);
+unsigned kd_scheduler_unfinished(struct kd_scheduler *scheduler);
 
 /* Makes kd_scheduler_cancelled true, which jobs poll in their slices. Resumes all parked jobs except those of
  * KD_SLICE_AWAY. Any thread. */
-void kd_scheduler_cancel(struct kd_scheduler *turns);
-bool kd_scheduler_cancelled(struct kd_scheduler *turns);
+void kd_scheduler_cancel(struct kd_scheduler *scheduler);
+bool kd_scheduler_cancelled(struct kd_scheduler *scheduler);
 
 #endif

@@ -180,7 +180,7 @@ static void finish(struct kd_task *task)
 
 static enum kd_slice_result park(struct kd_task *task, double ms)
 {
-    task->turns.due_ms = kd_clock_ms() + ms;
+    task->scheduled.due_ms = kd_clock_ms() + ms;
     return KD_SLICE_PARK;
 }
 
@@ -243,7 +243,7 @@ static enum kd_slice_result encode(struct kd_task *task, double until_ms)
     struct kd_error error = { 0 };
     enum kd_status status;
     if (atomic_load(&w->server->phase) >= KD_REFUSING)
-        KD_TRY(kd_error_set(&error, KD_ECANCELLED, "the server stops: a film can be asked for again when it is back"));
+        KD_TRY(kd_error_set(&error, KD_ECANCELLED, "the server is stopping; request the film again when it is back"));
     if (!l->writer.claimed && open_film(l))
         return KD_SLICE_LAST;
     if (!l->writer.claimed && !kd_job_film_claim(&l->writer, w->job, l->format->name, w->source.rate))
@@ -350,7 +350,7 @@ static enum MHD_Result look_through(struct kd_request *request, struct kd_job_wh
                                      films = { "films", sizeof(struct looked), encode, finish, end_film, answer };
     enum MHD_Result refused;
     const struct kd_task_kind *kind = format->counts ? &archives : format->waits ? &films : &cubes;
-    struct looked *l = kd_task_begin(request, request->server->turns, kind, &refused);
+    struct looked *l = kd_task_begin(request, request->server->scheduler, kind, &refused);
     if (!l) {
         release(w);
         return refused;

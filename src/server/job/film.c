@@ -15,8 +15,8 @@
 
 /* A task that moves a film's playground on to the next frame. */
 struct stride {
-    struct kd_scheduler_job turns; /* must be the first member */
-    struct kd_job *job;            /* a counted reference */
+    struct kd_scheduler_job scheduled; /* must be the first member */
+    struct kd_job *job;                /* a counted reference */
     unsigned to;
     bool under_way; /* `run` has begun */
     struct kd_playground_run run;
@@ -25,8 +25,8 @@ struct stride {
 void kd_job_film_drop(struct kd_job *job)
 {
     struct kd_job_film *film = &job->film;
-    kd_dynamic_bodies_release(film->crowd);
-    film->crowd = NULL;
+    kd_dynamic_bodies_release(film->dynamic);
+    film->dynamic = NULL;
     if (film->moving)
         return; /* a worker owns it and frees it */
     kd_playground_destroy(film->p);
@@ -74,13 +74,13 @@ static bool go_on(struct stride *s, double until_ms)
 /* Whether this server still has to do the job. Called with the lock. */
 static bool wanted(const struct kd_job *job) { return kd_job_is_active(job) && !job->all->closed; }
 
-static enum kd_slice_result turn(struct kd_scheduler_job *turns)
+static enum kd_slice_result turn(struct kd_scheduler_job *scheduled)
 {
-    struct stride *s = (struct stride *)turns;
+    struct stride *s = (struct stride *)scheduled;
     struct kd_job *job = s->job;
     struct kd_jobs *all = job->all;
     struct kd_job_film *film = &job->film;
-    struct kd_dynamic_bodies *crowd = NULL;
+    struct kd_dynamic_bodies *dynamic = NULL;
     struct kd_error error = { 0 };
     enum kd_status status = KD_OK;
     const double begun = kd_clock_ms();
@@ -91,17 +91,17 @@ static enum kd_slice_result turn(struct kd_scheduler_job *turns)
         status = begin_anew(job, &error);
     const bool there = goes && !status && go_on(s, begun + TURN_MS);
     if (there)
-        status = kd_playground_show_named(film->p, &crowd, &error);
+        status = kd_playground_show_named(film->p, &dynamic, &error);
     film->spent_ms += kd_clock_ms() - begun;
     if (goes && !status && !there && film->spent_ms > 1e3 * all->params.longest_job_s)
         status = kd_error_set(&error, KD_ETOOBIG,
-                              "its bodies have moved for %.0f s, as long as a job may take, up to frame %u",
+                              "the simulation of its bodies reached the time limit of a job, %.0f s, at frame %u",
                               all->params.longest_job_s, film->at);
     if (goes && !status && !there)
         return KD_SLICE_MORE;
     pthread_mutex_lock(&all->lock);
     film->moving = false;
-    film->crowd = crowd;
+    film->dynamic = dynamic;
     if (!wanted(job))
         kd_job_film_drop(job);
     else if (status)
@@ -111,9 +111,9 @@ static enum kd_slice_result turn(struct kd_scheduler_job *turns)
     return KD_SLICE_LAST;
 }
 
-static void done(struct kd_scheduler_job *turns)
+static void done(struct kd_scheduler_job *scheduled)
 {
-    struct stride *s = (struct stride *)turns;
+    struct stride *s = (struct stride *)scheduled;
     kd_job_release(s->job);
     free(s);
 }
@@ -121,19 +121,19 @@ static void done(struct kd_scheduler_job *turns)
 /* Starts a task that moves the playground to a frame. */
 static enum kd_status move_on(struct kd_job *job, unsigned frame, struct kd_error *error)
 {
-    struct kd_scheduler *turns = job->all->params.turns;
-    struct stride *s = kd_scheduler_cancelled(turns) ? NULL : calloc(1, sizeof *s);
+    struct kd_scheduler *scheduler = job->all->params.scheduler;
+    struct stride *s = kd_scheduler_cancelled(scheduler) ? NULL : calloc(1, sizeof *s);
     if (!s)
-        return kd_scheduler_cancelled(turns) ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for a film");
-    *s = (struct stride) { .turns = { .turn = turn, .done = done }, .job = job, .to = frame };
-    memcpy(s->turns.client, job->client, sizeof s->turns.client);
-    kd_dynamic_bodies_release(job->film.crowd);
-    job->film.crowd = NULL;
+        return kd_scheduler_cancelled(scheduler) ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for a film");
+    *s = (struct stride) { .scheduled = { .turn = turn, .done = done }, .job = job, .to = frame };
+    memcpy(s->scheduled.client, job->client, sizeof s->scheduled.client);
+    kd_dynamic_bodies_release(job->film.dynamic);
+    job->film.dynamic = NULL;
     job->film.to = frame;
     job->film.moving = true;
     kd_job_strike(job); /* counts an attempt, because moving bodies may crash the server as well */
     job->references++;
-    kd_scheduler_push(turns, &s->turns);
+    kd_scheduler_push(scheduler, &s->scheduled);
     return KD_OK;
 }
 
@@ -143,6 +143,6 @@ enum kd_status kd_job_film_at(struct kd_job *job, unsigned frame, struct kd_dyna
     struct kd_job_film *film = &job->film;
     if (!job->all->filming)
         job->all->filming = job;
-    *out = film->crowd && film->to == frame ? film->crowd : NULL;
+    *out = film->dynamic && film->to == frame ? film->dynamic : NULL;
     return *out || film->moving || job->all->filming != job ? KD_OK : move_on(job, frame, error);
 }

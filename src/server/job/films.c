@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 /* Returns NULL if the film is not in the list. Called with the lock. */
-static struct kd_job_kept_film *find(struct kd_job *job, const char *format, unsigned rate)
+static struct kd_job_stored_film *find(struct kd_job *job, const char *format, unsigned rate)
 {
     for (unsigned i = 0; i < job->n_films; i++)
         if (job->films[i].name.rate == rate && !strcmp(job->films[i].name.format, format))
@@ -20,7 +20,7 @@ static struct kd_job_kept_film *find(struct kd_job *job, const char *format, uns
 }
 
 /* Removes a film from the list. Called with the lock. */
-static void drop(struct kd_job *job, struct kd_job_kept_film *film)
+static void drop(struct kd_job *job, struct kd_job_stored_film *film)
 {
     job->bytes -= film->bytes;
     job->all->bytes -= film->bytes;
@@ -33,7 +33,7 @@ bool kd_job_film_open(struct kd_job *job, const char *format, unsigned rate, str
     char name[KD_JOB_FILM_NAME];
     struct kd_job_film_name film = { 0 };
     pthread_mutex_lock(&job->all->lock);
-    const struct kd_job_kept_film *kept = find(job, format, rate);
+    const struct kd_job_stored_film *kept = find(job, format, rate);
     if (kept)
         film = kept->name;
     pthread_mutex_unlock(&job->all->lock);
@@ -67,7 +67,7 @@ static enum kd_status begin(struct kd_job_film_writer *w, struct kd_error *error
     kd_job_folder_new_film(w->film.name.format, w->film.name.rate, name);
     w->folder = kd_job_store_folder(w->job->all->store, w->job->record.id);
     w->begun = w->folder >= 0 && kd_replace_begin(w->folder, name, &w->file);
-    return w->begun ? KD_OK : kd_job_store_failed(error, "the film cannot be kept");
+    return w->begun ? KD_OK : kd_job_store_failed(error, "the film cannot be stored");
 }
 
 enum kd_status kd_job_film_append(struct kd_job_film_writer *w, const void *data, size_t size, struct kd_error *error)
@@ -76,7 +76,7 @@ enum kd_status kd_job_film_append(struct kd_job_film_writer *w, const void *data
     if (!w->begun)
         KD_TRY(begin(w, error));
     if (!kd_replace_append(&w->file, data, size))
-        KD_TRY(kd_job_store_failed(error, "the film cannot be kept"));
+        KD_TRY(kd_job_store_failed(error, "the film cannot be stored"));
     sha256_update(&w->hash, size, data);
     w->film.bytes += size;
 done:
@@ -92,11 +92,9 @@ static enum kd_status reserve(const struct kd_job_film_writer *w, struct kd_erro
     if (!w->job->listed)
         status = kd_error_set(error, KD_EIO, "the job has been deleted");
     else if (w->film.bytes > all->params.bytes || all->bytes > all->params.bytes - w->film.bytes)
-        status =
-            kd_error_set(error, KD_EFULL,
-                         "the film has %.1f MB, and the files of all jobs have %.1f of the %.1f MB that this "
-                         "server keeps",
-                         1e-6 * (double)w->film.bytes, 1e-6 * (double)all->bytes, 1e-6 * (double)all->params.bytes);
+        status = kd_error_set(
+            error, KD_EFULL, "the film has %.1f MB, too many beside the %.1f MB of all jobs (limit %.1f MB)",
+            1e-6 * (double)w->film.bytes, 1e-6 * (double)all->bytes, 1e-6 * (double)all->params.bytes);
     else {
         all->bytes += w->film.bytes;
         w->job->bytes += w->film.bytes;
@@ -139,7 +137,7 @@ enum kd_status kd_job_film_keep(struct kd_job_film_writer *w, struct kd_error *e
     KD_TRY(reserve(w, error));
     w->begun = false;
     if (!kd_replace_commit(&w->file, name)) {
-        status = kd_job_store_failed(error, "the film cannot be kept");
+        status = kd_job_store_failed(error, "the film cannot be stored");
         unlinkat(w->folder, name, 0);
         give_back(w);
         return status;
@@ -167,7 +165,7 @@ void kd_job_film_end(struct kd_job_film_writer *w)
     pthread_mutex_unlock(&w->job->all->lock);
 }
 
-static bool is_kept(int folder, const char *name, struct kd_job_kept_film *out)
+static bool is_kept(int folder, const char *name, struct kd_job_stored_film *out)
 {
     struct stat about;
     if (!kd_job_folder_read_film(name, &out->name) || fstatat(folder, name, &about, AT_SYMLINK_NOFOLLOW) ||
@@ -179,7 +177,7 @@ static bool is_kept(int folder, const char *name, struct kd_job_kept_film *out)
 
 void kd_job_films_find(struct kd_job *job)
 {
-    struct kd_job_kept_film film;
+    struct kd_job_stored_film film;
     int folder = kd_job_store_folder(job->all->store, job->record.id);
     DIR *d = folder < 0 ? NULL : fdopendir(folder);
     for (struct dirent *entry; d && (entry = readdir(d));) {

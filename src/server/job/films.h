@@ -15,7 +15,7 @@
 struct kd_job;
 
 enum { KD_JOB_FILMS = 4 }; /* largest number of films of a job; a further one replaces the oldest */
-struct kd_job_kept_film {
+struct kd_job_stored_film {
     struct kd_job_film_name name;
     uint64_t bytes;
 };
@@ -31,7 +31,7 @@ struct kd_job_film_writer {
     int folder;
     struct kd_replacing file;
     struct sha256_ctx hash;
-    struct kd_job_kept_film film;
+    struct kd_job_stored_film film;
 };
 /* Claims a job for encoding a film. Returns false if the film exists, or another one is being written. */
 bool kd_job_film_claim(struct kd_job_film_writer *w, struct kd_job *job, const char *format, unsigned rate);

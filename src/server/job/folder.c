@@ -113,7 +113,7 @@ bool kd_job_folder_remove(int jobs, const char *name, unsigned most)
     if (d && all)
         unlinkat(folder, "job.json", 0);
     if (d && all && unlinkat(jobs, name, AT_REMOVEDIR) && errno != ENOENT)
-        kd_log(KD_LOG_WARN, "the folder of job %.4s... is left: %s", name, strerror(errno));
+        kd_log(KD_LOG_WARN, "the folder of job %.4s... cannot be removed: %s", name, strerror(errno));
     if (d)
         closedir(d);
     if (folder >= 0)

@@ -32,8 +32,8 @@ struct kd_job_film {
     double spent_ms;         /* computing time spent on moving the bodies */
     /* The lock always protects these. */
     bool moving;
-    unsigned to;                     /* target frame */
-    struct kd_dynamic_bodies *crowd; /* bodies at the target frame, a reference; NULL: not reached yet */
+    unsigned to;                       /* target frame */
+    struct kd_dynamic_bodies *dynamic; /* bodies at the target frame, a reference; NULL: not reached yet */
 };
 
 /* Common exposure of all frames. It is measured before the first frame is rendered (job/exposure.h). */
@@ -67,7 +67,7 @@ struct kd_job {
     bool begun_here;   /* this server has begun a frame of the job, or moved its bodies */
     bool struck;       /* this server has counted an attempt in the record */
     unsigned finished_here;
-    struct kd_job_kept_film films[KD_JOB_FILMS]; /* oldest first */
+    struct kd_job_stored_film films[KD_JOB_FILMS]; /* oldest first */
     unsigned n_films;
     bool filming;           /* a film is being encoded (films.c) */
     unsigned encoding;      /* frames rendered and not yet in files */

@@ -197,11 +197,11 @@ void kd_jobs_destroy(struct kd_jobs *all)
 /* Whether another job is accepted. A finished job may be deleted for it. Called with the lock. */
 static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota, struct kd_error *error)
 {
-    unsigned unfinished = 0, kept = 0, own = 0;
+    unsigned unfinished = 0, stored = 0, own = 0;
     bool gives_way = false;
     *quota = false;
     for (struct kd_job *job = all->first; job; job = job->link) {
-        kept++;
+        stored++;
         unfinished += kd_job_is_active(job);
         own += kd_job_is_active(job) && *client && !strcmp(job->client, client);
         gives_way = gives_way || (!kd_job_is_active(job) && job->references == 1);
@@ -212,8 +212,8 @@ static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota
         *quota = true;
         return kd_error_set(error, KD_EBUSY, "you have too many unfinished jobs (limit %u for one client)", own);
     }
-    if (kept >= all->params.kept && !gives_way)
-        return kd_error_set(error, KD_EBUSY, "too many stored jobs (limit %u), and all are being read", kept);
+    if (stored >= all->params.stored && !gives_way)
+        return kd_error_set(error, KD_EBUSY, "too many stored jobs (limit %u), and all are being read", stored);
     return KD_OK;
 }
 
@@ -245,14 +245,14 @@ static void take_back(struct kd_job *job)
 /* If too many jobs are stored, deletes the oldest finished job that nobody reads. Called with the lock. */
 static void make_room(struct kd_jobs *all)
 {
-    unsigned kept = 0;
+    unsigned stored = 0;
     struct kd_job *oldest = NULL;
     for (struct kd_job *job = all->first; job; job = job->link) {
-        kept++;
+        stored++;
         if (!kd_job_is_active(job) && job->references == 1 && !oldest)
             oldest = job;
     }
-    if (kept <= all->params.kept || !oldest)
+    if (stored <= all->params.stored || !oldest)
         return;
     kd_job_unlist(oldest);
     unref(oldest);
@@ -298,7 +298,7 @@ enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, con
     struct kd_job *job = kd_job_make(all, &draft->spec);
     if (!job || !kd_secret_make(job->record.id, sizeof job->record.id) ||
         !kd_secret_make(job->record.token, sizeof job->record.token)) {
-        status = kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a job");
+        status = kd_error_set(error, KD_ENOMEM, "no memory or no random numbers for a job");
     } else {
         job->order = draft->cost.order;
         draft->cost.order = (struct kd_sweep_order) { 0 };
@@ -450,7 +450,7 @@ void kd_job_status(struct kd_job *job, struct kd_job_status *out)
     snprintf(out->error, sizeof out->error, "%s", job->record.error);
     memcpy(out->delayed, job->delayed, sizeof out->delayed);
     if (job->unordered && kd_job_is_active(job) && !*out->delayed)
-        snprintf(out->delayed, sizeof out->delayed, "its frames are put in order");
+        snprintf(out->delayed, sizeof out->delayed, "its frames are being sorted");
     pthread_mutex_unlock(&all->lock);
 }
 

@@ -17,21 +17,21 @@
 struct kd_jobs;
 struct kd_job;
 
-/* A job is delayed after so many crashes without a new frame, because it may be their cause. */
+/* Number of crashes without a new frame after which a job is delayed, because it may be their cause. */
 #define KD_JOB_ATTEMPTS 3
 #define KD_JOB_WAIT_MS 30e3 /* length of the first delay; it doubles with each further crash, up to ... */
 #define KD_JOB_WAIT_MAX_MS 3600e3
 
 struct kd_jobs_params {
     struct kd_render_queue *renders;
-    struct kd_scheduler *turns; /* scheduler whose workers move the bodies of films */
-    const char *state;          /* state folder; NULL: jobs end with the server */
-    unsigned limit, kept;       /* limit: of unfinished jobs; kept: of all jobs stored */
-    unsigned client_limit;      /* limit of unfinished jobs of one client; 0: no separate limit */
-    unsigned longest_s;         /* limit of one frame's estimated time, in s */
-    double longest_job_s;       /* limit of the estimated time of all frames of a job, in s */
-    uint64_t bytes;             /* limit of the size of all jobs' frames */
-    double keep_s;              /* time until a finished job is deleted */
+    struct kd_scheduler *scheduler; /* scheduler whose workers move the bodies of films */
+    const char *state;              /* state folder; NULL: jobs end with the server */
+    unsigned limit, stored;         /* limit: of unfinished jobs; stored: of all stored jobs */
+    unsigned client_limit;          /* limit of unfinished jobs of one client; 0: no separate limit */
+    unsigned longest_s;             /* limit of one frame's estimated time, in s */
+    double longest_job_s;           /* limit of the estimated time of all frames of a job, in s */
+    uint64_t bytes;                 /* limit of the size of all jobs' frames */
+    double keep_s;                  /* time until a finished job is deleted */
 };
 /* Loads the jobs of the state folder, if there is one. params->state may be freed afterwards. */
 enum kd_status kd_jobs_create(const struct kd_jobs_params *params, struct kd_jobs **out, struct kd_error *error);

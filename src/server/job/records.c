@@ -77,7 +77,7 @@ void kd_jobs_begin_writing(struct kd_jobs *all)
         return;
     all->writes = true;
     all->writer = (struct kd_scheduler_job) { .turn = turn, .done = done };
-    kd_scheduler_push(all->params.turns, &all->writer);
+    kd_scheduler_push(all->params.scheduler, &all->writer);
 }
 
 void kd_job_write(struct kd_job *job)

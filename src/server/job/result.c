@@ -174,8 +174,7 @@ enum MHD_Result kd_handle_job_preview(struct kd_request *request)
         return refused;
     kd_job_status(job, &status);
     if (!(status.series->frame->carries & KD_CARRIES_PICTURE)) {
-        snprintf(detail, sizeof detail, "the frames of this job are %s: there is nothing to look at",
-                 status.series->each);
+        snprintf(detail, sizeof detail, "the frames of this job are %s and have no picture", status.series->each);
         return kd_job_bad(request, job, detail);
     }
     if (!kd_job_glimpse(job, &png, &sight))
@@ -201,11 +200,11 @@ static const struct kd_gather_format *whole_named(const struct kd_series *series
     return NULL;
 }
 
-/* Writes the refusal, such as "format is fits, npz or zip, which hold all, or fits or stream, both with frame=NUMBER if
- * wanted". */
+/* Writes the refusal, such as "format must be fits, npz or zip for all frames; or fits or stream, optionally with
+ * frame=NUMBER". */
 static enum MHD_Result unknown_format(struct kd_request *request, struct kd_job *job, const struct kd_series *series)
 {
-    char detail[200] = "format is ";
+    char detail[200] = "format must be ";
     for (size_t i = 0; series->wholes[i]; i++)
         snprintf(detail + strlen(detail), sizeof detail - strlen(detail), "%s%s",
                  !i                      ? ""
@@ -213,8 +212,7 @@ static enum MHD_Result unknown_format(struct kd_request *request, struct kd_job 
                                          : " or ",
                  series->wholes[i]->name);
     snprintf(detail + strlen(detail), sizeof detail - strlen(detail),
-             ", which hold%s all, or %s or %s, both with frame=NUMBER if wanted", series->wholes[1] ? "" : "s",
-             series->frame->name, kd_job_as_stream.name);
+             " for all frames; or %s or %s, optionally with frame=NUMBER", series->frame->name, kd_job_as_stream.name);
     return kd_job_bad(request, job, detail);
 }
 
@@ -229,11 +227,11 @@ static enum MHD_Result files_of(struct kd_request *request, struct kd_job *job, 
         format = status->frames > 1 || status->sweep ? series->wholes[0]->name : series->frame->name;
     const struct kd_gather_format *whole = one_of_them ? NULL : whole_named(series, format);
     if (!kd_target_whole(&request->target, "frame", 0, status->frames ? status->frames - 1 : 0, &frame))
-        return kd_job_bad(request, job, "frame is the number of a frame of this job, from 0 on");
+        return kd_job_bad(request, job, "frame must be the number of a frame of this job, counted from 0");
     if (!kd_target_whole(&request->target, "rate", KD_FILM_RATE, KD_FILM_RATE_MAX, &rate) || !rate ||
         (kd_target_value(&request->target, "rate") && !(whole && whole->waits)))
         return kd_job_bad(request, job,
-                          "rate is a whole number of frames a second, from 1 to 120, of format=mp4 or webm");
+                          "rate must be a whole number of frames a second from 1 to 120, with format=mp4 or webm");
     if (whole && status->state != KD_JOB_DONE)
         return kd_job_not_ready(request, job, status);
     if (whole)

@@ -51,8 +51,8 @@ static void reopen(struct kd_job *job)
 {
     if (job->record.state != KD_JOB_DONE || job->finished == job->frames)
         return;
-    kd_log(KD_LOG_WARN, "job %.4s... was done, and has %u of %u frames: the others are made again", job->record.id,
-           job->finished, job->frames);
+    kd_log(KD_LOG_WARN, "job %.4s... was done, but has only %u of %u frames: the others are rendered again",
+           job->record.id, job->finished, job->frames);
     job->record.state = KD_JOB_ACTIVE;
     job->record.ended = 0;
 }
@@ -74,7 +74,7 @@ static void wait_after_strikes(struct kd_job *job)
     job->due_ms =
         kd_clock_ms() +
         fmin(ldexp(KD_JOB_WAIT_MS, (int)(n - KD_JOB_ATTEMPTS > 20 ? 20 : n - KD_JOB_ATTEMPTS)), KD_JOB_WAIT_MAX_MS);
-    snprintf(job->delayed, sizeof job->delayed, "the server has ended %u times before another frame was there", n);
+    snprintf(job->delayed, sizeof job->delayed, "the server has ended %u times without a new frame", n);
     kd_log(KD_LOG_WARN, "job %.4s... waits: %s", job->record.id, job->delayed);
 }
 
@@ -89,7 +89,7 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
                                               &(struct kd_job_base) { .preset = known->preset }, NULL, &spec, &error);
     kd_buffer_finish(request);
     if (status == KD_ENOMEM) {
-        kd_log(KD_LOG_ERROR, "no memory for job %.4s..., which waits for the next start", known->id);
+        kd_log(KD_LOG_ERROR, "out of memory for job %.4s...; the next start tries it again", known->id);
         return;
     }
     if (status)
@@ -101,7 +101,7 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
     struct kd_job *job = kd_job_make(all, &spec);
     if (!job) {
         kd_job_spec_finish(&spec);
-        kd_log(KD_LOG_ERROR, "no memory for job %.4s..., which waits for the next start", known->id);
+        kd_log(KD_LOG_ERROR, "out of memory for job %.4s...; the next start tries it again", known->id);
         return;
     }
     job->record = *known;

@@ -21,9 +21,9 @@ struct kd_job *kd_job_of(struct kd_request *request, enum MHD_Result *refused)
 {
     struct kd_job *job = kd_jobs_find(request->server->jobs, request->rest);
     if (!job)
-        *refused = kd_reply_problem(request,
-                                    &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
-                                                           .detail = "there is no such job, or it has been deleted" });
+        *refused =
+            kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
+                                                             .detail = "there is no such job, or it was deleted" });
     return job;
 }
 
@@ -181,7 +181,7 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request)
         return refuse(request, &error, false);
     if (made_before(request, &refused))
         return refused;
-    struct draft *d = kd_task_begin(request, request->server->turns, &kind, &refused);
+    struct draft *d = kd_task_begin(request, request->server->scheduler, &kind, &refused);
     if (!d)
         return refused;
     d->draft.once = request->once;
@@ -228,7 +228,7 @@ static enum MHD_Result begin_removal(struct kd_request *request, struct kd_job *
 {
     enum MHD_Result refused = MHD_NO;
     struct removing *r =
-        request->connection ? kd_task_create(request, request->server->turns, &REMOVAL, &refused) : NULL;
+        request->connection ? kd_task_create(request, request->server->scheduler, &REMOVAL, &refused) : NULL;
     if (r) {
         r->job = job;
         return kd_task_submit(&r->task);
@@ -250,7 +250,7 @@ enum MHD_Result kd_handle_job(struct kd_request *request)
     } else if (!kd_secret_equal(kd_job_token(job), kd_token_of(request))) {
         result = kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
-                                            .detail = "deleting a job takes its token: Authorization: Bearer TOKEN" });
+                                            .detail = "deleting a job needs its token: Authorization: Bearer TOKEN" });
     } else if (!kd_reply_matches(request, NULL)) {
         result = kd_reply_unmatched(request);
     } else

@@ -14,11 +14,11 @@
 /* limit of frames that are rendered and not yet in files; one can be rendered while another is encoded */
 #define BEHIND_MAX 2
 struct kd_job_render {
-    struct kd_render_job render;      /* must be the first member: the queue stores a pointer to it */
-    struct kd_scheduler_job planning; /* scheduler job that plans the frame before it is pushed */
-    struct kd_job *job;               /* a counted reference */
-    unsigned number, place;           /* place: its place in the order of rendering */
-    struct kd_dynamic_bodies *crowd;  /* bodies in the scene of a film; a counted reference */
+    struct kd_render_job render;       /* must be the first member: the queue stores a pointer to it */
+    struct kd_scheduler_job planning;  /* scheduler job that plans the frame before it is pushed */
+    struct kd_job *job;                /* a counted reference */
+    unsigned number, place;            /* place: its place in the order of rendering */
+    struct kd_dynamic_bodies *dynamic; /* bodies in the scene of a film; a counted reference */
     bool rendered;
     bool measures; /* the picture is small, measures the common exposure and is not stored */
 };
@@ -75,7 +75,7 @@ static enum kd_slice_result plan(struct kd_scheduler_job *planning)
     kd_render_queue_capacity(all->params.renders, &capacity);
     render->status = frame->measures ? kd_job_exposure_plan(spec, frame->number, &capacity, &render->scene,
                                                             &render->plan, &render->error)
-                                     : kd_job_frame_plan(spec, frame->number, frame->crowd, 0, all->params.longest_s,
+                                     : kd_job_frame_plan(spec, frame->number, frame->dynamic, 0, all->params.longest_s,
                                                          &capacity, &render->scene, &render->plan, &render->error);
     return KD_SLICE_LAST;
 }
@@ -84,7 +84,7 @@ static void finish(struct kd_job_render *frame)
 {
     kd_buffer_finish(&frame->render.file);
     kd_frame_finish(&frame->render.frame);
-    kd_dynamic_bodies_release(frame->crowd);
+    kd_dynamic_bodies_release(frame->dynamic);
     free(frame);
 }
 
@@ -106,7 +106,7 @@ static void push(struct kd_job_render *frame)
         job->began_ms = kd_clock_ms();
     job->fraction = 0;
     job->revision++;
-    const bool films = frame->crowd; /* read before the push, after which the queue owns the frame */
+    const bool films = frame->dynamic; /* read before the push, after which the queue owns the frame */
     kd_render_queue_push(job->all->params.renders, &frame->render);
     /* The bodies move on while this frame is rendered. An error is reported when the next frame begins. */
     if (films && job->next < job->frames)
@@ -138,7 +138,7 @@ static void planned(struct kd_scheduler_job *planning)
 }
 
 /* Makes the next frame of a job; it has to be planned next. */
-static struct kd_job_render *make_frame(struct kd_job *job, unsigned number, struct kd_dynamic_bodies *crowd)
+static struct kd_job_render *make_frame(struct kd_job *job, unsigned number, struct kd_dynamic_bodies *dynamic)
 {
     struct kd_job_render *frame = calloc(1, sizeof *frame);
     if (!frame)
@@ -161,8 +161,8 @@ static struct kd_job_render *make_frame(struct kd_job *job, unsigned number, str
     frame->number = number;
     frame->place = job->next;
     frame->measures = measures;
-    frame->crowd = crowd;
-    kd_dynamic_bodies_keep(crowd);
+    frame->dynamic = dynamic;
+    kd_dynamic_bodies_keep(dynamic);
     return frame;
 }
 
@@ -171,17 +171,17 @@ static bool begin(struct kd_job *job)
 {
     struct kd_jobs *all = job->all;
     struct kd_error error = { 0 };
-    struct kd_dynamic_bodies *crowd = NULL;
+    struct kd_dynamic_bodies *dynamic = NULL;
     const unsigned number = next_frame(job);
     if (number == job->frames)
         return false;
     kd_job_strike(job);
     if (job->keeping) /* the attempt must be on disk before the work begins */
         return true;
-    enum kd_status status = job->spec.every > 0 ? kd_job_film_at(job, number, &crowd, &error) : KD_OK;
-    if (!status && job->spec.every > 0 && !crowd)
+    enum kd_status status = job->spec.every > 0 ? kd_job_film_at(job, number, &dynamic, &error) : KD_OK;
+    if (!status && job->spec.every > 0 && !dynamic)
         return false;
-    struct kd_job_render *frame = status ? NULL : make_frame(job, number, crowd);
+    struct kd_job_render *frame = status ? NULL : make_frame(job, number, dynamic);
     if (!status && !frame)
         status = kd_error_set(&error, KD_ENOMEM, "out of memory for a frame");
     if (status) {
@@ -191,7 +191,7 @@ static bool begin(struct kd_job *job)
     job->next += !frame->measures;
     job->references++;
     all->rendering = frame;
-    kd_scheduler_push(all->params.turns, &frame->planning);
+    kd_scheduler_push(all->params.scheduler, &frame->planning);
     return true;
 }
 
@@ -269,7 +269,7 @@ static void finished(struct kd_job *job, unsigned number, uint64_t size)
     if (job->finished == job->frames)
         kd_job_end(job, KD_JOB_DONE, "");
     else if (job->all->bytes > job->all->params.bytes)
-        kd_job_end(job, KD_JOB_FAILED, "the frames of all jobs are more bytes than this server keeps");
+        kd_job_end(job, KD_JOB_FAILED, "the frames of all jobs have too many bytes (limit of this server)");
 }
 
 /* The render queue calls the three functions below, without the lock. */
@@ -364,13 +364,12 @@ static enum kd_status afford(const struct kd_jobs *all, const struct kd_job_draf
     const double s = 1e-3 * (cost->ms - not_spent), bytes = (double)all->params.bytes;
     if (s > all->params.longest_job_s)
         return kd_error_set(error, KD_ETOOBIG,
-                            "%s%u frames would take about %.3g s, more than the %.0f s a job may take",
+                            "%s%u frames would take about %.3g s; for one job it must be at most %.0f s",
                             cost->frames < frames ? "some of the " : "the ", frames, s, all->params.longest_job_s);
     if (cost->file_bytes > bytes)
-        return kd_error_set(
-            error, KD_ETOOBIG,
-            "%u of %u frames would be %.4g GB, more than the %.4g GB that this server keeps of all jobs", cost->frames,
-            frames, 1e-9 * cost->file_bytes, 1e-9 * bytes);
+        return kd_error_set(error, KD_ETOOBIG,
+                            "%u of %u frames would have %.4g GB; all jobs together must have at most %.4g GB",
+                            cost->frames, frames, 1e-9 * cost->file_bytes, 1e-9 * bytes);
     return KD_OK;
 }
 

@@ -83,7 +83,7 @@ void kd_job_store_tidy(void)
         if (lock >= 0) { /* the lock was free: the server that made the folder is dead */
             kd_job_folder_empty(folder);
             if (!unlinkat(parent, entry->d_name, AT_REMOVEDIR))
-                kd_log(KD_LOG_INFO, "%s, which a dead server has left, is removed", entry->d_name);
+                kd_log(KD_LOG_INFO, "%s is removed; it was left by a server that has ended", entry->d_name);
             close(lock);
         }
         if (folder >= 0)
@@ -103,7 +103,7 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
         if (snprintf(path, sizeof path, "%s/" TEMPORARY "XXXXXX", parent) >= (int)sizeof path)
             return kd_error_set(error, KD_EINVAL, "the path in TMPDIR is too long");
         if (!mkdtemp(path))
-            return kd_job_store_failed(error, "a folder for jobs cannot be made");
+            return kd_job_store_failed(error, "cannot create a folder for jobs");
         store->folder = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
         store->lock = store->folder < 0 ? -1 : take_lock(store->folder, O_CREAT);
         if (store->lock >= 0)
@@ -118,7 +118,7 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
         errno = cause;
         /* otherwise another server has just removed the file, and this one tries again */
         if (cause != EWOULDBLOCK && cause != ENOENT)
-            return kd_job_store_failed(error, "a folder for jobs cannot be made");
+            return kd_job_store_failed(error, "cannot create a folder for jobs");
     }
     store->parent = strdup(parent);
     store->name = strdup(strrchr(path, '/') + 1);
@@ -132,7 +132,7 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
 static enum kd_status open_state(struct kd_job_store *store, const char *state, struct kd_error *error)
 {
     if (mkdir(state, 0700) && errno != EEXIST)
-        return failed_at(error, "jobs cannot be kept", state);
+        return failed_at(error, "jobs cannot be stored", state);
     int parent = open(state, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (parent >= 0 && (!mkdirat(parent, "jobs", 0700) || errno == EEXIST))
         store->folder = kd_job_folder_open(parent, "jobs");
@@ -141,12 +141,12 @@ static enum kd_status open_state(struct kd_job_store *store, const char *state, 
         close(parent);
     errno = cause;
     if (store->folder < 0)
-        return failed_at(error, "jobs cannot be kept", state);
+        return failed_at(error, "jobs cannot be stored", state);
     store->lock = take_lock(store->folder, O_CREAT);
     if (store->lock >= 0)
         return KD_OK;
-    return errno == EWOULDBLOCK ? kd_error_set(error, KD_EIO, "another server keeps its jobs in %.300s", state)
-                                : failed_at(error, "jobs cannot be kept", state);
+    return errno == EWOULDBLOCK ? kd_error_set(error, KD_EIO, "another server uses %.300s for its jobs", state)
+                                : failed_at(error, "jobs cannot be stored", state);
 }
 
 enum kd_status kd_job_store_open(const char *state, struct kd_job_store **out, struct kd_error *error)
@@ -273,7 +273,7 @@ static bool parse_record(const struct kd_buffer *text, const char *id, struct kd
     cJSON *o = kd_tree_read((const char *)text->data, text->size, &starved);
     bool good = o && read_record(o, id, out);
     if (starved)
-        *why = "there is no memory for its job.json";
+        *why = "out of memory for its job.json";
     else if (!good)
         *why = o && number(o, "format") > 0 && (number(o, "format") != 1 || !series_of(o))
                    ? "its job.json is of another version of kerrd"
@@ -289,7 +289,7 @@ static enum fate look(int folder, const char *id, struct found *out, const char 
     struct kd_buffer text = { 0 };
     *out = (struct found) { 0 };
     if (!kd_read_file(folder, "job.json", O_NOFOLLOW, RECORD_MAX, &text)) {
-        *why = errno == EINVAL ? "its job.json is no file" : strerror(errno);
+        *why = errno == EINVAL ? "its job.json is not a file" : strerror(errno);
         kd_buffer_finish(&text);
         return ASIDE;
     }
@@ -301,7 +301,7 @@ static enum fate look(int folder, const char *id, struct found *out, const char 
         return KEPT;
     int cause = errno;
     kd_buffer_finish(&out->request);
-    *why = cause == EINVAL ? "its request.json is no file" : strerror(cause);
+    *why = cause == EINVAL ? "its request.json is not a file" : strerror(cause);
     return cause == ENOENT ? GONE : ASIDE;
 }
 
@@ -327,7 +327,7 @@ static bool load(struct kd_job_store *store, const char *name, struct found *out
     if (fate == GONE)
         kd_job_folder_remove(store->folder, name, UINT_MAX);
     if (fate == ASIDE)
-        kd_log(KD_LOG_WARN, "job %.4s... is set aside and left as it is: %s", name, why);
+        kd_log(KD_LOG_WARN, "job %.4s... is skipped: %s", name, why);
     return fate == KEPT;
 }
 
@@ -418,7 +418,7 @@ static enum kd_status write_record(int folder, const struct kd_job_record *recor
     enum kd_status status =
         record_json(record, &text) ? kd_error_set(error, KD_ENOMEM, "out of memory for a job") : KD_OK;
     if (!status && !kd_replace_file_at(folder, "job.json", text.data, text.size))
-        status = kd_job_store_failed(error, "the job cannot be kept");
+        status = kd_job_store_failed(error, "the job cannot be stored");
     kd_buffer_finish(&text);
     return status;
 }
@@ -428,7 +428,7 @@ enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_j
 {
     int folder = kd_job_folder_open(store->folder, record->id);
     if (folder < 0)
-        return kd_job_store_failed(error, "the job cannot be kept");
+        return kd_job_store_failed(error, "the job cannot be stored");
     enum kd_status status = write_record(folder, record, error);
     close(folder);
     return status;
@@ -443,12 +443,12 @@ enum kd_status kd_job_store_create(struct kd_job_store *store, const struct kd_j
     int folder = mkdirat(store->folder, name, 0700) ? -1 : kd_job_folder_open(store->folder, name);
     enum kd_status status;
     if (folder < 0)
-        KD_TRY(kd_job_store_failed(error, "the job cannot be kept"));
+        KD_TRY(kd_job_store_failed(error, "the job cannot be stored"));
     KD_TRY(write_record(folder, record, error));
     if (!kd_replace_file_at(folder, "request.json", request, size))
-        KD_TRY(kd_job_store_failed(error, "the job cannot be kept"));
+        KD_TRY(kd_job_store_failed(error, "the job cannot be stored"));
     if (renameat(store->folder, name, store->folder, record->id) || fsync(store->folder))
-        KD_TRY(kd_job_store_failed(error, "the job cannot be kept"));
+        KD_TRY(kd_job_store_failed(error, "the job cannot be stored"));
 done:
     if (folder >= 0)
         close(folder);
@@ -477,7 +477,7 @@ enum kd_status kd_job_store_put(struct kd_job_store *store, const char *id, unsi
     kd_job_folder_frame(frame, name);
     int folder = kd_job_folder_open(store->folder, id);
     bool good = folder >= 0 && kd_replace_file_at(folder, name, png->data, png->size);
-    enum kd_status status = good ? KD_OK : kd_job_store_failed(error, "a frame cannot be kept");
+    enum kd_status status = good ? KD_OK : kd_job_store_failed(error, "a frame cannot be stored");
     if (folder >= 0)
         close(folder);
     return status;

@@ -81,7 +81,7 @@ static enum MHD_Result write_table(struct kd_request *request, struct kd_job *jo
 {
     static const struct kd_task_kind kind = { "tables", sizeof(struct table), work, finish, .answer = answer };
     enum MHD_Result refused;
-    struct table *t = kd_task_begin(request, request->server->turns, &kind, &refused);
+    struct table *t = kd_task_begin(request, request->server->scheduler, &kind, &refused);
     if (!t) {
         kd_job_release(job);
         return refused;
@@ -123,7 +123,7 @@ static enum MHD_Result not_acceptable(struct kd_request *request, struct kd_job 
     char offered[160], detail[240];
     kd_job_release(job);
     list_tables(series, true, offered, sizeof offered);
-    snprintf(detail, sizeof detail, "%ss are offered as %s", series->noun, offered);
+    snprintf(detail, sizeof detail, "%ss are available as %s", series->noun, offered);
     return kd_reply_problem(
         request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = offered, .detail = detail });
 }
@@ -142,7 +142,7 @@ enum MHD_Result kd_job_send_table(struct kd_request *request, struct kd_job *job
         return kd_job_bad(request, job, detail);
     }
     if (kd_target_value(&request->target, "frame")) {
-        snprintf(detail, sizeof detail, "frame goes with pictures; a %s comes whole", series->noun);
+        snprintf(detail, sizeof detail, "frame cannot be used with a %s; it belongs to pictures", series->noun);
         return kd_job_bad(request, job, detail);
     }
     return status->state == KD_JOB_DONE ? write_table(request, job, status, table)

@@ -71,7 +71,7 @@ static struct kd_job *take_old(struct kd_jobs *all)
     double now = kd_clock_ms();
     for (struct kd_job *job = all->first; job; job = job->link)
         if (!kd_job_is_active(job) && job->references == 1 && now - job->ended_ms > 1e3 * all->params.keep_s) {
-            kd_log(KD_LOG_INFO, "job %.4s... has been kept for %.0f s", job->record.id, all->params.keep_s);
+            kd_log(KD_LOG_INFO, "job %.4s... expired after %.0f s", job->record.id, all->params.keep_s);
             kd_job_unlist(job);
             return job;
         }
@@ -94,7 +94,7 @@ static void put_in_order(struct kd_jobs *all)
         return;
     enum kd_status status = kd_sweep_order_go_on(&job->order, job->spec.sweep, kd_clock_ms() + ORDER_MS);
     if (status) {
-        kd_log(KD_LOG_WARN, "no memory to put the frames of job %.4s... in order: they share fewer lens maps",
+        kd_log(KD_LOG_WARN, "out of memory for the order of the frames of job %.4s...: they share fewer lens maps",
                job->record.id);
         kd_sweep_order_finish(&job->order);
     }

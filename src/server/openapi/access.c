@@ -6,16 +6,16 @@
 void kd_openapi_access_schemes(struct kd_json *json)
 {
     kd_schema_text(json, "securitySchemes",
-                   "{\"token\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"the token that came with the "
-                   "session, playground, job or asset\"},"
-                   "\"tokenQuery\":{\"type\":\"apiKey\",\"in\":\"query\",\"name\":\"token\",\"description\":\"the "
-                   "same, where Authorization holds an access token\"},"
-                   "\"access\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"an access token of the "
-                   "server's token file, where it has one\"},"
-                   "\"accessHeader\":{\"type\":\"apiKey\",\"in\":\"header\",\"name\":\"" KD_ACCESS_HEADER
-                   "\",\"description\":\"the same, where Authorization holds another token\"},"
-                   "\"accessCookie\":{\"type\":\"apiKey\",\"in\":\"cookie\",\"name\":\"" KD_ACCESS_COOKIE
-                   "\",\"description\":\"the same, of a browser that opened the page with ?access=TOKEN\"}}");
+                   "{\"token\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"the token from the creation "
+                   "of the session, playground, job or "
+                   "asset\"},\"tokenQuery\":{\"type\":\"apiKey\",\"in\":\"query\",\"name\":\"token\",\"description\":"
+                   "\"the same, if Authorization has an access "
+                   "token\"},\"access\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"an access token of "
+                   "the server's token file, if it has "
+                   "one\"},\"accessHeader\":{\"type\":\"apiKey\",\"in\":\"header\",\"name\":\"" KD_ACCESS_HEADER
+                   "\",\"description\":\"the same, if Authorization has another "
+                   "token\"},\"accessCookie\":{\"type\":\"apiKey\",\"in\":\"cookie\",\"name\":\"" KD_ACCESS_COOKIE
+                   "\",\"description\":\"the same, for a browser that opened the page with ?access=TOKEN\"}}");
 }
 
 /* The ways to authenticate for a role. OpenAPI permits names of roles where scopes stand. */

@@ -5,7 +5,9 @@
 #include "server/openapi/media.h"
 #include "server/openapi/strict.h"
 
-#define HASH "{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{64}$\",\"description\":\"of the bytes; what a scene names\"}"
+#define HASH \
+    "{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{64}$\",\"description\":\"SHA-256 of the bytes; the name of the " \
+    "asset in a scene\"}"
 
 static const char *type(size_t i)
 {
@@ -19,7 +21,7 @@ void kd_openapi_asset_schema(struct kd_json *json)
 {
     static const struct kd_openapi_member asset[] = {
         { "sha256", HASH },
-        { "token", "{\"type\":\"string\",\"description\":\"deletes it\"}", true },
+        { "token", "{\"type\":\"string\",\"description\":\"token that deletes the asset\"}", true },
         { "type", NULL, false, type },
         { "width", KD_SCHEMA_COUNT, true },
         { "height", KD_SCHEMA_COUNT, true },
@@ -29,9 +31,9 @@ void kd_openapi_asset_schema(struct kd_json *json)
         { "created", "{\"type\":\"number\",\"description\":\"seconds since 1970\"}" },
         { "nodes",
           "{\"type\":\"array\",\"items\":" KD_SCHEMA_COUNT
-          ",\"minItems\":3,\"maxItems\":3,\"description\":\"in r, theta and phi\"}",
+          ",\"minItems\":3,\"maxItems\":3,\"description\":\"numbers of nodes in r, theta and phi\"}",
           true },
-        { "spin", "{\"type\":\"number\",\"description\":\"of the hole that it is made for\"}", true },
+        { "spin", "{\"type\":\"number\",\"description\":\"spin of the hole that the grid is for\"}", true },
         { "visibilities", KD_SCHEMA_COUNT, true },
         { "stations", KD_SCHEMA_COUNT, true },
     };

@@ -97,37 +97,37 @@ static enum kd_status make(struct document *d, size_t i, const char *base_path, 
 enum kd_status kd_cached_documents_create(const char *base_path, bool closed, struct kd_cached_documents **out,
                                           struct kd_error *error)
 {
-    struct kd_cached_documents *kept = calloc(1, sizeof *kept);
+    struct kd_cached_documents *cache = calloc(1, sizeof *cache);
     size_t n = N_MAKERS + kd_scene_preset_count();
     enum kd_status status = KD_OK;
-    if (kept)
-        kept->documents = calloc(n, sizeof *kept->documents);
-    if (!kept || !kept->documents)
+    if (cache)
+        cache->documents = calloc(n, sizeof *cache->documents);
+    if (!cache || !cache->documents)
         status = KD_ENOMEM;
-    for (; !status && kept->n < n; kept->n++)
-        status = make(&kept->documents[kept->n], kept->n, base_path, closed);
+    for (; !status && cache->n < n; cache->n++)
+        status = make(&cache->documents[cache->n], cache->n, base_path, closed);
     if (!status)
-        return *out = kept, KD_OK;
-    kd_cached_documents_destroy(kept);
-    return kd_error_set(error, KD_ENOMEM, "out of memory for the documents that are kept");
+        return *out = cache, KD_OK;
+    kd_cached_documents_destroy(cache);
+    return kd_error_set(error, KD_ENOMEM, "out of memory for the cached documents");
 }
 
-void kd_cached_documents_destroy(struct kd_cached_documents *kept)
+void kd_cached_documents_destroy(struct kd_cached_documents *cache)
 {
-    if (!kept)
+    if (!cache)
         return;
-    for (size_t i = 0; i < kept->n; i++) {
-        kd_buffer_finish(&kept->documents[i].plain);
-        kd_buffer_finish(&kept->documents[i].gzip);
+    for (size_t i = 0; i < cache->n; i++) {
+        kd_buffer_finish(&cache->documents[i].plain);
+        kd_buffer_finish(&cache->documents[i].gzip);
     }
-    free(kept->documents);
-    free(kept);
+    free(cache->documents);
+    free(cache);
 }
 
-const struct kd_served *kd_cached_documents_find(const struct kd_cached_documents *kept, const char *path)
+const struct kd_served *kd_cached_documents_find(const struct kd_cached_documents *cache, const char *path)
 {
-    for (size_t i = 0; i < kept->n; i++)
-        if (!strcmp(kept->documents[i].path, path))
-            return &kept->documents[i].served;
+    for (size_t i = 0; i < cache->n; i++)
+        if (!strcmp(cache->documents[i].path, path))
+            return &cache->documents[i].served;
     return NULL;
 }

@@ -13,8 +13,8 @@ struct kd_cached_documents;
 /* base_path, closed: as for kd_openapi_json. */
 enum kd_status kd_cached_documents_create(const char *base_path, bool closed, struct kd_cached_documents **out,
                                           struct kd_error *error);
-void kd_cached_documents_destroy(struct kd_cached_documents *kept); /* accepts NULL */
+void kd_cached_documents_destroy(struct kd_cached_documents *cache); /* accepts NULL */
 /* Finds a document by the path of its route, such as "/v1/presets/gargantua"; NULL: none. */
-const struct kd_served *kd_cached_documents_find(const struct kd_cached_documents *kept, const char *path);
+const struct kd_served *kd_cached_documents_find(const struct kd_cached_documents *cache, const char *path);
 
 #endif

@@ -17,57 +17,56 @@ static const struct {
     bool required;
 } headers[] = {
     { "Location", "{\"type\":\"string\",\"format\":\"uri-reference\"}",
-      "where it is, relative to the address that was asked", true },
+      "address of the new resource, relative to the request's address", true },
     { "ETag", TEXT, "for If-None-Match", true },
-    { "Accept-Ranges", "{\"const\":\"bytes\"}", "parts of it may be asked for by Range", false },
-    { "Content-Range", TEXT, "bytes FIRST-LAST/ALL of a part; bytes */ALL where none of a range is there", true },
+    { "Accept-Ranges", "{\"const\":\"bytes\"}", "the resource supports Range", false },
+    { "Content-Range", TEXT, "bytes FIRST-LAST/ALL of a part; bytes */ALL if the range is beyond the end", true },
     { "Repr-Digest", TEXT, "sha-256 of the whole (RFC 9530)", false },
-    { "Content-Digest", TEXT, "the same, where the whole is what is sent", false },
+    { "Content-Digest", TEXT, "the same, if the answer is the whole", false },
     { "Content-Disposition", TEXT, "the name of a file", false },
-    { "Server-Timing", TEXT, "ms in the queue, of each pass, of encoding", false },
-    { "Preference-Applied", TEXT, "return=minimal, where Prefer asked for it", false },
-    { "Set-Cookie", TEXT, "the cookie of an access token, where the address had one", false },
+    { "Server-Timing", TEXT, "times in ms: queue, each pass, encoding", false },
+    { "Preference-Applied", TEXT, "return=minimal, if Prefer requested it", false },
+    { "Set-Cookie", TEXT, "cookie with the access token, if the address had one", false },
     { "Kerrd-Scene-Hash", "{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{64}$\"}", "SHA-256 of the canonical scene",
       true },
-    { "Kerrd-Accuracy", TEXT, "what traced it, and its measured error", false },
+    { "Kerrd-Accuracy", TEXT, "engine of the picture, and its measured error", false },
     { "Kerrd-Approximations", TEXT,
-      "names, with commas between them, of what is modelled rather than computed: /v1/approximations has the sentence "
-      "of each",
-      false },
-    { "Kerrd-Clock", TEXT, "an observer's own time, of one that falls", false },
-    { "Kerrd-Flux", TEXT, "of a picture at a radio frequency", false },
+      "names of the approximations, separated by commas; /v1/approximations has the sentence of each", false },
+    { "Kerrd-Clock", TEXT, "proper time of a falling observer", false },
+    { "Kerrd-Flux", TEXT, "flux of a picture at a radio frequency", false },
     { "Kerrd-Frame", COUNT, "the number of the frame", false },
-    { "Kerrd-Revision", COUNT, "of the scene that it shows", false },
+    { "Kerrd-Revision", COUNT, "revision of the scene in the picture", false },
     { "Kerrd-Time", NUMBER, "M", false },
     { "Kerrd-Azimuth", NUMBER, "degrees", false },
-    { "Kerrd-Sentences", COUNT, "stands for the approximations: as sentences in the next request", false },
+    { "Kerrd-Sentences", COUNT, "number that represents the approximations; send it as sentences in the next request",
+      false },
     { "Kerrd-Quality", TEXT, "the quality in force", false },
-    { "Kerrd-Waited", NUMBER, "ms that the request waited here", false },
-    { "Kerrd-Patched", COUNT, "the revision that the patch has made", false },
-    { "Kerrd-Rows", TEXT, "ROWS/HEIGHT of a frame that is being drawn", false },
+    { "Kerrd-Waited", NUMBER, "time in ms that the request waited for the frame", false },
+    { "Kerrd-Patched", COUNT, "revision after the patch", false },
+    { "Kerrd-Rows", TEXT, "ROWS/HEIGHT of an unfinished frame", false },
     { "Kerrd-Fields", TEXT, "columns of a row", true },
     { "Kerrd-Count", COUNT, "rows", true },
-    { "Kerrd-Particles", COUNT, "how many particles there are", true },
+    { "Kerrd-Particles", COUNT, "number of particles", true },
     { "Kerrd-Generation", COUNT, "for after", true },
     { "RateLimit-Policy", TEXT,
-      "\"device-seconds\";q=SECONDS;w=60: of the device's time that one client may use in a minute, where "
-      "kerrd serve --client-device-seconds limits it",
+      "\"device-seconds\";q=SECONDS;w=60: device time that one client may use in a minute, if kerrd serve "
+      "--client-device-seconds limits it",
       false },
     { "RateLimit", TEXT,
-      "\"device-seconds\";r=LEFT;t=SECONDS: what is left, and in how many seconds all is there again", false },
-    { "Retry-After", COUNT, "seconds, after which another try may go better", false },
-    { "WWW-Authenticate", "{\"const\":\"Bearer\"}", "how to say who asks", true },
-    { "Allow", TEXT, "the methods that would do", true },
+      "\"device-seconds\";r=LEFT;t=SECONDS: remaining device time, and the seconds until all of it is available again",
+      false },
+    { "Retry-After", COUNT, "seconds to wait before another attempt", false },
+    { "WWW-Authenticate", "{\"const\":\"Bearer\"}", "scheme of authentication", true },
+    { "Allow", TEXT, "methods of this address", true },
     { KD_REQUEST_ID_HEADER, TEXT,
-      "by which the log knows the request: what it said as " KD_REQUEST_ID_HEADER
-      ", if that is 1 to 64 letters, digits and -._+/=, else a new one",
+      "id of the request in the log: the request's " KD_REQUEST_ID_HEADER
+      ", if it has 1 to 64 letters, digits and -._+/=, otherwise a new one",
       false },
     { "Access-Control-Allow-Origin", TEXT,
-      "the Origin of a request, where kerrd serve --cors-origin names it; a preflight (OPTIONS) of such a one is "
-      "answered 204 on each path",
+      "the Origin of the request, if kerrd serve --cors-origin names it; a preflight (OPTIONS) from such an origin "
+      "gets 204 on every path",
       false },
-    { "Access-Control-Expose-Headers", TEXT, "beside it: the headers of answers that scripts of that origin may read",
-      false },
+    { "Access-Control-Expose-Headers", TEXT, "headers of answers that scripts of that origin may read", false },
 };
 
 #define EVERY \
@@ -144,19 +143,18 @@ static const struct {
     bool (*of)(const struct kd_route *route, unsigned method);
     const char *schema; /* NULL: any text */
 } asked[] = {
-    { "If-None-Match", "ETag of what the client has: where it is the same the answer is 304", is_kept },
+    { "If-None-Match", "ETag of the client's copy; if it is still valid, the answer is 304", is_kept },
     { "Range",
-      "bytes=FIRST-LAST, bytes=FIRST- or bytes=-LAST_ONES: the answer is this part, 206; what is anything else, and "
-      "several ranges, are answered with the whole",
+      "bytes=FIRST-LAST, bytes=FIRST- or bytes=-COUNT (the last bytes): the answer is this part, with status 206; for "
+      "several ranges, or another form, the answer is the whole",
       sends_parts },
-    { "If-Range", "ETag of what the client has the other part of: where it is another one the answer is the whole",
-      sends_parts },
+    { "If-Range", "ETag of the client's partial copy; if it is no longer valid, the answer is the whole", sends_parts },
     { "Last-Event-ID",
-      "id of the last event that the client has, behind which the stream goes on; what is no number counts as none",
+      "id of the client's last event, after which the stream continues; a value that is not a number is ignored",
       tells_events },
     { KD_ONCE_HEADER,
-      "a string of 1 to 128 characters, new with each request: one that is sent again with the same key and body is "
-      "answered with what the first has made, as long as that is there",
+      "key of 1 to 128 characters, new for each request: a repeated request with the same key and body gets the "
+      "resource of the first, while it exists",
       is_made_once,
       "{\"type\":\"string\",\"pattern\":\"^[ \\\\t]*(\\\"[ !#-\\\\[\\\\]-~]{1,128}\\\"|[!#-+\\\\-"
       "-\\\\[\\\\]-~]([ !#-+\\\\--\\\\[\\\\]-~]{0,126}[!#-+\\\\--\\\\[\\\\]-~])?)[ \\\\t]*$\"}" },
@@ -221,9 +219,10 @@ void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsi
     if (kept)
         refer_all(json, "ETag");
     else if (whole)
-        kd_schema_text(json, "ETag",
-                       "{\"description\":\"for If-None-Match; streams, tables and frames that are being drawn have "
-                       "none\",\"schema\":" TEXT "}");
+        kd_schema_text(
+            json, "ETag",
+            "{\"description\":\"for If-None-Match; streams, tables and unfinished frames have none\",\"schema\":" TEXT
+            "}");
     if (part)
         refer_all(json, "Content-Range Content-Disposition");
     if (part || (status == 200 && sends_parts(route, method)))

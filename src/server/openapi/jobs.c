@@ -53,19 +53,19 @@ static const char film[] = OBJECT PICTURES_ALONE
     "\"required\":[\"playground\",\"every\"],\"anyOf\":[{\"required\":[\"frames\"]},{\"required\":[\"keyframes\"]}],"
     "\"properties\":{\"playground\":{\"allOf\":[" KD_SCHEMA_REF(
         "Playground") ",{\"not\":{\"anyOf\":[{\"required\":[\"rate\"]},{\"required\":[\"paused\"]},{\"required\":["
-                      "\"scene\"]}]}}],\"description\":\"a document of a playground, or a "
-                      "snapshot, as POST /v1/playground takes them, without rate, paused and "
-                      "scene\"},\"every\":{\"type\":\"number\",\"exclusiveMinimum\":0,\"maximum\":1e12,"
-                      "\"description\":\"M from a frame to the next\"},\"scene\":" KD_OPENAPI_SCENE
+                      "\"scene\"]}]}}],\"description\":\"a document of a playground, or a snapshot, as POST "
+                      "/v1/playground takes them, without rate, paused and "
+                      "scene\"},\"every\":{\"type\":\"number\",\"exclusiveMinimum\":0,\"maximum\":1e12,\"description\":"
+                      "\"time in M from one frame to the next\"},\"scene\":" KD_OPENAPI_SCENE
                       "," KD_OPENAPI_TIMELINE("frame", FRAME) ",\"frames\":{\"type\":\"integer\",\"minimum\":1,"
                                                               "\"maximum\":10000}," EXPOSURE("\"each\"") "," OUTPUT
                                                                                                          "}}";
 
 #define BLUR \
-    "\"motion_blur\":" OBJECT "\"required\":[\"samples\"],\"properties\":{\"samples\":{\"type\":\"integer\"," \
-    "\"minimum\":1,\"maximum\":64},\"shutter\":" \
-    "{\"type\":\"number\",\"exclusiveMinimum\":0,\"maximum\":1,\"default\":0.5,\"description\":\"the part of a " \
-    "frame's time in which the shutter is open\"}}}"
+    "\"motion_blur\":" OBJECT \
+    "\"required\":[\"samples\"],\"properties\":{\"samples\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":64}," \
+    "\"shutter\":{\"type\":\"number\",\"exclusiveMinimum\":0,\"maximum\":1,\"default\":0.5,\"description\":\"open " \
+    "time of the shutter over a frame's time\"}}}"
 
 static const char sequence[] = OBJECT PICTURES_ALONE TAKES_KEYFRAMES
     "\"required\":[\"scene\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE

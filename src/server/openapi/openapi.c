@@ -20,7 +20,7 @@
 #include "server/openapi/sessions.h"
 #include "server/openapi/share.h"
 #include "server/openapi/strict.h"
-#include "server/playground/plays.h"
+#include "server/playground/sessions.h"
 #include "server/http/query.h"
 #include "server/http/request.h"
 #include "scene/scene.h"
@@ -119,12 +119,12 @@ static void add_path_parameter(struct kd_json *json, const char *path)
         KD_PATIENCE_MS_MAX) "}"
 #define ORDER \
     "order", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" KD_SCHEMA_DIGITS(KD_ORDER_MAX) "}", \
-        "of patches that are under way at once the one with the highest number counts: one that comes after a higher " \
-        "one changes nothing"
-#define LEAST "least", PART, "the least part of image.width that a frame has while the scene changes; 0.25 without it"
+        "order of concurrent patches: the highest number counts, and a patch that arrives after a higher one has no " \
+        "effect"
+#define LEAST \
+    "least", PART, "smallest width of a frame while the scene changes, as a fraction of image.width; default 0.25"
 #define PATIENCE \
-    "patience_ms", PACE_MS, \
-        "frames are narrower than that all the same where they were measured to take longer than this"
+    "patience_ms", PACE_MS, "limit of a frame's time in ms: frames that take longer are made narrower than least"
 #define MOMENT "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_WAIT_MS_MAX) "}"
 
 #define ROOM(least, most) \
@@ -140,46 +140,47 @@ static const struct {
     { "/v1/sessions", PATIENCE },
     { "/v1/sessions/{id}", LEAST, KD_PATCH },
     { "/v1/sessions/{id}", PATIENCE, KD_PATCH },
-    { "/v1/sessions/{id}/frame.png", "after", INT, "number of the last frame that the client has; 0 without it" },
-    { "/v1/sessions/{id}/frame.png", "wait_ms", MOMENT, "how long to wait for a newer one" },
+    { "/v1/sessions/{id}/frame.png", "after", INT, "number of the client's last frame; default 0" },
+    { "/v1/sessions/{id}/frame.png", "wait_ms", MOMENT, "time in ms to wait for a newer one" },
     { "/v1/sessions/{id}", ORDER, KD_PATCH },
     { "/v1/sessions/{id}/frame", ORDER, KD_PATCH },
-    { "/v1/sessions/{id}/frame", "after", INT, "number of the last frame that the client has; 0 without it" },
-    { "/v1/sessions/{id}/frame", "wait_ms", MOMENT, "how long to wait for a newer one" },
+    { "/v1/sessions/{id}/frame", "after", INT, "number of the client's last frame; default 0" },
+    { "/v1/sessions/{id}/frame", "wait_ms", MOMENT, "time in ms to wait for a newer one" },
     { "/v1/sessions/{id}/frame", "lossy",
       "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" KD_SCHEMA_DIGITS(KD_LOSSY_MAX) "}",
-      "takes frames that are not the last as JPEG of this quality; without it all are PNG" },
+      "quality of JPEG for frames before the last; without it all frames are PNG" },
     { "/v1/sessions/{id}/frame", "sentences",
       "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_SENTENCES_MAX) "}",
-      "Kerrd-Sentences of a frame that the client has: where the newer one has the same approximations, they are left "
-      "out" },
-    { "/v1/playground/{id}/frame.png", "after", INT, "number of the last frame that the client has; 0 without it" },
-    { "/v1/playground/{id}/frame.png", "wait_ms", MOMENT, "how long to wait for a newer one" },
+      "Kerrd-Sentences of the client's frame; a newer frame with the same approximations omits them" },
+    { "/v1/playground/{id}/frame.png", "after", INT, "number of the client's last frame; default 0" },
+    { "/v1/playground/{id}/frame.png", "wait_ms", MOMENT, "time in ms to wait for a newer one" },
     { "/v1/playground/{id}/bodies", "after", INT,
-      "generation that the client has; without it the answer comes at once" },
-    { "/v1/playground/{id}/bodies", "wait_ms", MOMENT, "how long to wait for a newer one" },
+      "generation of the client's data; without it the answer is immediate" },
+    { "/v1/playground/{id}/bodies", "wait_ms", MOMENT, "time in ms to wait for a newer one" },
     { "/v1/playground/{id}/debris", "after", INT,
-      "generation that the client has; without it the answer comes at once" },
-    { "/v1/playground/{id}/debris", "wait_ms", MOMENT, "how long to wait for a newer one" },
+      "generation of the client's data; without it the answer is immediate" },
+    { "/v1/playground/{id}/debris", "wait_ms", MOMENT, "time in ms to wait for a newer one" },
     { "/v1/playground/{id}/debris", "at_most", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":1000000}",
-      "pieces: where there are more, every k-th is given; 20000 without it" },
+      "largest number of pieces; of more, the answer has every k-th; default 20000" },
     { "/v1/playground/{id}/events", "since", INT,
-      "number of the event behind which to begin, as Last-Event-ID says it; without it, all that are kept" },
+      "number of the event after which the stream begins, like Last-Event-ID; default: all stored events" },
     { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^" KD_OPENAPI_DECIMAL "," KD_OPENAPI_DECIMAL "$\"}",
-      "the pixel: a place X,Y in the picture, in pixels from its upper left corner", 0, true },
-    { "/v1/pixel", "trace", "{\"const\":\"steps\"}", "tells the engine's own steps along the middle ray, too" },
-    { "/v1/share/{code}/picture.png", "width", ROOM(64, 1200), "pixels; 1200 without it. Its height follows" },
+      "position X,Y of the pixel, in pixels from the upper left corner", 0, true },
+    { "/v1/pixel", "trace", "{\"const\":\"steps\"}", "steps: the answer has the engine's steps along the middle ray" },
+    { "/v1/share/{code}/picture.png", "width", ROOM(64, 1200),
+      "width in pixels, from which the height follows; default 1200" },
     { "/oembed", "url", "{\"type\":\"string\",\"format\":\"uri\"}", "the address of a shared scene", 0, true },
-    { "/oembed", "maxwidth", ROOM(64, 1000000), "pixels that there is room for" },
+    { "/oembed", "maxwidth", ROOM(64, 1000000), "available width in pixels" },
     { "/oembed", "maxheight", ROOM(34, 1000000), "likewise" },
-    { "/oembed", "format", "{\"const\":\"json\"}", "the one that there is" },
+    { "/oembed", "format", "{\"const\":\"json\"}", "format of the answer; only json" },
     { "/v1/jobs/{id}/result", "format", NULL,
-      "json and csv are those of a light curve; fits and npz without a frame the cube of a sweep; the others of "
-      "pictures, and of files of numbers; mp4 and webm of pictures alone, by the program ffmpeg" },
+      "json and csv: a light curve; fits and npz without frame: the cube of a sweep; mp4 and webm: a film of pictures, "
+      "by the program ffmpeg; the others: pictures or files of numbers" },
     { "/v1/jobs/{id}/result", "frame", INT,
-      "which, by itself: with format=png, fits, npz, npy or exr; with format=stream from which on" },
+      "number of a single frame, with format=png, fits, npz, npy or exr; with format=stream, number of the first "
+      "frame" },
     { "/v1/jobs/{id}/result", "rate", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":120}",
-      "frames a second, with format=mp4 or webm; 24 without it" },
+      "frames a second, with format=mp4 or webm; default 24" },
 };
 
 _Static_assert(KD_PLAYGROUND_DEBRIS_MAX == 1000000 && KD_PLAY_DEBRIS == 20000, "the row of at_most says so");

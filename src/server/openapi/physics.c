@@ -84,11 +84,10 @@ static void add_parameters(struct kd_json *json, const struct kd_quantity *quant
         add_schema(json, p);
         kd_json_end(json);
     }
-    begin_parameter(json, "digits", "significant digits of the numbers in lists, in CSV of all; 17: all that there are",
-                    "");
+    begin_parameter(json, "digits", "significant digits of numbers in lists, and of all numbers in CSV; 17: all", "");
     kd_json_raw(json, "schema", DIGITS, strlen(DIGITS));
     kd_json_end(json);
-    begin_parameter(json, "format", "instead of Accept", "");
+    begin_parameter(json, "format", "format of the answer, instead of Accept", "");
     kd_json_object(json, "schema");
     add_words(json, quantity->sound ? "json|csv|wav" : "json|csv");
     kd_json_end(json);

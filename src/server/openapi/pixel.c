@@ -17,7 +17,7 @@
 /* The Stokes parameters I, Q and U, and for volumes also V. */
 #define STOKES "{\"type\":\"array\",\"minItems\":3,\"maxItems\":4,\"items\":{\"type\":\"number\"}}"
 /* docs/pixel.md describes each member of the schemas below. */
-#define UNITS "lengths and times in M, angles in radians; frequencies over those that the observer measures"
+#define UNITS "lengths and times in M, angles in radians; frequencies relative to those that the observer measures"
 #define ROWS LIST(LIST("{\"type\":[\"number\",\"null\",\"string\"]}"))
 
 static const char *fate(size_t i) { return i <= KD_RAY_UNDECIDED ? kd_ray_fate_name((enum kd_ray_fate)i) : NULL; }

@@ -3,13 +3,14 @@
 #include "playground/preset.h"
 #include "server/openapi/media.h"
 #include "server/openapi/strict.h"
-#include "server/playground/plays.h"
+#include "server/playground/sessions.h"
 
 #include <string.h>
 
 /* docs/playground.md describes each member of the schemas below. */
 #define UNITS \
-    "lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the clock"
+    "lengths and times in M, masses and energies in units of the hole's mass, speeds in c; rates in M per second of " \
+    "real time"
 #define BODIES(schema) "{\"type\":\"array\",\"maxItems\":4096,\"items\":{\"$ref\":\"#/components/schemas/" schema "\"}}"
 
 static void add_words(struct kd_json *json, const char *words)
@@ -79,7 +80,7 @@ static void add_body(struct kd_json *json, const char *name, bool id)
     for (size_t i = 0; i < kd_playground_n_body_fields; i++)
         add_row(json, &kd_playground_body_fields[i]);
     add_vector(json, "position", 1e6, "x, y, z in M; the hole is at the origin, its axis along z");
-    add_vector(json, "velocity", 1, "in c, and in all no faster");
+    add_vector(json, "velocity", 1, "velocity in c; the speed must be at most 1");
     kd_json_end(json);
     kd_json_end(json);
 }
@@ -101,7 +102,7 @@ static void add_properties(struct kd_json *json, bool patch)
     kd_json_string(json, "type", "number");
     kd_json_number(json, "minimum", 0);
     kd_json_number(json, "maximum", KD_PLAY_RATE_MAX);
-    kd_json_string(json, "description", "M a second of the clock; a preset has one of its own");
+    kd_json_string(json, "description", "pace in M per second of real time; a preset has its own default");
     kd_json_end(json);
     add_raw(json, "paused", "{\"type\":\"boolean\",\"default\":false}");
     add_raw(json, "scene", KD_SCHEMA_REF("Scene")); /* a merge patch for the scene of the playground's pictures */
@@ -117,8 +118,8 @@ static void add_properties(struct kd_json *json, bool patch)
     add_preset(json);
     add_raw(json, "bodies", BODIES("PlaygroundBody"));
     add_raw(json, "state",
-            "{\"type\":\"object\",\"additionalProperties\":true,\"description\":\"of a snapshot: all that the motion "
-            "depends on besides. To be given back as it came: it differs between versions\"}");
+            "{\"type\":\"object\",\"additionalProperties\":true,\"description\":\"further state of a snapshot, on "
+            "which the motion depends. Return it unchanged; its form depends on the version\"}");
 }
 
 static void add_document(struct kd_json *json, const char *name, bool patch)

@@ -165,8 +165,8 @@ void kd_openapi_problem_schema(struct kd_json *json)
         { "title", KD_SCHEMA_TEXT },
         { "status", "{\"type\":\"integer\",\"minimum\":400,\"maximum\":599}" },
         { "detail", KD_SCHEMA_TEXT },
-        { "pointer", "{\"type\":\"string\",\"description\":\"into the request (RFC 6901)\"}", true },
-        { "offered", "{\"type\":\"string\",\"description\":\"media types that would do\"}", true },
+        { "pointer", "{\"type\":\"string\",\"description\":\"JSON pointer into the request (RFC 6901)\"}", true },
+        { "offered", "{\"type\":\"string\",\"description\":\"accepted media types\"}", true },
         { "request_id", "{\"type\":\"string\",\"description\":\"as in the header X-Request-Id\"}", true },
     };
     KD_OPENAPI_STRICT(json, "Problem", problem);

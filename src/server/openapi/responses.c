@@ -79,14 +79,14 @@ static void add_led_on(struct kd_json *json, const struct kd_route *route, unsig
 {
     if (strcmp(route->path, "/"))
         return;
-    begin_response(json, route, method, 303, "Where the address held an access token");
+    begin_response(json, route, method, 303, "If the address had an access token");
     kd_json_end(json);
 }
 
 static void add_part(struct kd_json *json, const struct kd_route *route, unsigned method)
 {
     static const char bytes[] = "{\"type\":\"string\",\"format\":\"binary\"}";
-    begin_response(json, route, method, 206, "The part that Range asks for");
+    begin_response(json, route, method, 206, "The part that Range requests");
     kd_json_object(json, "content");
     kd_openapi_media(json, "*/*", bytes, strlen(bytes));
     kd_json_end(json);
@@ -108,7 +108,7 @@ void kd_openapi_responses(struct kd_json *json, const struct kd_route *route, un
     kd_json_end(json);
     const unsigned also = method == KD_DELETE || (route->status[1] == 201 && method != KD_PUT) ? 0 : route->status[1];
     if (also) {
-        begin_response(json, route, method, also, also == 304 ? "What If-None-Match names" : route->summary);
+        begin_response(json, route, method, also, also == 304 ? "The client's copy is still valid" : route->summary);
         if (also == 201)
             add_answer(json, route, method);
         kd_json_end(json);

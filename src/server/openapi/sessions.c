@@ -55,10 +55,10 @@ void kd_openapi_session_schemas(struct kd_json *json)
 
 void kd_openapi_strike_body(struct kd_json *json)
 {
-    static const char body[] = "{\"required\":false,\"content\":{\"application/json\":{\"schema\":{\"type\":\"object\","
-                               "\"additionalProperties\":false,\"properties\":{\"amplitude\":{\"type\":\"number\","
-                               "\"minimum\":0,\"maximum\":1,\"description\":"
-                               "\"style.ringdown; without it, what that is, or 1 where it is 0\"}}}}}}";
+    static const char body[] = "{\"required\":false,\"content\":{\"application/"
+                               "json\":{\"schema\":{\"type\":\"object\",\"additionalProperties\":false,\"properties\":{"
+                               "\"amplitude\":{\"type\":\"number\",\"minimum\":0,\"maximum\":1,\"description\":\"new "
+                               "style.ringdown; default: the present value, or 1 if it is 0\"}}}}}}";
     kd_json_raw(json, "requestBody", body, sizeof body - 1);
 }
 
@@ -83,17 +83,18 @@ void kd_openapi_particles_parameters(struct kd_json *json)
     static const struct {
         const char *name, *help, *schema;
     } known[] = {
-        { "first", "number of the first particle; 0 without it", "{\"type\":\"integer\",\"minimum\":0}" },
-        { "stride", "from one to the next; 1 without it", "{\"type\":\"integer\",\"minimum\":1}" },
-        { "count", "how many; without it, as many as there are", "{\"type\":\"integer\",\"minimum\":1}" },
-        { "time", "M; without it, the session's now", "{\"type\":\"number\",\"minimum\":-1e12,\"maximum\":1e12}" },
+        { "first", "number of the first particle; default 0", "{\"type\":\"integer\",\"minimum\":0}" },
+        { "stride", "step from one particle number to the next; default 1", "{\"type\":\"integer\",\"minimum\":1}" },
+        { "count", "number of particles; default: all", "{\"type\":\"integer\",\"minimum\":1}" },
+        { "time", "time in M; default: the session's present time",
+          "{\"type\":\"number\",\"minimum\":-1e12,\"maximum\":1e12}" },
     };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         begin(json, known[i].name, known[i].help);
         kd_json_raw(json, "schema", known[i].schema, strlen(known[i].schema));
         kd_json_end(json);
     }
-    begin(json, "fields", "columns of a row; x,y,z without it");
+    begin(json, "fields", "columns of a row; default x,y,z");
     kd_json_string(json, "style", "form");
     kd_json_bool(json, "explode", false);
     kd_json_object(json, "schema");

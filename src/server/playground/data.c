@@ -144,18 +144,18 @@ static enum MHD_Result begin(struct kd_request *request, bool debris)
                        &refused))
         return refused;
     if (!kd_target_whole(&request->target, "after", 0, UINT64_MAX, &after))
-        return bad_number(request, "after is a generation, Kerrd-Generation of what you have");
+        return bad_number(request, "after must be a generation, the Kerrd-Generation of your last answer");
     if (!kd_target_whole(&request->target, "wait_ms", KD_WAIT_MS, KD_WAIT_MS_MAX, &wait_ms))
-        return bad_number(request, "wait_ms is a whole number of milliseconds, 0 to 60000");
+        return bad_number(request, "wait_ms must be a whole number of milliseconds, 0 to 60000");
     if (debris &&
         (!kd_target_whole(&request->target, "at_most", KD_PLAY_DEBRIS, KD_PLAYGROUND_DEBRIS_MAX, &most) || !most))
-        return bad_number(request, "at_most is a whole number of pieces, 1 to 1000000");
+        return bad_number(request, "at_most must be a whole number of pieces, 1 to 1000000");
     const size_t type = kd_reply_accepted(request, 2, kd_accept_string, types);
     if (type == 2)
         return kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
                                             .offered = PACKED_TYPE ", " KD_NPY_TYPE,
-                                            .detail = "places are given as one of the types that are offered" });
+                                            .detail = "positions are available only as the listed media types" });
     struct kd_playground_session *play = kd_playground_session_of(request, &refused);
     if (!play)
         return refused;

@@ -14,12 +14,12 @@
 
 static const struct kd_playground_setting pace_rows[] = {
     { "rate", KD_SETTING_REAL, offsetof(struct kd_playground_session_pace, rate), USUAL_RATE, 0, KD_PLAY_RATE_MAX, 0,
-      NULL, "M a second of the clock" },
+      NULL, "pace in M per second of real time" },
     { "paused", KD_SETTING_BOOL, offsetof(struct kd_playground_session_pace, paused), 0, 0, 1, 0, NULL,
-      "whether it stands" },
+      "whether the simulation is paused" },
 };
-static const struct kd_playground_setting step_row = { "by", KD_SETTING_REAL, 0, 0, 0, STEP_MOST, 0,
-                                                       NULL, "M to go on by" };
+static const struct kd_playground_setting step_row = { "by", KD_SETTING_REAL,       0, 0, 0, STEP_MOST, 0,
+                                                       NULL, "time in M to advance" };
 
 enum kd_status kd_playground_session_read_pace(cJSON *tree, struct kd_playground_session_pace *pace,
                                                struct kd_error *error)
@@ -47,7 +47,7 @@ enum kd_status kd_playground_session_read_scene(const cJSON *item, const struct 
     if (!item)
         return KD_OK;
     if (!cJSON_IsObject(item))
-        return kd_error_field(error, "/scene", "scene is no object");
+        return kd_error_field(error, "/scene", "scene is not an object");
     KD_TRY(kd_scene_from_tree(scene, item, true, error));
     KD_TRY(kd_scene_resolve(scene, assets, error));
     KD_TRY(kd_scene_validate(scene, error));
@@ -69,7 +69,7 @@ enum kd_status kd_playground_session_read_step(const char *text, size_t length, 
     bool given = false;
     KD_TRY(kd_tree_parse(text, length, 4096, STEP_VALUES, &tree, error));
     if (!cJSON_IsObject(tree))
-        KD_TRY(kd_error_set(error, KD_EINVAL, "the body is no JSON object"));
+        KD_TRY(kd_error_set(error, KD_EINVAL, "the body is not a JSON object"));
     for (const cJSON *item = tree->child; item; item = item->next) {
         const struct kd_value value = kd_tree_value(item);
         if (strcmp(item->string, "by"))

@@ -5,7 +5,7 @@
 #include "playground/json.h"
 #include "scene/asset.h"
 #include "scene/scene.h"
-#include "server/playground/plays.h"
+#include "server/playground/sessions.h"
 
 /* Moves "rate" and "paused" out of the tree into *pace. A member of *pace whose entry is absent is unchanged. KD_EINVAL
  * with a pointer. */

@@ -125,7 +125,7 @@ enum MHD_Result kd_handle_play_events(struct kd_request *request)
         return refused;
     if (!begins_at(request, &since))
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS,
-                                                                .detail = "since is the number of an event" });
+                                                                .detail = "since must be the number of an event" });
     struct kd_playground_session *play = kd_playground_session_of(request, &refused);
     if (!play)
         return refused;

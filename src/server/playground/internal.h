@@ -4,20 +4,20 @@
 
 #include "server/http/bytes.h"
 #include "server/http/secret.h"
-#include "server/playground/plays.h"
+#include "server/playground/sessions.h"
 #include "server/session/sessions.h"
 
 #include <pthread.h>
 
 struct kd_playground_session {
-    struct kd_scheduler_job turns; /* must be the first member; the session's job in the scheduler */
+    struct kd_scheduler_job scheduled; /* must be the first member; the session's job in the scheduler */
     struct kd_playground_sessions *all;
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
     /* all->lock protects the members from here on */
     struct kd_playground_session *next;
     unsigned references;
     /* bytes: memory reserved; crowd_bytes: the part for the bodies of the picture, reserved while there is a picture */
-    size_t bytes, crowd_bytes;
+    size_t bytes, dynamic_bytes;
     struct kd_once once; /* hashes of the request that created it */
     bool listed, stepping;
     const char *why; /* why the session has ended; NULL: it has not */
@@ -50,7 +50,7 @@ struct kd_playground_session {
 
 struct kd_playground_sessions {
     struct kd_playground_sessions_params params;
-    struct kd_scheduler *turns;
+    struct kd_scheduler *scheduler;
     struct kd_bytes *bytes;
     pthread_mutex_t lock;
     struct kd_playground_session *first;

@@ -7,7 +7,7 @@
 #include "server/render/queue.h"
 
 /* Memory of a picture: up to three sets of bodies at once. One waits, one is shown, and one is being made. */
-#define CROWD_BYTES \
+#define DYNAMIC_BYTES \
     (3 * \
      ((size_t)KD_SHOW_NODES * KD_CROWD_NODE * sizeof(float) + KD_PLAYGROUND_BODIES_MAX * sizeof(struct kd_seen_body)))
 #define ASKED_MS 1000. /* a viewer that has requested a frame is expected to request the next within this time */
@@ -38,16 +38,16 @@ void kd_playground_session_hide(struct kd_playground_session *play)
         return;
     kd_session_end(picture);
     kd_session_release(picture);
-    kd_bytes_give(play->all->bytes, play->turns.client, play->crowd_bytes);
-    play->crowd_bytes = 0;
+    kd_bytes_give(play->all->bytes, play->scheduled.client, play->dynamic_bytes);
+    play->dynamic_bytes = 0;
 }
 
 static enum kd_status take_bytes(struct kd_playground_session *play, bool *quota, struct kd_error *error)
 {
-    if (kd_bytes_take(play->all->bytes, play->turns.client, CROWD_BYTES, CROWD_BYTES, quota))
-        return kd_error_set(error, KD_EBUSY, "a picture of a playground takes %zu MiB, more than is left %s",
-                            CROWD_BYTES >> 20, *quota ? "of your share" : "on this server");
-    play->crowd_bytes = CROWD_BYTES;
+    if (kd_bytes_take(play->all->bytes, play->scheduled.client, DYNAMIC_BYTES, DYNAMIC_BYTES, quota))
+        return kd_error_set(error, KD_EBUSY, "a picture of a playground needs %zu MiB, more than is free %s",
+                            DYNAMIC_BYTES >> 20, *quota ? "of your share" : "on this server");
+    play->dynamic_bytes = DYNAMIC_BYTES;
     return KD_OK;
 }
 
@@ -106,8 +106,8 @@ static enum kd_status open_picture(struct kd_playground_session *play, bool *quo
     enum kd_status status;
     kd_playground_session_scene(play, &scene);
     KD_TRY(make_plan(play->all, &scene, &plan, error));
-    KD_TRY(
-        kd_sessions_open(play->all->params.sessions, &scene, &plan, play->turns.client, true, NULL, quota, out, error));
+    KD_TRY(kd_sessions_open(play->all->params.sessions, &scene, &plan, play->scheduled.client, true, NULL, quota, out,
+                            error));
 done:
     return status;
 }
@@ -127,15 +127,15 @@ enum kd_status kd_playground_session_picture(struct kd_playground_session *play,
     if (status)
         return status;
     pthread_mutex_lock(&play->all->lock);
-    if (fresh && !play->crowd_bytes)
+    if (fresh && !play->dynamic_bytes)
         status = take_bytes(play, quota, error);
     if (fresh && !status) {
-        const size_t held = play->crowd_bytes; /* reserved for the new picture from now on */
+        const size_t held = play->dynamic_bytes; /* reserved for the new picture from now on */
         if (play->picture)
             kd_session_go_on_from(fresh, play->picture);
-        play->crowd_bytes = 0;
+        play->dynamic_bytes = 0;
         kd_playground_session_hide(play);
-        play->crowd_bytes = held;
+        play->dynamic_bytes = held;
         play->picture = fresh;
         play->unshown = true;
     }

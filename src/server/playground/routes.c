@@ -35,7 +35,7 @@ struct play_task {
 
 struct kd_playground_session *kd_playground_session_of(struct kd_request *request, enum MHD_Result *refused)
 {
-    struct kd_playground_session *play = kd_playground_sessions_find(request->server->plays, request->rest);
+    struct kd_playground_session *play = kd_playground_sessions_find(request->server->playgrounds, request->rest);
     if (!play)
         *refused = kd_reply_problem(request,
                                     &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
@@ -96,9 +96,9 @@ static enum kd_status open_play(struct play_task *t, struct kd_error *error)
     KD_TRY(kd_playground_usual_scene(kd_playground_preset_in(tree), p, &scene, error));
     KD_TRY(kd_playground_session_read_scene(look, p, kd_asset_store_assets(server->assets), &scene, error));
     if (look)
-        KD_TRY(kd_playground_sessions_takes(server->plays, &scene, error));
+        KD_TRY(kd_playground_sessions_takes(server->playgrounds, &scene, error));
     struct kd_playground *opened = p;
-    KD_TRY(kd_playground_sessions_open(server->plays, &p, &pace, &scene, t->task.request->client, &t->task.quota,
+    KD_TRY(kd_playground_sessions_open(server->playgrounds, &p, &pace, &scene, t->task.request->client, &t->task.quota,
                                        &t->play, error));
     kd_playground_session_promise(t->play, &t->task.request->once);
     status = tell(t, opened, &(struct kd_playground_session_told) { .token = true, .before = UINT32_MAX }, error);
@@ -135,7 +135,8 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
     enum kd_status status = KD_OK;
     t->conflict = state.stepping;
     if (t->conflict)
-        KD_TRY(kd_error_set(error, KD_EINVAL, "the playground is being stepped: it is changed before or after that"));
+        KD_TRY(kd_error_set(error, KD_EINVAL,
+                            "the playground cannot change during a step; repeat the request after the step"));
     KD_TRY(kd_playground_session_read_pace(tree, &pace, error));
     kd_playground_session_scene(t->play, &scene);
     KD_TRY(kd_playground_session_read_scene(look, *p, kd_asset_store_assets(server->assets), &scene, error));
@@ -183,7 +184,8 @@ static enum kd_slice_result step(struct play_task *t, struct kd_playground *p, d
         t->steps = kd_playground_session_step(t->play);
         t->conflict = !t->steps;
         if (t->conflict) {
-            kd_error_set(error, KD_EINVAL, "a playground is stepped while it is paused, and by one request at a time");
+            kd_error_set(error, KD_EINVAL,
+                         "a step needs a paused playground, and only one request may step it at a time");
             return KD_SLICE_LAST;
         }
     }
@@ -245,7 +247,7 @@ static enum kd_slice_result work(struct kd_task *task, double until_ms)
     if (!error.status)
         kd_task_fail(
             task,
-            kd_task_hold(task->request->server, task->turns.client, t->out.size, &task->held, &task->quota, &error),
+            kd_task_hold(task->request->server, task->scheduled.client, t->out.size, &task->held, &task->quota, &error),
             &error);
     return end;
 }
@@ -292,13 +294,13 @@ static enum MHD_Result begin(struct kd_request *request, struct kd_playground_se
 {
     static const struct kd_task_kind kind = { "playgrounds", sizeof(struct play_task), work, finish };
     enum MHD_Result refused;
-    struct play_task *t = kd_task_begin(request, request->server->turns, &kind, &refused);
+    struct play_task *t = kd_task_begin(request, request->server->scheduler, &kind, &refused);
     if (!t) {
         kd_playground_session_release(play);
         return refused;
     }
     t->play = play;
-    t->waiter = (struct kd_playground_session_waiter) { .turns = t->task.queue, .job = &t->task.turns };
+    t->waiter = (struct kd_playground_session_waiter) { .scheduler = t->task.queue, .job = &t->task.scheduled };
     t->what = what;
     t->type = type;
     return kd_task_submit(&t->task);
@@ -309,13 +311,14 @@ static enum MHD_Result forbid(struct kd_request *request)
     return kd_reply_problem(
         request,
         &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
-                               .detail = "changing a playground takes its token: Authorization: Bearer TOKEN" });
+                               .detail = "changing a playground needs its token: Authorization: Bearer TOKEN" });
 }
 
 static enum MHD_Result begin_opening(struct kd_request *request)
 {
     enum MHD_Result refused;
-    struct kd_playground_session *play = kd_playground_sessions_find_once(request->server->plays, request->once.key);
+    struct kd_playground_session *play =
+        kd_playground_sessions_find_once(request->server->playgrounds, request->once.key);
     const enum kd_once_verdict verdict =
         kd_once_begin(request, play ? kd_playground_session_once(play) : NULL, &refused);
     if (verdict == KD_ONCE_AGAIN)
@@ -324,7 +327,7 @@ static enum MHD_Result begin_opening(struct kd_request *request)
     return verdict == KD_ONCE_REFUSED ? refused : begin(request, NULL, OPEN, JSON_TYPE);
 }
 
-enum MHD_Result kd_handle_plays(struct kd_request *request)
+enum MHD_Result kd_handle_playgrounds(struct kd_request *request)
 {
     struct kd_buffer json = { 0 };
     if (strcmp(request->method, "POST")) {
@@ -394,7 +397,7 @@ static enum MHD_Result table(struct kd_request *request, enum what what, const c
             request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
                                             .offered = n == 3 ? CSV_TYPE ", " KD_NPY_TYPE ", " JSON_TYPE
                                                               : CSV_TYPE ", " KD_NPY_TYPE,
-                                            .detail = "a table is given as one of the types that are offered" });
+                                            .detail = "a table is available only as the listed media types" });
     return begin_reading(request, what, types[i]);
 }
 

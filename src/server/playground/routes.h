@@ -3,7 +3,7 @@
 #define KD_SERVER_PLAYGROUND_ROUTES_H
 
 #include "server/http/request.h"
-#include "server/playground/plays.h"
+#include "server/playground/sessions.h"
 
 /* Finds the session that the path names. Returns a reference, or NULL with *refused. */
 struct kd_playground_session *kd_playground_session_of(struct kd_request *request, enum MHD_Result *refused);

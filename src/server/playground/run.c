@@ -69,7 +69,7 @@ void kd_playground_session_log(struct kd_playground_session *play, const struct 
     while (log->last < p->events.last) {
         const struct kd_playground_event *event = kd_playground_event_at(&p->events, ++log->last);
         if (event)
-            log->kept[log->last % KD_PLAYGROUND_EVENTS] = *event;
+            log->ring[log->last % KD_PLAYGROUND_EVENTS] = *event;
     }
     pthread_mutex_unlock(&play->all->lock);
 }
@@ -167,7 +167,7 @@ static double publish(struct kd_playground_session *play, const struct order *or
 /* Passes the new bodies to the picture. Returns what publish returns. */
 static double show(struct kd_playground_session *play, const struct order *order, double now)
 {
-    struct kd_dynamic_bodies *crowd = NULL;
+    struct kd_dynamic_bodies *dynamic = NULL;
     const uint64_t generation = kd_playground_session_state(play).generation;
     if (!order->shown || play->shown == generation)
         return 0;
@@ -175,11 +175,11 @@ static double show(struct kd_playground_session *play, const struct order *order
         return play->shown_ms + TICK_MS;
     if (play->shown && !kd_session_hungry(order->shown))
         return now + TICK_MS; /* one set of bodies for each frame is enough: more would never be seen */
-    if (kd_playground_show(play->p, &crowd, NULL))
+    if (kd_playground_show(play->p, &dynamic, NULL))
         return now + MOST_MS; /* out of memory: try again later */
     play->shown = generation;
     play->shown_ms = now;
-    kd_session_show(order->shown, crowd);
+    kd_session_show(order->shown, dynamic);
     return 0;
 }
 

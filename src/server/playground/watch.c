@@ -146,7 +146,7 @@ void kd_playground_sessions_sweep(struct kd_playground_sessions *all)
             if (w->waiting && kd_socket_abandoned(w->socket))
                 resume(w); /* kd_playground_session_await then reports that the client has disconnected */
         if (now - play->used_ms > all->params.idle_ms) {
-            kd_log(KD_LOG_INFO, "playground %.4s... ends: nobody watches", play->id);
+            kd_log(KD_LOG_INFO, "playground %.4s... ends, because it has no viewer", play->id);
             kd_playground_session_unlist(play, "idle");
         }
     }

@@ -72,16 +72,16 @@ void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_jo
     job->compilation = NULL;
 }
 
-bool kd_render_lacks(void *user, struct kd_compilation *compilation, bool aside)
+bool kd_render_lacks(void *user, struct kd_compilation *compilation, bool background)
 {
     struct kd_render_queue *queue = user;
     pthread_mutex_lock(&queue->lock);
     struct kd_render_job *job = queue->holder;
-    const bool here = !queue->compiles || queue->lost || (!aside && job->lacks == BEGINS_ANEW);
-    bool go_on = here || aside;
+    const bool here = !queue->compiles || queue->lost || (!background && job->lacks == BEGINS_ANEW);
+    bool go_on = here || background;
     if (here) {
         kd_compilation_drop(compilation);
-    } else if (aside) {
+    } else if (background) {
         put_off(queue, job, compilation);
         kd_render_give_way(queue, job);
         kd_render_forget_kernels(queue, job); /* the job was resumed for another reason */

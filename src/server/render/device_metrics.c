@@ -20,8 +20,8 @@ done:
 static enum kd_status add_build(struct kd_buffer *out, const struct kd_renderer *renderer)
 {
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "# HELP kerrd_build_info 1; its labels say which program this is, and what it renders "
-                                 "on.\n# TYPE kerrd_build_info gauge\nkerrd_build_info{"));
+    KD_TRY(kd_buffer_printf(out, "# HELP kerrd_build_info 1; its labels are the version of kerrd, the device and the "
+                                 "driver.\n# TYPE kerrd_build_info gauge\nkerrd_build_info{"));
     KD_TRY(add_label(out, "version", KD_VERSION));
     KD_TRY(kd_buffer_append(out, ",", 1));
     KD_TRY(add_label(out, "device", kd_renderer_device(renderer)));
@@ -34,10 +34,10 @@ done:
 
 static enum kd_status add_kept(struct kd_buffer *out, const struct kd_renderer *renderer)
 {
-    uint64_t bytes[KD_N_KEPT_KINDS];
-    enum kd_status status = kd_buffer_printf(
-        out, "# HELP kerrd_kept_bytes Kept for what may be asked for next, by kind.\n# TYPE kerrd_kept_bytes gauge\n");
-    kd_renderer_kept(renderer, bytes);
+    uint64_t bytes[KD_N_CACHE_KINDS];
+    enum kd_status status =
+        kd_buffer_printf(out, "# HELP kerrd_kept_bytes Bytes in caches, by kind.\n# TYPE kerrd_kept_bytes gauge\n");
+    kd_renderer_cached(renderer, bytes);
     for (size_t i = 0; kd_cached_documents_word(i) && !status; i++)
         status = kd_buffer_printf(out, "kerrd_kept_bytes{kind=\"%s\"} %llu\n", kd_cached_documents_word(i),
                                   (unsigned long long)bytes[i]);
@@ -49,9 +49,8 @@ enum kd_status kd_render_queue_metrics(struct kd_render_queue *queue, struct kd_
     enum kd_status status;
     KD_TRY(add_build(out, queue->renderer));
     KD_TRY(kd_buffer_printf(out,
-                            "# HELP kerrd_device_memory_bytes Held of the device's memory by buffers, after the latest "
-                            "picture.\n# TYPE kerrd_device_memory_bytes gauge\n"
-                            "kerrd_device_memory_bytes %llu\n",
+                            "# HELP kerrd_device_memory_bytes Device memory in buffers, after the latest picture.\n# "
+                            "TYPE kerrd_device_memory_bytes gauge\nkerrd_device_memory_bytes %llu\n",
                             (unsigned long long)kd_renderer_held(queue->renderer)));
     KD_TRY(add_kept(out, queue->renderer));
     KD_TRY(kd_buffer_printf(out,

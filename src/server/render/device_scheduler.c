@@ -212,18 +212,18 @@ static void render(struct kd_render_queue *queue, struct kd_render_job *job)
     job->more = false;
     job->status = kd_render_queue_lost(queue, &job->error) ? KD_EDEVICE : KD_OK;
     if (!job->status && kd_render_unwanted(queue, job))
-        job->status = kd_error_set(&job->error, KD_ECANCELLED, "the render was dropped before it began");
+        job->status = kd_error_set(&job->error, KD_ECANCELLED, "the render was cancelled before it began");
     if (job->status)
         return;
-    const bool aside = job->stage == KD_RENDER_WORKS_IN_LANE;
+    const bool background = job->stage == KD_RENDER_WORKS_IN_LANE;
     if (job->run)
         job->status = job->run(job, queue->renderer, go_on, job);
     else if (job->blur.samples)
         job->status =
-            kd_render_blurred(&(struct kd_blurred) { queue->renderer, &job->blur, &job->scene, &job->plan, aside,
-                                                     aside ? between_slices : go_on, job->preview, job },
+            kd_render_blurred(&(struct kd_blurred) { queue->renderer, &job->blur, &job->scene, &job->plan, background,
+                                                     background ? between_slices : go_on, job->preview, job },
                               &job->frame, &job->error);
-    else if (aside)
+    else if (background)
         job->status = kd_render_in_background(queue->renderer, &job->scene, &job->plan, between_slices, job->preview,
                                               job, &job->frame, &job->error);
     else

@@ -111,7 +111,7 @@ bool kd_render_has_kernels(const struct kd_render_queue *queue, const struct kd_
 void kd_render_tell_kernels(struct kd_render_job *job);
 /* The callback lacks of struct kd_renderer_params; its user is the queue. The owner of the device calls it, without the
  * lock. */
-bool kd_render_lacks(void *queue, struct kd_compilation *compilation, bool aside);
+bool kd_render_lacks(void *queue, struct kd_compilation *compilation, bool background);
 /* Called after a job's turn. Returns whether the job starts again because kernels were missing. If so its result is
  * cleared. */
 bool kd_render_begins_with_kernels(struct kd_render_queue *queue, struct kd_render_job *job);

@@ -64,12 +64,11 @@ enum kd_status kd_render_measures_write(const struct kd_render_measures *measure
     enum kd_status status;
     KD_TRY(kd_histogram_head(
         out, passes,
-        "What a pass took of a picture that was rendered, as Server-Timing has it; encode: a picture into its file."));
+        "Time of each pass of a rendered picture, as in Server-Timing; encode: the encoding of the file."));
     KD_TRY(write_all(out, passes, "pass", measures->passes, KD_MEASURED_PASSES, name_of));
-    KD_TRY(
-        kd_histogram_head(out, waits,
-                          "For how long a work that wanted the device waited, before it began and between its slices: "
-                          "while others had it, and all but pictures and rays also until their client had time left."));
+    KD_TRY(kd_histogram_head(out, waits,
+                             "Time that work waited for the device, before its start and between its slices; work "
+                             "other than pictures and rays also waits until its client has device time left."));
     KD_TRY(write_all(out, waits, "class", measures->waits, KD_N_CLASSES, class_name));
 done:
     return status;

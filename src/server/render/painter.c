@@ -100,7 +100,7 @@ static enum kd_status open_device(struct kd_painter *painter, struct kd_error *e
     if (painter->renderer)
         return KD_OK;
     if (atomic_load(&painter->hangs))
-        return kd_error_set(error, KD_EDEVICE, "the device that paints small pictures hangs");
+        return kd_error_set(error, KD_EDEVICE, "the device for small pictures hangs");
     return kd_renderer_create(&painter->params, &painter->renderer, error);
 }
 
@@ -145,8 +145,7 @@ static enum kd_status paint(struct kd_painter *painter, struct kd_painting *work
 {
     enum kd_status status = paint_once(painter, work);
     if (status == KD_EDEVICE && !atomic_load(&painter->hangs)) {
-        kd_log(KD_LOG_WARN, "the device that paints small pictures has failed and is opened again: %s",
-               work->error.message);
+        kd_log(KD_LOG_WARN, "the device for small pictures has failed and is reopened: %s", work->error.message);
         status = paint_once(painter, work);
     }
     return status;
@@ -155,7 +154,8 @@ static enum kd_status paint(struct kd_painter *painter, struct kd_painting *work
 static void serve(struct kd_painter *painter, struct kd_painting *work)
 {
     if (atomic_load(&painter->cancelled))
-        work->status = kd_error_set(&work->error, KD_ECANCELLED, "the server is stopping and paints no more");
+        work->status =
+            kd_error_set(&work->error, KD_ECANCELLED, "the server is stopping and renders no more small pictures");
     else if (!recall(painter, work)) {
         kd_pulse_beat(&painter->pulse);
         work->status = paint(painter, work);
@@ -205,7 +205,7 @@ enum kd_status kd_painter_create(const struct kd_renderer_params *params, const 
     struct kd_painter *painter = calloc(1, sizeof *painter);
     if (!painter) {
         free(kept_at);
-        return kd_error_set(error, KD_ENOMEM, "out of memory for the painter of small pictures");
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the renderer of small pictures");
     }
     *painter = (struct kd_painter) { .params = *params, .device_name = device_name, .kept_at = kept_at };
     painter->params.prove = NULL; /* the render queue has tested the device already */
@@ -226,7 +226,7 @@ enum kd_status kd_painter_create(const struct kd_renderer_params *params, const 
     pthread_mutex_destroy(&painter->lock);
     free(kept_at);
     free(painter);
-    return kd_error_set(error, KD_ENOMEM, "the thread that paints small pictures could not be started");
+    return kd_error_set(error, KD_ENOMEM, "the thread for small pictures could not be started");
 }
 
 void kd_painter_paint(struct kd_painter *painter, struct kd_painting *painting)

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 #define SMALL (64u << 10) /* a body of this size is parsed in 2 ms or less */
-/* A picture of so many pixels is planned in 2 ms or less. Planning follows the critical curve from pixel to pixel. */
+/* Largest number of pixels whose plan takes 2 ms or less. Planning follows the critical curve from pixel to pixel. */
 #define FEW_PIXELS (4u << 20)
 
 /* Copies the texts into the task, because the problem outlives the call. */
@@ -75,14 +75,14 @@ struct kd_planned *kd_planned_of(struct kd_request *request, enum MHD_Result *re
     struct kd_planned *p = (struct kd_planned *)request->task;
     if (p)
         return outcome(request, p, result);
-    if (!(p = kd_task_create(request, request->server->turns, &kind, result)))
+    if (!(p = kd_task_create(request, request->server->scheduler, &kind, result)))
         return NULL;
     if (request->body.size <= SMALL) {
         /* Checks the limits here, so that a scene that is too large is refused without a worker. */
         if (!read_scene(p) || !make_plan(p, !few_pixels(&p->scene)) || few_pixels(&p->scene))
             return outcome(request, p, result);
     }
-    if (kd_task_admit(request, request->server->turns, kind.what, result))
+    if (kd_task_admit(request, request->server->scheduler, kind.what, result))
         *result = kd_task_submit(&p->task);
     return NULL;
 }

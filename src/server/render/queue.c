@@ -360,7 +360,7 @@ void kd_render_queue_sweep(struct kd_render_queue *queue)
     kd_render_trim_if_due(queue);
     while (gone.first) {
         struct kd_render_job *job = kd_render_list_take(&gone, &gone.first);
-        job->status = kd_error_set(&job->error, KD_ECANCELLED, "the client has gone");
+        job->status = kd_error_set(&job->error, KD_ECANCELLED, "the client has disconnected");
         kd_render_finish(queue, job);
     }
 }

@@ -31,7 +31,7 @@ static enum MHD_Result refuse(struct kd_request *request)
     for (size_t i = 0; i < kd_n_formats && !status; i++)
         status = kd_buffer_printf(&offered, "%s%s", i ? ", " : "", kd_formats[i]->media_type);
     if (!status)
-        status = kd_buffer_printf(&detail, "pictures are offered as %s only", (const char *)offered.data);
+        status = kd_buffer_printf(&detail, "pictures are available only as %s", (const char *)offered.data);
     enum MHD_Result result =
         status ? kd_reply_no_memory(request)
                : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
@@ -190,7 +190,7 @@ static bool admitted(struct kd_request *request, const struct kd_plan *plan, str
     struct kd_server *server = request->server;
 
     if (plan->estimate_ms > server->longest_s * 1e3) {
-        kd_error_set(error, KD_ETOOBIG, "this picture would take about %.0f s, more than the %u s a render may take",
+        kd_error_set(error, KD_ETOOBIG, "this picture would take about %.0f s; it must be at most %u s",
                      plan->estimate_ms * 1e-3, server->longest_s);
         *problem = kd_problem_from(error);
         return false;
@@ -198,7 +198,7 @@ static bool admitted(struct kd_request *request, const struct kd_plan *plan, str
     if (atomic_load(&server->phase) >= KD_REFUSING) {
         *problem = (struct kd_problem) { .type = KD_PROBLEM_STOPPING,
                                          .retry_after = 1,
-                                         .detail = "the server is stopping and takes no new renders" };
+                                         .detail = "the server is stopping and accepts no new renders" };
         return false;
     }
     bool quota;
@@ -207,8 +207,8 @@ static bool admitted(struct kd_request *request, const struct kd_plan *plan, str
     /* The size is known only after encoding; it is smaller than that of the pixels. */
     if (kd_bytes_take(server->replies, request->client, 0, plan->host_bytes, &quota))
         KD_TRY(kd_error_set(error, KD_EBUSY,
-                            quota ? "too many bytes of pictures wait for you to read them (limit for one client)"
-                                  : "too many bytes of pictures wait for their clients to read them"));
+                            quota ? "too many bytes of your pictures are waiting to be read (limit for one client)"
+                                  : "too many bytes of pictures are waiting to be read"));
 done:
     if (!status)
         return true;
@@ -262,7 +262,7 @@ static enum kd_status name_pixel(const struct kd_request *request, struct kd_pla
 {
     const char *at = kd_target_value(&request->target, "at"), *trace = kd_target_value(&request->target, "trace");
     if (!at)
-        return kd_error_field(error, "/at", "at is missing: it names the pixel, as in at=320,180");
+        return kd_error_field(error, "/at", "at is missing; it must be the position of the pixel, as in at=320,180");
     enum kd_status status = kd_explain_at(at, plan, error);
     return status || !trace ? status : kd_explain_trace(trace, plan, error);
 }

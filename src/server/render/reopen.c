@@ -44,9 +44,9 @@ bool kd_render_queue_hangs(struct kd_render_queue *queue, bool another)
                  s = own > compiler ? own : compiler;
     pthread_mutex_lock(&queue->lock);
     if (s > 0)
-        kd_error_set(&error, KD_EDEVICE, "the device hangs: its driver has given no sign of life for %.0f s", s);
+        kd_error_set(&error, KD_EDEVICE, "the device hangs: its driver has not responded for %.0f s", s);
     else if (another)
-        kd_error_set(&error, KD_EDEVICE, "the device hangs that paints small pictures");
+        kd_error_set(&error, KD_EDEVICE, "the device for small pictures hangs");
     if (s > 0 || another) {
         queue->hangs = true;
         lose(queue, &error);
@@ -126,8 +126,8 @@ void kd_render_reopen(struct kd_render_queue *queue)
     }
     if (!may_reopen(queue)) {
         struct kd_error often;
-        kd_error_set(&often, KD_EDEVICE, "%.300s (opened again %u times in %.0f s, as often as it may be)",
-                     queue->failure.message, queue->reopenings, KD_REOPENINGS_S);
+        kd_error_set(&often, KD_EDEVICE, "%.300s (reopened %u times in %.0f s, the limit)", queue->failure.message,
+                     queue->reopenings, KD_REOPENINGS_S);
         lose(queue, &often);
         return;
     }
@@ -143,5 +143,5 @@ void kd_render_reopen(struct kd_render_queue *queue)
     }
     queue->failed = false;
     queue->reopened++;
-    kd_log(KD_LOG_WARN, "the device has been opened again, and what it was doing begins once more");
+    kd_log(KD_LOG_WARN, "the device has been reopened, and its work starts again");
 }

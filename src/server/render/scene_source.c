@@ -39,9 +39,9 @@ enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields,
         pointer_of(name, pointer, sizeof pointer);
         for (size_t k = 0; k < i; k++)
             if (fields ? kd_scene_same_path(target->pairs[k].name, name) : !strcmp(target->pairs[k].name, name))
-                return kd_error_field(error, pointer, "the query gives %.100s twice", name);
+                return kd_error_field(error, pointer, "the query has %.100s twice", name);
         if (!fields && strcmp(name, "preset") && !is_own(name, own))
-            return kd_error_field(error, pointer, "the query of a POST may hold preset%s%s%s%s, not %.100s",
+            return kd_error_field(error, pointer, "the query of a POST may have preset%s%s%s%s, not %.100s",
                                   own[1]   ? ", "
                                   : own[0] ? " and "
                                            : "",

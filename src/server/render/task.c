@@ -12,9 +12,9 @@ enum kd_status kd_task_over(struct kd_server *server, struct kd_scheduler *queue
                             struct kd_error *error)
 {
     if (gone || kd_scheduler_cancelled(queue))
-        return kd_error_set(error, KD_ECANCELLED, "the client has gone, or the server stops");
+        return kd_error_set(error, KD_ECANCELLED, "the client has disconnected, or the server is stopping");
     if (kd_clock_ms() > deadline_ms)
-        return kd_error_set(error, KD_ETOOBIG, "this was given up after %u s, as long as this server lets it take",
+        return kd_error_set(error, KD_ETOOBIG, "the request exceeded the time limit of this server, %u s",
                             server->longest_s);
     return KD_OK;
 }
@@ -28,9 +28,9 @@ void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_e
     task->error.status = status;
 }
 
-static enum kd_slice_result take_turn(struct kd_scheduler_job *turns)
+static enum kd_slice_result take_turn(struct kd_scheduler_job *scheduled)
 {
-    struct kd_task *task = (struct kd_task *)turns;
+    struct kd_task *task = (struct kd_task *)scheduled;
     struct kd_request *request = task->request;
     struct kd_error error = { 0 };
     double now = kd_clock_ms();
@@ -41,9 +41,9 @@ static enum kd_slice_result take_turn(struct kd_scheduler_job *turns)
     return task->status ? KD_SLICE_LAST : task->kind->work(task, now + TURN_MS);
 }
 
-static void done(struct kd_scheduler_job *turns)
+static void done(struct kd_scheduler_job *scheduled)
 {
-    struct kd_task *task = (struct kd_task *)turns;
+    struct kd_task *task = (struct kd_task *)scheduled;
     if (task->kind->last)
         task->kind->last(task);
     task->done_ms = kd_clock_ms();
@@ -58,12 +58,12 @@ void *kd_task_create(struct kd_request *request, struct kd_scheduler *queue, con
         *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
         return NULL;
     }
-    *task = (struct kd_task) { .turns = { .turn = take_turn, .done = done },
+    *task = (struct kd_task) { .scheduled = { .turn = take_turn, .done = done },
                                .kind = kind,
                                .queue = queue,
                                .request = request,
                                .submitted_ms = kd_clock_ms() };
-    snprintf(task->turns.client, sizeof task->turns.client, "%s", request->client);
+    snprintf(task->scheduled.client, sizeof task->scheduled.client, "%s", request->client);
     task->deadline_ms = task->submitted_ms + 1e3 * request->server->longest_s;
     request->task = task;
     return task;
@@ -79,7 +79,7 @@ void kd_task_destroy(struct kd_task *task)
 {
     if (!task)
         return;
-    kd_bytes_give(task->request->server->replies, task->turns.client, task->held);
+    kd_bytes_give(task->request->server->replies, task->scheduled.client, task->held);
     if (task->kind->finish)
         task->kind->finish(task);
     free(task);
@@ -91,7 +91,7 @@ bool kd_task_admit(struct kd_request *request, struct kd_scheduler *queue, const
     struct kd_problem problem;
     bool quota;
     char stopping[80];
-    snprintf(stopping, sizeof stopping, "the server is stopping and takes no new %s", what);
+    snprintf(stopping, sizeof stopping, "the server is stopping and accepts no new %s", what);
     if (atomic_load(&request->server->phase) >= KD_REFUSING)
         *refused = kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1, .detail = stopping });
@@ -112,7 +112,7 @@ enum MHD_Result kd_task_submit(struct kd_task *task)
     /* Suspended first, because the task may be done before push returns. A suspended request and its socket outlive the
      * task. */
     MHD_suspend_connection(task->request->mhd);
-    kd_scheduler_push(task->queue, &task->turns);
+    kd_scheduler_push(task->queue, &task->scheduled);
     return MHD_YES;
 }
 
@@ -121,8 +121,8 @@ enum kd_status kd_task_hold(struct kd_server *server, const char *client, size_t
 {
     if (kd_bytes_take(server->replies, client, bytes, bytes, quota))
         return kd_error_set(error, KD_EBUSY,
-                            *quota ? "too many bytes of answers wait for you to read them (limit for one client)"
-                                   : "too many bytes of answers wait for their clients to read them");
+                            *quota ? "too many bytes of your answers are waiting to be read (limit for one client)"
+                                   : "too many bytes of answers are waiting to be read");
     *held = bytes;
     return KD_OK;
 }

@@ -25,7 +25,7 @@ struct kd_task_kind {
 };
 
 struct kd_task {
-    struct kd_scheduler_job turns; /* must be the first member */
+    struct kd_scheduler_job scheduled; /* must be the first member */
     const struct kd_task_kind *kind;
     struct kd_scheduler *queue;
     struct kd_request *request;

@@ -168,7 +168,7 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
         return kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
                                             .retry_after = 1,
-                                            .detail = "the server is stopping and paints no more small pictures" });
+                                            .detail = "the server is stopping and renders no more small pictures" });
     return kd_reply_error(request, error);
 }
 

@@ -17,13 +17,13 @@ struct kd_session {
     struct kd_sessions *all;
     unsigned references;
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
-    struct kd_once once;             /* hashes of the request that created the session */
-    struct kd_scene scene;           /* the session's scene at the time since_ms */
-    struct kd_timeline path;         /* path that the session has followed since since_ms; without keyframes: no path */
-    struct kd_scene on_path;         /* latest valid scene on the path */
-    struct kd_dynamic_bodies *crowd; /* bodies of a playground that are shown in the scene; NULL: none, or none yet */
+    struct kd_once once;     /* hashes of the request that created the session */
+    struct kd_scene scene;   /* the session's scene at the time since_ms */
+    struct kd_timeline path; /* path that the session has followed since since_ms; without keyframes: no path */
+    struct kd_scene on_path; /* latest valid scene on the path */
+    struct kd_dynamic_bodies *dynamic; /* bodies of a playground that are shown in the scene; NULL: none, or none yet */
     /* crowded: the session shows such bodies; crowd_moved: they differ from those in the latest frame */
-    bool crowded, crowd_moved;
+    bool crowded, dynamic_moved;
     double since_ms, used_ms;
     char lens_key[65]; /* key of the full scene, before quality is reduced */
     struct kd_governor governor;

@@ -134,15 +134,15 @@ enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *f
         return refused;
     if (kinds && kd_target_value(&request->target, "lossy") &&
         (!kd_target_whole(&request->target, "lossy", 0, KD_LOSSY_MAX, &lossy) || !lossy))
-        return bad_number(request, "lossy is a whole number, 1 to 100: the quality of frames that are not the last; "
-                                   "without it they are exact");
+        return bad_number(request, "lossy must be a whole number from 1 to 100, the quality of frames before the last; "
+                                   "without it all frames are exact");
     if (!kd_target_whole(&request->target, "sentences", NO_SENTENCES, KD_SENTENCES_MAX, &sentences))
-        return bad_number(request, "sentences is Kerrd-Sentences of a frame that you have: one with the same "
+        return bad_number(request, "sentences must be the Kerrd-Sentences of your last frame; a frame with the same "
                                    "approximations is sent without them");
     if (!kd_target_whole(&request->target, "after", 0, UINT64_MAX, &after))
-        return bad_number(request, "after is the number of a frame, Kerrd-Frame of one that you have");
+        return bad_number(request, "after must be the number of a frame, the Kerrd-Frame of your last one");
     if (!kd_target_whole(&request->target, "wait_ms", KD_WAIT_MS, KD_WAIT_MS_MAX, &wait))
-        return bad_number(request, "wait_ms is a whole number of milliseconds, 0 to 60000");
+        return bad_number(request, "wait_ms must be a whole number of milliseconds, 0 to 60000");
     struct kd_session *session = find(request, &refused);
     if (!session)
         return refused;

@@ -147,7 +147,7 @@ static enum MHD_Result submit(struct kd_request *request)
         return kd_reply_problem(request,
                                 &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
                                                        .retry_after = 1,
-                                                       .detail = "the server is stopping and begins nothing long" });
+                                                       .detail = "the server is stopping and starts no long tasks" });
     if (kd_render_queue_admit(server->renders, request->client, &quota, &error) || allocate(job, &quota, &error))
         return refuse(request, &error, quota);
     kd_render_queue_capacity(server->renders, &capacity);

@@ -45,12 +45,12 @@ static enum kd_status read_path(const struct kd_request *request, const struct k
     KD_TRY(
         kd_tree_parse(body->data ? (const char *)body->data : "", body->size, KD_BODY_MAX, PATH_VALUES, &root, error));
     if (!cJSON_IsObject(root))
-        KD_TRY(kd_error_set(error, KD_EINVAL, "the body is no JSON object"));
+        KD_TRY(kd_error_set(error, KD_EINVAL, "the body is not a JSON object"));
     KD_TRY(kd_members_read(root, "", members, sizeof members / sizeof *members, error));
     if (!items.keyframes)
-        KD_TRY(kd_error_field(
-            error, "/keyframes",
-            "keyframes is missing: say what changes, as in \"keyframes\": [{\"at\": 10, \"scene\": {\"time\": 100}}]"));
+        KD_TRY(kd_error_field(error, "/keyframes",
+                              "keyframes is missing; it must be an array, as in \"keyframes\": [{\"at\": 10, "
+                              "\"scene\": {\"time\": 100}}]"));
     KD_TRY(kd_timeline_read(&items, &by_second, assets, now, out, error));
     if (!(kd_timeline_end(out) > 0))
         KD_TRY(kd_error_field(error, "/keyframes", "the last keyframe is at 0 s; it must be later"));
@@ -69,13 +69,12 @@ static enum kd_status check_motion(const struct kd_timeline *path, struct kd_err
         rates |= m->time_rate != 0 || m->azimuth_rate_deg != 0;
         if (memcmp(m, &path->keys[0].scene.motion, sizeof *m))
             return kd_error_field(error, "/keyframes",
-                                  "keyframe %zu changes motion, which stays what it is along a path", i);
+                                  "keyframe %zu changes motion, which must not change along a path", i);
     }
     if (fallen && rates)
         return kd_error_field(error, "/keyframes",
-                              "proper_time is given, which needs motion.time_rate and motion.azimuth_rate_deg 0 "
-                              "alone: time and azimuth go on "
-                              "as they do on the observer's way");
+                              "proper_time needs motion.time_rate and motion.azimuth_rate_deg 0, because the "
+                              "observer's path determines time and azimuth");
     return KD_OK;
 }
 
@@ -132,7 +131,7 @@ static enum MHD_Result begin(struct kd_request *request, struct kd_session *sess
     static const struct kd_task_kind kind = { "paths", sizeof(struct path_task), work, finish };
     struct kd_session_state state;
     enum MHD_Result refused;
-    struct path_task *p = kd_task_begin(request, request->server->turns, &kind, &refused);
+    struct path_task *p = kd_task_begin(request, request->server->scheduler, &kind, &refused);
     if (!p)
         return refused;
     kd_session_state(session, &state);

@@ -159,8 +159,8 @@ static enum kd_status read_pace(const struct kd_request *request, struct kd_sess
     KD_TRY(read_number(request, "least", KD_LEAST_MIN, 1, &pace->least, error));
     KD_TRY(read_number(request, "patience_ms", KD_PATIENCE_MS_MIN, KD_PATIENCE_MS_MAX, &pace->patience_ms, error));
     if (!*said && isfinite(pace->patience_ms))
-        KD_TRY(kd_error_field(error, "/patience_ms",
-                              "patience_ms stands without least, whose width it is the patience for"));
+        KD_TRY(
+            kd_error_field(error, "/patience_ms", "patience_ms needs least, below whose width it lets frames shrink"));
 done:
     return status;
 }
@@ -202,10 +202,10 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     if (kd_sessions_takes(server->sessions, &planned->plan, &error))
         return kd_reply_error(request, &error);
     if (atomic_load(&server->phase) >= KD_REFUSING)
-        return kd_reply_problem(request,
-                                &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
-                                                       .retry_after = 1,
-                                                       .detail = "the server is stopping and takes no new sessions" });
+        return kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
+                                            .retry_after = 1,
+                                            .detail = "the server is stopping and accepts no new sessions" });
     if (kd_sessions_open(server->sessions, &planned->scene, &planned->plan, request->client, false, &pace, &quota,
                          &session, &error)) {
         problem = kd_problem_from(&error);
@@ -306,7 +306,7 @@ enum MHD_Result kd_session_forbid(struct kd_request *request)
 {
     return kd_reply_problem(
         request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
-                                        .detail = "changing a session takes its token: Authorization: Bearer TOKEN" });
+                                        .detail = "changing a session needs its token: Authorization: Bearer TOKEN" });
 }
 
 static enum MHD_Result change(struct kd_request *request, struct kd_session *session)
@@ -349,7 +349,7 @@ static enum kd_status read_strike(const struct kd_buffer *body, double *amplitud
     if (body->size)
         KD_TRY(kd_tree_parse((const char *)body->data, body->size, KD_BODY_MAX, STRIKE_VALUES, &tree, error));
     if (tree && !cJSON_IsObject(tree))
-        KD_TRY(kd_error_set(error, KD_EINVAL, "the body is no JSON object"));
+        KD_TRY(kd_error_set(error, KD_EINVAL, "the body is not a JSON object"));
     for (const cJSON *item = tree ? tree->child : NULL; item; item = item->next) {
         char name[60], pointer[sizeof error->pointer] = "", given[KD_VALUE_SIZE];
         kd_text_clip(name, sizeof name, item->string);
@@ -390,8 +390,8 @@ static enum MHD_Result strike(struct kd_request *request, struct kd_session *ses
         return patch(request, session, text, strlen(text));
     kd_number_format(time, rate);
     snprintf(detail, sizeof detail,
-             "motion.time_rate is %s; for a hole to be struck it must be more than 0 M per second: what "
-             "rings, rings as time goes on",
+             "motion.time_rate is %s; for a strike it must be more than 0 M per second, because the ringing evolves in "
+             "coordinate time",
              time);
     return kd_reply_problem(
         request,

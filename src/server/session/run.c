@@ -21,9 +21,9 @@ struct kd_session_frame {
     unsigned revision;
     double begun_ms;
     struct kd_frame_decision decision;
-    struct kd_dynamic_bodies *crowd; /* bodies of a playground in its scene; a counted reference */
-    double fraction;                 /* fraction of the frame that is done */
-    bool rendered, last;             /* last: neither a refinement nor another frame follows */
+    struct kd_dynamic_bodies *dynamic; /* bodies of a playground in its scene; a counted reference */
+    double fraction;                   /* fraction of the frame that is done */
+    bool rendered, last;               /* last: neither a refinement nor another frame follows */
 };
 
 /* The functions below are called with the lock unless a comment says otherwise. */
@@ -73,9 +73,9 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
     };
     memcpy(live->job.claim.client, s->demand.client, sizeof s->demand.client);
     kd_quality_apply(&decision->quality, scene, &live->job.scene);
-    if (s->crowd) {
-        kd_scene_show(&live->job.scene, s->crowd);
-        kd_scene_pass(&live->job.scene, s->crowd->time);
+    if (s->dynamic) {
+        kd_scene_show(&live->job.scene, s->dynamic);
+        kd_scene_pass(&live->job.scene, s->dynamic->time);
     }
     live->job.scene.image.bit_depth = 8;
     kd_render_queue_capacity(s->all->params.renders, &capacity);
@@ -89,7 +89,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
     }
     live->job.plan.audit /= decision->audit;
     if (!decision->refining && s->exposed_revision == s->revision &&
-        (kd_emit_moves(scene) || s->crowd || kd_session_on_its_way(s, now)))
+        (kd_emit_moves(scene) || s->dynamic || kd_session_on_its_way(s, now)))
         follow_exposure(s, now, &live->job.plan);
     return live;
 }
@@ -97,7 +97,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
 void kd_session_pump(struct kd_session *s)
 {
     if (!s->listed || s->failed || s->rendering || s->encoding >= ENCODING_MAX || !kd_session_awaited(s) ||
-        (s->crowded && !s->crowd))
+        (s->crowded && !s->dynamic))
         return;
     double now = kd_clock_ms();
     struct kd_scene scene;
@@ -109,7 +109,7 @@ void kd_session_pump(struct kd_session *s)
     s->on_path = scene;
     const bool flies = kd_session_on_its_way(s, now) || kd_scene_falls(&scene), moves = flies || kd_emit_moves(&scene);
     /* If the scene moved in the latest frame and is at rest now, the next frame differs as well. */
-    if (moves || s->moved || s->crowd_moved)
+    if (moves || s->moved || s->dynamic_moved)
         kd_governor_changed(&s->governor, now, &scene, flies || s->flew);
     const struct kd_frame_decision decision = kd_governor_decide(&s->governor, now);
     if (decision.wait_ms > 0)
@@ -122,9 +122,9 @@ void kd_session_pump(struct kd_session *s)
     live->number = ++s->begun;
     live->last = decision.quality.final && !moves;
     live->job.keeps = !live->last && !s->crowded;
-    live->crowd = s->crowd;
-    kd_dynamic_bodies_keep(live->crowd);
-    s->crowd_moved = false;
+    live->dynamic = s->dynamic;
+    kd_dynamic_bodies_keep(live->dynamic);
+    s->dynamic_moved = false;
     s->moved = moves;
     s->flew = flies;
     live->revision = s->revision;
@@ -287,6 +287,6 @@ static void done(struct kd_render_job *job)
     pthread_mutex_unlock(&all->lock);
     kd_buffer_finish(&job->file);
     kd_frame_finish(&job->frame);
-    kd_dynamic_bodies_release(live->crowd);
+    kd_dynamic_bodies_release(live->dynamic);
     free(live);
 }

@@ -29,7 +29,7 @@ void kd_session_unref(struct kd_session *s)
     if (--s->references)
         return;
     kd_live_frame_release(s->latest);
-    kd_dynamic_bodies_release(s->crowd);
+    kd_dynamic_bodies_release(s->dynamic);
     kd_timeline_finish(&s->path);
     free(s);
 }
@@ -83,17 +83,16 @@ enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_
 {
     if (plan->n_layers + plan->picture > 1)
         return kd_error_field(error, "/image/layers",
-                              "image.layers holds %zu; in a session, which shows a picture, it must hold one",
+                              "image.layers has %zu layers; in a session, which shows one picture, it must have one",
                               plan->n_layers + plan->picture);
     if (plan->cut.width)
         return kd_error_field(
             error, "/image/tile/width",
-            "image.tile.width is %u; it must be 0 in a session, which shows whole pictures of any size",
+            "image.tile.width is %u; in a session, which shows whole pictures of any size, it must be 0",
             plan->cut.width);
     if (plan->estimate_ms <= all->params.longest_s * 1e3)
         return KD_OK;
-    return kd_error_set(error, KD_ETOOBIG,
-                        "a frame of this scene would take about %.0f s, more than the %u s a render may take",
+    return kd_error_set(error, KD_ETOOBIG, "a frame of this scene would take about %.0f s; it must be at most %u s",
                         plan->estimate_ms * 1e-3, all->params.longest_s);
 }
 
@@ -116,7 +115,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
     struct kd_session *s = calloc(1, sizeof *s);
     if (!s || !kd_secret_make(s->id, sizeof s->id) || !kd_secret_make(s->token, sizeof s->token)) {
         free(s);
-        return kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a session");
+        return kd_error_set(error, KD_ENOMEM, "no memory or no random numbers for a session");
     }
     s->all = all;
     s->references = 2; /* one for the list, one for the caller */
@@ -293,12 +292,12 @@ void kd_session_put(struct kd_session *s, const struct kd_scene *scene, const st
     pthread_mutex_unlock(&s->all->lock);
 }
 
-void kd_session_show(struct kd_session *s, struct kd_dynamic_bodies *crowd)
+void kd_session_show(struct kd_session *s, struct kd_dynamic_bodies *dynamic)
 {
     pthread_mutex_lock(&s->all->lock);
-    struct kd_dynamic_bodies *old = s->crowd;
-    s->crowd = crowd;
-    s->crowd_moved = true;
+    struct kd_dynamic_bodies *old = s->dynamic;
+    s->dynamic = dynamic;
+    s->dynamic_moved = true;
     kd_session_drop_refinement(s);
     kd_session_pump(s);
     pthread_mutex_unlock(&s->all->lock);
@@ -326,7 +325,7 @@ bool kd_session_over(struct kd_session *s)
 bool kd_session_hungry(struct kd_session *s)
 {
     pthread_mutex_lock(&s->all->lock);
-    const bool hungry = !s->crowd_moved;
+    const bool hungry = !s->dynamic_moved;
     pthread_mutex_unlock(&s->all->lock);
     return hungry;
 }

@@ -48,7 +48,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
                                 struct kd_session **out, struct kd_error *error);
 /* Shows these bodies of a playground from now on. Their time is added to the scene's time. Takes over the reference.
  * Does not change the revision. */
-void kd_session_show(struct kd_session *session, struct kd_dynamic_bodies *crowd);
+void kd_session_show(struct kd_session *session, struct kd_dynamic_bodies *dynamic);
 /* Sets the limits of the quality reduction. */
 void kd_session_keep(struct kd_session *session, const struct kd_session_pace *pace);
 /* Replaces the scene. kd_sessions_takes must have accepted the plan. */

@@ -168,7 +168,7 @@ void kd_sessions_sweep(struct kd_sessions *all)
         kd_session_forget_pixels(s, now);
         kd_session_pump(s);
         if (now - s->used_ms > all->params.idle_ms) {
-            kd_log(KD_LOG_INFO, "session %.4s... ends: nobody watches", s->id);
+            kd_log(KD_LOG_INFO, "session %.4s... ends, because it has no viewer", s->id);
             kd_session_unlist(s);
         }
     }

@@ -70,6 +70,7 @@ class AsyncClient:
         await self.close()
 
     async def close(self) -> None:
+        """Closes the connections to the server."""
         await self._http.aclose()
 
     async def _run(self, call: Call[T]) -> T:
@@ -108,8 +109,18 @@ class AsyncClient:
         layers: Sequence[str] | Open = (),
         **changes: Any,
     ) -> Frame:
-        """Renders a picture. preset: the scene that `scene` and changes are applied to. layers: names of layers to
-        return with it; they take a second request, which reuses the lens map."""
+        """Renders a picture.
+
+        Args:
+            scene: a Scene or a dict (docs/scene.md); None: the default scene.
+            preset: name of the preset to which `scene` and `changes` are applied.
+            layers: names of layers (docs/layers.md) to return with it. They take a second request, which reuses the
+                lens map.
+            changes: fields of the scene by section, such as spacetime={"spin": 0.9}.
+
+        Returns:
+            The picture, with its layers and approximations.
+        """
         document = scene_of(scene, changes)
         frame = await self._run(calls.render(document, preset))
         frame.sentences.update(await self.approximations())
@@ -125,18 +136,37 @@ class AsyncClient:
         preset: str | Open | None = None,
         **changes: Any,
     ) -> dict[str, NDArray[np.float32]]:
-        """Renders layers without a picture: float32 of shape (height, width), "rgb" of shape (height, width, 3) in
-        linear light."""
+        """Renders layers without a picture.
+
+        Args:
+            scene: a Scene or a dict (docs/scene.md); None: the default scene.
+            names: names of layers (docs/layers.md).
+            preset: name of the preset to which `scene` and `changes` are applied.
+            changes: fields of the scene by section, such as spacetime={"spin": 0.9}.
+
+        Returns:
+            float32 arrays by name, of shape (height, width); "rgb", in linear light, of shape (height, width, 3).
+        """
         return await self._run(calls.layers(scene_of(scene, changes), preset, names))
 
     async def stitched(
         self, scene: SceneLike = None, *, tile: int | Open = 2048, preset: str | Open | None = None, **changes: Any
     ) -> NDArray[np.uint8]:
-        """Renders a picture of any size from tiles of at most tile x tile pixels: uint8 of shape (height, width, 3),
-        the same pixels as of one picture, without seams.
+        """Renders a picture of any size from tiles. The pixels equal those of a single picture, without seams.
+        kerrd.dask.stitched does the same on many machines.
 
-        A tile cannot have exposure "auto", samples "auto", bloom or a beam (docs/scene.md): Problem names all that the
-        scene has of these. kerrd.dask.stitched does the same on many machines.
+        Args:
+            scene: a Scene or a dict (docs/scene.md); None: the default scene.
+            tile: largest width and height of a tile, pixels.
+            preset: name of the preset to which `scene` and `changes` are applied.
+            changes: fields of the scene by section, such as spacetime={"spin": 0.9}.
+
+        Returns:
+            uint8 of shape (height, width, 3).
+
+        Raises:
+            Problem: the scene has exposure "auto", samples "auto", bloom or a beam, which a tile cannot have
+                (docs/scene.md); the message names all of them.
         """
         document = scene_of(scene, changes)
         width, height = await self._size(document, preset)
@@ -158,7 +188,18 @@ class AsyncClient:
         preset: str | Open | None = None,
         **changes: Any,
     ) -> dict[str, NDArray[np.float32]]:
-        """Renders layers of a picture of any size from tiles, in the shapes of layers()."""
+        """Renders layers of a picture of any size from tiles.
+
+        Args:
+            scene: a Scene or a dict (docs/scene.md); None: the default scene.
+            names: names of layers (docs/layers.md).
+            tile: largest width and height of a tile, pixels.
+            preset: name of the preset to which `scene` and `changes` are applied.
+            changes: fields of the scene by section, such as spacetime={"spin": 0.9}.
+
+        Returns:
+            Arrays by name, in the shapes of layers().
+        """
         document = scene_of(scene, changes)
         width, height = await self._size(document, preset)
         whole: dict[str, NDArray[np.float32]] = {}
@@ -196,13 +237,33 @@ class AsyncClient:
         return int(image["width"]), int(image["height"])
 
     async def plan(self, scene: SceneLike = None, *, preset: str | Open | None = None, **changes: Any) -> answers.Plan:
-        """The cost of a picture: passes, rays, bytes, estimate_ms, and its approximations. Nothing is rendered."""
+        """Estimates the cost of a picture without rendering it.
+
+        Args:
+            scene: a Scene or a dict (docs/scene.md); None: the default scene.
+            preset: name of the preset to which `scene` and `changes` are applied.
+            changes: fields of the scene by section, such as spacetime={"spin": 0.9}.
+
+        Returns:
+            Passes, rays, bytes, estimate_ms in milliseconds, and approximations.
+        """
         return await self._run(calls.plan(scene_of(scene, changes), preset))
 
     async def pixel(
         self, x: float, y: float, scene: SceneLike = None, *, preset: str | Open | None = None, **changes: Any
     ) -> answers.Pixel:
-        """Where the light of a pixel comes from. x counts to the right and y downwards, both from 0."""
+        """Explains where the light of a pixel comes from.
+
+        Args:
+            x: pixels to the right of the left edge, from 0.
+            y: pixels below the upper edge, from 0.
+            scene: a Scene or a dict (docs/scene.md); None: the default scene.
+            preset: name of the preset to which `scene` and `changes` are applied.
+            changes: fields of the scene by section, such as spacetime={"spin": 0.9}.
+
+        Returns:
+            The ray, what it crosses, the light of each emitter, and where the ray ends; lengths in M, angles in radians.
+        """
         return await self._run(calls.pixel(scene_of(scene, changes), preset, x, y))
 
     async def rays(self, pairs: ArrayLike, **settings: Any) -> NDArray[Any]:
@@ -221,8 +282,15 @@ class AsyncClient:
         return await self._run(calls.orbits({**({"orbit": dict(orbit)} if orbit is not None else {}), **settings}))
 
     async def physics(self, name: str, **parameters: Any) -> answers.Quantity:
-        """Values of a quantity: physics("kerr", spin="0:0.998:100"). A range is "first:last:count" or an evenly spaced
-        array; values are then arrays in the shape of the ranges."""
+        """Computes a quantity (docs/physics-quantities.md): physics("kerr", spin="0:0.998:100").
+
+        Args:
+            name: name of the quantity.
+            parameters: numbers, words, or ranges: "first:last:count" or an evenly spaced array.
+
+        Returns:
+            Values, which are arrays in the shape of the ranges.
+        """
         return await self._run(calls.physics(name, parameters))
 
     async def line(self, **settings: Any) -> answers.LineProfile:
@@ -265,7 +333,11 @@ class AsyncClient:
         return await self._run(calls.presets())
 
     async def preset(self, name: str) -> dict[str, Any]:
-        """The whole scene of a preset."""
+        """The whole scene of a preset.
+
+        Args:
+            name: name of the preset, from presets().
+        """
         told: dict[str, Any] = await self._run(calls.get(f"/v1/presets/{name}"))
         return told
 
@@ -280,8 +352,16 @@ class AsyncClient:
         return told
 
     async def put_asset(self, data: bytes, kind: str = "image/png") -> str:
-        """Uploads an asset and returns its hash, by which scenes name it. kind: the media type: of a picture, of a grid
-        of matter ("application/x-npz") or of an observation ("application/x-uvfits", "text/csv")."""
+        """Uploads an asset.
+
+        Args:
+            data: bytes of the file.
+            kind: media type: "image/png" for a picture, "application/x-npz" for a grid of matter,
+                "application/x-uvfits" or "text/csv" for an observation.
+
+        Returns:
+            The SHA-256 of the asset, by which scenes name it.
+        """
         return str((await self._run(calls.put_asset(data, kind)))["sha256"])
 
     async def session(
@@ -293,13 +373,25 @@ class AsyncClient:
         quality: int | Open | None = None,
         **changes: Any,
     ) -> AsyncSession:
-        """Opens a live view; iterate over it for its frames. quality: of JPEG frames while something moves, 1 to 100;
-        None: PNG frames only. least: see docs/live.md."""
+        """Opens a live view; iterate over it for its frames.
+
+        Args:
+            scene: a Scene or a dict (docs/scene.md); None: the default scene.
+            preset: name of the preset to which `scene` and `changes` are applied.
+            least: smallest width of a frame while the scene changes, as a fraction of image.width; None: 0.25.
+            quality: quality of JPEG frames while something moves, 1 to 100; None: PNG frames only.
+            changes: fields of the scene by section, such as spacetime={"spin": 0.9}.
+        """
         return AsyncSession(self, await self._run(calls.open_session(scene_of(scene, changes), preset, least)), quality)
 
     async def job(self, document: Mapping[str, Any], *, preset: str | None = None) -> AsyncJob:
-        """Starts a job from its document (docs/jobs.md): {"scene": …, "keyframes": …}, {"scenes": […]} or {"scene": …,
-        "axes": …}."""
+        """Starts a job.
+
+        Args:
+            document: request of the job (docs/jobs.md): {"scene": …, "keyframes": …}, {"scenes": […]} or
+                {"scene": …, "axes": …}.
+            preset: name of the preset to which the document's scene is applied.
+        """
         return AsyncJob(self, await self._run(calls.open_job(scene_of(document, {}), preset)))
 
     async def light_curve(
@@ -312,8 +404,22 @@ class AsyncClient:
         progress: bool | Open = False,
         **changes: Any,
     ) -> dict[str, NDArray[np.float64]]:
-        """Flux and centroid at evenly spaced times from times[0] to times[1], in M. frames: number of times. progress:
-        shows a bar. Returns columns as float64 arrays, `t` and `flux` among them. ValueError for frames below 2."""
+        """Computes flux and centroid of a scene over time.
+
+        Args:
+            scene: a Scene or a dict (docs/scene.md); None: the default scene.
+            times: first and last time, M.
+            frames: number of evenly spaced times, at least 2.
+            preset: name of the preset to which `scene` and `changes` are applied.
+            progress: shows a bar.
+            changes: fields of the scene by section, such as spacetime={"spin": 0.9}.
+
+        Returns:
+            Columns as float64 arrays of shape (frames,), `t` and `flux` among them.
+
+        Raises:
+            ValueError: frames is below 2.
+        """
         if frames < 2:
             raise ValueError(f"frames is {frames}; it must be at least 2: the first and the last moment")
         document = {
@@ -334,8 +440,16 @@ class AsyncClient:
         progress: bool | Open = False,
         **changes: Any,
     ) -> Sweep:
-        """Renders layers of one scene for each combination of values of some fields: axes={"spacetime.spin": [0, 0.9],
-        "camera.inclination_deg": "10:80:15"}. progress: shows a bar."""
+        """Renders layers of a scene for all combinations of values of some fields.
+
+        Args:
+            scene: a Scene or a dict (docs/scene.md); None: the default scene.
+            axes: values by field, such as {"spacetime.spin": [0, 0.9], "camera.inclination_deg": "10:80:15"}.
+            layers: names of layers (docs/layers.md).
+            preset: name of the preset to which `scene` and `changes` are applied.
+            progress: shows a bar.
+            changes: fields of the scene by section, such as spacetime={"spin": 0.9}.
+        """
         document = scene_of(scene, changes)
         if isinstance(layers, str):
             raise TypeError(f"layers is {layers!r}; it must be a list, as in [{layers!r}]")
@@ -383,10 +497,19 @@ class AsyncSession:
         await self.close()
 
     async def close(self) -> None:
+        """Ends the session at the server."""
         await _close(self.client, "sessions", self.id, self.token)
 
     async def patch(self, change: SceneLike = None, **changes: Any) -> int:
-        """Changes the scene. Returns the new revision, which its frames carry."""
+        """Changes the scene.
+
+        Args:
+            change: a merge patch of the scene (RFC 7396).
+            changes: fields of the scene by section, such as spacetime={"spin": 0.9}.
+
+        Returns:
+            The new revision, which frames of the changed scene have.
+        """
         told = await self.client._run(calls.patch(self.id, self.token, scene_of(change, changes)))
         self._take(told)
         return self.revision
@@ -455,6 +578,7 @@ class AsyncJob:
         await self.close()
 
     async def close(self) -> None:
+        """Ends the job at the server and deletes its files."""
         await _close(self.client, "jobs", self.id, self.token)
 
     async def status(self) -> answers.Job:
@@ -473,6 +597,13 @@ class AsyncJob:
                 await asyncio.sleep(every)
 
     async def result(self, kind: str | None = None, frame: int | None = None) -> bytes:
-        """The bytes of the result: a PNG, a ZIP, a film ("mp4", "webm"), a cube ("npz", "fits") or a table. frame: the
-        number of one frame, whose file is returned instead."""
+        """The result of a finished job.
+
+        Args:
+            kind: format, such as "png", "zip", "mp4", "webm", "npz", "fits", "json" or "csv"; None: the job's default.
+            frame: number of a single frame, from 0; None: all frames.
+
+        Returns:
+            The bytes of the file.
+        """
         return await self.client._run(calls.result(self.id, kind, frame))

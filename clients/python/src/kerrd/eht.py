@@ -72,13 +72,13 @@ def to_ehtim(
     known = told.get("name", "none") != "none" or any(told.get(key, 0) != 0 for key in ("ra_deg", "dec_deg"))
     if (ra is None) != (dec is None) or (ra is None and not known):
         raise ValueError(
-            "the place of the source must be told: by source.name, source.ra_deg and source.dec_deg of the scene, or by"
+            "the position of the source is missing; it must be given by source.name, source.ra_deg and source.dec_deg of the scene, or by"
             f" ra and dec here, both; ra is {ra}, dec is {dec}"
         )
     if mjd is None:
         mjd = told.get("mjd", "none")
     if mjd == "none":
-        raise ValueError("the date must be told: by source.mjd of the scene, or by mjd here")
+        raise ValueError("the date is missing; it must be given by source.mjd of the scene, or by mjd here")
     day = float(mjd)
     flux = frame.layers["jy_per_pixel"]
     polarised = _polarised(frame, flux)

@@ -18,8 +18,8 @@ class Spacetime:
     spin: spin parameter a; a < 0: the disk is retrograde to its hole; in M; -0.999999999999 to 0.999999999999; default 0.7.
     mass_msun: mass of the hole; sets the temperature when disk.colour is "accretion"; in solar masses; 0.001 to 1e+12; default
         100000000.
-    distance_pc: angular diameter distance of the hole; with the mass it gives the width of a picture on the sky, which a beam and a
-        scale bar need; in pc; 0.001 to 100000000000; default 260000.
+    distance_pc: angular diameter distance of the hole; with the mass it determines the width of a picture on the sky, for a beam and a
+        scale bar; in pc; 0.001 to 100000000000; default 260000.
     """
 
     spin: float | None = None
@@ -29,7 +29,7 @@ class Spacetime:
 
 @dataclass
 class Camera:
-    """Where the observer is and what it looks at.
+    """Position, motion and view of the observer.
 
     r: Boyer-Lindquist radius of the observer; in M; 0.01 to 10000000; default "infinity".
     inclination_deg: polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180; default
@@ -37,9 +37,9 @@ class Camera:
     azimuth_deg: Boyer-Lindquist azimuth of the observer; for a falling observer the ingoing Kerr-Schild azimuth, which is the same far
         away; in degrees; -360 to 360; default 0.
     observer: state of motion at a finite radius; static: at rest with respect to infinity; zamo: with zero angular momentum; keplerian:
-        on a circular orbit towards +phi, as the disk, whose highest latitude is here; retrograde: on a circular orbit towards -phi,
-        against the disk, whose highest latitude is here; infall: in free fall, by default from rest at infinity; velocity: with any
-        velocity past the one of zero angular momentum; default "static".
+        on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on a circular orbit towards -phi, against
+        the disk, at its highest latitude; infall: in free fall, by default from rest at infinity; velocity: with any velocity relative
+        to the observer of zero angular momentum; default "static".
     velocity_r: outward velocity in the frame of the local observer of zero angular momentum (observer: velocity); in c; -1 to 1;
         default 0.
     velocity_theta: velocity away from the north pole, in the frame of the local observer of zero angular momentum (observer: velocity);
@@ -53,9 +53,9 @@ class Camera:
     infall_momentum: angular momentum per mass of the falling observer, which moves in r and azimuth but not in latitude (observer:
         infall); in M; -10000 to 10000; default 0.
     projection: plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: angle round the
-        critical curve against the logarithm of the distance to it, at infinity only; equirectangular: all directions from a finite
-        radius, longitude across and latitude upwards; fulldome: the angle from the middle as the distance from it, 90 degrees at the
-        nearer edges, from a finite radius; auto: plane or pinhole, whichever fits camera.r; default "auto".
+        critical curve by the logarithm of the distance to it, at infinity only; equirectangular: all directions from a finite radius,
+        longitude to the right and latitude upwards; fulldome: the angle from the middle as distance, 90 degrees at the nearer edges,
+        from a finite radius; auto: plane at infinity, otherwise pinhole; default "auto".
     field_m: width of the image plane (plane projection); in M; 1e-06 to 10000000; default 46.
     field_uas: width of the image plane on the sky, at spacetime.mass_msun and spacetime.distance_pc; it sets camera.field_m; none:
         camera.field_m is used; in microarcseconds; 1e-12 to 1e+12; default "none".
@@ -126,7 +126,7 @@ class Disk:
 
     model: radial flux: none; the exact Page-Thorne integral; the Newtonian thin disk cut at the ISCO; or particles: the exact flux, as
         orbiting particles; default "novikov-thorne".
-    inner: inner edge; never inside the ISCO; in M; 1 to 1000000; default "isco".
+    inner: inner edge; at least the ISCO; in M; 1 to 1000000; default "isco".
     outer: outer edge; larger than the inner one; in M; 1 to 1000000; default 22.
     taper: outer fraction of the radius over which the disk fades out; 0: a sharp edge; 0 to 1; default 0.7.
     opacity: opacity of one crossing; 1 is optically thick; 0 to 1; default 1.
@@ -155,7 +155,7 @@ class Disk:
         to 1; default 0.7.
     epicycles: largest amplitude of oscillations: in latitude, in radians; in r over r, times (kappa/Omega)^2, which vanishes at the
         ISCO (model: particles); 0 to 0.2; default 0.02.
-    slow_light: show particles, gas and spots where they were when each ray's light left them, instead of all at one coordinate time;
+    slow_light: show particles, gas and spots at the time when the light of each ray left them, instead of at one coordinate time;
         default false.
     gas: turbulence in the gas of the smooth disk models.
     """
@@ -191,7 +191,7 @@ class Spot:
 
     brightness: surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0 to 1000000;
         default 0.
-    r: radius of the circular orbit of the spot's centre; never inside the ISCO; in M; 1 to 1000000; default 9.
+    r: radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9.
     phase_deg: azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0.
     size: distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000; default 1.
     index: spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 + index); -4 to 6;
@@ -216,11 +216,11 @@ class Body:
     inclination_deg: polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
         default 90.
     phase_deg: azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default 0.
-    motion: state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the last two in the
-        disk's plane alone; static: at rest with respect to infinity; zamo: with zero angular momentum; keplerian: on a circular orbit
-        towards +phi, as the disk, whose highest latitude is here; retrograde: on a circular orbit towards -phi, against the disk, whose
-        highest latitude is here; infall: in free fall, by default from rest at infinity; velocity: with any velocity past the one of
-        zero angular momentum; default "keplerian".
+    motion: state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the last two only
+        in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular momentum; keplerian: on a circular orbit
+        towards +phi like the disk, at its highest latitude; retrograde: on a circular orbit towards -phi, against the disk, at its
+        highest latitude; infall: in free fall, by default from rest at infinity; velocity: with any velocity relative to the observer
+        of zero angular momentum; default "keplerian".
     velocity_r: outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to 1; default
         0.
     velocity_theta: velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion: velocity);
@@ -249,14 +249,13 @@ class Body:
 
 @dataclass
 class Volume:
-    """Matter all along the rays.
+    """Matter along the rays.
 
-    model: matter all along the rays: none; uniform, a shell that is the same everywhere and does not move: what light and opacity along
-        bent rays come to; at one radio frequency gold, the analytic model of Gold et al. 2020, riaf, a hot, thin flow whose density,
-        temperature and magnetic field are powers of r, torus, a thick one in equilibrium, and grid, numbers from a file; default
-        "none".
-    inner: inner edge; horizon: as near to it as it may be, a hundredth outside it, or a two-thousandth for what is seen at a radio
-        frequency; of a torus half of the radius of its largest pressure; in M; 1 to 30000; default "horizon".
+    model: matter along the rays. none; uniform: a homogeneous shell at rest. At one radio frequency: gold, the analytic model of Gold
+        et al. 2020; riaf, a hot, thin flow whose density, temperature and magnetic field are powers of r; torus, a thick disk in
+        equilibrium; grid, numbers from a file; default "none".
+    inner: inner edge; horizon: as close to it as possible, which is 1 % outside it, or 0.05 % for the models at a radio frequency; for
+        a torus half of volume.torus_radius; in M; 1 to 30000; default "horizon".
     outer: outer edge of the matter; larger than the inner edge; in M; 1 to 30000; default 20.
     emissivity: light emitted along 1 M in the matter's frame, in units of the disk's brightest (model: uniform); in 1/M; 0 to 1e+30;
         default 0.02.
@@ -272,8 +271,8 @@ class Volume:
     gold_emission: C n0: emissivity at 230 GHz at the largest density (model: gold); in erg/(s cm^3 Hz sr); 0 to 1e+30; default 3e-18.
     gold_index: alpha: emissivity goes as nu^-alpha, absorptivity as nu^-(2.5 + alpha) (model: gold); -10 to 10; default 0.
     gold_flattening: h: density goes as exp(-(h cos(theta))^2/2); 0: round (model: gold); 0 to 10000; default 0.
-    gold_momentum: l0: angular momentum, l0 R^(3/2)/(1 + R) an energy of 1, R = r sin(theta); 0: zero angular momentum (model: gold); -1
-        to 1; default 0.
+    gold_momentum: l0: angular momentum over energy is l0 R^(3/2)/(1 + R) with R = r sin(theta); 0: zero angular momentum (model: gold);
+        -1 to 1; default 0.
     gold_absorption: A: absorptivity in 1/cm over emissivity in erg/(s cm^3 Hz sr), at 230 GHz (model: gold); 0 to 1e+30; default 0.
     density_cm3: electron density: at r = 1 M in the equatorial plane, by its power law (model: riaf); its maximum (model: torus); in
         1/cm^3; 0 to 1e+30; default 30000000.
@@ -285,10 +284,10 @@ class Volume:
     magnetisation: magnetic pressure over the rest energy of a proton per electron, at r = 1 M (model: riaf); 0 to 1e+12; default
         0.016666666666666666.
     magnetisation_index: p: magnetisation is proportional to r^-p (model: riaf); -10 to 10; default 1.
-    field: magnetic field: round the axis, along it, or along the radius, made perpendicular to the motion (models: riaf, torus);
-        default "toroidal".
-    flow: motion: with the circular orbit's angular velocity at each r, and falling in from the ISCO; or at rest for observers of zero
-        angular momentum (model: riaf); default "orbits".
+    field: direction of the magnetic field: round the axis, along it, or radial; its part along the motion is removed (models: riaf,
+        torus); default "toroidal".
+    flow: motion: with the angular velocity of the circular orbit at each r, and in free fall inside the ISCO; or at rest for observers
+        of zero angular momentum (model: riaf); default "orbits".
     electrons: energy distribution of the electrons (models: riaf, torus, grid); kappa: thermal with a power-law tail; default
         "thermal".
     electrons_index: p: the number of electrons is proportional to gamma^-p (electrons: power-law); 1.1 to 10; default 3.5.
@@ -300,8 +299,9 @@ class Volume:
     beta: gas pressure over magnetic pressure (model: torus); 1e-06 to 1e+12; default 10.
     gamma_min: smallest Lorentz factor of the electrons (electrons: power-law); 1 to 1000000000; default 30.
     gamma_max: largest Lorentz factor of the electrons; above gamma_min (electrons: power-law); 1 to 1e+12; default 100000.
-    normalise_to_jy: flux that the picture must have: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a number
-        that it finds with small pictures, and reports it; 0: no change (models: gold, riaf, torus, grid); in Jy; 0 to 1e+12; default 0.
+    normalise_to_jy: flux of the picture: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a number that it
+        determines with small pictures, and reports this number; 0: no change (models: gold, riaf, torus, grid); in Jy; 0 to 1e+12;
+        default 0.
     normalise_ghz: frequency of that flux; observed: volume.frequency_ghz; in GHz; 1e-06 to 1e+12; default "observed".
     """
 
@@ -373,16 +373,16 @@ class Jets:
 
 @dataclass
 class Polarization:
-    """How light is polarised: what layers and ticks show of it; of light from the disk's plane no picture does.
+    """Polarisation of light, as layers and ticks show it; in a picture it changes only the light of volumes.
 
-    model: of light from the disk's plane: none; synchrotron, across polarization.field and the light, in the gas's frame; or
-        scattering, of a deep atmosphere of free electrons, across the normal and the light; transfer: of a volume at a radio frequency,
-        Stokes I, Q, U and V all along the rays; default "none".
+    model: polarisation. none. Of light from the disk's plane: synchrotron, perpendicular to polarization.field and the ray in the gas's
+        frame; scattering, in a deep atmosphere of free electrons, perpendicular to the normal and the ray. transfer: of a volume at a
+        radio frequency, Stokes I, Q, U and V along the rays; default "none".
     field: direction of the magnetic field in the plane: round the axis, outwards, or along the normal (model: synchrotron); default
         "toroidal".
     electron_index: p: the number of electrons is proportional to E^-p; an ordered field polarises their light by (p + 1)/(p + 7/3)
         (model: synchrotron); 1 to 10; default 3.
-    order: share of that polarisation which remains when the field is disordered within a pixel; 0 to 1; default 1.
+    order: factor on that polarisation for a field that is disordered within a pixel; 0 to 1; default 1.
     faraday: include Faraday rotation, and conversion between linear and circular polarisation, by the electrons (model: transfer);
         default true.
     rotation: fit of the Faraday rotation by thermal electrons: Shcherbakov 2008, or Dexter 2016 in the form of Huang and Shcherbakov
@@ -399,25 +399,25 @@ class Polarization:
 
 @dataclass
 class Sky:
-    """What lies at infinity.
+    """The sky at infinity.
 
-    model: what lies at infinity: nothing; a celestial grid that shows the lensing; stars and a Milky Way that are made up; the stars of
-        the Hipparcos catalogue over that Milky Way; or sky.image without stars; default "none".
-    brightness: brightness of the sky in units of the disk's brightest surface brightness at g = 1: of the grid; of 21 magnitudes a
-        square arcsecond, by which stars and the Milky Way keep their true ratio; auto: 0.2, or 0.01 of stars and the Milky Way where
-        something shines before them; 0 to 100; default "auto".
+    model: sky at infinity: none; a celestial grid that shows the lensing; generated stars and a generated Milky Way; the stars of the
+        Hipparcos catalogue over that Milky Way; or sky.image without stars; default "none".
+    brightness: brightness of the sky in units of the disk's brightest surface brightness at g = 1: that of the grid, or of 21
+        magnitudes per square arcsecond for stars and the Milky Way, whose ratio is real; auto: 0.2, or 0.01 for stars and the Milky Way
+        behind something that shines; 0 to 100; default "auto".
     grid_deg: spacing of the celestial grid; in degrees; 1 to 90; default 15.
-    milky_way: brightness of the Milky Way, or of sky.image, over its natural one; 0: stars alone; 0 to 100; default 1.
-    image: picture of the whole sky in the place of the Milky Way that is made up (model: stars, catalogue, image): twice as wide as
-        high, galactic longitude across, growing to the left from 0 in the middle, latitude upwards; its white is 21 magnitudes a square
+    milky_way: factor on the natural brightness of the Milky Way or of sky.image; 0: only stars; 0 to 100; default 1.
+    image: picture of the whole sky instead of the generated Milky Way (model: stars, catalogue, image): twice as wide as high, with
+        galactic longitude 0 in the middle and rising to the left, latitude rising upwards; its white is 21 magnitudes per square
         arcsecond; default null.
-    limit_mag: stars fainter than this are left out; in magnitudes; -2 to 14; default 14.
+    limit_mag: magnitude of the faintest stars; in magnitudes; -2 to 14; default 14.
     seed: seed of the random numbers: another seed gives another generated sky; 0 to 2147483647; default 1.
-    orientation: galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra, m87: from
-        azimuth 0 the hole stands before that one, as seen from the Earth, with the galactic or the celestial pole above; default
-        "galactic".
+    orientation: galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra, m87: seen
+        from azimuth 0 the hole is in front of that source as seen from the Earth, with the galactic or the celestial pole above;
+        default "galactic".
     turn_deg: rotation of the sky about the hole's axis, in the sense of camera.azimuth_deg; in degrees; -360 to 360; default 0.
-    tilt_deg: then, rotation of the sky about the horizontal axis of the picture from azimuth 0; in degrees; -180 to 180; default 0.
+    tilt_deg: a second rotation of the sky, about the horizontal axis of the picture from azimuth 0; in degrees; -180 to 180; default 0.
     """
 
     model: Literal['none', 'grid', 'stars', 'catalogue', 'image'] | None = None
@@ -434,7 +434,7 @@ class Sky:
 
 @dataclass
 class Tile:
-    """A part of the picture, made by itself, the same to the byte as there.
+    """A part of the picture, rendered alone, with the same bytes as in the whole.
 
     left: columns of the picture to the left of the tile; in pixels; 0 to 32767; default 0.
     top: rows of the picture above the tile; in pixels; 0 to 32767; default 0.
@@ -454,21 +454,22 @@ class Image:
 
     width: width of the picture; in pixels; 1 to 32768; default 1280.
     height: height of the picture; in pixels; 1 to 32768; default 720.
-    samples: rays along each side of a pixel: n gives n x n rays, averaged; auto: one, and 16 where the picture shows that one was not
-        enough; 1 to 8; default 1.
+    samples: rays along each side of a pixel: n gives the mean of n x n rays; auto: one ray, and 16 for pixels that differ from their
+        neighbours; 1 to 8; default 1.
     pixel_error: apparent error of a pixel of one ray, as a fraction of white, above which it gets more rays (samples: auto); 0.001 to
         0.5; default 0.003.
     critical_factor: factor on the rays along each side of pixels at the critical curve, where the photon ring is thinner than a pixel;
         at most 16 rays a side in all; 1 to 16; default 4.
     bit_depth: bits a channel: 8 or 16; in bits; 8 to 16; default 8.
-    layers: what the file holds: the picture, or maps of the rays (docs/layers.md); of the first crossing on the disk, or behind _N of
-        image order N; a PNG shows one in false colour, FITS, EXR, NPZ and NPY hold several as numbers; default ["rgb"].
+    layers: contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing on the disk, or with the
+        suffix _N for image order N; a PNG shows one map in false colour, FITS, EXR, NPZ and NPY have several as numbers; default
+        ["rgb"].
     layer_min: value at the lower end of a layer's colour scale; auto: docs/layers.md gives it for each layer; -1e+12 to 1e+12; default
         "auto".
     layer_max: value at the upper end of a layer's colour scale; auto: docs/layers.md gives it for each layer; -1e+12 to 1e+12; default
         "auto".
     legend: draw a colour bar in the lower left corner of a layer in false colour; default true.
-    tile: a part of the picture, made by itself, the same to the byte as there.
+    tile: a part of the picture, rendered alone, with the same bytes as in the whole.
     """
 
     width: int | None = None
@@ -488,23 +489,23 @@ class Image:
 class Style:
     """From brightness to the colours of the file.
 
-    name: style that sets all fields of the look, except those that the document sets itself; none: no style; default "film".
-    exposure: brightness as a power of two over the disk's brightest surface brightness at g = 1; auto: by what shines, and stars alone
-        no further than that space is black; in stops; -40 to 40; default "auto".
+    name: style that sets all fields of the look, except those in the document; none: no style; default "film".
+    exposure: exposure as a power of two, relative to the disk's brightest surface brightness at g = 1; auto: from the light in the
+        picture, limited for stars alone so that empty space is black; in stops; -40 to 40; default "auto".
     tone_map: aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours and compresses what is near white;
         default "aces".
     bloom: share of bright light that the lens spreads around its place: all light over 0.6 of white, with a smooth transition from 0.2
         on; 0: none; 0 to 1; default 0.4.
-    beam_uas: full width at half maximum of the round Gaussian beam of a telescope that sees the picture from spacetime.distance_pc; 0:
-        none; in microarcseconds; 0 to 1e+12; default 0.
+    beam_uas: full width at half maximum of a round Gaussian telescope beam, seen from spacetime.distance_pc; 0: none; in
+        microarcseconds; 0 to 1e+12; default 0.
     palette: colour: that of the light; heat: brightness in false colour (black, red, orange, white), with lightness proportional to it;
         default "colour".
     colour_bar: draw a brightness bar in the lower left corner (palette: heat; tone_map: srgb), and in the upper right corner an angular
         scale and the shape of the beam; default false.
     dither: add half a step of ordered noise before rounding, against banding; default true.
-    ringdown: a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * e^(-t/tau) cos(w t), with
-        the hole's quasi-normal mode l = m = 2, n = 0; 0: none; 0 to 1; default 0.
-    ringdown_time: time at which the hole was struck; before it nothing rings; in M; -1e+12 to 1e+12; default 0.
+    ringdown: illustration of a struck hole: light of image orders 1 and up is multiplied by 1 + ringdown e^(-t/tau) cos(w t), with the
+        hole's quasi-normal mode l = m = 2, n = 0; 0: none; 0 to 1; default 0.
+    ringdown_time: time at which the hole was struck, and the ringing begins; in M; -1e+12 to 1e+12; default 0.
     """
 
     name: Literal['none', 'film', 'raw', 'dngr', 'eht', 'starless'] | None = None
@@ -521,9 +522,9 @@ class Style:
 
 @dataclass
 class Source:
-    """The source on the sky that the hole stands for: FITS files tell it, and no pixel depends on it.
+    """The source on the sky that the hole represents, for FITS files; it changes no pixel.
 
-    name: the source on the sky that the hole stands for; default "none".
+    name: the source on the sky that the hole represents; default "none".
     ra_deg: right ascension of the hole (ICRS); in degrees; 0 to 360; default 0.
     dec_deg: declination of the hole (ICRS); in degrees; -90 to 90; default 0.
     mjd: date of the picture, as a modified Julian date; in days; 0 to 1000000; default "none".
@@ -537,12 +538,12 @@ class Source:
 
 @dataclass
 class Motion:
-    """What goes on by itself in a live session; a still picture knows none of it.
+    """Motion in a live session; a still picture ignores it.
 
     azimuth_rate_deg: rate at which the observer goes round the axis; in degrees per second; -360 to 360; default 0.
-    time_rate: rate at which coordinate time goes on; in M per second; -1000000 to 1000000; default 0.
-    proper_time_rate: rate of the observer's own clock: it falls, to the last place a camera can be at, or goes round; coordinate time
-        goes on accordingly; in M per second; 0 to 1000000; default 0.
+    time_rate: rate of coordinate time; in M per second; -1000000 to 1000000; default 0.
+    proper_time_rate: rate of the observer's proper time: the observer falls, to the last possible position, or orbits; coordinate time
+        follows; in M per second; 0 to 1000000; default 0.
     """
 
     azimuth_rate_deg: float | None = None
@@ -552,14 +553,14 @@ class Motion:
 
 @dataclass
 class Accuracy:
-    """How closely the rays are followed.
+    """Accuracy of the rays.
 
     profile: accuracy with which rays are traced, from coarse to fine; reference: double precision; default "balanced".
-    tolerance: largest relative error of the crossing radii, by the accuracy table of the device; profile: what the profile means; 1e-18
-        to 0.1; default "profile".
-    engine: method that traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6; default "auto".
-    precision: precision of the arithmetic; auto: what the profile means; default "auto".
-    steps: integrator steps for a half turn, a multiple of 4; 0: what the profile means; 0 to 2048; default 0.
+    tolerance: largest relative error of the crossing radii, by the accuracy table of the device; profile: the error of
+        accuracy.profile; 1e-18 to 0.1; default "profile".
+    engine: method that traces the rays; auto: the closed form outside the photon orbits, otherwise mino-rkn6; default "auto".
+    precision: precision of the arithmetic; auto: chosen by accuracy.profile; default "auto".
+    steps: integrator steps for a half turn, a multiple of 4; 0: chosen by accuracy.profile; 0 to 2048; default 0.
     orders: equatorial crossings kept for each ray: image orders 0 to n - 1; 1 to 8; default 3.
     """
 
@@ -576,19 +577,19 @@ class Scene:
     """A scene, version 1.
 
     spacetime: the hole.
-    camera: where the observer is and what it looks at.
+    camera: position, motion and view of the observer.
     disk: the accretion disk in the equatorial plane, turning towards +phi.
     spots: hot spots: Gaussians in the equatorial plane that go round with the gas; up to 16.
-    bodies: bodies: spheres that shine, before the hole, behind it and in the disk; up to 8.
-    volume: matter all along the rays.
+    bodies: bodies: luminous spheres in front of the hole, behind it and in the disk; up to 8.
+    volume: matter along the rays.
     jets: stylised jets along the spin axis.
-    polarization: how light is polarised: what layers and ticks show of it; of light from the disk's plane no picture does.
-    sky: what lies at infinity.
+    polarization: polarisation of light, as layers and ticks show it; in a picture it changes only the light of volumes.
+    sky: the sky at infinity.
     image: the size of the picture.
     style: from brightness to the colours of the file.
-    source: the source on the sky that the hole stands for: FITS files tell it, and no pixel depends on it.
-    motion: what goes on by itself in a live session; a still picture knows none of it.
-    accuracy: how closely the rays are followed.
+    source: the source on the sky that the hole represents, for FITS files; it changes no pixel.
+    motion: motion in a live session; a still picture ignores it.
+    accuracy: accuracy of the rays.
     time: coordinate time of the picture; in M; -1e+12 to 1e+12; default 0.
     """
 

@@ -1,4 +1,4 @@
-#include "render/view/critical_kept.h"
+#include "render/view/critical_cache.h"
 
 #include <pthread.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@ struct key {
     struct kd_window window;
 };
 
-static struct kept {
+static struct entry {
     struct key key;
     struct kd_critical_pixels list; /* may be empty, with pixels NULL; that is cached as well */
     uint64_t used;                  /* value of a counter at the last use; 0: the slot is free */
@@ -46,7 +46,7 @@ static enum kd_status copy(const struct kd_critical_pixels *from, struct kd_crit
 }
 
 /* The cached list of a key, or NULL. The lock must be held, also for the next three functions. */
-static struct kept *find(const struct key *key)
+static struct entry *find(const struct key *key)
 {
     for (size_t i = 0; i < KD_CRITICAL_KEPT; i++)
         if (all[i].used && !memcmp(&all[i].key, key, sizeof *key))
@@ -54,17 +54,17 @@ static struct kept *find(const struct key *key)
     return NULL;
 }
 
-static void drop(struct kept *kept)
+static void drop(struct entry *entry)
 {
-    kd_critical_pixels_finish(&kept->list);
-    kept->used = 0;
+    kd_critical_pixels_finish(&entry->list);
+    entry->used = 0;
 }
 
 /* A slot for a list of n pixels: the least recently used lists are evicted to make room. */
-static struct kept *place_for(size_t n)
+static struct entry *place_for(size_t n)
 {
     for (;;) {
-        struct kept *oldest = NULL, *place = NULL;
+        struct entry *oldest = NULL, *place = NULL;
         size_t bytes = n * sizeof(struct kd_pixel);
         for (size_t i = 0; i < KD_CRITICAL_KEPT; i++) {
             bytes += all[i].list.n * sizeof(struct kd_pixel);
@@ -73,7 +73,7 @@ static struct kept *place_for(size_t n)
             else if (!oldest || all[i].used < oldest->used)
                 oldest = &all[i];
         }
-        if (place && bytes <= KD_CRITICAL_KEPT_BYTES)
+        if (place && bytes <= KD_CRITICAL_CACHE_BYTES)
             return place;
         drop(oldest);
     }
@@ -82,20 +82,20 @@ static struct kept *place_for(size_t n)
 static void keep(const struct key *key, const struct kd_critical_pixels *list)
 {
     struct kd_critical_pixels own;
-    if (list->n > KD_CRITICAL_KEPT_BYTES / sizeof(struct kd_pixel) || find(key) || copy(list, &own))
+    if (list->n > KD_CRITICAL_CACHE_BYTES / sizeof(struct kd_pixel) || find(key) || copy(list, &own))
         return; /* not cached: too long, already inserted by another thread, or out of memory */
-    struct kept *place = place_for(own.n);
-    *place = (struct kept) { .key = *key, .list = own, .used = ++now };
+    struct entry *place = place_for(own.n);
+    *place = (struct entry) { .key = *key, .list = own, .used = ++now };
 }
 
-enum kd_status kd_critical_kept(const struct kd_scene *scene, struct kd_critical_pixels *out, struct kd_error *error)
+enum kd_status kd_critical_cache(const struct kd_scene *scene, struct kd_critical_pixels *out, struct kd_error *error)
 {
     const struct key key = key_of(scene);
     pthread_mutex_lock(&lock);
-    struct kept *kept = find(&key);
-    bool found = kept && !copy(&kept->list, out);
+    struct entry *entry = find(&key);
+    bool found = entry && !copy(&entry->list, out);
     if (found)
-        kept->used = ++now;
+        entry->used = ++now;
     pthread_mutex_unlock(&lock);
     if (found)
         return KD_OK;

@@ -4,13 +4,13 @@
  * It runs while a client watches or sends requests, and pauses KD_PLAY_REST_MS after the last request. After
  * params.idle_ms without any client it ends. Each session is one job of the scheduler (http/task_scheduler.h), with
  * slices of some 10 ms. A sub-step is never divided. It takes tens of milliseconds with 4096 bodies or a million pieces
- * of debris. If the processor cannot keep up, simulated time slows down, and clients are told so.
+ * of debris. If the processor cannot keep up, simulated time slows down, and the state reports it.
  *
  * A playground belongs to one thread at a time: the thread that has taken it, which is always a worker. The HTTP thread
  * reads the snapshot that the workers publish after each tick. Any thread; functions on watchers belong to the HTTP
  * thread. */
-#ifndef KD_SERVER_PLAYGROUND_PLAYS_H
-#define KD_SERVER_PLAYGROUND_PLAYS_H
+#ifndef KD_SERVER_PLAYGROUND_SESSIONS_H
+#define KD_SERVER_PLAYGROUND_SESSIONS_H
 
 #include "playground/playground.h"
 #include "server/http/counts.h"
@@ -78,7 +78,7 @@ void kd_playground_session_end(struct kd_playground_session *play, const char *w
  * KD_SLICE_AWAY; it is woken when the playground is returned. A slice that has taken the playground may be suspended
  * (base/pause.h), because no thread blocks for it. For workers. */
 struct kd_playground_session_waiter {
-    struct kd_scheduler *turns;
+    struct kd_scheduler *scheduler;
     struct kd_scheduler_job *job;
     /* private to the session */
     struct kd_playground_session_waiter *next;

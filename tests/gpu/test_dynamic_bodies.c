@@ -113,7 +113,7 @@ struct judged {
 
 /* Judges a picture of one image: each pixel shows the body where the oracle says so, or another body that the ray met
  * before. */
-static void judge(struct kd_scene scene, const struct kd_dynamic_bodies *crowd, uint32_t which, const double at[2],
+static void judge(struct kd_scene scene, const struct kd_dynamic_bodies *dynamic, uint32_t which, const double at[2],
                   double size, struct judged *sum)
 {
     char set[64];
@@ -129,19 +129,19 @@ static void judge(struct kd_scene scene, const struct kd_dynamic_bodies *crowd, 
         const double x = at[0] + step * (i % WIDTH + 0.5 - 0.5 * WIDTH),
                      y = at[1] - step * (i / WIDTH + 0.5 - 0.5 * HEIGHT);
         double delay, before;
-        const bool there = pass(&scene, &crowd->bodies[which], x, y, 4, &delay) < RADIUS;
+        const bool there = pass(&scene, &dynamic->bodies[which], x, y, 4, &delay) < RADIUS;
         const long seen = isnan(kelvin[i]) ? -1 : lround((kelvin[i] - LEAST_K) / 2);
         bool right = (seen == which) == there;
         if (there && seen >= 0 && seen != which) { /* another body lies in front of this one */
             assert_true(seen < MANY);
-            right = pass(&scene, &crowd->bodies[seen], x, y, 4, &before) < 1.02 * RADIUS && before < delay + 0.1;
+            right = pass(&scene, &dynamic->bodies[seen], x, y, 4, &before) < 1.02 * RADIUS && before < delay + 0.1;
             sum->hidden += right;
         }
         lit += there;
         sum->shown += there && seen == which;
         for (double reach = 0.02; !right && reach < 1; reach += 0.02)
             for (int k = 0; k < 12 && !right; k++) {
-                right = (pass(&scene, &crowd->bodies[which], x + reach * step * cos(k * M_PI / 6),
+                right = (pass(&scene, &dynamic->bodies[which], x + reach * step * cos(k * M_PI / 6),
                               y + reach * step * sin(k * M_PI / 6), 4, &delay) < RADIUS) == (seen == which);
                 sum->worst = fmax(sum->worst, reach);
             }
@@ -159,15 +159,15 @@ static void test_places(void **state)
     struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":70},\"spacetime\":{\"spin\":0.7},\"disk\":{"
                                      "\"inner\":5,\"outer\":5.001},\"image\":{\"layers\":[\"rgb\",\"temperature\"]}}");
     struct kd_playground *p = many(scene.spacetime.spin);
-    struct kd_dynamic_bodies *crowd;
+    struct kd_dynamic_bodies *dynamic;
     struct judged first = { 0 }, second = { 0 };
     OK(kd_playground_may_show(p, &scene, &error));
-    OK(kd_playground_show(p, &crowd, &error));
+    OK(kd_playground_show(p, &dynamic, &error));
     kd_playground_destroy(p);
-    kd_scene_show(&scene, crowd);
+    kd_scene_show(&scene, dynamic);
     for (uint32_t i = 0; i < 40; i++) {
         const uint32_t which = i * 101 + 7;
-        const struct kd_seen_body *b = &crowd->bodies[which];
+        const struct kd_seen_body *b = &dynamic->bodies[which];
         const double theta = scene.camera.inclination_deg * M_PI / 180, c = cos(theta), s = sin(theta);
         const double x[3] = { b->r * b->s * cos(b->phi), b->r * b->s * sin(b->phi), b->r * b->u };
         const double ahead = s * x[0] + c * x[2], across[2] = { x[1], s * x[2] - c * x[0] },
@@ -180,28 +180,28 @@ static void test_places(void **state)
         }
         size = image_near(&scene, b, at, 1);
         if (size > 0)
-            judge(scene, crowd, which, at, size, &first);
+            judge(scene, dynamic, which, at, size, &first);
         /* On the other side of the hole. */
         double other[2] = { -5.6 * across[0] / fmax(impact, 0.1), -5.6 * across[1] / fmax(impact, 0.1) };
         size = i % 2 ? image_near(&scene, b, other, 0.4) : 0;
         if (size > 0 && hypot(other[0] - at[0], other[1] - at[1]) > 1)
-            judge(scene, crowd, which, other, size, &second);
+            judge(scene, dynamic, which, other, size, &second);
     }
     printf("%d images of order 0: %d pixels, %d behind others, edges off by %.2g pixels; %d of order 1: %d pixels, %d "
            "behind others, %.2g\n",
            first.images, first.shown, first.hidden, first.worst, second.images, second.shown, second.hidden,
            second.worst);
     assert_true(first.images >= 30 && second.images >= 5 && first.worst < 0.5 && second.worst < 0.5);
-    kd_dynamic_bodies_release(crowd);
+    kd_dynamic_bodies_release(dynamic);
 }
 
 static struct kd_dynamic_bodies *one(const struct kd_seen_body *body, size_t n)
 {
-    struct kd_dynamic_bodies *crowd;
-    OK(kd_dynamic_bodies_create(n, 0, 0, &crowd, &error));
+    struct kd_dynamic_bodies *dynamic;
+    OK(kd_dynamic_bodies_create(n, 0, 0, &dynamic, &error));
     for (size_t i = 0; i < n; i++)
-        crowd->bodies[i] = *body;
-    return crowd;
+        dynamic->bodies[i] = *body;
+    return dynamic;
 }
 
 /* test_bodies.c judges what a body of a scene shows, hides and is hidden by. A body of a playground gives the same, to
@@ -219,17 +219,17 @@ static void test_as_a_scene_has_it(void **state)
                  phases[k]);
         struct kd_scene own = scene_of(json), other = own;
         const struct kd_body *b = &own.bodies.at[0];
-        struct kd_dynamic_bodies *crowd = one(&(struct kd_seen_body) { .r = b->r,
-                                                                       .u = cos(65 * M_PI / 180),
-                                                                       .s = sin(65 * M_PI / 180),
-                                                                       .phi = phases[k] * M_PI / 180,
-                                                                       .radius = b->radius,
-                                                                       .temperature_k = b->temperature_k,
-                                                                       .brightness = 1,
-                                                                       .limb_darkening = b->limb_darkening },
-                                              1);
+        struct kd_dynamic_bodies *dynamic = one(&(struct kd_seen_body) { .r = b->r,
+                                                                         .u = cos(65 * M_PI / 180),
+                                                                         .s = sin(65 * M_PI / 180),
+                                                                         .phi = phases[k] * M_PI / 180,
+                                                                         .radius = b->radius,
+                                                                         .temperature_k = b->temperature_k,
+                                                                         .brightness = 1,
+                                                                         .limb_darkening = b->limb_darkening },
+                                                1);
         other.bodies.at[0].radius = 0;
-        kd_scene_show(&other, crowd);
+        kd_scene_show(&other, dynamic);
         struct kd_frame a = rendered(&own), c = rendered(&other);
         int lit = 0;
         assert_true(c.lens_reused);
@@ -242,7 +242,7 @@ static void test_as_a_scene_has_it(void **state)
         assert_true(lit > 20);
         kd_frame_finish(&a);
         kd_frame_finish(&c);
-        kd_dynamic_bodies_release(crowd);
+        kd_dynamic_bodies_release(dynamic);
     }
 }
 
@@ -264,10 +264,10 @@ static void test_dark(void **state)
                                            .temperature_k = k == 1 ? 0 : 6000,
                                            .brightness = k == 1 ? 1 : 0,
                                            .limb_darkening = 0.6 };
-        struct kd_dynamic_bodies *crowd = one(&body, 1);
+        struct kd_dynamic_bodies *dynamic = one(&body, 1);
         struct kd_capacity c;
         struct kd_plan plan;
-        kd_scene_show(&scene, crowd);
+        kd_scene_show(&scene, dynamic);
         frames[k] = rendered(&scene);
         kd_renderer_capacity(renderer, &c);
         OK(kd_plan_make(&scene, &c, &plan, &error));
@@ -275,7 +275,7 @@ static void test_dark(void **state)
         for (size_t i = 0; i < plan.n_approximations; i++)
             told |= strstr(plan.approximations[i].text, "they have no radius") != NULL;
         assert_true(told == (k == 2));
-        kd_dynamic_bodies_release(crowd);
+        kd_dynamic_bodies_release(dynamic);
     }
     int hidden = 0;
     for (int i = 0; i < PIXELS; i++) {
@@ -317,20 +317,20 @@ static void test_debris(void **state)
                      "\"orders\":1},\"image\":{\"layers\":[\"rgb\",\"intensity\"]}}");
         const double cell = 2 * M_PI / 512, worth = 3e-5, kelvin = 5000, *v = velocities[k];
         const int32_t from = (int32_t)floor(log(4) / cell);
-        struct kd_dynamic_bodies *crowd;
+        struct kd_dynamic_bodies *dynamic;
         const uint32_t rows = (uint32_t)ceil(log(18) / cell) - (uint32_t)from;
-        OK(kd_dynamic_bodies_create(0, rows, 512, &crowd, &error));
-        crowd->debris.turn = 512;
-        crowd->debris.first_row = from;
-        crowd->debris.depth = 1;
-        crowd->debris.temperature_k = kelvin;
+        OK(kd_dynamic_bodies_create(0, rows, 512, &dynamic, &error));
+        dynamic->debris.turn = 512;
+        dynamic->debris.first_row = from;
+        dynamic->debris.depth = 1;
+        dynamic->debris.temperature_k = kelvin;
         for (uint32_t i = 0; i < rows * 512; i++) {
-            float *node = crowd->debris.nodes + 3 * i;
+            float *node = dynamic->debris.nodes + 3 * i;
             node[0] = (float)(worth * (1 + 0.5 * sin(2 * M_PI * (i % 512) / 512.0)));
             node[1] = node[0] * (float)v[0];
             node[2] = node[0] * (float)v[1];
         }
-        kd_scene_show(&scene, crowd);
+        kd_scene_show(&scene, dynamic);
         struct kd_frame frame = rendered(&scene);
         int lit = 0;
         double worst = 0;
@@ -358,7 +358,7 @@ static void test_debris(void **state)
         printf("debris of velocity %g, %g: %d pixels, worst %.2g\n", v[0], v[1], lit, worst);
         assert_true(lit > 60 && worst < 1e-3);
         kd_frame_finish(&frame);
-        kd_dynamic_bodies_release(crowd);
+        kd_dynamic_bodies_release(dynamic);
     }
 }
 
@@ -460,21 +460,21 @@ static void test_lit(void **state)
                                          "\"image\":{\"layers\":[\"rgb\",\"intensity\"]}}");
         const double theta = polar[k] * M_PI / 180, phi = 2.6, r = 150, i = 70 * M_PI / 180, step = 30.0 / WIDTH;
         const double at[3] = { r * sin(theta) * cos(phi), r * sin(theta) * sin(phi), r * cos(theta) };
-        struct kd_dynamic_bodies *crowd = one(&(struct kd_seen_body) { .r = r,
-                                                                       .u = cos(theta),
-                                                                       .s = sin(theta),
-                                                                       .phi = phi,
-                                                                       .radius = 6,
-                                                                       .temperature_k = 5000,
-                                                                       .albedo = 0.5 },
-                                              1);
+        struct kd_dynamic_bodies *dynamic = one(&(struct kd_seen_body) { .r = r,
+                                                                         .u = cos(theta),
+                                                                         .s = sin(theta),
+                                                                         .phi = phi,
+                                                                         .radius = 6,
+                                                                         .temperature_k = 5000,
+                                                                         .albedo = 0.5 },
+                                                1);
         /* Weakly bent: a first guess of its place is enough, since the picture is wide. */
         double image[2] = { at[1], sin(i) * at[2] - cos(i) * at[0] };
         const double ahead = sin(i) * at[0] + cos(i) * at[2], impact = hypot(image[0], image[1]),
                      more = ahead < 0 ? 4 * -ahead / impact / impact : 0;
         scene.camera.centre_alpha = image[0] * (1 + more);
         scene.camera.centre_beta = image[1] * (1 + more);
-        kd_scene_show(&scene, crowd);
+        kd_scene_show(&scene, dynamic);
         struct kd_frame frame = rendered(&scene);
         double sum = 0, want = 0, most = 0;
         for (int p = 0; p < PIXELS; p++) {
@@ -491,7 +491,7 @@ static void test_lit(void **state)
                most);
         assert_true(want > 0 && fabs(sum / want - 1) < 0.1);
         kd_frame_finish(&frame);
-        kd_dynamic_bodies_release(crowd);
+        kd_dynamic_bodies_release(dynamic);
     }
 }
 
@@ -508,14 +508,14 @@ static void test_adversarial(void **state)
         body.velocity[0] = k == 4 ? 1 : k == 5 ? -0.9999999 : 0;
         body.radius = k == 6 ? INFINITY : body.radius;
         body.temperature_k = k == 7 ? 1e300 : body.temperature_k;
-        struct kd_dynamic_bodies *crowd =
+        struct kd_dynamic_bodies *dynamic =
             one(&body, k == 5 ? 64 : MANY);           /* so fast that its image is stretched: no ray misses it */
         for (size_t i = 0; k == 7 && i < MANY; i++) { /* bodies everywhere */
-            crowd->bodies[i].r = 1 + 1e4 * chance() * chance() * chance();
-            crowd->bodies[i].phi = 1e3 * chance();
-            crowd->bodies[i].radius = 1e3 * pow(chance(), 9);
+            dynamic->bodies[i].r = 1 + 1e4 * chance() * chance() * chance();
+            dynamic->bodies[i].phi = 1e3 * chance();
+            dynamic->bodies[i].radius = 1e3 * pow(chance(), 9);
         }
-        kd_scene_show(&scene, crowd);
+        kd_scene_show(&scene, dynamic);
         struct kd_frame frame = rendered(&scene);
         for (int i = 0; i < PIXELS; i++)
             if (!(layer_of(&frame, "intensity")[i] >= 0 && isfinite(layer_of(&frame, "intensity")[i])))
@@ -523,7 +523,7 @@ static void test_adversarial(void **state)
         printf("crowd %d: march %.3g ms, %llu given up\n", k, timing_of(&frame, "march"),
                (unsigned long long)frame.accuracy.undecided);
         kd_frame_finish(&frame);
-        kd_dynamic_bodies_release(crowd);
+        kd_dynamic_bodies_release(dynamic);
     }
 }
 
@@ -532,18 +532,18 @@ static void test_off(void **state)
 {
     (void)state;
     struct kd_scene scene = scene_of("{\"disk\":{\"model\":\"novikov-thorne\"}}"), shown = scene;
-    struct kd_dynamic_bodies *crowd =
+    struct kd_dynamic_bodies *dynamic =
         one(&(struct kd_seen_body) { .r = 12, .s = 1, .radius = 1, .temperature_k = 6000 }, 0);
     struct kd_capacity c;
     struct kd_plan without, with;
-    kd_scene_show(&shown, crowd);
+    kd_scene_show(&shown, dynamic);
     kd_renderer_capacity(renderer, &c);
     OK(kd_plan_make(&scene, &c, &without, &error));
     OK(kd_plan_make(&shown, &c, &with, &error));
     assert_memory_equal(without.traits, with.traits, sizeof with.traits);
     assert_string_equal(without.lens_key, with.lens_key);
     assert_true(!with.march.steps);
-    kd_dynamic_bodies_release(crowd);
+    kd_dynamic_bodies_release(dynamic);
 }
 
 int main(void)

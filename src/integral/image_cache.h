@@ -1,6 +1,6 @@
 /* Cache of recent disk images: fits ask for the same spin and inclination repeatedly. Any thread. */
-#ifndef KD_INTEGRAL_KEPT_H
-#define KD_INTEGRAL_KEPT_H
+#ifndef KD_INTEGRAL_IMAGE_CACHE_H
+#define KD_INTEGRAL_IMAGE_CACHE_H
 
 #include "base/error.h"
 #include "physics/disk/disk_image.h"

@@ -1,6 +1,6 @@
 /* Tests of the cached list of a camera: it is computed once, is eventually evicted, and equals that of
  * kd_critical_pixels_of whatever was cached before. */
-#include "render/view/critical_kept.h"
+#include "render/view/critical_cache.h"
 
 #include "scene/table.h"
 
@@ -28,7 +28,7 @@ static uint64_t check(const struct kd_scene *scene)
     struct kd_critical_pixels kept, fresh;
     struct kd_error error;
     uint64_t before = kd_critical_pixels_made();
-    assert_int_equal(kd_critical_kept(scene, &kept, &error), KD_OK);
+    assert_int_equal(kd_critical_cache(scene, &kept, &error), KD_OK);
     uint64_t made = kd_critical_pixels_made() - before;
     assert_int_equal(kd_critical_pixels_of(scene, &fresh, &error), KD_OK);
     assert_int_equal(kept.n, fresh.n);
@@ -103,12 +103,12 @@ static void long_lists_are_few(void **state)
     struct kd_scene small = scene_of(0.21, 64);
     check(&small);
     size_t bytes = 0;
-    for (int i = 0; bytes <= KD_CRITICAL_KEPT_BYTES; i++) {
+    for (int i = 0; bytes <= KD_CRITICAL_CACHE_BYTES; i++) {
         assert_true(i < KD_CRITICAL_KEPT - 2);
         struct kd_scene large = scene_of(0.7 + 0.001 * i, 32768);
         struct kd_critical_pixels list;
         struct kd_error error;
-        assert_int_equal(kd_critical_kept(&large, &list, &error), KD_OK);
+        assert_int_equal(kd_critical_cache(&large, &list, &error), KD_OK);
         bytes += list.n * sizeof *list.pixels;
         kd_critical_pixels_finish(&list);
     }
@@ -120,7 +120,7 @@ static void *many(void *wrong)
     for (unsigned i = 0; i < 400; i++) {
         const struct kd_scene scene = scene_of(0.01 * (i * 7 % 23), 32 + 2 * (int32_t)(i % 5));
         struct kd_critical_pixels kept, fresh;
-        if (kd_critical_kept(&scene, &kept, NULL) || kd_critical_pixels_of(&scene, &fresh, NULL))
+        if (kd_critical_cache(&scene, &kept, NULL) || kd_critical_pixels_of(&scene, &fresh, NULL))
             return wrong;
         bool same =
             kept.n == fresh.n && (!fresh.n || !memcmp(kept.pixels, fresh.pixels, fresh.n * sizeof *fresh.pixels));

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #define COUNTS_MS 20.   /* how long a reader of counts waits for the lock */
-#define SLOWED_MS 1000. /* for how long clients are told that time was skipped */
+#define SLOWED_MS 1000. /* for how long the state reports skipped time */
 /* Memory of a session with a given debris capacity. The debris counts twice, because changes work on a copy; so does
  * all else. */
 #define BASE_BYTES ((size_t)6 << 20)
@@ -27,7 +27,7 @@ enum kd_status kd_playground_sessions_create(const struct kd_playground_sessions
         &(struct kd_bytes_params) { .clients = params->limit, .max = params->bytes, .share = params->client_bytes });
     if (!all->bytes)
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
-    KD_TRY(kd_scheduler_create(params->limit, params->client_limit, &all->turns, error));
+    KD_TRY(kd_scheduler_create(params->limit, params->client_limit, &all->scheduler, error));
 done:
     if (status)
         kd_playground_sessions_destroy(all);
@@ -40,7 +40,7 @@ void kd_playground_sessions_destroy(struct kd_playground_sessions *all)
 {
     if (!all)
         return;
-    kd_scheduler_destroy(all->turns);
+    kd_scheduler_destroy(all->scheduler);
     kd_bytes_destroy(all->bytes);
     pthread_mutex_destroy(&all->lock);
     free(all);
@@ -53,14 +53,14 @@ struct kd_playground_session *kd_playground_session_unref(struct kd_playground_s
     if (--play->references)
         return NULL;
     kd_playground_session_hide(play);
-    kd_bytes_give(play->all->bytes, play->turns.client, play->bytes);
+    kd_bytes_give(play->all->bytes, play->scheduled.client, play->bytes);
     return play;
 }
 
 void kd_playground_session_call(struct kd_playground_session *play)
 {
     if (play->listed)
-        kd_scheduler_wake(play->all->turns, &play->turns);
+        kd_scheduler_wake(play->all->scheduler, &play->scheduled);
 }
 
 void kd_playground_session_unlist(struct kd_playground_session *play, const char *why)
@@ -71,7 +71,7 @@ void kd_playground_session_unlist(struct kd_playground_session *play, const char
     while (*link != play)
         link = &(*link)->next;
     *link = play->next;
-    kd_scheduler_wake(play->all->turns, &play->turns); /* so that it runs its last slice */
+    kd_scheduler_wake(play->all->scheduler, &play->scheduled); /* so that it runs its last slice */
     play->listed = false;
     play->why = why;
     kd_playground_session_hide(play);
@@ -114,15 +114,15 @@ static struct kd_playground_session *make(struct kd_playground_sessions *all,
         free(play);
         return NULL;
     }
-    play->turns = (struct kd_scheduler_job) { .turn = kd_playground_session_turn, .done = done };
-    snprintf(play->turns.client, sizeof play->turns.client, "%s", client);
+    play->scheduled = (struct kd_scheduler_job) { .turn = kd_playground_session_turn, .done = done };
+    snprintf(play->scheduled.client, sizeof play->scheduled.client, "%s", client);
     play->all = all;
     play->references = 2; /* one for the job, one for the caller */
     play->pace = *pace;
     play->used_ms = kd_clock_ms();
     play->generation = 1;
     play->held = true;
-    play->waiter = (struct kd_playground_session_waiter) { .turns = all->turns, .job = &play->turns };
+    play->waiter = (struct kd_playground_session_waiter) { .scheduler = all->scheduler, .job = &play->scheduled };
     return play;
 }
 
@@ -132,14 +132,14 @@ static enum kd_status admit(struct kd_playground_sessions *all, const char *clie
 {
     unsigned own = 0;
     for (const struct kd_playground_session *other = all->first; other; other = other->next)
-        own += !strcmp(other->turns.client, client);
+        own += !strcmp(other->scheduled.client, client);
     *quota = !all->closed && all->count < all->params.limit && own >= all->params.client_limit;
     if (*quota)
         return kd_error_set(error, KD_EBUSY, "you have too many open playgrounds (limit %u for one client)", own);
     if (all->closed || all->count >= all->params.limit)
         return kd_error_set(error, KD_EBUSY, "too many open playgrounds (limit %u)", all->count);
     if (kd_bytes_take(all->bytes, client, bytes, bytes, quota))
-        return kd_error_set(error, KD_EBUSY, "this playground's debris takes %zu MiB, more than is left %s",
+        return kd_error_set(error, KD_EBUSY, "the debris of this playground needs %zu MiB, more than is free %s",
                             bytes >> 20, *quota ? "of your share" : "on this server");
     return KD_OK;
 }
@@ -153,7 +153,7 @@ enum kd_status kd_playground_sessions_open(struct kd_playground_sessions *all, s
     struct kd_playground_session *play = make(all, pace, client);
     *quota = false;
     if (!play)
-        return kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a playground");
+        return kd_error_set(error, KD_ENOMEM, "no memory or no random numbers for a playground");
     pthread_mutex_lock(&all->lock);
     enum kd_status status = admit(all, client, bytes, quota, error);
     if (!status) {
@@ -166,7 +166,7 @@ enum kd_status kd_playground_sessions_open(struct kd_playground_sessions *all, s
         play->next = all->first;
         all->first = play;
         all->count++;
-        kd_scheduler_push(all->turns, &play->turns);
+        kd_scheduler_push(all->scheduler, &play->scheduled);
     }
     pthread_mutex_unlock(&all->lock);
     if (status) {
@@ -265,7 +265,7 @@ void kd_playground_session_give(struct kd_playground_session *play, struct kd_pl
     for (struct kd_playground_session_waiter *waiter = play->waiters, *next; waiter; waiter = next) {
         next = waiter->next;
         waiter->listed = false;
-        kd_scheduler_wake(waiter->turns, waiter->job);
+        kd_scheduler_wake(waiter->scheduler, waiter->job);
     }
     play->waiters = NULL;
     pthread_mutex_unlock(&play->all->lock);
@@ -288,11 +288,12 @@ enum kd_status kd_playground_session_room(struct kd_playground_session *play, ui
     *quota = false;
     pthread_mutex_lock(&all->lock);
     if (bytes > play->bytes &&
-        kd_bytes_take(all->bytes, play->turns.client, bytes - play->bytes, bytes - play->bytes, quota))
-        status = kd_error_field(error, "/debris_capacity", "so many pieces take %zu MiB, more than is left %s",
-                                bytes >> 20, *quota ? "of your share" : "on this server");
+        kd_bytes_take(all->bytes, play->scheduled.client, bytes - play->bytes, bytes - play->bytes, quota))
+        status =
+            kd_error_field(error, "/debris_capacity", "debris of this capacity needs %zu MiB, more than is free %s",
+                           bytes >> 20, *quota ? "of your share" : "on this server");
     else if (bytes < play->bytes)
-        kd_bytes_give(all->bytes, play->turns.client, play->bytes - bytes);
+        kd_bytes_give(all->bytes, play->scheduled.client, play->bytes - bytes);
     if (!status)
         play->bytes = bytes;
     else
@@ -357,7 +358,7 @@ void kd_playground_sessions_close(struct kd_playground_sessions *all)
 
 unsigned kd_playground_sessions_unfinished(struct kd_playground_sessions *all)
 {
-    return kd_scheduler_unfinished(all->turns);
+    return kd_scheduler_unfinished(all->scheduler);
 }
 
 bool kd_playground_sessions_counts(struct kd_playground_sessions *all, struct kd_playground_sessions_counts *out)
@@ -365,7 +366,7 @@ bool kd_playground_sessions_counts(struct kd_playground_sessions *all, struct kd
     if (!kd_clock_lock(&all->lock, COUNTS_MS))
         return false;
     *out = (struct kd_playground_sessions_counts) {
-        .plays = all->count, .bytes = kd_bytes_held(all->bytes), .steps = all->steps, .events = all->events
+        .open = all->count, .bytes = kd_bytes_held(all->bytes), .steps = all->steps, .events = all->events
     };
     for (const struct kd_playground_session *play = all->first; play; play = play->next)
         out->watchers += watchers_of(play);

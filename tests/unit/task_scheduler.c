@@ -69,33 +69,33 @@ static void wait_for(unsigned n)
 
 static struct kd_scheduler *begin(void)
 {
-    struct kd_scheduler *turns = NULL;
+    struct kd_scheduler *scheduler = NULL;
     struct kd_error error;
     atomic_store(&over, false);
     atomic_store(&dones, 0);
-    assert_int_equal(kd_scheduler_create(LONG + 1, LONG + 1, &turns, &error), KD_OK);
-    return turns;
+    assert_int_equal(kd_scheduler_create(LONG + 1, LONG + 1, &scheduler, &error), KD_OK);
+    return scheduler;
 }
 
 /* There are more long turns than workers, and the short turn comes last. */
 static void test_a_short_turn_comes_between_long_ones(void **state)
 {
     (void)state;
-    struct kd_scheduler *turns = begin();
+    struct kd_scheduler *scheduler = begin();
     static struct kd_scheduler_job jobs[LONG], last;
     for (int i = 0; i < LONG; i++) {
         jobs[i] = (struct kd_scheduler_job) { .turn = compute, .done = count_done };
-        kd_scheduler_push(turns, &jobs[i]);
+        kd_scheduler_push(scheduler, &jobs[i]);
     }
     const double since = kd_clock_ms();
     last = (struct kd_scheduler_job) { .turn = end_all, .done = count_done };
-    kd_scheduler_push(turns, &last);
+    kd_scheduler_push(scheduler, &last);
     wait_for(LONG + 1);
     assert_true(kd_clock_ms() - since < PATIENCE_MS);
     assert_true(atomic_load(&over));
-    while (kd_scheduler_unfinished(turns))
+    while (kd_scheduler_unfinished(scheduler))
         nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
-    kd_scheduler_destroy(turns);
+    kd_scheduler_destroy(scheduler);
 }
 
 /* While a short turn waits, a job whose turns are shared by several workers begins no more of them than there are
@@ -103,30 +103,30 @@ static void test_a_short_turn_comes_between_long_ones(void **state)
 static void test_a_shared_job_does_not_begin_all_its_turns(void **state)
 {
     (void)state;
-    struct kd_scheduler *turns = begin();
+    struct kd_scheduler *scheduler = begin();
     static struct kd_scheduler_job shared, others[4];
     atomic_store(&begun, 0);
     shared = (struct kd_scheduler_job) { .turn = piece, .done = count_done, .shared = true };
-    kd_scheduler_push(turns, &shared);
+    kd_scheduler_push(scheduler, &shared);
     for (int i = 0; i < 4; i++) {
         others[i] = (struct kd_scheduler_job) { .turn = compute, .done = count_done };
-        kd_scheduler_push(turns, &others[i]);
+        kd_scheduler_push(scheduler, &others[i]);
     }
     wait_for(1);
     static struct kd_scheduler_job last;
     last = (struct kd_scheduler_job) { .turn = end_all, .done = count_done };
-    kd_scheduler_push(turns, &last);
+    kd_scheduler_push(scheduler, &last);
     wait_for(6);
     assert_true(atomic_load(&begun) >= PIECES);
     assert_in_range(atomic_load(&most_at_once), 1, kd_cores());
-    while (kd_scheduler_unfinished(turns))
+    while (kd_scheduler_unfinished(scheduler))
         nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
-    kd_scheduler_destroy(turns);
+    kd_scheduler_destroy(scheduler);
 }
 
-static void *destroy(void *turns)
+static void *destroy(void *scheduler)
 {
-    kd_scheduler_destroy(turns);
+    kd_scheduler_destroy(scheduler);
     atomic_store(&destroyed, true);
     return NULL;
 }
@@ -135,17 +135,17 @@ static void *destroy(void *turns)
 static void test_a_queue_is_destroyed_while_turns_are_paused(void **state)
 {
     (void)state;
-    struct kd_scheduler *turns = begin();
+    struct kd_scheduler *scheduler = begin();
     static struct kd_scheduler_job jobs[LONG];
     pthread_t thread;
     atomic_store(&computing, 0);
     for (int i = 0; i < LONG; i++) {
         jobs[i] = (struct kd_scheduler_job) { .turn = compute, .done = count_done };
-        kd_scheduler_push(turns, &jobs[i]);
+        kd_scheduler_push(scheduler, &jobs[i]);
     }
     while (atomic_load(&computing) <= kd_cores()) /* so that at least one of them has paused */
         nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
-    assert_int_equal(pthread_create(&thread, NULL, destroy, turns), 0);
+    assert_int_equal(pthread_create(&thread, NULL, destroy, scheduler), 0);
     nanosleep(&(struct timespec) { .tv_nsec = 50000000 }, NULL); /* the queue is being closed, and turns are under
                                                                   * way */
     atomic_store(&over, true);

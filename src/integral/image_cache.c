@@ -1,4 +1,4 @@
-#include "integral/kept.h"
+#include "integral/image_cache.h"
 
 #include "physics/spacetime/hole.h"
 
@@ -60,8 +60,8 @@ enum kd_status kd_cached_documents_image(const struct kd_hole *hole, double incl
         free(image);
         *out = NULL;
         return kd_error_field(error, "/spin",
-                              "spin is %.17g: double precision does not follow the disk's image at inclination_deg "
-                              "%.9g so near an extremal hole",
+                              "spin is %.17g, too close to an extremal hole for double precision to follow the disk's "
+                              "image at inclination_deg %.9g",
                               spin, inclination_deg);
     }
     keep(spin, inclination_deg, image);
