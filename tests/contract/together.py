@@ -195,7 +195,7 @@ TOGETHER = [
         (
             "frame must be the number of a frame of this job, counted from 0",
             "rate must be a whole number of frames a second from 1 to 120, with format=mp4 or webm",
-            "format is %s|, which has%s all frames, or %s or %s, optionally with frame=NUMBER",
+            "format must be %s| for all frames; or %s or %s, optionally with frame=NUMBER",
             "format is %s: the frames of this job are %s",
             "frame cannot be used with a %s; it belongs to pictures",
         ),

@@ -100,7 +100,7 @@ class Installed(unittest.TestCase):
         self.assertEqual(installed, {path.read_text() for path in found})
         for path in found:
             text = path.read_text()
-            holder = re.search(r"^Copyright \(c\) (\d{4}),? (.+)$", text, re.M)
+            holder = re.search(r"^Copyright \(c\) (\d{4}(?:-\d{4})?),? (.+)$", text, re.M)
             about = [stanza for stanza in stanzas if stanza.startswith(f"Files: {path.parent.relative_to(SOURCE)}/*\n")]
             self.assertEqual(len(about), 1, path)
             self.assertIn(f"\nCopyright: {holder[1]} {holder[2]}\n", about[0])
