@@ -303,7 +303,7 @@ def together_row(row):
 
 
 def preset_rows(server, names):
-    """Each preset while its time runs, as in the page's first view, and dragged."""
+    """Measures each preset twice: while its time runs, as in the page's first view, and while it is dragged."""
     rows = {}
     for name in names:
         scene = preset(server.port, name)

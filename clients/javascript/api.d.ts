@@ -969,7 +969,9 @@ export type Orbit = OrbitByShape | OrbitByConstants | OrbitByState | OrbitByCase
 export interface OrbitsRequest {
   /** spin of the hole, a/M; -1 to 1. */
   spin?: number;
-  /** number of samples of the path, both ends included; 0 for none; at most 20000 with seen; 0 to 200000. */
+  /**
+   * number of samples of the path, both ends included; 0 for none; at most 20000 if "seen" is given; 0 to 200000.
+   */
   samples?: number;
   /** significant digits of the series as text; 1 to 17. */
   digits?: number;
@@ -1193,7 +1195,7 @@ export interface LineProfile {
     /** innermost stable circular orbit. */
     isco: number | null;
     /**
-     * all photons, or with count energy all energy: the integral of g^3 epsilon f, or of g^4 epsilon f, over the
+     * all photons, or with counts energy all energy: the integral of g^3 epsilon f, or of g^4 epsilon f, over the
      * image plane.
      */
     total: number | null;
@@ -1595,7 +1597,7 @@ export interface Comparison {
     edge_share: number | null;
     /** number of pixels whose light is not a number; they count as dark. */
     undefined: number | null;
-    /** largest estimated error of the amplitudes' models, from a map 1.5 times as fine. */
+    /** largest estimated error of the model's amplitudes, from a map 1.5 times as fine. */
     model_error: number | null;
   };
   columns: {
@@ -5005,8 +5007,8 @@ export interface Operations {
         /** mass of the hole [solar masses]; 0.001 to 1e+12; default 100000000. */
         mass_msun?: number | string;
         /**
-         * accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin [Eddington rates];
-         * 1e-12 to 1000; default 0.1.
+         * accretion rate as luminosity over the Eddington luminosity, with the efficiency of this spin [Eddington
+         * rates]; 1e-12 to 1000; default 0.1.
          */
         mdot_edd?: number | string;
         /** radius in the disk [M]; 1 to 1000000000; default 20. */
@@ -5130,7 +5132,7 @@ export interface Operations {
           peak_hz: number | null | (number | null)[];
           /** sigma T^4/pi. */
           radiance: number | null | (number | null)[];
-          /** luminous efficacy: luminance Y over radiance. */
+          /** luminous efficiency: luminance Y over radiance. */
           luminous_fraction: number | null | (number | null)[];
         };
         units: {
@@ -6632,7 +6634,7 @@ export interface Operations {
         motion_blur?: {
           /** 1 to 64. */
           samples: number;
-          /** open time of the shutter over a frame's time; 0 to 1; default 0.5. */
+          /** open time of the shutter, as a fraction of a frame's time; 0 to 1; default 0.5. */
           shutter?: number;
         };
         exposure?: 'one' | 'each';

@@ -142,6 +142,7 @@ const refusals = [
     '{} è {}; deve essere {} salvo che camera.observer sia {} a un camera.r finito',
   ],
   ['{} is {}, which needs a finite {}; at {} it must be {}', '{} è {}, che vuole un {} finito; a {} deve essere {}'],
+  ['{} is {}, which needs {} {}; at {} it must be {}', '{} è {}, che vuole {} {}; a {} deve essere {}'],
   [
     '{} is {}, whose parallel rays need {} {}; at {} it must be {}',
     '{} è {}, i cui raggi paralleli vogliono {} {}; a {} deve essere {}',
@@ -235,9 +236,9 @@ function shape([english, italian]) {
     '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc|microarcseconds|GiB|s))?)';
   return [
     new RegExp(
-      `^${escaped.replaceAll('{}', value).replace('{…}', '(.+)').replace('{?}', '(, a string where a number is needed| where a number is needed|)')}$`,
+      `^${escaped.replaceAll('{}', value).replaceAll('{…}', '(.+)').replace('{?}', '(, a string where a number is needed| where a number is needed|)')}$`,
     ),
-    italian.replace('{?}', '{}').replace('{…}', '{}'),
+    italian.replace('{?}', '{}').replaceAll('{…}', '{}'),
   ];
 }
 

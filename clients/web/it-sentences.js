@@ -95,7 +95,7 @@ export const sentences = {
     'detriti: la luminosità è bolometrica (g^4), il colore quello della parte visibile dello spettro',
   'disk: the opacity of a crossing is a chosen number, not computed from the gas':
     'disco: l’opacità è un numero scelto per attraversamento, non calcolata dal gas',
-  'gas: turbulence is procedural noise, not a solution of magnetohydrodynamics; it multiplies the flux, which changes temperature and colour, and the optical depth if disk.optical_depth is not 0':
+  'gas: turbulence is procedural noise, not a solution of magnetohydrodynamics; it multiplies the flux, which changes temperature and colour, and the optical depth if disk.emission_opacity is not 0':
     'gas: la turbolenza è rumore procedurale, non una soluzione della magnetoidrodinamica; moltiplica il flusso, e con esso temperatura e colore, e la profondità ottica dov’è in vigore',
   'gas: the pattern turns as rigid rings that blend into each other, each with the angular velocity of its middle; it drifts but does not shear':
     'gas: il disegno gira su anelli rigidi, ognuno con la velocità angolare del suo mezzo, che passano l’uno nell’altro; va alla deriva, e non si stira',

@@ -87,6 +87,8 @@ class KerrHole extends HTMLElement {
   #seen = false;
   #first = ''; // the query that the poster shows
   #again = 0; // number of the newest request for a poster; older ones are dropped
+  #begun = 0; // number of the newest request for a session; the sessions of older ones are dropped
+  #late = false; // attributes have changed while a session was requested
   #watch = new IntersectionObserver(entries => this.#look(entries.at(-1).isIntersecting), { rootMargin: '200px' });
   #leave = () => this.#end();
 
@@ -119,7 +121,11 @@ class KerrHole extends HTMLElement {
 
   attributeChangedCallback(name, before, now) {
     if (!this.isConnected || before === now) return;
-    if (this.#session && ['spin', 'inclination', 'scene'].includes(name)) return void this.#change();
+    if (live.includes(this) && ['spin', 'inclination', 'scene'].includes(name)) {
+      if (this.#session) this.#change();
+      else this.#late = true;
+      return;
+    }
     this.#end();
     this.#parts.canvas.hidden = true;
     this.#show();
@@ -220,6 +226,8 @@ class KerrHole extends HTMLElement {
   // byItself: without a touch. It then takes no focus, and stays a picture if the server is busy.
   async #begin(byItself = false) {
     if (live.includes(this)) return;
+    const mine = ++this.#begun;
+    this.#late = false;
     const query = this.#query,
       preset = query.get('preset'),
       { button, stage } = this.#parts;
@@ -235,7 +243,10 @@ class KerrHole extends HTMLElement {
         'POST',
         scene,
       );
-      if (!live.includes(this)) return void this.#drop(session);
+      if (mine !== this.#begun || !live.includes(this)) {
+        if (mine === this.#begun) button.disabled = false;
+        return void this.#drop(session);
+      }
       const { inclination_deg = 80, azimuth_deg = 0 } = session.scene?.camera ?? {};
       this.#session = {
         ...session,
@@ -251,7 +262,9 @@ class KerrHole extends HTMLElement {
       stage.tabIndex = 0;
       if (!byItself) stage.focus({ preventScroll: true });
       this.#run(this.#session);
+      if (this.#late) this.#change();
     } catch {
+      if (mine !== this.#begun) return;
       this.#end();
       if (!byItself) this.#say(this.#words.wrong);
     }
@@ -285,8 +298,11 @@ class KerrHole extends HTMLElement {
         if (answer.status !== 204) {
           after = Number(answer.headers.get('Kerrd-Frame'));
           const picture = await createImageBitmap(await answer.blob());
-          if (session !== this.#session) return;
-          if (!session.touched && picture.width < least_part * this.#size.width) continue;
+          if (session !== this.#session) return void picture.close();
+          if (!session.touched && picture.width < least_part * this.#size.width) {
+            picture.close();
+            continue;
+          }
           Object.assign(canvas, { width: picture.width, height: picture.height, hidden: false });
           context.drawImage(picture, 0, 0);
           picture.close();
@@ -301,10 +317,12 @@ class KerrHole extends HTMLElement {
   // Shows what the attributes say now.
   #change() {
     const { change, camera } = this.#session,
-      query = this.#query;
+      query = this.#query,
+      before = change.camera?.inclination_deg;
     query.delete('preset');
     Object.assign(change, documentOf(query));
-    camera.inclination_deg = change.camera?.inclination_deg ?? camera.inclination_deg;
+    const now = change.camera?.inclination_deg ?? before;
+    if (now !== before) camera.inclination_deg = now; // otherwise the view stays where it was dragged to
     this.#send(this.#session);
   }
 

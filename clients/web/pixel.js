@@ -299,9 +299,10 @@ export function buildPixel(stage, scene, size) {
 
   const seeks = () => t('Following this light back …', 'Si segue questa luce all’indietro …');
   // The list of a sky's stars may take longer than the pixel. The card shows the star's name when the list is there.
+  let shown = null;
   async function nameStar(answer, place) {
     const star = await starAt();
-    if (star && at === place) show(answer, star);
+    if (star && at === place && shown === answer) show(answer, star);
   }
 
   const find = latest(async () => {
@@ -320,8 +321,11 @@ export function buildPixel(stage, scene, size) {
         }),
         answer = await reply.json();
       fault.textContent = '';
-      if (at) show(answer, null);
-      nameStar(answer, at);
+      if (at) {
+        shown = answer;
+        show(answer, null);
+        nameStar(answer, at);
+      }
     } catch (wrong) {
       tell(fault, wrong.message);
     }

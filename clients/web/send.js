@@ -41,9 +41,9 @@ function inPanel(card, told, cancel) {
   byId(cancel).focus();
 }
 
-// Makes a poster by "Save picture", with a line of text.
+// Makes a poster by "Save picture", with a line of text. openTake: opens that panel; false if it cannot be loaded.
 async function makePoster(card, scene, url, openTake) {
-  await openTake();
+  if (!(await openTake())) return card.close();
   const size = byId('save-size');
   size.value = poster;
   size.dispatchEvent(new Event('change'));
@@ -55,8 +55,9 @@ async function makePoster(card, scene, url, openTake) {
 // Begins the first of these films that would show something: of what moves by itself, once round the hole, other spins.
 async function makeFilm(card, openTake) {
   const films = ['time', 'orbit', 'spin'].map(name => `#film-${name}`);
-  await openTake(); // which builds the films' buttons
-  while (!document.querySelector(films[0])) await new Promise(resolve => setTimeout(resolve, 50));
+  if (!(await openTake())) return card.close();
+  for (let tries = 0; !document.querySelector(films[0]) && tries < 200; tries++)
+    await new Promise(resolve => setTimeout(resolve, 50)); // the films' buttons are on their way
   films
     .map(id => document.querySelector(id))
     .find(({ disabled }) => !disabled)
@@ -72,9 +73,11 @@ function codeOf(url) {
   box.addEventListener(
     'toggle',
     async () => {
+      const say = text => box.append(el('p', { role: 'status' }, text));
+      const drawn = await import('./vendor/lean-qr/nano.mjs').catch(() => null);
+      if (!drawn) return say(t('The server does not answer', 'Il server non risponde'));
       try {
-        const { generate } = await import('./vendor/lean-qr/nano.mjs'),
-          code = generate(url),
+        const code = drawn.generate(url),
           whole = code.size + 2 * quiet;
         let path = '';
         for (let y = 0; y < code.size; y++)
@@ -93,13 +96,7 @@ function codeOf(url) {
           ),
         );
       } catch {
-        box.append(
-          el(
-            'p',
-            { role: 'status' },
-            t('The link is too long for a code.', 'Il collegamento è troppo lungo per un codice.'),
-          ),
-        );
+        say(t('The link is too long for a code.', 'Il collegamento è troppo lungo per un codice.'));
       }
     },
     { once: true },

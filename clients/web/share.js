@@ -88,6 +88,7 @@ export function share(scene, size) {
   async function openTake() {
     group.open = true;
     await loadSave();
+    return save !== null;
   }
   group.addEventListener('toggle', () => group.open && loadSave());
   if (group.open || goesOn()) loadSave();

@@ -7,8 +7,8 @@ import { ask } from './server.js';
 const near_px = 16;
 const rest_ms = 250; // time for which the camera must be at rest
 const hidden = 0.3; // share of a star's light below which it is not seen through shining gas
-const stale_px = 6; // limit of the extrapolation of places; beyond it, a new list is requested,
-const again_ms = 1500; // and for at least so long: a list costs the device as much as a picture
+const stale_px = 6; // limit of the extrapolation of places; beyond it, a new list is requested
+const again_ms = 1500; // least time between two lists: a list costs the device as much as a picture
 
 export const hasNames = scene =>
   scene.get('sky.model') === 'catalogue' &&

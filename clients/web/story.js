@@ -18,8 +18,10 @@ function set(hole, path, value) {
 // Numbers of /v1/physics/kerr that a sentence mentions.
 const says = { isco: ({ values }) => values.isco };
 async function tell(output, spin) {
-  const answer = await fetch('v1/physics/kerr?spin=' + spin).catch(() => null);
-  if (answer?.ok) output.textContent = number(says[output.dataset.says](await answer.json()), 0.01);
+  output.dataset.spin = spin; // an answer for an earlier spin is dropped
+  const answer = await fetch('v1/physics/kerr?spin=' + spin).catch(() => null),
+    told = answer?.ok && (await answer.json());
+  if (told && output.dataset.spin === String(spin)) output.textContent = number(says[output.dataset.says](told), 0.01);
 }
 
 for (const input of document.querySelectorAll('[data-for]')) {

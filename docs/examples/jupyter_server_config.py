@@ -1,6 +1,6 @@
 # kerrd in a Jupyter server, by jupyter-server-proxy: JupyterLab's launcher has it, and its page is at …/kerrd/. It
-# starts when somebody first looks, and stops with Jupyter. This belongs into ~/.jupyter/. Where the hub has a name
-# other than this machine's, add '--host', 'NAME': it is what a browser asks for.
+# starts at the first visit and stops with Jupyter. Put this file into ~/.jupyter/. If browsers reach the hub by another
+# name than this machine's, add '--host', 'NAME' with that name.
 c.ServerProxy.servers = {  # noqa: F821: Jupyter defines c
     "kerrd": {
         "command": ["kerrd", "serve", "--port", "{port}", "--client-share", "100"],

@@ -111,7 +111,8 @@ uint kd_met_next(uint node)
 bool kd_meet_lost = false;
 
 #define KD_MEET_CLOSE \
-    0.995 /* fraction of 1/r of the horizon: up to here points of a step are known; azimuths diverge at the horizon */
+    0.995 /* fraction of the horizon's 1/r up to which a step covers at most half the way to the horizon, where \
+             azimuths diverge */
 
 kd_met kd_meet(uvec2 place)
 {

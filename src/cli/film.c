@@ -131,7 +131,7 @@ struct work {
     struct kd_playground *bodies; /* playground of a film, in its state at the next frame */
     struct kd_encoder encoder;
     struct kd_progress progress;
-    unsigned reused, done, measured, traced; /* kept: number of frames found in the folder */
+    unsigned reused, done, measured, traced; /* reused: number of frames found in the folder */
 };
 
 static enum kd_status change(void *user, struct kd_scene *scene, struct kd_error *error)

@@ -11,9 +11,9 @@ struct bits {
     size_t taken;
 };
 
-/* A Huffman code (RFC 1951, 3.2.2). Codes of up to FAST bits are in a table indexed by the next bits: the length of a
- * symbol with its extra bits, and its kind. Longer codes are searched among the sorted symbols, as in Mark Adler's
- * puff.c. */
+/* A Huffman code (RFC 1951, 3.2.2). A table indexed by the next bits has the codes of up to FAST bits. Its entries have
+ * the number of bits of a symbol with its extra bits, and the symbol's kind. Longer codes are searched among the sorted
+ * symbols, as in Mark Adler's puff.c. */
 enum kind { LONG, PLAIN, LENGTH, END };
 struct entry { uint8_t bits, kind; };
 struct code {

@@ -84,7 +84,8 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
     [KD_INTEGRAL_LINE] = { "relativistic line profile of a thin disk",
                            { { "isco", "M", "innermost stable circular orbit" },
                              { "total", "M^2",
-                               "all photons, or with count energy all energy: the integral of g^3 epsilon f, or of g^4 "
+                               "all photons, or with counts energy all energy: the integral of g^3 epsilon f, or of "
+                               "g^4 "
                                "epsilon f, over the image plane" },
                              { "inside", "1", "share of the line between the first and the last edge" },
                              { "error", "1", "estimated largest error of the cumulative share at any edge" } },
@@ -174,7 +175,7 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                 { "undefined", "pixels",
                                   "number of pixels whose light is not a number; they count as dark", false },
                                 { "model_error", "Jy",
-                                  "largest estimated error of the amplitudes' models, from a map 1.5 times as fine",
+                                  "largest estimated error of the model's amplitudes, from a map 1.5 times as fine",
                                   false } },
                               { { "product", "", "amplitude, closure_phase or log_closure_amplitude", true },
                                 { "hour", "h", "UTC, hours since the start of the observation's mjd", false },
@@ -317,7 +318,7 @@ enum kd_status kd_integral_compute(const struct kd_integral_request *request, st
     struct kd_disk_image *image = NULL;
     enum kd_status status;
     *answer = (struct kd_integral_answer) { .request = request };
-    KD_TRY(kd_cached_documents_image(kd_hole(request->spin), request->inclination_deg, &image, error));
+    KD_TRY(kd_cached_disk_image(kd_hole(request->spin), request->inclination_deg, &image, error));
     KD_TRY(compute[request->what](request, image, answer, error));
 done:
     free(image);

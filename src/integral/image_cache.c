@@ -45,8 +45,8 @@ static void keep(double spin, double inclination_deg, const struct kd_disk_image
     pthread_mutex_unlock(&lock);
 }
 
-enum kd_status kd_cached_documents_image(const struct kd_hole *hole, double inclination_deg, struct kd_disk_image **out,
-                                         struct kd_error *error)
+enum kd_status kd_cached_disk_image(const struct kd_hole *hole, double inclination_deg, struct kd_disk_image **out,
+                                    struct kd_error *error)
 {
     const double spin = hole->a;
     /* a disk looks the same from below as from above */

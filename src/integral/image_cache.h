@@ -7,7 +7,7 @@
 #include "physics/spacetime/hole.h"
 
 /* Gives a copy of the image, which is computed if not cached. The caller frees it. */
-enum kd_status kd_cached_documents_image(const struct kd_hole *hole, double inclination_deg, struct kd_disk_image **out,
-                                         struct kd_error *error);
+enum kd_status kd_cached_disk_image(const struct kd_hole *hole, double inclination_deg, struct kd_disk_image **out,
+                                    struct kd_error *error);
 
 #endif

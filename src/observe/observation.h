@@ -32,7 +32,7 @@ struct kd_observation {
     char source[40];
     double mjd; /* modified Julian date of the observation, at 0 h UTC */
     double frequency_hz;
-    /* names, in the order in which minimal sets choose stations */
+    /* names, in the order in which a minimal set of closures takes the stations (observe/comparison.h) */
     char station[KD_OBSERVATION_STATIONS][KD_STATION_NAME];
     uint32_t stations;
     struct kd_measured *at; /* malloc'd; sorted by time, then by stations; each time and baseline occurs once */

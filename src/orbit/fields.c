@@ -20,7 +20,7 @@ const struct kd_orbit_field kd_orbit_settings[] = {
 #define AT(member) offsetof(struct kd_orbit_params, member)
     { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0, KD_OPEN, .help = "spin of the hole, a/M" },
     { "", "samples", INT, AT(samples), 0, KD_ORBIT_SAMPLES_MAX, 0, ANY, 0, .bound = KD_BOUND_NOT_ONE,
-      .help = "number of samples of the path, both ends included; 0 for none; at most 20000 with seen" },
+      .help = "number of samples of the path, both ends included; 0 for none; at most 20000 if \"seen\" is given" },
     { "", "digits", INT, AT(digits), 1, KD_DECIMAL_DIGITS, 0, ANY, 0,
       .help = "significant digits of the series as text" },
     { "", "steps", INT, AT(steps), 0, 100000000, 0, ANY, 0,

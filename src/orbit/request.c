@@ -317,8 +317,8 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
                               "duration is given as periods and as time: only one of them may be given");
     if (p->or_end && isnan(p->periods))
         return kd_error_field(error, "/duration/or_end",
-                              "or_end is true without periods; it must be false: without a duration, an orbit that "
-                              "plunges or escapes is followed to its end anyway");
+                              "or_end is true without periods; it must be false: without periods or a time, an orbit "
+                              "that plunges or escapes is followed to its end anyway");
     if (!kd_orbit_is_seen(p) &&
         (isfinite(p->seen.r) || p->seen.azimuth_deg != 0 || p->seen.motion != KD_OBSERVER_STATIC))
         return kd_error_field(error, "/seen/observer_inclination_deg",

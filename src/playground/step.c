@@ -19,7 +19,7 @@ void kd_playground_force(struct kd_playground *p)
     p->forced = true;
 }
 
-/* The rate 1/h that the bound requires at the present positions. */
+/* 1/h for the largest step h that playground.h allows at the present positions. */
 static double demanded(const struct kd_playground *p)
 {
     const struct kd_playground_params *s = &p->params;

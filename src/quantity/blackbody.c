@@ -17,7 +17,7 @@
     O(peak_nm, .unit = "nm", .help = "wavelength of the largest radiance a unit of wavelength (Wien)") \
     O(peak_hz, .unit = "Hz", .help = "frequency of the largest radiance a unit of frequency") \
     O(radiance, .unit = "W m^-2 sr^-1", .help = "sigma T^4/pi") \
-    O(luminous_fraction, .unit = "1", .help = "luminous efficacy: luminance Y over radiance")
+    O(luminous_fraction, .unit = "1", .help = "luminous efficiency: luminance Y over radiance")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {

@@ -8,7 +8,7 @@
     KD_PARAMETER_SPIN(P) \
     KD_PARAMETER_MASS(P) \
     P(mdot_edd, .unit = "Eddington rates", .initial = "0.1", .minimum = 1e-12, .maximum = 1e3, \
-      .help = "accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin") \
+      .help = "accretion rate as luminosity over the Eddington luminosity, with the efficiency of this spin") \
     P(r, .unit = "M", .initial = "20", .minimum = 1, .maximum = 1e9, .along = true, .help = "radius in the disk")
 #define OUTPUTS(O) \
     O(page_thorne, .unit = "1/M^2", .help = "F/Mdot of one face; zero at and inside the ISCO") \

@@ -35,7 +35,7 @@ KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
     "S. E. Gralla & A. Lupsasca 2020, Phys. Rev. D 101, 044032 (rays in closed form)",
-    "B. Carter 1968, Phys. Rev. 174, 1559 (rays of observers at a finite radius, followed by Taylor series)",
+    "B. Carter 1968, Phys. Rev. 174, 1559 (rays of observers at a finite radius, traced by Taylor series)",
     "J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972, ApJ 178, 347; C. Doran 2000, Phys. Rev. D 61, 067503 (frames "
     "of observers)",
     NULL,

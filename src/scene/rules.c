@@ -66,7 +66,8 @@ static enum kd_status projection(const struct kd_scene *scene, struct kd_error *
                               show(camera->r).text);
     if (camera->projection == KD_PROJECTION_RING && isfinite(camera->r))
         return kd_error_field(error, "/camera/projection",
-                              "camera.projection is \"ring\"; camera.r is %s M and must be \"infinity\"",
+                              "camera.projection is \"ring\", which needs camera.r \"infinity\"; at %s M it must be "
+                              "\"pinhole\"",
                               show(camera->r).text);
     return KD_OK;
 }

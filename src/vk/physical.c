@@ -141,13 +141,14 @@ static void read_file_limit(struct kd_vk_physical *device)
 {
     struct rlimit limit;
     unsigned version;
-    char text[128];
+    char text[192];
     if (strcmp(device->info.driver, "llvmpipe") || sscanf(device->info.driver_info, "Mesa %u.", &version) != 1 ||
         version < 23 || getrlimit(RLIMIT_FSIZE, &limit) < 0 || limit.rlim_cur == RLIM_INFINITY ||
         limit.rlim_cur >= device->info.heap_bytes)
         return;
-    snprintf(text, sizeof text, "files as large as its memory (ulimit -f allows %ju bytes, and must be unlimited)",
-             (uintmax_t)limit.rlim_cur);
+    snprintf(text, sizeof text,
+             "files as large as its memory (ulimit -f allows %ju bytes; it must be unlimited, or at least %ju)",
+             (uintmax_t)limit.rlim_cur, (uintmax_t)device->info.heap_bytes);
     lacks(&device->info, text);
 }
 

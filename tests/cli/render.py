@@ -367,7 +367,7 @@ class Pictures(Case):
         self.good("render", *SMALL, "--memory", "64M", "-o", self.path("a.png"))
         self.bad(
             2,
-            "by --memory): lower image.width",
+            "--memory): lower image.width",
             "render",
             "--memory",
             "64M",

@@ -27,7 +27,7 @@ SCENE = (
     '%s is "%s", which is not a known asset; it must be %s',
     'camera.projection is "%s", which needs a finite camera.r; at "infinity" it must be "plane"',
     'camera.projection is "plane", whose parallel rays need camera.r "infinity"; at %s M it must be "pinhole"',
-    'camera.projection is "ring"; camera.r is %s M and must be "infinity"',
+    'camera.projection is "ring", which needs camera.r "infinity"; at %s M it must be "pinhole"',
     "camera.%s is %s; in the %s projection it must be 0, because %s aim the camera",
     "camera.ring_decades_min is %s; it must be less than camera.ring_decades_max, %s",
     "camera.r is %s M; it must be more than %s M, the horizon of spacetime.spin %s",

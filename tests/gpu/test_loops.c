@@ -88,8 +88,8 @@ static struct ks_screen screen_of(const struct kd_scene *scene, double x, double
     return ks_screen_near(&at, &frame, look, top);
 }
 
-/* I, Q and U of the spot, whose gas moves on each place's own orbit: light of nu^-index is seen times g^(3 + index),
- * polarised by 3/4. */
+/* I, Q and U of the spot. At each place its gas moves on the circular orbit through that place. Its light, I_nu ~
+ * nu^-index, arrives multiplied by g^(3 + index), where g here is the inverse `.g`; 3/4 of it is polarised. */
 static void oracle_light(const struct kd_scene *scene, struct oracle_ray *rays, enum ks_field field, double isco,
                          double out[3])
 {

@@ -574,7 +574,7 @@ static void places(void **state)
 {
     struct kd_plan plan = { .width = 64, .height = 36 };
     (void)state;
-    FAILS(KD_EINVAL, "below 64 across and 36 down", kd_explain_at("64,0", &plan, &error));
+    FAILS(KD_EINVAL, "X below 64 and Y below 36", kd_explain_at("64,0", &plan, &error));
     FAILS(KD_EINVAL, "is \"1\"", kd_explain_at("1", &plan, &error));
     FAILS(KD_EINVAL, "is \"1,2,3\"", kd_explain_at("1,2,3", &plan, &error));
     FAILS(KD_EINVAL, "is \"-1,2\"", kd_explain_at("-1,2", &plan, &error));

@@ -137,8 +137,7 @@ static void test_stream(void **state)
     }
 }
 
-/* w' of the lens map, which is integrated in single precision, equals the value from the ray's constants in double
- * precision, with the sign of the closed form. */
+/* w' of the lens map in single precision equals w' of listed rays in double precision, and has its sign. */
 static void test_slopes(void **state)
 {
     (void)state;

@@ -50,7 +50,8 @@ static void check_step(const struct kd_rays_step *s, double bound)
     assert_true(!isnan(s->res_w) && !isnan(s->res_u) != !isnan(s->res_n) && !isnan(s->res_n) == !isnan(s->res_l));
 }
 
-/* Every crossing is recorded, at the expected number of steps of a half period, with the numbers of the end points. */
+/* Every crossing is recorded, half a period (params.steps steps) after the one before, with the r, phi and delay of the
+ * answer that has end points only. */
 static void check_crossings(const struct kd_rays_steps *steps)
 {
     unsigned found = 0, taken = 0;

@@ -104,6 +104,8 @@ static void test_small_tiles_of_stars(void **state)
         "{\"disk\":{\"model\":\"none\"},\"sky\":{\"model\":\"stars\"},\"camera\":{\"field_m\":16}}",
         "{\"spacetime\":{\"spin\":0.998},\"disk\":{\"model\":\"none\"},\"sky\":{\"model\":\"stars\"},"
         "\"camera\":{\"r\":15,\"inclination_deg\":89,\"fov_deg\":70}}",
+        "{\"spacetime\":{\"spin\":0.998},\"disk\":{\"model\":\"none\"},\"sky\":{\"model\":\"stars\"},"
+        "\"camera\":{\"r\":15,\"inclination_deg\":89,\"projection\":\"equirectangular\",\"yaw_deg\":180}}",
     };
     enum { SIDE = 5, TILES = 24 };
     for (size_t i = 0; i < sizeof documents / sizeof *documents; i++) {
@@ -111,9 +113,13 @@ static void test_small_tiles_of_stars(void **state)
         const struct kd_scene scene = scene_of(documents[i], WIDTH, HEIGHT);
         struct kd_frame whole = by_format(scene, &kd_format_png, 0, &none);
         size_t lit = 0;
-        for (uint32_t k = 0; k < 3 * TILES; k++) { /* along a row, a column and a diagonal */
-            const uint32_t step = k % TILES, x = k / TILES == 1 ? WIDTH / 2 : step * (WIDTH - SIDE) / (TILES - 1),
-                           y = k / TILES == 0 ? HEIGHT / 2 : step * (HEIGHT - SIDE) / (TILES - 1);
+        for (uint32_t k = 0; k < 5 * TILES; k++) { /* along a row, a column, a diagonal and both edges */
+            const uint32_t step = k % TILES, line = k / TILES,
+                           x = line == 1   ? WIDTH / 2
+                               : line == 3 ? 0
+                               : line == 4 ? WIDTH - SIDE
+                                           : step * (WIDTH - SIDE) / (TILES - 1),
+                           y = line == 0 ? HEIGHT / 2 : step * (HEIGHT - SIDE) / (TILES - 1);
             const uint32_t left = x < WIDTH - SIDE ? x : WIDTH - SIDE, top = y < HEIGHT - SIDE ? y : HEIGHT - SIDE;
             const struct kd_window window = { left, top, SIDE, SIDE };
             struct kd_frame tile = by_format(kd_scene_tile(&scene, window), &kd_format_png, 0, &none);

@@ -11,16 +11,16 @@ static const struct kd_vk_info machine[] = {
     { .index = 4, .name = "GeForce B", .type = KD_VK_DISCRETE },
 };
 
-static enum kd_status choose(size_t n, const char *asked_accuracy, size_t *index, char why[640], struct kd_error *error)
+static enum kd_status choose(size_t n, const char *wanted, size_t *index, char why[640], struct kd_error *error)
 {
-    return kd_vk_choose(machine, n, asked_accuracy, index, why, 640, error);
+    return kd_vk_choose(machine, n, wanted, index, why, 640, error);
 }
 
 static void chosen(void **state)
 {
     static const struct {
         size_t n;
-        const char *asked_accuracy;
+        const char *wanted;
         size_t index;
         const char *why;
     } cases[] = {
@@ -39,7 +39,7 @@ static void chosen(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         size_t index = 99;
         char why[640] = "";
-        OK(choose(cases[i].n, cases[i].asked_accuracy, &index, why, &error));
+        OK(choose(cases[i].n, cases[i].wanted, &index, why, &error));
         assert_int_equal(index, cases[i].index);
         assert_non_null(strstr(why, cases[i].why));
         assert_non_null(strstr(why, machine[index].name));
@@ -65,7 +65,7 @@ static void among_equals(void **state)
     };
     static const struct {
         size_t n;
-        const char *asked_accuracy;
+        const char *wanted;
         size_t index;
     } cases[] = { { 1, "auto", 0 }, { 2, "auto", 1 }, { 3, "auto", 2 },
                   { 6, "auto", 3 }, { 7, "auto", 6 }, { 7, "lanes", 3 } };
@@ -73,7 +73,7 @@ static void among_equals(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         size_t index = 99;
         char why[640];
-        OK(kd_vk_choose(equals, cases[i].n, cases[i].asked_accuracy, &index, why, sizeof why, &error));
+        OK(kd_vk_choose(equals, cases[i].n, cases[i].wanted, &index, why, sizeof why, &error));
         assert_int_equal(index, cases[i].index);
     }
 }

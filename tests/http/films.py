@@ -142,7 +142,7 @@ class Given(Films):
         files = server.open_files()
         problem = server.get(self.at(other, "/result?format=mp4"))
         self.assertProblem(problem, 422)
-        self.assertIn("frame 1 is 64 x 36 pixels and frame 0 32 x 18", problem.json()["detail"])
+        self.assertIn("frame 1 has 64 x 36 pixels and frame 0 has 32 x 18", problem.json()["detail"])
         self.assertTrue(daemon.eventually(lambda: server.open_files() <= files))
         self.ended(server)
 

@@ -44,7 +44,7 @@ class Render(daemon.Case):
             RENDER + "&accuracy.tolerance=1e-9&accuracy.precision=f64",
         ):
             problem = self.assertProblem(self.daemon.get(target), 422, pointer="/accuracy/tolerance")
-            self.assertIn("holds 6e-08 and above", problem["detail"])
+            self.assertIn("it must be at least 6e-08", problem["detail"])
 
     def test_query_and_body_agree(self):
         by_query = self.daemon.get(RENDER + "&preset=gargantua&camera.inclination_deg=70")

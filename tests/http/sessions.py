@@ -1063,7 +1063,7 @@ class Sessions(daemon.Owned):
         self.assertProblem(self.daemon.post("/v1/sessions", huge), 422, "too-large")
         session = self.open()
         problem = self.assertProblem(self.patch(session, huge), 422, "too-large")
-        self.assertIn("more than the 600 s", problem["detail"])
+        self.assertIn("it must be at most 600 s", problem["detail"])
         self.assertEqual(self.status(session)["scene"]["image"]["width"], 64)
 
     # By their plan, full frames of these scenes would take half a second or two. So coarser frames with one ray a pixel

@@ -712,7 +712,7 @@ class Documented(unittest.TestCase):
         blocks += re.findall(r"^```python\n(.*?)^```$", (FOLDER / "README.md").read_text(), re.M | re.S)
         # tests/python/cluster.py tests the code that needs a cluster
         run = [block for block in blocks if "tcp://scheduler" not in block]
-        self.assertEqual((len(blocks), len(run)), (6, 5))
+        self.assertEqual((len(blocks), len(run)), (7, 6))
         with tempfile.TemporaryDirectory() as folder:
             for block in run:
                 env = {

@@ -41,7 +41,7 @@ static void frequencies(void **state)
         assert_true(isnan(kd_epicyclic_radial(kd_hole(a), isco * (1 - 1e-9))));
         assert_true(kd_epicyclic_radial(kd_hole(a), isco * (1 + 1e-9)) > 0);
     }
-    for (double r = 6.5; r < 1e6; r *= 3) /* Schwarzschild: Omega_theta = Omega, kappa = Omega sqrt(1 - 6/r) */
+    for (double r = 6.5; r < 1e6; r *= 3) /* Schwarzschild: kappa = Omega sqrt(1 - 6/r) */
         within("kappa", 0, r, kd_epicyclic_radial(kd_hole(0), r), sqrt(1 - 6 / r) / (r * sqrt(r)),
                1e-14 * pow(r, -1.5));
 }

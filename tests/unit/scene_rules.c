@@ -44,7 +44,7 @@ static const struct rule rules[] = {
     { "{\"camera\":{\"projection\":\"plane\"}}", NULL, NULL },
     { "{\"camera\":{\"projection\":\"auto\",\"r\":20}}", NULL, NULL },
     { "{\"camera\":{\"projection\":\"ring\",\"r\":20}}", "/camera/projection",
-      "camera.r is 20 M and must be \"infinity\"" },
+      "needs camera.r \"infinity\"; at 20 M it must be \"pinhole\"" },
     { "{\"camera\":{\"projection\":\"ring\",\"roll_deg\":90}}", NULL, NULL },
     { "{\"camera\":{\"projection\":\"ring\",\"centre_beta\":1}}", "/camera/centre_beta",
       "in the ring projection it must be 0" },

@@ -1,6 +1,6 @@
-/* Tests of the two eyes of a stereo pair. They are compared with Euclidean geometry, with cameras and places computed
- * in Cartesian coordinates. This is done far away, where space is flat, and in the space of rain in Schwarzschild,
- * which is flat at any radius (Painleve 1921, Gullstrand 1922). */
+/* Tests of the two eyes of a stereo pair. Cameras and places are compared with Euclidean geometry in Cartesian
+ * coordinates. It holds far from the hole, and at any radius for observers who fall from rest at infinity towards a
+ * hole without spin, whose space is flat (Painleve 1921, Gullstrand 1922). */
 #include "scene_support.h"
 
 #include "render/output/wcs.h"

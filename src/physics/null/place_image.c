@@ -287,7 +287,7 @@ static bool search_along(const struct search *s, double way, double turned, doub
     return false;
 }
 
-/* A spinning hole rotates the image about itself, so several directions are tried. */
+/* A spinning hole turns the image round the hole, so several directions are tried. */
 static bool search(const struct search *s, double at[2], struct miss *m)
 {
     static const double turns[] = { 0, 0.35, -0.35, 0.8, -0.8 };

@@ -7,9 +7,10 @@
 
 #define STEP (2 * M_PI / 64) /* step of chi between nodes */
 #define LEAST_STEP 1e-5
-#define TABLE 1e-7  /* allowed error of ln r, which is sufficient for a table */
-#define TURN 1.0    /* maximum change of phi between nodes: near pi its direction would be ambiguous */
-#define STRETCH 0.2 /* maximum change of ln rho: at a corner of the image phi can make a whole turn */
+#define TABLE 1e-7 /* allowed error of ln r, which is sufficient for a table */
+#define TURN 1.0   /* maximum change of phi between nodes: near pi its direction would be ambiguous */
+#define STRETCH \
+    0.2 /* maximum change of ln rho between nodes: at a corner of the image phi may turn by 2 pi, unseen by TURN */
 
 /* alpha and beta of the point at the distance e^log_rho in the direction chi. chi advances evenly round a ring that is
  * seen unlensed from afar, (cos chi, cos i sin chi). */

@@ -34,8 +34,8 @@ struct kd_ring_view_point {
     double alpha, beta, phi, delay, residual;
 };
 
-/* Returns false if the image is not found to 1e-6 of r, which has not been observed. Near the singularity, where
- * rounding of the direction is amplified, 1e-8 was reached. Takes some 0.3 ms. */
+/* Returns false if no direction is found whose crossing is within 1e-6 of r. No such case is known: the largest
+ * difference was 1e-8 of r, near the singularity, where rounding of the direction is amplified. Takes some 0.3 ms. */
 bool kd_ring_view_seen(const struct kd_ring_view *view, double chi, struct kd_ring_view_point *out);
 
 #endif

@@ -32,11 +32,11 @@ double kd_tidal_fallback_time(struct kd_tidal t);
  * t_fb) (t/t_fb)^(-5/3), 0 before t_fb. Its integral is half the star; its peak is at t_fb. */
 double kd_tidal_fallback_rate(struct kd_tidal t, double time);
 
-/* Mass of the heaviest hole of spin a, |a| < 1, that disrupts the star before capturing it whole (`hole` of t is
- * ignored). On a parabolic orbit capture is inside the marginally bound orbit: r_t = r_mb(a) [Kesden 2012], 4M at a
- * = 0; a < 0 is an orbit against the hole. With the horizon instead, r_t = r+(a), this is Hills's mass, 1.1e8 solar
- * masses for the sun at a = 0. */
+/* Mass of the heaviest hole of spin a, |a| < 1, that disrupts the star before capturing it whole; t.hole is ignored. A
+ * star on a parabolic orbit is captured within the marginally bound orbit, so that the limit is r_t = r_mb(a) [Kesden
+ * 2012], 4M at a = 0; a < 0: the orbit is against the hole's spin. */
 double kd_tidal_capture_mass(struct kd_tidal t, const struct kd_hole *hole);
+/* Hills's mass: the same with the horizon, r_t = r+(a); 1.1e8 solar masses for the sun at a = 0. */
 double kd_tidal_hills_mass(struct kd_tidal t, const struct kd_hole *hole);
 
 #endif

@@ -369,7 +369,7 @@ static void keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_v
     memcpy(oldest->constants, key, sizeof oldest->constants);
 }
 
-static void asked_accuracy(struct kd_kernels *kernels, const struct kd_vk_pipeline_params *source,
+static void request_kernel(struct kd_kernels *kernels, const struct kd_vk_pipeline_params *source,
                            const uint32_t key[KD_KERNEL_MAX_CONSTANTS], size_t n)
 {
     struct kd_kernel_requests *all = &kernels->wishes;
@@ -395,7 +395,7 @@ enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
         key[i] = constants[i];
     *out = NULL;
     if (kernels->noting) {
-        asked_accuracy(kernels, source, key, n);
+        request_kernel(kernels, source, key, n);
         return KD_OK;
     }
     struct kd_kernel_entry *known = find(kernels, source, key);

@@ -243,7 +243,7 @@ static struct kd_panorama *wait_for(struct kd_panoramas *all, const struct kd_pa
             pthread_cond_wait(&all->changed, &all->lock);
             continue;
         }
-        all->asked[all->n_asked++] = *key; /* if there is no thread, the list is empty here */
+        all->asked[all->n_asked++] = *key; /* there is no thread here, so the list is empty */
         all->runs = true;                  /* this call runs in place of the thread */
         while (all->n_asked)
             make_first(all);

@@ -21,15 +21,15 @@ static uint64_t free_bytes(const struct kd_vk_info *info)
 /* Defaults until something has been measured: orders of magnitude per item for this type of device. */
 static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_bytes)
 {
-    uint64_t device = free_bytes(info), asked_accuracy = kd_memory_main(memory_bytes);
-    bool narrower = memory_bytes && asked_accuracy < device;
+    uint64_t device = free_bytes(info), given = kd_memory_main(memory_bytes);
+    bool narrower = memory_bytes && given < device;
     double scale = info->type == KD_VK_CPU ? 1 : info->type == KD_VK_DISCRETE ? 0.005 : 0.05;
     struct kd_capacity c = {
         .max_binding_bytes = info->max_binding_bytes,
         .max_allocation_bytes = info->max_allocation_bytes,
         .max_groups_x = info->max_groups_x,
         .max_groups_y = info->max_groups_y,
-        .memory_bytes = narrower ? asked_accuracy : device,
+        .memory_bytes = narrower ? given : device,
         .memory_by = narrower ? "--memory" : NULL,
         .host_memory = info->type == KD_VK_CPU || info->type == KD_VK_INTEGRATED,
         .float64 = info->float64,

@@ -134,7 +134,7 @@ WHEN(fast, stirs(scene) && !scene->disk.slow_light)
 static const struct kd_sentence sentences[] = {
     { "gas.turbulence",
       "gas: turbulence is procedural noise, not a solution of magnetohydrodynamics; it multiplies the flux, which "
-      "changes temperature and colour, and the optical depth if disk.optical_depth is not 0",
+      "changes temperature and colour, and the optical depth if disk.emission_opacity is not 0",
       turbulent },
     { "gas.rings",
       "gas: the pattern turns as rigid rings that blend into each other, each with the angular velocity of its "

@@ -71,7 +71,8 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
     return KD_OK;
 }
 
-/* Lists the stars with names, with directions in the frame of the rays, by the transpose of the rays' rotation. */
+/* Lists the stars that have names. The transpose of kd_sky_rotation turns their directions into the frame of the rays.
+ */
 static void name_stars(struct list *list)
 {
     const struct kd_scene *scene = list->picture->scene;

@@ -12,11 +12,11 @@
 /* lavapipe starts one thread a core, or as many as this variable says; 0 means only the submitting thread. */
 static uint32_t lavapipe_cores(void)
 {
-    const char *asked_accuracy = getenv("LP_NUM_THREADS");
+    const char *given = getenv("LP_NUM_THREADS");
     uint32_t cores = kd_cores();
-    if (!asked_accuracy || !*asked_accuracy)
+    if (!given || !*given)
         return cores;
-    long threads = strtol(asked_accuracy, NULL, 10);
+    long threads = strtol(given, NULL, 10);
     return threads < 1 ? 1 : threads < (long)cores ? (uint32_t)threads : cores;
 }
 

@@ -3,6 +3,8 @@
 #include "base/parallel.h"
 #include "render/view/sky_ray.h"
 
+#include "interface.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -430,6 +432,15 @@ static bool set_spans(const struct kd_rim *rim, const struct kd_camera_exact *ca
     return true;
 }
 
+/* Whether light from beyond an edge of the picture may reach a tile: the map of an equirectangular picture continues
+ * from the right edge to the left one, and over the poles (shaders/ray/around.glsl). */
+static bool comes_around(const struct kd_camera_exact *c, const struct rectangle *tile, const struct rectangle *picture,
+                         double spread)
+{
+    return c->sight == KD_SIGHT_SPHERE && (tile->left < spread || tile->right > picture->right - spread ||
+                                           tile->top < spread || tile->bottom > picture->bottom - spread);
+}
+
 void kd_rim_grids_keep(const struct kd_scene *scene, const struct kd_rim *rim, struct kd_rim_grids *grids)
 {
     const struct kd_sky_rays rays = kd_sky_rays_of(scene);
@@ -438,6 +449,9 @@ void kd_rim_grids_keep(const struct kd_scene *scene, const struct kd_rim *rim, s
     const struct rectangle tile = { side * w.left, side * w.top, side * ((double)w.left + w.width),
                                     side * ((double)w.top + w.height) };
     uint32_t n = 0;
+    const struct rectangle picture = { 0, 0, side * scene->image.width, side * scene->image.height };
+    if (comes_around(&rays.camera, &tile, &picture, SPREAD * side))
+        return;
     grids->rays = 0;
     for (uint32_t i = 0; i < grids->n; i++)
         if (set_spans(rim, &rays.camera, &tile, SPREAD * side, &grids->of[i])) {

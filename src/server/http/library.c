@@ -31,7 +31,7 @@ static const struct refusal {
 } refusals[] = {
     { 400, KD_PROBLEM_BAD_REQUEST, "the request line, a header line or a chunk of the body is not valid HTTP/1.1" },
     { 413, KD_PROBLEM_BODY_TOO_LARGE, "the body, or a line between its chunks, is too long" },
-    { 414, KD_PROBLEM_URI_TOO_LONG, "the address is too long; a header must have at most 32 KiB" },
+    { 414, KD_PROBLEM_URI_TOO_LONG, "the address is too long; address and header together must have at most 32 KiB" },
     { 431, KD_PROBLEM_HEADER_TOO_LARGE, "the header is too large; it must have at most 32 KiB" },
     { 500, KD_PROBLEM_BAD_REQUEST, "a line of the header, or between chunks of the body, is too long" },
     { 505, KD_PROBLEM_HTTP_VERSION, "the request line must name HTTP/1.1 or HTTP/1.0" },

@@ -130,7 +130,7 @@ enum MHD_Result kd_job_not_ready(struct kd_request *request, struct kd_job *job,
 {
     char detail[600];
     if (status->state == KD_JOB_FAILED)
-        snprintf(detail, sizeof detail, "the job has failed with %u of %u frames: %.400s", status->finished,
+        snprintf(detail, sizeof detail, "the job failed after %u of %u frames: %.400s", status->finished,
                  status->frames, status->error);
     else
         snprintf(detail, sizeof detail, "%u of %u frames are finished", status->finished, status->frames);

@@ -65,7 +65,7 @@ static const char film[] = OBJECT PICTURES_ALONE
     "\"motion_blur\":" OBJECT \
     "\"required\":[\"samples\"],\"properties\":{\"samples\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":64}," \
     "\"shutter\":{\"type\":\"number\",\"exclusiveMinimum\":0,\"maximum\":1,\"default\":0.5,\"description\":\"open " \
-    "time of the shutter over a frame's time\"}}}"
+    "time of the shutter, as a fraction of a frame's time\"}}}"
 
 static const char sequence[] = OBJECT PICTURES_ALONE TAKES_KEYFRAMES
     "\"required\":[\"scene\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE

@@ -2,8 +2,7 @@
 #include "render/device/rest.h"
 #include "server/render/internal.h"
 
-/* Appends a label's value with backslash, quote and line feed escaped. Control characters were removed when the
- * driver's name was read (vk/physical.c). */
+/* Appends NAME="VALUE". Backslashes and quotes are escaped; each character outside printable ASCII becomes "?". */
 static enum kd_status add_label(struct kd_buffer *out, const char *name, const char *value)
 {
     enum kd_status status;

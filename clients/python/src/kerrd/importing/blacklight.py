@@ -7,7 +7,7 @@ import re
 
 from ..eht import SUN_M
 from . import text
-from .kerr import Received, received
+from .kerr import Received, horizon, received
 from .sheet import Draft, Entry, Imported, ImportProblem, Sheet, shown
 
 PIVOT_HZ = 230e9  # frequency to which volume.gold_emission and volume.gold_absorption refer
@@ -168,7 +168,7 @@ def read(name: str, data: bytes) -> Imported:
     else:
         spin = _simulation(sheet)
     _image(sheet, _camera(sheet, spin), model)
-    _cuts(sheet)
+    _cuts(sheet, spin)
     return draft.done("blacklight")
 
 
@@ -372,24 +372,26 @@ def _image(sheet: Sheet, seen: Received, model: str) -> None:
         sheet.said("ray_flat", "rays are bent by the hole")
 
 
-def _cuts(sheet: Sheet) -> None:
+def _cut(sheet: Sheet, key: str, on: bool) -> None:
+    (sheet.unsaid if on else sheet.ignore)(key, "kerrd's models have no such cut" if on else "off")
+
+
+def _cuts(sheet: Sheet, spin: float) -> None:
     for key in (f"cut_{of}_{end}" for of in CUTS for end in ("min", "max")):
-        on = sheet.number(key, -1.0) >= 0
-        (sheet.unsaid if on else sheet.ignore)(key, "kerrd's models have no such cut" if on else "off")
+        _cut(sheet, key, sheet.number(key, -1.0) >= 0)
     for key, path in (("cut_omit_in", "volume.inner"), ("cut_omit_out", "volume.outer")):
         radius = sheet.number(key, -1.0)
         if radius < 0:
             sheet.ignore(key, "off")
+        elif key == "cut_omit_in" and radius <= horizon(spin):
+            sheet.ignore(key, "inside the horizon")
         elif sheet.draft.document.get("volume"):
             sheet.say(key, path, radius)
         else:
             sheet.unsaid(key, "the scene has no matter")
     for key in ("cut_midplane_theta", "cut_midplane_z"):
-        on = sheet.number(key, 0.0) != 0
-        (sheet.unsaid if on else sheet.ignore)(key, "kerrd's models have no such cut" if on else "off")
+        _cut(sheet, key, sheet.number(key, 0.0) != 0)
     for key in ("cut_omit_near", "cut_omit_far", "cut_plane"):
-        on = sheet.flag(key, False)
-        (sheet.unsaid if on else sheet.ignore)(key, "kerrd's models have no such cut" if on else "off")
+        _cut(sheet, key, sheet.flag(key, False))
     for key in ("cut_plane_origin", "cut_plane_normal"):
-        on = sheet.flag("cut_plane", False)
-        (sheet.unsaid if on else sheet.ignore)(key, "kerrd's models have no such cut" if on else "off")
+        _cut(sheet, key, sheet.flag("cut_plane", False))

@@ -114,6 +114,16 @@ class Matter:
         view["inclination_deg"] = 180 - camera.inclination_deg
         view["azimuth_deg"] = turn(-camera.azimuth_deg)
         view["roll_deg"] = turn(camera.roll_deg + 180)
+        for body in document.get("bodies", []):
+            body["inclination_deg"] = 180 - body["inclination_deg"]
+            body["phase_deg"] = turn(-body["phase_deg"])
+            body["motion"] = {"keplerian": "retrograde", "retrograde": "keplerian"}.get(body["motion"], body["motion"])
+        if document.pop("spots", None):
+            self.draft.lacks("the scene is without its spots, which turn against the disk")
+
+    def _full(self, name: str, most: int) -> str | None:
+        """Why a scene can have no more of these, if it cannot."""
+        return f"a scene has at most {most} {name}" if len(self.draft.document.get(name, [])) >= most else None
 
     def _generic(self, sheet: Section) -> tuple[bool, bool]:
         """Whether light is shifted, and whether matter is seen through."""
@@ -245,7 +255,7 @@ class Matter:
         sheet.method()
         path = self._path(sheet)
         size = sheet.positive("SpotRadSize")
-        problem = self._place_problem(sheet, path)
+        problem = self._place_problem(sheet, path) or self._full("spots", 16)
         if path.motion != "keplerian" or path.r < isco(self.spin):
             problem = problem or "kerrd's spots are on circular orbits outside the ISCO, with the disk"
         if problem or "CounterRotating" in sheet:
@@ -312,7 +322,7 @@ class Matter:
         radius = self.units.length(sheet, "Radius", "geometrical") if "Radius" in sheet else 0.0
         if radius <= 0:
             raise sheet.wrong("Radius", "a finite number above 0")
-        problem = self._place_problem(sheet, path)
+        problem = self._place_problem(sheet, path) or self._full("bodies", 8)
         if not fixed and not path.motion:
             problem = (
                 problem or "kerrd's bodies are at rest or on circular orbits in the plane, and this one is on neither"

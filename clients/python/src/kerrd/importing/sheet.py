@@ -96,7 +96,7 @@ class Imported:
     """A scene that was made from another code's input file.
 
     scene: for any method that takes one; a copy can be changed. document: the same as JSON. code: "gyoto", "ipole" or
-    "blacklight". notes: what became of each key, by line. missing: the number of keys that are not said.
+    "blacklight". notes: what became of each key, by line. not_said, ignored: the notes of that fate.
     """
 
     file: str
