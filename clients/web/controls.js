@@ -7,6 +7,8 @@ import { element, named, nature, number, section, t, tell, unit, word } from './
 import { beside_time, left_out, meansSomething } from './known.js';
 import { scale, stepByArrows } from './slider.js';
 
+const moving = ['time', 'camera.r', 'camera.azimuth_deg']; // fields that the server changes while time runs
+
 function numberRow(field, scene, id, hint) {
   const { minimum, maximum, word: special, type } = field;
   const [low, high] = field.span ?? [minimum, maximum],
@@ -29,8 +31,10 @@ function numberRow(field, scene, id, hint) {
     'aria-describedby': hint,
   });
   const hand = typing(box);
+  let own = null; // the value that this control gave last
   const give = value => {
     hand.given();
+    own = value;
     scene.change({ [field.path]: value });
   };
   slider.addEventListener('input', () => {
@@ -52,8 +56,10 @@ function numberRow(field, scene, id, hint) {
       given = value !== special;
     if (check) check.checked = !given;
     slider.disabled = box.disabled = !given;
+    // Somebody who has selected a number that time changes is about to type another one.
+    const selected = hand.held && value !== own && moving.includes(field.path) && scene.goesOn();
     if (!given) box.value = '';
-    else if (!hand.typed)
+    else if (!hand.typed && !selected)
       box.value =
         field.path === 'time'
           ? Math.round(value * 100) / 100
@@ -253,7 +259,7 @@ export function buildControls(scene, living_root) {
     if (others || grown) showParts();
   }
   for (const event of ['change', 'settle']) scene.addEventListener(event, show);
-  const moved = rows.filter(r => ['time', 'camera.r', 'camera.azimuth_deg'].includes(r.path));
+  const moved = rows.filter(r => moving.includes(r.path));
   scene.addEventListener('tick', () => moved.forEach(r => r.node.contains(document.activeElement) || r.show()));
   show();
 

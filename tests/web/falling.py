@@ -156,7 +156,18 @@ class Falling(Browser):
         self.assertFalse(page.evaluate('document.getElementById("status").dataset.wrong'))
         self.open_groups(page)
         stood = len(self.frames)
-        page.fill('[data-path="camera.r"] input[type=number]', "20")
+        box = '[data-path="camera.r"] input[type=number]'
+        page.focus(box)
+        page.evaluate("box => document.querySelector(box).select()", box)
+        selected = page.input_value(box)
+        page.set_viewport_size({"width": 420, "height": 400})  # changes the scene: the picture fits the window
+        for _ in range(2):
+            shown = page.inner_text("#status")
+            self.assertTrue(daemon.eventually(lambda told=shown: page.inner_text("#status") != told))
+        self.assertEqual(
+            page.input_value(box), selected, "a number that is selected stays, so that it can be typed over"
+        )
+        page.keyboard.type("20")
         page.keyboard.press("Enter")
         put = daemon.eventually(lambda: r < self.camera_r(page) <= 20)
         self.assertTrue(put, f"and from where it is put: {self.seen(page, stood)}")
