@@ -574,6 +574,23 @@ class Gyoto(Files):
         np.testing.assert_allclose(maps[0]["r"], maps[1]["r"][:, ::-1], rtol=1e-3)
         self.assertGreater(np.nanmax(maps[0]["g"]) / np.nanmin(maps[0]["g"]), 1.5)
 
+    def test_bodies_beside_a_disk_that_turns_against_the_spin(self):
+        """They are turned over with the hole, half a turn about the x axis. A list that is full is said."""
+        star = "<SubAstrobj kind='FixedStar'><Radius>0.5</Radius><Position>9 1.2 0.4</Position></SubAstrobj>"
+        disk = "<SubAstrobj kind='PageThorneDisk'><CounterRotating/></SubAstrobj>"
+        places = []
+        for matter in star, disk + star:
+            document = self.imported(scenery(spin="0.6", kind="Complex", matter=matter)).document
+            r, theta, phi = (document["bodies"][0][name] for name in ("r", "inclination_deg", "phase_deg"))
+            theta, phi = math.radians(theta), math.radians(phi)
+            places.append(
+                [r * math.sin(theta) * math.cos(phi), r * math.sin(theta) * math.sin(phi), r * math.cos(theta)]
+            )
+        np.testing.assert_allclose(places[1], places[0] * np.array([1, -1, -1]), atol=1e-6)
+        many = self.imported(scenery(kind="Complex", matter=9 * star))
+        self.assertEqual(len(many.document["bodies"]), 8)
+        self.assertTrue(any("at most 8 bodies" in note.text for note in many.not_said))
+
     def test_the_rate_is_in_grams(self):
         """Page and Thorne's temperature at the hottest ring, sigma T^4 = F: the disk of 10 solar masses and 1e18 g/s."""
         with kerrd.local(binary=KERRD) as hole:
