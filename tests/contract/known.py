@@ -83,7 +83,7 @@ def refused(label, problem):
     ):  # a member of a snapshot, which clients give back unchanged and cannot make themselves
         return "the state of a snapshot"
     if label.startswith("GET /v1/physics/") and sentence.endswith(
-        " of these"
+        " such values"
     ):  # a range is a text, and no pattern can bound the numbers in it
         return "the numbers of a range" if RANGE.match(sentence) else None
     return together(label, sentence)
