@@ -127,9 +127,9 @@ bool keep_end(uint at, kd_geodesic m, kd_ray ray, kd_arcs a, kd_azimuth azimuth,
     end.psi += leg.psi - azimuth.half_;
     end.u *= leg.side;
     if (FINITE) {
-        kd_direction missed = kd_arc_direction_missed(m, ray, cam.u, cam.s, time);
+        kd_direction at_once = kd_arc_direction_soon(m, ray, cam.u, cam.s, time);
         if (soon)
-            end = missed;
+            end = at_once;
     }
     float phi = end.psi + chi, fate = drag.falls ? KD_FATE_CAPTURED : KD_FATE_ESCAPED;
     if (!decided || (!drag.falls && (leg.alive || !kd_is_finite(phi))))

@@ -77,7 +77,7 @@ vec3 kd_direction_pull(kd_geodesic m, vec3 n)
 /* Direction of a ray that escapes soon after its start, with psi counted from the start. Takes four steps of the vector
  * equation of escape.glsl, each of which has an error below a float's for a quarter radian. A ray that never meets the
  * plane, with b < a, is such a ray if it starts outside the photon orbits. */
-kd_direction kd_arc_direction_missed(kd_geodesic m, kd_ray ray, float u, float s, float time)
+kd_direction kd_arc_direction_soon(kd_geodesic m, kd_ray ray, float u, float s, float time)
 {
     vec3 n = vec3(s, 0.0, u), v = vec3(-u * ray.p, ray.l, s * ray.p);
     float h = 0.25 * time;

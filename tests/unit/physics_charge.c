@@ -2,6 +2,7 @@
  * Carter wrote them, and with spherical photon orbits from R = R' = 0. */
 #include "physics/null/null_course.h"
 #include "physics/null/null_radial.h"
+#include "physics/orbit/timelike.h"
 
 #include <float.h>
 #include <math.h>
@@ -10,6 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -190,10 +192,21 @@ static void extremes(void **state)
     }
 }
 
+/* Orbits have no charge: a charged hole is refused by name. */
+static void orbits_refuse(void **state)
+{
+    (void)state;
+    struct kd_error error;
+    const struct kd_hole charged = kd_hole_charged(0.5, 0.25), none = kd_hole_of(0.5);
+    assert_int_equal(kd_orbit_check_hole(&none, &error), KD_OK);
+    assert_int_equal(kd_orbit_check_hole(&charged, &error), KD_EINVAL);
+    assert_non_null(strstr(error.message, "the charge 0.25 M"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(critical_impact), cmocka_unit_test(edge_of_the_shadow),
-                                        cmocka_unit_test(rates), cmocka_unit_test(crossings),
-                                        cmocka_unit_test(extremes) };
+                                        cmocka_unit_test(rates),           cmocka_unit_test(crossings),
+                                        cmocka_unit_test(extremes),        cmocka_unit_test(orbits_refuse) };
     return cmocka_run_group_tests_name("light about charged holes", tests, NULL, NULL);
 }

@@ -100,7 +100,10 @@ static void set_fate(struct kd_orbit *o)
 
 enum kd_status kd_orbit_check_hole(const struct kd_hole *hole, struct kd_error *error)
 {
-    if (fabs(hole->a) < 1 && hole->q == 0) /* no formula of orbits has a charge yet */
+    if (hole->q != 0)
+        return kd_error_set(error, KD_EINVAL, "the hole has the charge %.16g M; orbits are for uncharged holes only",
+                            hole->q);
+    if (fabs(hole->a) < 1)
         return KD_OK;
     return kd_error_field(error, "/spin", "spin is %.16g; it must be a number above -1 and below 1", hole->a);
 }
