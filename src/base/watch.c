@@ -21,6 +21,7 @@ static _Thread_local double turn_ms; /* the thread's processor time when the sli
 static _Thread_local struct {
     const void *lock;
     double since_ms;
+    bool slow;
 } held[HELD];
 static _Thread_local unsigned n_held;
 /* Hash table of locks by address. Its flags tell what happened while a lock was held. If two locks have the same slot,
@@ -67,13 +68,14 @@ static unsigned note(const void *lock, unsigned what)
     return (unsigned)((at & ~(uintptr_t)3) == mine ? (at & 3) | what : what);
 }
 
-static void taken(const void *lock)
+void kd_watch_taken(const void *lock)
 {
     if (answers && note(lock, ANSWERED) & SYNCED)
         broken("a thread that answers clients takes a lock that another thread has held during a disk write", 0);
     if (n_held < HELD) {
         held[n_held].lock = lock;
         held[n_held].since_ms = used_ms();
+        held[n_held].slow = false;
     }
     n_held++;
 }
@@ -87,12 +89,12 @@ static void too_long(const char *rule, double ms, double most_ms)
         broken(rule, ms);
 }
 
-static void given(const void *lock)
+void kd_watch_given(const void *lock)
 {
     for (unsigned i = n_held < HELD ? n_held : HELD; i-- > 0;) {
         if (held[i].lock != lock)
             continue;
-        const double ms = used_ms() - held[i].since_ms;
+        const double ms = held[i].slow ? 0 : used_ms() - held[i].since_ms;
         memmove(held + i, held + i + 1, (size_t)(HELD - 1 - i) * sizeof *held);
         n_held--;
         too_long("a lock is held for too long", ms, LOCK_MS);
@@ -100,7 +102,7 @@ static void given(const void *lock)
     }
 }
 
-static void disk(bool syncs)
+void kd_watch_disk(bool syncs)
 {
     if (answers)
         broken("a thread that answers clients waits for a disk", 0);
@@ -109,97 +111,20 @@ static void disk(bool syncs)
             broken("a thread waits for a disk and holds a lock that a thread needs to answer clients", 0);
 }
 
+void kd_watch_forget(const void *lock) { atomic_store(place_of(lock), 0); }
+
 void kd_watch_answers(void) { answers = true; }
 
 void kd_watch_turn_begins(void) { turn_ms = used_ms(); }
 
 void kd_watch_turn_ends(void) { too_long("a worker's turn is too long", used_ms() - turn_ms, TURN_MS); }
 
-/* The linker's --wrap redirects our calls of NAME to __wrap_NAME, which calls __real_NAME. */
-#define REAL(type, name, ...) \
-    type __real_##name(__VA_ARGS__); \
-    type __wrap_##name(__VA_ARGS__)
-REAL(int, pthread_mutex_lock, pthread_mutex_t *lock);
-REAL(int, pthread_mutex_clocklock, pthread_mutex_t *lock, clockid_t clock, const struct timespec *until);
-REAL(int, pthread_mutex_unlock, pthread_mutex_t *lock);
-REAL(int, pthread_mutex_destroy, pthread_mutex_t *lock);
-REAL(int, pthread_cond_wait, pthread_cond_t *condition, pthread_mutex_t *lock);
-REAL(int, pthread_cond_timedwait, pthread_cond_t *condition, pthread_mutex_t *lock, const struct timespec *until);
-REAL(int, pthread_cond_clockwait, pthread_cond_t *condition, pthread_mutex_t *lock, clockid_t clock,
-     const struct timespec *until);
-REAL(int, fsync, int fd);
-REAL(int, unlink, const char *path);
-REAL(int, unlinkat, int folder, const char *path, int flags);
-
-int __wrap_pthread_mutex_lock(pthread_mutex_t *lock)
+void kd_watch_slow_lock(void)
 {
-    int code = __real_pthread_mutex_lock(lock);
-    taken(lock);
-    return code;
-}
-
-int __wrap_pthread_mutex_clocklock(pthread_mutex_t *lock, clockid_t clock, const struct timespec *until)
-{
-    int code = __real_pthread_mutex_clocklock(lock, clock, until);
-    if (!code)
-        taken(lock);
-    return code;
-}
-
-int __wrap_pthread_mutex_unlock(pthread_mutex_t *lock)
-{
-    int code = __real_pthread_mutex_unlock(lock);
-    given(lock);
-    return code;
-}
-
-int __wrap_pthread_mutex_destroy(pthread_mutex_t *lock)
-{
-    atomic_store(place_of(lock), 0);
-    return __real_pthread_mutex_destroy(lock);
-}
-
-int __wrap_pthread_cond_wait(pthread_cond_t *condition, pthread_mutex_t *lock)
-{
-    given(lock);
-    int code = __real_pthread_cond_wait(condition, lock);
-    taken(lock);
-    return code;
-}
-
-int __wrap_pthread_cond_timedwait(pthread_cond_t *condition, pthread_mutex_t *lock, const struct timespec *until)
-{
-    given(lock);
-    int code = __real_pthread_cond_timedwait(condition, lock, until);
-    taken(lock);
-    return code;
-}
-
-int __wrap_pthread_cond_clockwait(pthread_cond_t *condition, pthread_mutex_t *lock, clockid_t clock,
-                                  const struct timespec *until)
-{
-    given(lock);
-    int code = __real_pthread_cond_clockwait(condition, lock, clock, until);
-    taken(lock);
-    return code;
-}
-
-int __wrap_fsync(int fd)
-{
-    disk(true);
-    return __real_fsync(fd);
-}
-
-int __wrap_unlink(const char *path)
-{
-    disk(false);
-    return __real_unlink(path);
-}
-
-int __wrap_unlinkat(int folder, const char *path, int flags)
-{
-    disk(false);
-    return __real_unlinkat(folder, path, flags);
+    if (answers)
+        broken("a thread that answers clients takes a lock that is held while a device is opened", 0);
+    if (n_held > 0 && n_held <= HELD)
+        held[n_held - 1].slow = true;
 }
 #else
 typedef int kd_watch_is_off; /* a translation unit must not be empty (C11, 6.9) */

@@ -6,20 +6,32 @@
  *     it.
  *     (A violation of less than four times these limits is tolerated twice for each thread.)
  *     No thread calls fsync while it holds a lock that a thread that answers requests also takes.
+ *     A slow lock, which is held while a driver opens or closes a device, may be held for any time. A thread that
+ *     answers requests never takes one.
  *
- * The linker redirects the calls of our own code to this file (src/server/meson.build). With KERRD_WATCH=tell in the
+ * The linker redirects the calls of our own code to this file (src/base/meson.build). With KERRD_WATCH=tell in the
  * environment the program prints each violation and continues. Other builds contain none of this. Any thread. */
 #ifndef KD_BASE_WATCH_H
 #define KD_BASE_WATCH_H
 
 #ifdef KD_WATCH
+#include <stdbool.h>
+
 void kd_watch_answers(void); /* marks the calling thread as one that answers requests */
 void kd_watch_turn_begins(void);
 void kd_watch_turn_ends(void);
+void kd_watch_slow_lock(void); /* the lock that the calling thread took last is a slow one */
+/* For watch_calls.c: the calling thread has taken or given back a lock, is going to use a disk (syncs: by fsync), or is
+ * going to destroy a lock. */
+void kd_watch_taken(const void *lock);
+void kd_watch_given(const void *lock);
+void kd_watch_disk(bool syncs);
+void kd_watch_forget(const void *lock);
 #else
 static inline void kd_watch_answers(void) {}
 static inline void kd_watch_turn_begins(void) {}
 static inline void kd_watch_turn_ends(void) {}
+static inline void kd_watch_slow_lock(void) {}
 #endif
 
 #endif

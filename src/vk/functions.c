@@ -1,5 +1,7 @@
 #include "vk/functions.h"
 
+#include "base/watch.h"
+
 #include <dlfcn.h>
 #include <pthread.h>
 #include <stddef.h>
@@ -7,7 +9,11 @@
 
 static pthread_mutex_t loader = PTHREAD_MUTEX_INITIALIZER;
 
-void kd_vk_loader_lock(void) { pthread_mutex_lock(&loader); }
+void kd_vk_loader_lock(void)
+{
+    pthread_mutex_lock(&loader);
+    kd_watch_slow_lock();
+}
 
 void kd_vk_loader_unlock(void) { pthread_mutex_unlock(&loader); }
 

@@ -80,6 +80,25 @@ static void long_lock(void)
     use_ms(9);
     pthread_mutex_unlock(&lock);
 }
+static void slow_lock(void)
+{
+    pthread_mutex_lock(&lock);
+    kd_watch_slow_lock();
+    pthread_mutex_lock(&other);
+    pthread_mutex_unlock(&other);
+    use_ms(9);
+    pthread_mutex_unlock(&lock);
+}
+static void long_after_slow(void)
+{
+    slow_lock();
+    long_lock();
+}
+static void answers_by_slow_lock(void)
+{
+    kd_watch_answers();
+    slow_lock();
+}
 static void often(void)
 {
     for (int i = 0; i < 3; i++) {
@@ -109,8 +128,17 @@ static void test_rules(void **state)
         void (*run)(void);
         int signal;
     } cases[] = {
-        { sound, 0 },           { waits, SIGABRT }, { removes, SIGABRT }, { long_turn, SIGABRT },
-        { long_lock, SIGABRT }, { often, SIGABRT }, { holds, SIGABRT },   { held_before, SIGABRT },
+        { sound, 0 },
+        { waits, SIGABRT },
+        { removes, SIGABRT },
+        { long_turn, SIGABRT },
+        { long_lock, SIGABRT },
+        { often, SIGABRT },
+        { holds, SIGABRT },
+        { held_before, SIGABRT },
+        { slow_lock, 0 },
+        { long_after_slow, SIGABRT },
+        { answers_by_slow_lock, SIGABRT },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         int status;
