@@ -9,9 +9,14 @@
  * KD_STAR_PATCH radians, next to the critical curve, is left out.
  *
  * The parallelogram: with J the map's derivative, |x_i| <= KD_STAR_ROOM for x = (J^T J + e tr(J^T J))^-1 J^T p. Where J
- * is nearly singular, on the caustic, the derivative does not describe the whole patch; e makes room for the rest. */
+ * is nearly singular, on the caustic, the derivative does not describe the whole patch; e makes room for the rest.
+ *
+ * There the parallelogram is much wider than the patch. So a star must also be in a rectangle along the patch's long
+ * axis, that contains the patch by the map's derivatives of first and second order. They need all eight rays about the
+ * ray. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/interface.h"
 #include "shared/spec.h"
@@ -27,16 +32,44 @@ KD_SPEC_STARS(KD_SPEC_U_, KD_SPEC_B_)
 
 #define KD_STAR_ROOM 0.8
 #define KD_STAR_MARGIN 0.0025 /* e */
+/* A ray's cell with its borders, where cells share images, and its square; with a margin for terms of third order. */
+#define KD_STAR_HALF 0.65
+#define KD_STAR_BEND 0.5
 
-/* Difference to a neighbour along an axis of the picture; 0 if neither neighbour escapes. */
-vec3 slope(vec3 n, uint at, uint x, uint y, ivec2 axis)
+/* Half the difference of the second differences along both diagonals; there: whether the four rays escape. */
+vec3 twist(uint at, uint x, uint y, out bool there)
+{
+    vec3 sum = vec3(0.0);
+    there = true;
+    [[dont_unroll]] for (int k = 0; k < 4; k++) {
+        int i = (k & 1) * 2 - 1, j = (k >> 1) * 2 - 1;
+        ivec2 place = kd_around_neighbour(ivec2(x + i, y + j));
+        uint near = place.x < 0 ? at : uint(place.y) * push.width + uint(place.x);
+        there = there && place.x >= 0 && kd_sky_escapes(near);
+        sum += 0.25 * float(i * j) * kd_sky_from(near);
+    }
+    return sum;
+}
+
+/* Difference to a neighbour along an axis of the picture; 0 if neither neighbour escapes. bend: half the second
+ * difference; there: whether both neighbours escape. */
+vec3 slope(vec3 n, uint at, uint x, uint y, ivec2 axis, out vec3 bend, out bool there)
 {
     ivec2 next = kd_around_neighbour(ivec2(x, y) + axis), last = kd_around_neighbour(ivec2(x, y) - axis);
     uint after_ = next.x < 0 ? at : uint(next.y) * push.width + uint(next.x),
          before_ = last.x < 0 ? at : uint(last.y) * push.width + uint(last.x);
     bool after = next.x >= 0 && kd_sky_escapes(after_), before = last.x >= 0 && kd_sky_escapes(before_);
-    vec3 other = kd_sky_from(after ? after_ : before ? before_ : at);
-    return after ? other - n : n - other;
+    vec3 to = kd_sky_from(after_) - n, from = kd_sky_from(before_) - n;
+    there = after && before;
+    bend = 0.5 * (to + from);
+    return after ? to : before ? -from : vec3(0.0);
+}
+
+/* Half the extent of a ray's patch along an axis, by the derivatives of the map. */
+float rectangle_of(vec3 axis, vec3 i, vec3 j, vec3 ii, vec3 jj, vec3 ij)
+{
+    return KD_STAR_HALF * (abs(dot(axis, i)) + abs(dot(axis, j))) +
+           KD_STAR_BEND * (abs(dot(axis, ii)) + abs(dot(axis, jj)) + abs(dot(axis, ij)));
 }
 
 /* Whether all images there belong to others: the rim, or another grid of the rim. */
@@ -50,7 +83,9 @@ bool is_left_out(uint x, uint y)
 void search(uint at)
 {
     uint y = at / push.width, x = at - y * push.width;
-    vec3 own = kd_sky_from(at), i = slope(own, at, x, y, ivec2(1, 0)), j = slope(own, at, x, y, ivec2(0, 1));
+    bool along, across, around;
+    vec3 own = kd_sky_from(at), bend_i, bend_j, i = slope(own, at, x, y, ivec2(1, 0), bend_i, along),
+         j = slope(own, at, x, y, ivec2(0, 1), bend_j, across), bend_ij = twist(at, x, y, around);
     vec3 n = kd_sky_galactic(own), a = kd_sky_galactic(i), b = kd_sky_galactic(j);
     float aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), more = KD_STAR_MARGIN * (aa + bb);
     float det = (aa + more) * (bb + more) - ab * ab, unit = 1.0 / max(det, 1e-30);
@@ -63,6 +98,20 @@ void search(uint at)
     /* Vectors whose products with a star are the components of x, so that a star is tested by two products. */
     vec3 to_x = ((bb + more) * a - ab * b) * unit, to_y = ((aa + more) * b - ab * a) * unit;
     float far = 1.3 * reach * reach;
+    /* The rectangle along the long axis; without all eight rays it has no bound but `reach`. Second-order terms count
+     * from the slope on one side, since the central one is i - bend_i. */
+    vec3 long_ = dot(i, i) > dot(j, j) ? i : j;
+    long_ = i * dot(i, long_) + j * dot(j, long_);
+    long_ -= own * dot(own, long_);
+    long_ *= inversesqrt(max(dot(long_, long_), 1e-38));
+    vec3 wide = cross(own, long_);
+    float room_long = rectangle_of(long_, i - bend_i, j - bend_j, bend_i, bend_j, bend_ij),
+          room_wide = rectangle_of(wide, i - bend_i, j - bend_j, bend_i, bend_j, bend_ij) + 0.01 * room_long;
+    bool all_there = along && across && around;
+    room_long = all_there ? room_long : 2.0 * reach;
+    room_wide = all_there ? room_wide : 2.0 * reach;
+    long_ = kd_sky_galactic(long_);
+    wide = kd_sky_galactic(wide);
     /* The rectangle about the parallelogram, to which e adds little unless the parallelogram is thin. It is limited by
      * the ray's size: a step of the direction moves the place on the face by at most 1 + p^2 + q^2 times as much, plus
      * a margin because that factor grows. */
@@ -71,6 +120,10 @@ void search(uint at)
     vec2 room =
         abs(kd_face_place(face.number, n + a) - middle) + abs(kd_face_place(face.number, n + b) - middle) + 0.1 * all;
     room = patch_ < 0.1 * (aa + bb) ? all : min(1.1 * KD_STAR_ROOM * room, all);
+    vec2 other = 1.1 * (abs(kd_face_place(face.number, n + room_long * long_) - middle) +
+                        abs(kd_face_place(face.number, n + room_wide * wide) - middle)) +
+                 0.02 * all;
+    room = all_there ? min(room, other) : room;
     kd_cells cells = kd_cells_of(face.number, middle - room, middle + room);
     kd_star_walk walk = kd_star_walk_from(cells, looks);
     /* lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop goes from star
@@ -83,7 +136,7 @@ void search(uint at)
                 vec4 star = star_row(walk.k);
                 vec3 p = star.xyz - n;
                 near = abs(dot(p, to_x)) <= KD_STAR_ROOM && abs(dot(p, to_y)) <= KD_STAR_ROOM && dot(p, p) < far &&
-                       star.w >= least;
+                       abs(dot(p, long_)) <= room_long && abs(dot(p, wide)) <= room_wide && star.w >= least;
                 walk.k = star.w < least ? walk.end : walk.k + 1u;
             }
             if (walk.done || near)

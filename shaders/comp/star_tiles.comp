@@ -12,8 +12,12 @@
  * Stars are sorted as in faces.h, the brightest of a cell first. A cell's search ends at the first star that would
  * brighten a pixel by less than push.least.
  *
- * BRIGHT: the light of stars in simple tiles is spread here, at the places and with the magnification of the tile's map
- * of second order. */
+ * Four more rays of a large tile give its map to third order, and its terms of fourth order along both axes. A simple
+ * tile is smooth if the terms of fourth order, which are left out, are less than KD_STAR_TILE_SMOOTH rays. The light of
+ * stars in a smooth tile is spread here, at the places and with the magnification of the tile's map. So no pairs are
+ * listed.
+ *
+ * BRIGHT: the same in all simple tiles. In those that are not smooth, the map is of second order. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -35,18 +39,20 @@ layout(set = 0, binding = 10) readonly buffer Stars_ { float star_numbers[]; };
 
 #define KD_STAR_TILE_BENT 0.7
 #define KD_STAR_TILE_OFF 0.2
+#define KD_STAR_TILE_SMOOTH 0.005
 const int HALF = int(TILE) / 2;
 /* largest distance, in rays, of a star from the ray that it is paired with: images are searched up to 0.6 */
 const float NEAR = TILE == KD_STAR_TILE || AT_RIM ? 0.72 : 0.65;
 
-/* The map over a tile: q = a u + b v + aa u^2 + ab u v + bb v^2, with u and v from -1 to 1 from its first to its
- * last rays. aa, ab and bb are in units of a and b. */
+/* The map over a tile: q = a u + b v + aa u^2 + ab u v + bb v^2 + aaa u^3 + aab u^2 v + abb u v^2 + bbb v^3, with u
+ * and v from -1 to 1 from its first to its last rays. The terms from the second order on are in units of a and b. Those
+ * of third order are 0 if the tile is not smooth. */
 struct kd_tile {
     vec3 n, e1, e2;
-    vec2 a, b, aa, ab, bb;
+    vec2 a, b, aa, ab, bb, aaa, aab, abb, bbb;
     float det, bent;
     kd_cells cells;
-    bool simple;
+    bool simple, is_smooth;
 };
 
 vec2 solve(kd_tile t, vec2 q) { return vec2(t.b.y * q.x - t.b.x * q.y, t.a.x * q.y - t.a.y * q.x) / t.det; }
@@ -64,12 +70,14 @@ kd_tile tile_about(uint at, bool whole)
     vec2 low = vec2(1e9), high = vec2(-1e9); /* bounds of the places of all nine rays */
     /* terms of u v^2 and u^2 v: the part of the corners that the other terms do not explain */
     vec2 corners = vec2(0.0), sides = vec2(0.0);
+    /* values at the ends of both axes, and the mean at the corners */
+    vec2 left = vec2(0.0), right = left, above = left, below = left, corner = left;
     t.a = t.b = t.aa = t.ab = t.bb = vec2(0.0);
     for (int k = 0; k < 9; k++) {
         int row = k / 3, i = k - 3 * row - 1, j = row - 1;
         uint there = whole ? at + uint(HALF * (j * int(push.width) + i)) : at;
         vec3 other = kd_sky_from(there);
-        vec2 q = vec2(dot(e1, other), dot(e2, other));
+        vec2 q = vec2(dot(e1, other - n), dot(e2, other - n)); /* so that small differences keep all their digits */
         float u = float(i), v = float(j);
         escape = escape && kd_sky_escapes(there) && dot(n, other) > 0.5;
         vec2 place = kd_face_place(face, kd_sky_galactic(other));
@@ -82,11 +90,18 @@ kd_tile tile_about(uint at, bool whole)
         t.ab += 0.25 * u * v * q;
         t.aa += j == 0 ? 0.5 * u * u * q : vec2(0.0);
         t.bb += i == 0 ? 0.5 * v * v * q : vec2(0.0);
+        left = k == 3 ? q : left;
+        right = k == 5 ? q : right;
+        above = k == 1 ? q : above;
+        below = k == 7 ? q : below;
+        corner += i * j != 0 ? 0.25 * q : vec2(0.0);
     }
     t.n = kd_sky_galactic(n);
     t.e1 = kd_sky_galactic(e1);
     t.e2 = kd_sky_galactic(e2);
     t.det = t.a.x * t.b.y - t.b.x * t.a.y;
+    t.aaa = t.aab = t.abb = t.bbb = vec2(0.0);
+    vec2 mixed = t.ab;
     t.aa = solve(t, t.aa);
     t.ab = solve(t, t.ab);
     t.bb = solve(t, t.bb);
@@ -99,27 +114,61 @@ kd_tile tile_about(uint at, bool whole)
                               (RIM == 1u ? KD_STAR_PATCH_RIM : KD_STAR_PATCH);
     float off = (most(solve(t, corners)) + most(solve(t, sides))) * float(HALF);
     t.simple = escape && kd_is_finite(t.bent) && t.bent < KD_STAR_TILE_BENT && off < KD_STAR_TILE_OFF && fine;
+    t.is_smooth = false;
+    if (TILE == KD_STAR_TILE) { /* each axis has rays at -2 ... 2 of these steps */
+        uint across = whole ? uint(HALF / 2) : 0u, down = across * push.width;
+        vec3 u1 = kd_sky_from(at - across) - n, u2 = kd_sky_from(at + across) - n, v1 = kd_sky_from(at - down) - n,
+             v2 = kd_sky_from(at + down) - n;
+        vec2 west = vec2(dot(e1, u1), dot(e2, u1)), east = vec2(dot(e1, u2), dot(e2, u2)),
+             north = vec2(dot(e1, v1), dot(e2, v1)), south = vec2(dot(e1, v2), dot(e2, v2));
+        kd_quartic u = kd_quartic_of(left, west, vec2(0.0), east, right),
+                   v = kd_quartic_of(above, north, vec2(0.0), south, below);
+        float fourth = (most(solve(t, left + right - 4.0 * (west + east))) +
+                        most(solve(t, above + below - 4.0 * (north + south)))) *
+                           (2.0 / 3.0) +
+                       most(solve(t, corner - 0.5 * (left + right + above + below)));
+        t.is_smooth = t.simple && fourth * float(HALF) < KD_STAR_TILE_SMOOTH;
+        if (t.is_smooth) {
+            t.a = 2.0 * u.x;
+            t.b = 2.0 * v.x;
+            t.det = t.a.x * t.b.y - t.b.x * t.a.y;
+            t.aa = solve(t, 4.0 * u.xx);
+            t.ab = solve(t, mixed);
+            t.bb = solve(t, 4.0 * v.xx);
+            t.aaa = solve(t, 8.0 * u.xxx);
+            t.aab = solve(t, sides);
+            t.abb = solve(t, corners);
+            t.bbb = solve(t, 8.0 * v.xxx);
+        }
+    }
     return t;
 }
 
-/* Converts a place of the linear map to the corresponding place of the quadratic one. */
+/* Derivatives of the map by u and v, in units of a and b. */
+mat2 derivative(kd_tile t, vec2 p)
+{
+    return mat2(
+        vec2(1.0, 0.0) + p.x * (2.0 * t.aa + 3.0 * p.x * t.aaa + 2.0 * p.y * t.aab) + p.y * (t.ab + p.y * t.abb),
+        vec2(0.0, 1.0) + p.y * (2.0 * t.bb + 3.0 * p.y * t.bbb + 2.0 * p.x * t.abb) + p.x * (t.ab + p.x * t.aab));
+}
+
+float determinant_of(mat2 j) { return j[0].x * j[1].y - j[1].x * j[0].y; }
+
+/* Converts a place of the linear map to the corresponding place of the whole one. */
 vec2 place_of(kd_tile t, vec2 linear)
 {
     vec2 p = linear;
     for (int k = 0; k < 3; k++) {
-        vec2 left = p + p.x * p.x * t.aa + p.x * p.y * t.ab + p.y * p.y * t.bb - linear;
-        vec2 du = vec2(1.0, 0.0) + 2.0 * p.x * t.aa + p.y * t.ab, dv = vec2(0.0, 1.0) + p.x * t.ab + 2.0 * p.y * t.bb;
-        p -= vec2(dv.y * left.x - dv.x * left.y, du.x * left.y - du.y * left.x) / (du.x * dv.y - du.y * dv.x);
+        vec2 left = p + p.x * (p.x * (t.aa + p.x * t.aaa + p.y * t.aab) + p.y * t.ab) +
+                    p.y * p.y * (t.bb + p.y * t.bbb + p.x * t.abb) - linear;
+        mat2 j = derivative(t, p);
+        p -= vec2(j[1].y * left.x - j[1].x * left.y, j[0].x * left.y - j[0].y * left.x) / determinant_of(j);
     }
     return p;
 }
 
 /* Solid angle to which the map takes a ray's cell at a place. */
-float area(kd_tile t, vec2 p)
-{
-    vec2 du = vec2(1.0, 0.0) + 2.0 * p.x * t.aa + p.y * t.ab, dv = vec2(0.0, 1.0) + p.x * t.ab + 2.0 * p.y * t.bb;
-    return abs((du.x * dv.y - du.y * dv.x) * t.det) * (1.0 / float(HALF * HALF));
-}
+float area(kd_tile t, vec2 p) { return abs(determinant_of(derivative(t, p)) * t.det) * (1.0 / float(HALF * HALF)); }
 
 /* Spreads the light of star k, whose place is this many rays from the middle ray (x, y) of a tile. magnified: its
  * flux over the solid angle of the sky that a pixel is mapped to. Where two tiles meet they share the light, with
@@ -128,13 +177,15 @@ float area(kd_tile t, vec2 p)
 void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
 {
     vec2 share = clamp(0.5 + 5.0 * (float(HALF) + 0.5 - abs(place)), 0.0, 1.0);
-    if (!bright || share.x * share.y <= 0.0)
+    float own = share.x * share.y;
+    if (RIM == 1u && !BRIGHT) /* the rest comes from the rim */
+        own *= 1.0 - kd_rim_share(kd_rim_place(kd_camera_look(vec2(x, y) + place)));
+    if (!bright || own <= 0.0)
         return;
     ivec2 near = ivec2(floor(place + 0.5));
     float energy = FINITE ? kd_camera_ray(uint(int(x) + near.x), uint(int(y) + near.y)).e : 1.0;
     vec3 colour = kd_sky_shifted(star_numbers[4u * push.stars + k], 1.0 / energy, VISIBLE ? KD_TRAIT_VISIBLE : 0u);
-    kd_star_spread((vec2(x, y) + place + 0.5) / float(SIDE) - 0.5,
-                   emission.sky.brightness * magnified * share.x * share.y * colour);
+    kd_star_spread((vec2(x, y) + place + 0.5) / float(SIDE) - 0.5, emission.sky.brightness * magnified * own * colour);
 }
 
 /* Lists the pairs of star k, whose place is this many rays from the middle one; lists nothing if the star is too
@@ -203,7 +254,7 @@ void seek(uint x, uint y)
     float sharp = 1.0 - t.bent,
           /* flux of a star that is just visible at the largest magnification */
         least = sharp * sharp * unit * abs(t.det) * (1.0 / float(HALF * HALF));
-    bool left_out = is_left_out(x, y);
+    bool left_out = is_left_out(x, y), spreads = BRIGHT || t.is_smooth;
     kd_star_walk walk = kd_star_walk_from(t.cells, t.simple && !left_out);
     for (;;) {
         bool near = false;
@@ -213,7 +264,7 @@ void seek(uint x, uint y)
             kd_star_next_cell(t.cells, walk);
             if (walk.k < walk.end && !walk.done) {
                 star = star_row(walk.k);
-                place = vec2(dot(star.xyz, to_u), dot(star.xyz, to_v));
+                place = vec2(dot(star.xyz - t.n, to_u), dot(star.xyz - t.n, to_v));
                 near = abs(place.x) <= most_ && abs(place.y) <= most_ && dot(star.xyz, t.n) > 0.5 && star.w >= least;
                 walk.k = star.w < least ? walk.end : walk.k + 1u;
             }
@@ -224,10 +275,10 @@ void seek(uint x, uint y)
             break;
         place = place_of(t, place);
         float patch_ = area(t, place);
-        if (BRIGHT)
+        if (spreads)
             shine(x + push.column0 + uint(HALF), y + push.row0 + uint(HALF), place * float(HALF), walk.k - 1u,
                   star.w * dot(star.xyz, t.n) / (patch_ * float(SIDE * SIDE)), star.w > unit * patch_);
-        else
+        if (!spreads)
             note(at, place * float(HALF), walk.k - 1u, star.w > 0.8 * unit * patch_);
     }
     if (!t.simple && !left_out)

@@ -4,6 +4,7 @@
 #include "render/render.h"
 #include "render/sky/frame.h"
 #include "render/sky/star.h"
+#include "render/view/rim.h"
 
 #include "render_support.h"
 
@@ -101,7 +102,7 @@ static struct blob blob_at(const struct kd_frame *frame, double x, double y, int
     return b;
 }
 
-static const double step = 2 * 0.83909963117728001177 / WIDTH; /* tan(40 degrees) */
+static double step = 2 * 0.83909963117728001177 / WIDTH; /* tan(40 degrees) */
 
 /* Origin of the ray at a place of the picture, by the oracle; and its g. */
 static struct vec3 from(const struct kd_scene *scene, double x, double y, double *g)
@@ -131,31 +132,53 @@ static double patch(const struct kd_scene *scene, double x, double y, double ste
     return (4 * area[1] - area[0]) / 3;
 }
 
+/* Light and place of the star's image at a place of the picture, against the oracle's. */
+static void compare(struct kd_scene *scene, double x, double y, double *worst_light, double *worst_place)
+{
+    double g;
+    if (x < 4 || y < 4 || x > WIDTH - 5 || y > HEIGHT - 5)
+        return;
+    struct vec3 n = from(scene, x, y, &g);
+    if (g == 0 || !aim(scene, n))
+        return;
+    struct kd_frame frame = seen(scene);
+    const struct blob b = blob_at(&frame, x, y, 2);
+    double want = kd_star_flux(kd_catalogue_star(0).magnitude) * g * g * g * g / patch(scene, x, y, 0.02),
+           light = fabs(b.light / want - 1), place = hypot(b.x - x, b.y - y);
+    if (light > 0.01 || place > 0.01)
+        printf("spin %g: at %.2f, %.2f light %.5f of %.5g, place off by %.3f pixels\n", scene->spacetime.spin, x, y,
+               b.light / want, want, place);
+    *worst_light = fmax(*worst_light, light);
+    *worst_place = fmax(*worst_place, place);
+    kd_frame_finish(&frame);
+}
+
 /* At several places of the picture, the last ones next to the critical curve of the primary image, where light
  * diverges. */
 static void by_rays(double spin, double inclination, double *worst_light, double *worst_place)
 {
     struct kd_scene scene = scene_of(spin, inclination);
-    const double flux = kd_star_flux(kd_catalogue_star(0).magnitude);
     for (int k = 0; k < 24; k++) {
-        double angle = 2.399963 * k, rho = 0.2 + 0.018 * k, x = 0.5 * (WIDTH - 1) + rho * cos(angle) / step,
-               y = 0.5 * (HEIGHT - 1) - rho * sin(angle) / step, g;
-        if (x < 4 || y < 4 || x > WIDTH - 5 || y > HEIGHT - 5)
-            continue;
-        struct vec3 n = from(&scene, x, y, &g);
-        if (g == 0 || !aim(&scene, n))
-            continue;
-        struct kd_frame frame = seen(&scene);
-        const struct blob b = blob_at(&frame, x, y, 2);
-        double want = flux * g * g * g * g / patch(&scene, x, y, 0.02), light = fabs(b.light / want - 1),
-               place = hypot(b.x - x, b.y - y);
-        if (light > 0.01 || place > 0.01)
-            printf("spin %g: at %.2f, %.2f light %.5f of %.5g, place off by %.3f pixels\n", spin, x, y, b.light / want,
-                   want, place);
-        *worst_light = fmax(*worst_light, light);
-        *worst_place = fmax(*worst_place, place);
-        kd_frame_finish(&frame);
+        double angle = 2.399963 * k, rho = 0.2 + 0.018 * k;
+        compare(&scene, 0.5 * (WIDTH - 1) + rho * cos(angle) / step, 0.5 * (HEIGHT - 1) - rho * sin(angle) / step,
+                worst_light, worst_place);
     }
+    /* where the picture's rays and those of the rim share an image's light, and on either side; once more where the
+     * curve is so large in the picture that its rim is wide */
+    const double wide = step;
+    for (int k = 0; k < 24; k++) {
+        struct kd_rim rim;
+        scene.camera.fov_deg = k < 12 ? FIELD : 26;
+        step = k < 12 ? wide : 2 * tan(13 * DEGREE) / WIDTH;
+        assert_true(kd_rim_of(&scene, &rim));
+        const double off = rim.full + (k / 2 % 4 - 0.5) * 0.5 * (rim.none - rim.full);
+        double place[2], look[3];
+        kd_rim_place(&rim, KD_RIM_ANGLES * (0.5 * (k % 2) + 0.003 * k), off, place);
+        kd_rim_look(&rim, place, look);
+        compare(&scene, 0.5 * (WIDTH - 1) + look[2] / -look[0] / step, 0.5 * (HEIGHT - 1) + look[1] / -look[0] / step,
+                worst_light, worst_place);
+    }
+    step = wide;
 }
 
 static void images_by_the_oracle(void **state)
