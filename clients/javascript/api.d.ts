@@ -1515,8 +1515,8 @@ export interface CompareRequest {
   scene?: Scene;
   /** SHA-256 of an asset of the server: uvfits, or the EHT's CSV. */
   observation: string;
-  /** quantities that are compared. */
-  products?: ('amplitude' | 'closure_phase' | 'log_closure_amplitude')[];
+  /** quantities that are compared; visibility: real and imaginary parts, which need calibrated phases. */
+  products?: ('amplitude' | 'closure_phase' | 'log_closure_amplitude' | 'visibility')[];
   /**
    * length in seconds of the bins in which visibilities are averaged, counted from 1960-01-01; 0: no averaging
    * [s]; 0 to 86400.
@@ -1547,12 +1547,20 @@ export interface CompareRequest {
   /** shape of a pixel's light. */
   pulse?: 'triangle' | 'rectangle' | 'point';
   /**
+   * interstellar scattering of the model: sgra: the average kernel towards Sagittarius A* at the observation's
+   * frequency.
+   */
+  scattering?: 'none' | 'sgra';
+  /**
    * flux to which the whole map is scaled; auto: the scene's flux, or the best fit to the amplitudes if the
    * scene's light has no frequency [Jy]; 1e-12 to 1e+12.
    */
   flux_jy?: 'auto' | number;
-  /** quantities that are fitted for the smallest chi^2 of the amplitudes. */
-  solve?: 'flux'[];
+  /**
+   * quantities that are fitted for the smallest chi^2 of all data: flux, angular size, position angle, and the
+   * position, which needs the product visibility.
+   */
+  solve?: ('flux' | 'size' | 'position_angle' | 'shift')[];
   /**
    * pixels along the longer side of a picture; default 128 for a spectrum, 256 for visibilities and a comparison;
    * 16 to 2048.
@@ -1577,6 +1585,7 @@ export interface Comparison {
     debias: string;
     closures: string;
     pulse: string;
+    scattering: string;
     flux_jy: number | null;
     solve: string[];
     pixels: number;
@@ -1599,9 +1608,17 @@ export interface Comparison {
     undefined: number | null;
     /** largest estimated error of the model's amplitudes, from a map 1.5 times as fine. */
     model_error: number | null;
+    /** factor by which the map is enlarged, at the same flux. */
+    size: number | null;
+    /** angle by which the map is rotated, from north to east. */
+    position_angle_deg: number | null;
+    /** shift of the map to the east. */
+    shift_east_uas: number | null;
+    /** to the north. */
+    shift_north_uas: number | null;
   };
   columns: {
-    /** amplitude, closure_phase or log_closure_amplitude. */
+    /** amplitude, closure_phase, log_closure_amplitude, visibility_re or visibility_im. */
     product: (string | null)[];
     /** UTC, hours since the start of the observation's mjd. */
     hour: (number | null)[];
@@ -1613,11 +1630,11 @@ export interface Comparison {
     station_3: (string | null)[];
     /** station of a quadrangle: the log closure amplitude is that of 12 34 / 14 23. */
     station_4: (string | null)[];
-    /** baseline of an amplitude, in units of 1e9 wavelengths. */
+    /** baseline of an amplitude or visibility, in units of 1e9 wavelengths. */
     u_gl: (number | null)[];
     /** the same. */
     v_gl: (number | null)[];
-    /** observed amplitude, closure phase or log closure amplitude. */
+    /** observed amplitude, closure phase, log closure amplitude or part of a visibility. */
     data: (number | null)[];
     /** error of the datum, with systematic errors. */
     error: (number | null)[];
@@ -1635,14 +1652,16 @@ export interface Comparison {
     amplitude: number | null;
     closure_phase: number | null;
     log_closure_amplitude: number | null;
+    visibility: number | null;
   };
   /** the same for a map 1.5 times as fine; null with check none. */
   chi2_finer: {
     amplitude: number | null;
     closure_phase: number | null;
     log_closure_amplitude: number | null;
+    visibility: number | null;
   };
-  /** number of data. */
+  /** number of data; two for each visibility. */
   n: {
     /** at least 0. */
     amplitude: number;
@@ -1650,7 +1669,18 @@ export interface Comparison {
     closure_phase: number;
     /** at least 0. */
     log_closure_amplitude: number;
+    /** at least 0. */
+    visibility: number;
   };
+  /**
+   * quantities that were fitted; converged is false if a search ended at its bounds or before its steps became
+   * small.
+   */
+  solved: {
+    name: string;
+    value: number | null;
+    converged: boolean;
+  }[];
   observation: {
     source: string;
     mjd: number;

@@ -6,7 +6,7 @@
 #include "integral/request.h"
 #include "render/plan/plan.h"
 
-enum { KD_INTEGRAL_COLUMNS = 12, KD_INTEGRAL_VALUES = 8 };
+enum { KD_INTEGRAL_COLUMNS = 12, KD_INTEGRAL_VALUES = 12 };
 
 /* Contents of an integral's answer, besides its parameters. */
 struct kd_integral_column {
@@ -26,6 +26,7 @@ struct kd_integral_answer {
     double values[KD_INTEGRAL_VALUES];
     double map_jy;               /* flux of the last map, computed from its scene; NaN: the scene's light has no
                                   * frequency */
+    struct kd_alignment solved;  /* of a comparison */
     double chi2[2][KD_PRODUCTS]; /* of a comparison: for the map, and for the finer one */
     size_t rows;
     double *columns[KD_INTEGRAL_COLUMNS]; /* each of length `rows`; a single allocation, columns[0] */

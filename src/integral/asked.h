@@ -2,7 +2,7 @@
 #ifndef KD_INTEGRAL_ASKED_H
 #define KD_INTEGRAL_ASKED_H
 
-#include "observe/comparison.h"
+#include "observe/align.h"
 #include "physics/disk/line_profile.h"
 #include "scene/asset.h"
 #include "scene/scene.h"
@@ -62,14 +62,27 @@ struct kd_integral_request {
     double average_s, snr_cut, uv_min_gl, systematic_visibility, systematic_amplitude, systematic_closure_phase_deg;
     int measured, maximal;
     enum kd_pixel_shape pulse;
+    int scattering;           /* 1: towards Sgr A*, observe/scattering.h */
     double flux_jy;           /* NaN: the scene's own flux, or the best fit if the scene has none */
-    uint32_t products, solve; /* bit masks: products of enum kd_product; solve 1: fit the flux */
+    uint32_t products, solve; /* bit masks: products of enum kd_product; solve: KD_ALIGN_... */
     uint64_t seen;            /* bit mask of the fields that were given */
 };
 
 /* The first is true if the integral needs pictures, the second if these are maps of light to be Fourier-transformed. */
 static inline bool kd_integral_is_pictured(enum kd_integral what) { return what >= KD_INTEGRAL_VOLUME; }
 static inline bool kd_integral_is_mapped(enum kd_integral what) { return what >= KD_INTEGRAL_VISIBILITY; }
+
+/* Whether a comparison searches for a size, an orientation or a position. */
+static inline bool kd_integral_is_searched(const struct kd_integral_request *r)
+{
+    return r->what == KD_INTEGRAL_COMPARE && r->solve & ~(uint32_t)KD_ALIGN_FLUX;
+}
+
+/* Number of transforms of the first map, at most. A shift's grid counts as one more. */
+static inline double kd_integral_evaluations(const struct kd_integral_request *r)
+{
+    return kd_integral_is_searched(r) ? kd_align_evaluations(r->solve) * (r->solve & KD_ALIGN_SHIFT ? 2. : 1.) : 1;
+}
 
 /* A field of requests, for the reader, the schema and the options. */
 enum kd_integral_kind { KD_INTEGRAL_REAL, KD_INTEGRAL_INT, KD_INTEGRAL_WORD, KD_INTEGRAL_WORDS, KD_INTEGRAL_NUMBERS };

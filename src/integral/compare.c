@@ -10,7 +10,9 @@
 #include <string.h>
 
 enum { PRODUCT, HOUR, STATION, U = STATION + 4, V, DATA, ERROR, MODEL, RESIDUAL }; /* columns */
-enum { FLUX, WORST = 7 };                                                          /* values */
+enum { FLUX, WORST = 7, SIZE, ANGLE, EAST, NORTH };                                /* values */
+
+#define UAS_PER_RADIAN (180 * 3.6e9 / M_PI)
 
 bool kd_integral_is_observation(const struct kd_integral_request *r, const char *name)
 {
@@ -102,12 +104,16 @@ enum kd_status kd_integral_check_compare(struct kd_integral_request *r, struct k
     if (!r->observation)
         return kd_error_field(error, "/observation",
                               "observation is missing; it must be a uvfits file or the EHT's CSV");
-    if (r->solve && isfinite(r->flux_jy))
+    if (r->solve & KD_ALIGN_FLUX && isfinite(r->flux_jy))
         return kd_error_field(error, "/solve", "solve cannot have flux with flux_jy, because flux_jy gives the flux");
-    if (r->solve && !(r->products & 1u << KD_PRODUCT_AMPLITUDE))
-        return kd_error_field(
-            error, "/solve",
-            "solve has flux; products must have amplitude, because only amplitudes determine the flux");
+    if (r->solve & KD_ALIGN_FLUX && !(r->products & (1u << KD_PRODUCT_AMPLITUDE | 1u << KD_PRODUCT_VISIBILITY)))
+        return kd_error_field(error, "/solve",
+                              "solve has flux; products must have amplitude or visibility, because closures do not "
+                              "depend on the flux");
+    if (r->solve & KD_ALIGN_SHIFT && !(r->products & 1u << KD_PRODUCT_VISIBILITY))
+        return kd_error_field(error, "/solve",
+                              "solve has shift; products must have visibility, because amplitudes and closures do not "
+                              "depend on the position");
     KD_TRY(make_comparison(r, error));
     if (r->comparison->rows > KD_INTEGRAL_ROWS || r->comparison->n > KD_INTEGRAL_ROWS)
         return kd_error_field(error, "/observation",
@@ -131,7 +137,10 @@ const char *kd_integral_word(const struct kd_integral_answer *answer, size_t col
     const struct kd_integral_request *r = answer->request;
     if (r->what != KD_INTEGRAL_COMPARE || !isfinite(number))
         return NULL;
-    return column == PRODUCT ? kd_product_names[(int)number] : r->observation->station[(int)number];
+    return column != PRODUCT                ? r->observation->station[(int)number]
+           : number < KD_PRODUCT_VISIBILITY ? kd_product_names[(int)number]
+           : number > KD_PRODUCT_VISIBILITY ? "visibility_im"
+                                            : "visibility_re";
 }
 
 void kd_integral_compare_lay_out(struct kd_integral_answer *answer)
@@ -141,8 +150,8 @@ void kd_integral_compare_lay_out(struct kd_integral_answer *answer)
     for (size_t i = 0; i < c->rows; i++) {
         const struct kd_comparison_row *row = &c->row[i];
         const struct kd_measured *m = &c->at[row->at[0]];
-        const bool one = row->product == KD_PRODUCT_AMPLITUDE;
-        columns[PRODUCT][i] = row->product, columns[HOUR][i] = row->hour;
+        const bool one = kd_product_stations(row->product) == 2;
+        columns[PRODUCT][i] = row->product + row->imaginary, columns[HOUR][i] = row->hour;
         for (unsigned k = 0; k < 4; k++)
             columns[STATION + k][i] = k < kd_product_stations(row->product) ? row->station[k] : NAN;
         columns[U][i] = one ? m->u * 1e-9 : NAN, columns[V][i] = one ? m->v * 1e-9 : NAN;
@@ -150,6 +159,7 @@ void kd_integral_compare_lay_out(struct kd_integral_answer *answer)
     }
     for (int p = 0; p < KD_PRODUCTS; p++)
         answer->chi2[0][p] = answer->chi2[1][p] = NAN;
+    answer->solved = KD_ALIGNMENT_NONE;
 }
 
 /* Factor that scales the model; NaN if it cannot be determined. If the light has no frequency, the map that was
@@ -158,9 +168,9 @@ static double scale_of(const struct kd_integral_answer *answer, const double (*m
 {
     const struct kd_integral_request *r = answer->request;
     const bool is_known = isfinite(answer->map_jy);
-    return isfinite(r->flux_jy)    ? r->flux_jy / (is_known ? answer->map_jy : 1)
-           : r->solve || !is_known ? kd_comparison_scale(r->comparison, model)
-                                   : 1;
+    return isfinite(r->flux_jy)                    ? r->flux_jy / (is_known ? answer->map_jy : 1)
+           : r->solve & KD_ALIGN_FLUX || !is_known ? kd_comparison_scale(r->comparison, model)
+                                                   : 1;
 }
 
 void kd_integral_compare_judge(struct kd_integral_answer *answer, double (*model)[2], bool finer)
@@ -182,8 +192,43 @@ void kd_integral_compare_judge(struct kd_integral_answer *answer, double (*model
     }
     if (!finer && !(r->products & 1u << KD_PRODUCT_AMPLITUDE))
         answer->values[WORST] = NAN;
-    if (!finer)
-        answer->values[FLUX] = found * (isfinite(answer->map_jy) ? answer->map_jy : 1);
+    if (finer)
+        return;
+    answer->values[FLUX] = found * (isfinite(answer->map_jy) ? answer->map_jy : 1);
+    answer->values[SIZE] = answer->solved.size, answer->values[ANGLE] = answer->solved.angle_deg;
+    answer->values[EAST] = answer->solved.east * UAS_PER_RADIAN;
+    answer->values[NORTH] = answer->solved.north * UAS_PER_RADIAN;
+}
+
+/* Lists what was solved for. The flux counts as such if nothing else gives it. */
+static void write_solved(struct kd_json *json, const struct kd_integral_answer *answer)
+{
+    static const struct {
+        const char *name;
+        unsigned bit, value;
+    } all[] = { { "flux_jy", KD_ALIGN_FLUX, FLUX },
+                { "size", KD_ALIGN_SIZE, SIZE },
+                { "position_angle_deg", KD_ALIGN_ANGLE, ANGLE },
+                { "shift_east_uas", KD_ALIGN_SHIFT, EAST },
+                { "shift_north_uas", KD_ALIGN_SHIFT, NORTH } };
+    const struct kd_integral_request *r = answer->request;
+    const bool is_free = isnan(answer->map_jy) && isnan(r->flux_jy);
+    kd_json_array(json, "solved");
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        const double value = answer->values[all[i].value];
+        if (!((r->solve | (is_free ? KD_ALIGN_FLUX : 0)) & all[i].bit))
+            continue;
+        kd_json_object(json, NULL);
+        kd_json_string(json, "name", all[i].name);
+        kd_json_number(json, "value", value);
+        kd_json_bool(json, "converged",
+                     all[i].bit == KD_ALIGN_FLUX    ? isfinite(value) && value > 0
+                     : all[i].bit == KD_ALIGN_SIZE  ? answer->solved.converged[1]
+                     : all[i].bit == KD_ALIGN_ANGLE ? answer->solved.converged[2]
+                                                    : answer->solved.converged[3]);
+        kd_json_end(json);
+    }
+    kd_json_end(json);
 }
 
 static void write_products(struct kd_json *json, const char *name, const double chi2[KD_PRODUCTS])
@@ -204,6 +249,7 @@ void kd_integral_compare_write(struct kd_json *json, const struct kd_integral_an
     write_products(json, "chi2", answer->chi2[0]);
     write_products(json, "chi2_finer", answer->chi2[1]);
     write_products(json, "n", n);
+    write_solved(json, answer);
     kd_json_object(json, "observation");
     kd_json_string(json, "source", o->source);
     kd_json_number(json, "mjd", o->mjd);
@@ -225,7 +271,13 @@ void kd_integral_compare_write(struct kd_json *json, const struct kd_integral_an
 #define OF_PRODUCTS(about, type) \
     "{\"type\":\"object\",\"additionalProperties\":false,\"description\":\"" about \
     "\",\"properties\":{\"amplitude\":" type ",\"closure_phase\":" type ",\"log_closure_amplitude\":" type \
-    "},\"required\":[\"amplitude\",\"closure_phase\",\"log_closure_amplitude\"]}"
+    ",\"visibility\":" type \
+    "},\"required\":[\"amplitude\",\"closure_phase\",\"log_closure_amplitude\",\"visibility\"]}"
+#define SOLVED \
+    "{\"type\":\"array\",\"description\":\"quantities that were fitted; converged is false if a search ended at its " \
+    "bounds or before its steps became small\",\"items\":{\"type\":\"object\",\"additionalProperties\":false," \
+    "\"properties\":{\"name\":{\"type\":\"string\"},\"value\":{\"type\":[\"number\",\"null\"]},\"converged\":{" \
+    "\"type\":\"boolean\"}},\"required\":[\"name\",\"value\",\"converged\"]}}"
 
 void kd_integral_compare_schema(struct kd_json *json)
 {
@@ -244,6 +296,7 @@ void kd_integral_compare_schema(struct kd_json *json)
                    OF_PRODUCTS("chi^2 over the number of data; null for a product without data", OR_NULL));
     kd_schema_text(json, "chi2_finer",
                    OF_PRODUCTS("the same for a map 1.5 times as fine; null with check none", OR_NULL));
-    kd_schema_text(json, "n", OF_PRODUCTS("number of data", COUNT));
+    kd_schema_text(json, "n", OF_PRODUCTS("number of data; two for each visibility", COUNT));
+    kd_schema_text(json, "solved", SOLVED);
     kd_schema_strict(json, "observation", members, sizeof members / sizeof *members);
 }

@@ -94,7 +94,8 @@ const struct kd_integral_field kd_integral_fields[] = {
       KD_INTEGRAL_NUMBERS, AT(angles_deg), -360, 360, false, NULL, VISIBILITY, false },
     INT(orders, 0, KD_INTEGRAL_ORDERS, VISIBILITY,
         "number of image orders, from order 0, whose visibilities are also given separately"),
-    WORDS(products, "amplitude|closure_phase|log_closure_amplitude", 1, COMPARE, "quantities that are compared"),
+    WORDS(products, "amplitude|closure_phase|log_closure_amplitude|visibility", 1, COMPARE,
+          "quantities that are compared; visibility: real and imaginary parts, which need calibrated phases"),
     REAL(average_s, "s", 0, 86400, COMPARE,
          "length in seconds of the bins in which visibilities are averaged, counted from 1960-01-01; 0: no averaging"),
     REAL(uv_min_gl, "Gl", 0, 1e6, COMPARE,
@@ -112,11 +113,16 @@ const struct kd_integral_field kd_integral_fields[] = {
     WORD(closures, maximal, "minimal|maximal", COMPARE,
          "minimal: independent triangles and quadrangles with the first station; maximal: all"),
     WORD(pulse, pulse, "triangle|rectangle|point", COMPARE, "shape of a pixel's light"),
+    WORD(scattering, scattering, "none|sgra", COMPARE,
+         "interstellar scattering of the model: sgra: the average kernel towards Sagittarius A* at the observation's "
+         "frequency"),
     { "flux_jy", "Jy",
       "flux to which the whole map is scaled; auto: the scene's flux, or the best fit to the amplitudes if the scene's "
       "light has no frequency",
       KD_INTEGRAL_REAL, AT(flux_jy), 1e-12, 1e12, false, "auto", COMPARE, true },
-    WORDS(solve, "flux", 0, COMPARE, "quantities that are fitted for the smallest chi^2 of the amplitudes"),
+    WORDS(solve, "flux|size|position_angle|shift", 0, COMPARE,
+          "quantities that are fitted for the smallest chi^2 of all data: flux, angular size, position angle, and the "
+          "position, which needs the product visibility"),
     INT(pixels, 16, 2048, VOLUME | VISIBILITY | COMPARE,
         "pixels along the longer side of a picture; default 128 for a spectrum, 256 for visibilities and a comparison"),
     WORD(check, unchecked, "finer|none", VOLUME | VISIBILITY | COMPARE,
@@ -166,7 +172,7 @@ void kd_integral_request_init(struct kd_integral_request *request, enum kd_integ
         .frequencies = what == KD_INTEGRAL_VOLUME ? 13 : 200,
         .length_max = NAN,
         .baselines = 200,
-        .products = (1u << KD_PRODUCTS) - 1,
+        .products = (1u << KD_PRODUCT_VISIBILITY) - 1,
         .uv_min_gl = 0.1,
         .flux_jy = NAN,
     };

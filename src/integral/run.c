@@ -1,7 +1,10 @@
 #include "integral/run.h"
 
 #include "base/clock.h"
+#include "base/pause.h"
 #include "integral/compare.h"
+#include "observe/scattering.h"
+#include "physics/math/angle.h"
 #include "physics/math/constants.h"
 #include "render/output/wcs.h"
 
@@ -38,6 +41,27 @@ static void lay_out(struct kd_integral_answer *answer)
         c[r->what == KD_INTEGRAL_VOLUME ? FLUX_ERROR : ERROR][row] = NAN;
 }
 
+/* Allocates what a model of an observation needs, and computes the factors of scattering. */
+static enum kd_status begin_model(struct kd_integral_run *run, struct kd_error *error)
+{
+    const struct kd_integral_request *r = run->answer.request;
+    struct kd_scattering scattering;
+    run->model = calloc(r->u.n, sizeof *run->model);
+    if (kd_integral_is_searched(r))
+        run->room = malloc(sizeof *run->room);
+    if (r->scattering)
+        run->scattering = malloc(r->u.n * sizeof *run->scattering);
+    if (!run->model || (kd_integral_is_searched(r) && !run->room) || (r->scattering && !run->scattering))
+        return kd_error_set(error, KD_ENOMEM, "out of memory for %zu visibilities", r->u.n);
+    if (r->scattering)
+        kd_scattering_sgra(&scattering, r->observation->frequency_hz);
+    for (size_t i = 0; r->scattering && i < r->u.n; i++) {
+        kd_pause_every(i, 32);
+        run->scattering[i] = kd_scattering_at(&scattering, r->u.at[i] * 1e9, r->v.at[i] * 1e9);
+    }
+    return KD_OK;
+}
+
 enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct kd_integral_request *request,
                                      struct kd_error *error)
 {
@@ -47,9 +71,9 @@ enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct k
     enum kd_status status = kd_integral_make_columns(&run->answer, kd_integral_rows(request), error);
     if (status)
         return status;
-    if (request->what == KD_INTEGRAL_COMPARE && !(run->model = calloc(request->u.n, sizeof *run->model))) {
+    if (request->what == KD_INTEGRAL_COMPARE && (status = begin_model(run, error))) {
         kd_integral_run_finish(run);
-        return kd_error_set(error, KD_ENOMEM, "out of memory for %zu visibilities", request->u.n);
+        return status;
     }
     if (kd_integral_is_mapped(request->what))
         run->answer.light = kd_scene_is_radio_alone(request->scene) ? "Jy" : "1";
@@ -174,32 +198,74 @@ static void put(struct kd_integral_run *run, size_t row, double re, double im)
     c[RE][row] = re, c[IM][row] = im, c[AMPLITUDE][row] = hypot(re, im), c[PHASE][row] = atan2(im, re) * (180 / M_PI);
 }
 
-/* Observations use the conjugate of kd_fourier's sign (observe/observation.h). */
-static void put_model(struct kd_integral_run *run, const double sum[2])
+/* Visibility of the map, enlarged and rotated, at a baseline. The transform of an enlarged map is that of the map at
+ * baselines longer by as much; of a rotated one, at baselines rotated back. Observations use the conjugate of
+ * kd_fourier's sign (observe/observation.h). */
+static void model_at(struct kd_integral_run *run, size_t i, double size, double angle_deg, double out[2])
 {
     const struct kd_integral_request *r = run->answer.request;
-    const double turns = 1e9 * run->grid.pixel,
-                 scale =
-                     run->scale * kd_pulse_at(r->pulse, r->u.at[run->baseline] * turns, r->v.at[run->baseline] * turns);
-    run->model[run->baseline][0] = scale * sum[0], run->model[run->baseline][1] = -scale * sum[1];
+    const double c = size * kd_cos_deg(angle_deg), s = size * kd_sin_deg(angle_deg),
+                 u = c * r->u.at[i] - s * r->v.at[i], v = s * r->u.at[i] + c * r->v.at[i],
+                 turns = 1e9 * run->grid.pixel,
+                 scale = run->scale * kd_pulse_at(r->pulse, u * turns, v * turns) *
+                         (run->scattering ? run->scattering[i] : 1);
+    double sum[1][2];
+    kd_fourier(&run->grid, run->map, 1, u, v, run->scratch, sum);
+    out[0] = scale * sum[0][0], out[1] = -scale * sum[0][1];
+}
+
+static void model(void *user, double size, double angle_deg, double (*out)[2])
+{
+    struct kd_integral_run *run = user;
+    for (size_t i = 0; i < run->answer.request->u.n; i++) {
+        kd_pause();
+        model_at(run, i, size, angle_deg, out[i]);
+    }
+}
+
+/* Searches for what is solved for. Afterwards run->model is the model there. */
+static void search(struct kd_integral_run *run)
+{
+    const struct kd_integral_request *r = run->answer.request;
+    const struct kd_integral_answer *a = &run->answer;
+    const bool is_known = isfinite(a->map_jy), is_free = r->solve & KD_ALIGN_FLUX || (!is_known && isnan(r->flux_jy));
+    const struct kd_align_params params = {
+        .solve = r->solve | (is_free ? KD_ALIGN_FLUX : 0),
+        .most_shift = 0.5 * run->grid.pixel * fmax(run->grid.width, run->grid.height),
+        .model = model,
+        .user = run,
+    };
+    run->answer.solved = KD_ALIGNMENT_NONE;
+    run->answer.solved.scale = isfinite(r->flux_jy) ? r->flux_jy / (is_known ? a->map_jy : 1) : 1;
+    kd_align(r->comparison, &params, run->room, run->model, &run->answer.solved);
 }
 
 bool kd_integral_run_step(struct kd_integral_run *run, double until_ms)
 {
     const struct kd_integral_request *r = run->answer.request;
     double sum[1 + KD_INTEGRAL_ORDERS][2];
-    while (kd_integral_is_mapped(r->what) && run->baseline < r->u.n) {
-        kd_fourier(&run->grid, run->map, bands(run), r->u.at[run->baseline], r->v.at[run->baseline], run->scratch, sum);
-        for (unsigned k = 0; k < bands(run) && r->what == KD_INTEGRAL_VISIBILITY; k++)
-            put(run, run->baseline * bands(run) + k, sum[k][0] * run->scale, sum[k][1] * run->scale);
-        if (r->what == KD_INTEGRAL_COMPARE)
-            put_model(run, sum[0]);
+    const bool is_finer = kd_integral_is_finer(r, run->picture);
+    const struct kd_alignment *solved = &run->answer.solved;
+    if (kd_integral_is_searched(r) && !is_finer)
+        search(run), run->baseline = r->u.n;
+    while (r->what == KD_INTEGRAL_COMPARE && run->baseline < r->u.n) {
+        model_at(run, run->baseline, solved->size, solved->angle_deg, run->model[run->baseline]);
         run->baseline++;
         if (kd_clock_ms() > until_ms)
             return true;
     }
+    while (kd_integral_is_mapped(r->what) && run->baseline < r->u.n) {
+        kd_fourier(&run->grid, run->map, bands(run), r->u.at[run->baseline], r->v.at[run->baseline], run->scratch, sum);
+        for (unsigned k = 0; k < bands(run); k++)
+            put(run, run->baseline * bands(run) + k, sum[k][0] * run->scale, sum[k][1] * run->scale);
+        run->baseline++;
+        if (kd_clock_ms() > until_ms)
+            return true;
+    }
+    if (r->what == KD_INTEGRAL_COMPARE && is_finer)
+        kd_align_shift(r->comparison, solved->east, solved->north, run->model);
     if (r->what == KD_INTEGRAL_COMPARE)
-        kd_integral_compare_judge(&run->answer, run->model, kd_integral_is_finer(r, run->picture));
+        kd_integral_compare_judge(&run->answer, run->model, is_finer);
     kd_buffer_finish(&run->maps);
     run->picture++;
     return false;
@@ -211,5 +277,7 @@ void kd_integral_run_finish(struct kd_integral_run *run)
     kd_buffer_finish(&run->maps);
     free(run->scratch);
     free(run->model);
+    free(run->scattering);
+    free(run->room);
     *run = (struct kd_integral_run) { 0 };
 }

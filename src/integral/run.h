@@ -27,6 +27,8 @@ struct kd_integral_run {
     size_t baseline;
     double (*model)[2]; /* for a comparison: the model at each of its visibilities */
     double *scratch;
+    double *scattering;         /* factor at each visibility; NULL: none */
+    struct kd_align_room *room; /* for a search; NULL: none is needed */
 };
 
 /* Computes everything if no pictures are needed. On failure there is nothing to finish. */

@@ -218,12 +218,12 @@ static void add_parameters(struct kd_json *json, enum kd_integral what)
 
 void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_integral what)
 {
-    static const char *const members[] = { "integral", "parameters",     "values", "columns", "units",
-                                           "sources",  "approximations", "scene",  "chi2",    "chi2_finer",
-                                           "n",        "observation" };
+    static const char *const members[] = { "integral", "parameters",     "values",     "columns", "units",
+                                           "sources",  "approximations", "scene",      "chi2",    "chi2_finer",
+                                           "n",        "solved",         "observation" };
     const size_t n = sizeof members / sizeof *members - (what == KD_INTEGRAL_COMPARE     ? 0
-                                                         : kd_integral_is_pictured(what) ? 4
-                                                                                         : 5);
+                                                         : kd_integral_is_pictured(what) ? 5
+                                                                                         : 6);
     const struct kd_integral_kind_of *kind = kd_integral_kind_of(what);
     size_t values = count(kind->values, KD_INTEGRAL_VALUES), columns = count(kind->columns, KD_INTEGRAL_COLUMNS);
     kd_schema_begin_strict(json, name);

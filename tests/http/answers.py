@@ -183,6 +183,14 @@ class Answers(daemon.Case):
         for document in (
             {"preset": "m87", "pixels": 16, "average_s": 600},
             {
+                "preset": "m87",
+                "pixels": 16,
+                "average_s": 600,
+                "products": ["amplitude", "visibility"],
+                "solve": ["flux", "size", "shift"],
+                "scattering": "sgra",
+            },
+            {
                 "preset": "riaf",
                 "pixels": 16,
                 "check": "none",

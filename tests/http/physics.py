@@ -663,6 +663,11 @@ class Integrals(daemon.Case):
             self.assertAlmostEqual(told["values"]["flux_jy"], 0.6, delta=1e-12)
             self.assertEqual(told["parameters"]["systematic"]["closure_phase_deg"], 2)
         self.assertAlmostEqual(sent["csv"]["chi2"]["amplitude"] / sent["uvfits"]["chi2"]["amplitude"], 1, delta=1e-4)
+        found = self.post("compare", {**document, "solve": ["size", "position_angle"], "scattering": "sgra"}).json()
+        self.assertEqual([one["name"] for one in found["solved"]], ["size", "position_angle_deg"])
+        size = found["values"]["size"]
+        self.assertEqual(found["solved"][0], {"name": "size", "value": size, "converged": 0.5 < size < 2})
+        self.assertNotEqual(found["chi2"]["amplitude"], told["chi2"]["amplitude"])
         table = self.post("compare", document, Accept="text/csv")
         self.assertEqual(table.header("Content-Disposition"), 'attachment; filename="compare.csv"')
         rows = list(csv.DictReader(io.StringIO(table.body.decode())))
@@ -679,6 +684,10 @@ class Integrals(daemon.Case):
             ({"systematic": {"phase": 1}}, "/systematic/phase", "no field systematic.phase"),
             ({"systematic.amplitude": 1}, "/systematic.amplitude", "no field systematic.amplitude"),
             ({"solve": ["flux"]}, "/solve", "with flux_jy"),
+            ({"solve": ["shift"]}, "/solve", "products must have visibility"),
+            ({"solve": ["mass"]}, "/solve", '"flux", "size", "position_angle" or "shift"'),
+            ({"solve": ["size", "size"]}, "/solve", "size twice"),
+            ({"scattering": "yes"}, "/scattering", '"none" or "sgra"'),
             ({"uv_min_gl": 1e5}, "/observation", "can be compared"),
             ({"average_s": -1}, "/average_s", "0 to 86400"),
             ({"orders": 1}, "/orders", "no field orders"),

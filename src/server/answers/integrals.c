@@ -55,8 +55,9 @@ static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_er
         enum kd_status status = kd_integral_plan(&job->request, &scene, &capacity, &plan, error);
         if (status)
             return status;
-        ms += plan.estimate_ms * n / sizes +
-              (double)plan.n_layers * plan.width * plan.height * (double)job->request.u.n * NS_A_PRODUCT * 1e-6;
+        ms += plan.estimate_ms * n / sizes + (double)plan.n_layers * plan.width * plan.height *
+                                                 (double)job->request.u.n * NS_A_PRODUCT * 1e-6 *
+                                                 (i ? 1 : kd_integral_evaluations(&job->request));
         *bytes += 4 * (1 + plan.n_layers) * (size_t)plan.width * plan.height;
     }
     if (ms > server->longest_s * 1e3)

@@ -534,6 +534,7 @@ class ComparisonParameters(TypedDict):
     debias: str
     closures: str
     pulse: str
+    scattering: str
     flux_jy: float | None
     solve: list[str]
     pixels: float
@@ -549,24 +550,37 @@ class ComparisonValues(TypedDict):
     edge_share: float | None
     undefined: float | None
     model_error: float | None
+    size: float | None
+    position_angle_deg: float | None
+    shift_east_uas: float | None
+    shift_north_uas: float | None
 
 
 class ComparisonChi2(TypedDict):
     amplitude: float | None
     closure_phase: float | None
     log_closure_amplitude: float | None
+    visibility: float | None
 
 
 class ComparisonChi2Finer(TypedDict):
     amplitude: float | None
     closure_phase: float | None
     log_closure_amplitude: float | None
+    visibility: float | None
 
 
 class ComparisonN(TypedDict):
     amplitude: int
     closure_phase: int
     log_closure_amplitude: int
+    visibility: int
+
+
+class ComparisonSolved(TypedDict):
+    name: str
+    value: float | None
+    converged: bool
 
 
 class ComparisonObservation(TypedDict):
@@ -593,6 +607,7 @@ class Comparison(TypedDict):
     chi2: ComparisonChi2
     chi2_finer: ComparisonChi2Finer
     n: ComparisonN
+    solved: list[ComparisonSolved]
     observation: ComparisonObservation
 
 
