@@ -1326,10 +1326,7 @@ export interface SpectrumRequest {
   frequencies?: number;
   /** frequencies, instead of frequency_min_hz, frequency_max_hz and frequencies [Hz]; up to 20001. */
   frequencies_hz?: number[];
-  /**
-   * pixels along the longer side of a picture; default 128 for a spectrum, 256 for visibilities and a comparison;
-   * 16 to 2048.
-   */
+  /** pixels along the longer side of a picture; default 128 for a spectrum, 256 otherwise; 16 to 2048. */
   pixels?: number;
   /** estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none. */
   check?: 'finer' | 'none';
@@ -1443,10 +1440,7 @@ export interface VisibilityRequest {
   angles_deg?: number[];
   /** number of image orders, from order 0, whose visibilities are also given separately; 0 to 8. */
   orders?: number;
-  /**
-   * pixels along the longer side of a picture; default 128 for a spectrum, 256 for visibilities and a comparison;
-   * 16 to 2048.
-   */
+  /** pixels along the longer side of a picture; default 128 for a spectrum, 256 otherwise; 16 to 2048. */
   pixels?: number;
   /** estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none. */
   check?: 'finer' | 'none';
@@ -1552,8 +1546,8 @@ export interface CompareRequest {
    */
   scattering?: 'none' | 'sgra';
   /**
-   * flux to which the whole map is scaled; auto: the scene's flux, or the best fit to the amplitudes if the
-   * scene's light has no frequency [Jy]; 1e-12 to 1e+12.
+   * flux to which the whole map is scaled; auto: the scene's flux; if its light has no frequency, a comparison
+   * takes the best fit to the amplitudes [Jy]; 1e-12 to 1e+12.
    */
   flux_jy?: 'auto' | number;
   /**
@@ -1561,10 +1555,7 @@ export interface CompareRequest {
    * position, which needs the product visibility.
    */
   solve?: ('flux' | 'size' | 'position_angle' | 'shift')[];
-  /**
-   * pixels along the longer side of a picture; default 128 for a spectrum, 256 for visibilities and a comparison;
-   * 16 to 2048.
-   */
+  /** pixels along the longer side of a picture; default 128 for a spectrum, 256 otherwise; 16 to 2048. */
   pixels?: number;
   /** estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none. */
   check?: 'finer' | 'none';
@@ -1696,6 +1687,107 @@ export interface Comparison {
     averaged: number;
     /** at least 0. */
     too_short: number;
+  };
+}
+
+export interface ObserveRequest {
+  /** preset to which the scene is merged. */
+  preset?:
+    | 'smooth' | 'schwarzschild' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on' | 'face-on' | 'photon-rings'
+    | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk' | 'star-behind' | 'companions'
+    | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4'
+    | 'gold-5' | 'riaf' | 'torus';
+  scene?: Scene;
+  /** SHA-256 of an asset of the server: uvfits, or the EHT's CSV. */
+  observation: string;
+  /** shape of a pixel's light. */
+  pulse?: 'triangle' | 'rectangle' | 'point';
+  /**
+   * interstellar scattering of the model: sgra: the average kernel towards Sagittarius A* at the observation's
+   * frequency.
+   */
+  scattering?: 'none' | 'sgra';
+  /**
+   * flux to which the whole map is scaled; auto: the scene's flux; if its light has no frequency, a comparison
+   * takes the best fit to the amplitudes [Jy]; 1e-12 to 1e+12.
+   */
+  flux_jy?: 'auto' | number;
+  /** yes: Gaussian noise with the errors of the observation; no: none. */
+  noise?: 'yes' | 'no';
+  /** seed of the noise; 0 to 4294967295. */
+  seed?: number;
+  /** pixels along the longer side of a picture; default 128 for a spectrum, 256 otherwise; 16 to 2048. */
+  pixels?: number;
+  /** estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none. */
+  check?: 'finer' | 'none';
+}
+
+export interface Simulation {
+  integral: 'observe';
+  parameters: {
+    pulse: string;
+    scattering: string;
+    flux_jy: number | null;
+    noise: string;
+    seed: number;
+    pixels: number;
+    check: string;
+  };
+  values: {
+    /** flux of the whole map. */
+    flux_jy: number | null;
+    /** distance from one pixel to the next. */
+    pixel_uas: number | null;
+    /** of the map. */
+    width_uas: number | null;
+    /** of the map. */
+    height_uas: number | null;
+    /** longest baseline that the width of the pixels resolves. */
+    nyquist_gl: number | null;
+    /** flux of a sky as bright as the map's border over the whole map, as a share of the map's flux. */
+    edge_share: number | null;
+    /** number of pixels whose light is not a number; they count as dark. */
+    undefined: number | null;
+    /** largest estimated error of the model, from a map 1.5 times as fine. */
+    model_error: number | null;
+  };
+  columns: {
+    /** UTC, hours since the start of the observation's mjd. */
+    hour: (number | null)[];
+    /** station of the baseline. */
+    station_1: (string | null)[];
+    /** the same. */
+    station_2: (string | null)[];
+    /** baseline to the east, in units of 1e9 wavelengths. */
+    u_gl: (number | null)[];
+    /** to the north. */
+    v_gl: (number | null)[];
+    /** real part of the simulated visibility. */
+    re: (number | null)[];
+    /** imaginary part. */
+    im: (number | null)[];
+    /** error of each part, as in the observation. */
+    sigma: (number | null)[];
+    /** real part without noise. */
+    model_re: (number | null)[];
+    /** imaginary part without noise. */
+    model_im: (number | null)[];
+  };
+  units: Record<string, string>;
+  sources: string[];
+  approximations: string[];
+  scene: Scene;
+  observation: {
+    source: string;
+    mjd: number;
+    frequency_ghz: number;
+    stations: string[];
+    /** at least 0. */
+    visibilities: number;
+    /** at least 0. */
+    flagged: number;
+    /** at least 0. */
+    duplicates: number;
   };
 }
 
@@ -6031,6 +6123,7 @@ export interface Operations {
       'application/json': LineProfile;
       'text/csv': string;
       'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
     };
   };
   /** Cunningham's transfer function f(g*, r) of a thin disk, near and far side. */
@@ -6043,6 +6136,7 @@ export interface Operations {
       'application/json': TransferFunction;
       'text/csv': string;
       'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
     };
   };
   /** The spectrum of a thin disk of black bodies, or of a scene's volume, in SI units. */
@@ -6055,6 +6149,7 @@ export interface Operations {
       'application/json': DiskSpectrum | VolumeSpectrum;
       'text/csv': string;
       'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
     };
   };
   /**
@@ -6069,6 +6164,7 @@ export interface Operations {
       'application/json': Visibilities;
       'text/csv': string;
       'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
     };
   };
   /**
@@ -6084,6 +6180,21 @@ export interface Operations {
       'application/json': Comparison;
       'text/csv': string;
       'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
+    };
+  };
+  /** Visibilities of a scene as the array of an observation would have measured them, with its noise. */
+  'POST /v1/observe': {
+    takes: {
+      body: ObserveRequest;
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': Simulation;
+      'text/csv': string;
+      'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
+      'application/x-uvfits': Uint8Array;
     };
   };
   /** Opens a live session of a scene; the answer has its id and the token for changes. */

@@ -130,6 +130,7 @@ TOLD = (
     "VolumeSpectrum",
     "Visibilities",
     "Comparison",
+    "Simulation",
     "PresetTold",
     "Device",
     "Session",

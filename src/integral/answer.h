@@ -48,8 +48,10 @@ const char *kd_integral_word(const struct kd_integral_answer *answer, size_t col
 void kd_integral_answer_finish(struct kd_integral_answer *answer);
 
 /* JSON: {"integral", "scene" if it has one, "parameters", "values", "columns", "units", "sources",
- * "approximations"}. CSV: a line of names, then the rows. NPY: one record a row. */
-enum kd_integral_format { KD_INTEGRAL_JSON, KD_INTEGRAL_CSV, KD_INTEGRAL_NPY };
+ * "approximations"}. CSV: a line of names, then the rows; of a simulated observation the EHT's CSV. NPY: one record a
+ * row. NPZ: an array for each column, and answer.json, the rest of the JSON. UVFITS: of a simulated observation whose
+ * request has a uvfits file. */
+enum kd_integral_format { KD_INTEGRAL_JSON, KD_INTEGRAL_CSV, KD_INTEGRAL_NPY, KD_INTEGRAL_NPZ, KD_INTEGRAL_UVFITS };
 enum kd_status kd_integral_write(const struct kd_integral_answer *answer, enum kd_integral_format format,
                                  struct kd_buffer *out);
 

@@ -20,6 +20,7 @@ enum kd_integral {
     KD_INTEGRAL_VOLUME,
     KD_INTEGRAL_VISIBILITY,
     KD_INTEGRAL_COMPARE,
+    KD_INTEGRAL_OBSERVE,
     KD_INTEGRALS
 };
 
@@ -55,7 +56,12 @@ struct kd_integral_request {
         angles_deg;
     double length_max; /* NaN: half of what the pixels resolve */
     uint32_t baselines, orders;
-    struct kd_observation *observation; /* for a comparison: malloc'd; NULL: none given */
+    struct kd_observation *observation; /* for a comparison or a simulation: malloc'd; NULL: none given */
+    /* For a simulation from a uvfits file: its bytes, malloc'd, which the run fills with simulated visibilities. */
+    uint8_t *file;
+    size_t file_size;
+    uint32_t seed;
+    int noiseless;
     /* malloc'd once a comparison's request has been checked. Its models are filled in by the run; its visibilities
      * are u and v. */
     struct kd_comparison *comparison;
@@ -71,6 +77,9 @@ struct kd_integral_request {
 /* The first is true if the integral needs pictures, the second if these are maps of light to be Fourier-transformed. */
 static inline bool kd_integral_is_pictured(enum kd_integral what) { return what >= KD_INTEGRAL_VOLUME; }
 static inline bool kd_integral_is_mapped(enum kd_integral what) { return what >= KD_INTEGRAL_VISIBILITY; }
+
+/* Whether the maps are transformed at the baselines of an observation. */
+static inline bool kd_integral_is_observed(enum kd_integral what) { return what >= KD_INTEGRAL_COMPARE; }
 
 /* Whether a comparison searches for a size, an orientation or a position. */
 static inline bool kd_integral_is_searched(const struct kd_integral_request *r)

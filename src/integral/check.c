@@ -218,6 +218,7 @@ size_t kd_integral_rows(const struct kd_integral_request *r)
     case KD_INTEGRAL_TRANSFER: return (size_t)r->rings * r->g_stars;
     case KD_INTEGRAL_VISIBILITY: return r->u.n * (1 + r->orders);
     case KD_INTEGRAL_COMPARE: return r->comparison->rows;
+    case KD_INTEGRAL_OBSERVE: return r->observation->n;
     case KD_INTEGRAL_SPECTRUM:
     case KD_INTEGRAL_VOLUME:
     case KD_INTEGRALS: break;
@@ -240,6 +241,7 @@ enum kd_status kd_integral_request_check(struct kd_integral_request *r, struct k
     case KD_INTEGRAL_VOLUME: KD_TRY(kd_integral_check_volume(r, error)); break;
     case KD_INTEGRAL_VISIBILITY: KD_TRY(kd_integral_check_visibility(r, error)); break;
     case KD_INTEGRAL_COMPARE: KD_TRY(kd_integral_check_compare(r, error)); break;
+    case KD_INTEGRAL_OBSERVE: KD_TRY(kd_integral_check_observe(r, error)); break;
     case KD_INTEGRALS: break;
     }
 done:

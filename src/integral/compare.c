@@ -16,7 +16,7 @@ enum { FLUX, WORST = 7, SIZE, ANGLE, EAST, NORTH };                             
 
 bool kd_integral_is_observation(const struct kd_integral_request *r, const char *name)
 {
-    return r->what == KD_INTEGRAL_COMPARE && !strcmp(name, "observation");
+    return kd_integral_is_observed(r->what) && !strcmp(name, "observation");
 }
 
 enum kd_status kd_integral_set_observation(struct kd_integral_request *r, const void *data, size_t size,
@@ -29,6 +29,12 @@ enum kd_status kd_integral_set_observation(struct kd_integral_request *r, const 
     if (status) {
         free(r->observation);
         r->observation = NULL;
+    }
+    if (!status && r->what == KD_INTEGRAL_OBSERVE && kd_observation_kind_of(data, size) == KD_OBSERVATION_UVFITS) {
+        if (!(r->file = malloc(size)))
+            return kd_error_set(error, KD_ENOMEM, "out of memory for an observation of %zu bytes", size);
+        memcpy(r->file, data, size);
+        r->file_size = size;
     }
     if (status == KD_EINVAL)
         kd_error_inside(error, "/observation");
@@ -43,7 +49,8 @@ void kd_integral_drop_observation(struct kd_integral_request *r)
         kd_observation_finish(r->observation);
     free(r->comparison);
     free(r->observation);
-    r->comparison = NULL, r->observation = NULL;
+    free(r->file);
+    r->comparison = NULL, r->observation = NULL, r->file = NULL, r->file_size = 0;
 }
 
 /* Reads the observation by the name or the hash of its asset. */
@@ -135,12 +142,12 @@ done:
 const char *kd_integral_word(const struct kd_integral_answer *answer, size_t column, double number)
 {
     const struct kd_integral_request *r = answer->request;
-    if (r->what != KD_INTEGRAL_COMPARE || !isfinite(number))
+    if (!kd_integral_is_observed(r->what) || !isfinite(number))
         return NULL;
-    return column != PRODUCT                ? r->observation->station[(int)number]
-           : number < KD_PRODUCT_VISIBILITY ? kd_product_names[(int)number]
-           : number > KD_PRODUCT_VISIBILITY ? "visibility_im"
-                                            : "visibility_re";
+    return r->what == KD_INTEGRAL_OBSERVE || column != PRODUCT ? r->observation->station[(int)number]
+           : number < KD_PRODUCT_VISIBILITY                    ? kd_product_names[(int)number]
+           : number > KD_PRODUCT_VISIBILITY                    ? "visibility_im"
+                                                               : "visibility_re";
 }
 
 void kd_integral_compare_lay_out(struct kd_integral_answer *answer)
@@ -239,17 +246,10 @@ static void write_products(struct kd_json *json, const char *name, const double 
     kd_json_end(json);
 }
 
-void kd_integral_compare_write(struct kd_json *json, const struct kd_integral_answer *answer)
+void kd_integral_observation_write(struct kd_json *json, const struct kd_integral_request *r)
 {
-    const struct kd_observation *o = answer->request->observation;
-    const struct kd_comparison *c = answer->request->comparison;
-    double n[KD_PRODUCTS];
-    for (int p = 0; p < KD_PRODUCTS; p++)
-        n[p] = (double)c->of[p];
-    write_products(json, "chi2", answer->chi2[0]);
-    write_products(json, "chi2_finer", answer->chi2[1]);
-    write_products(json, "n", n);
-    write_solved(json, answer);
+    const struct kd_observation *o = r->observation;
+    const struct kd_comparison *c = r->comparison;
     kd_json_object(json, "observation");
     kd_json_string(json, "source", o->source);
     kd_json_number(json, "mjd", o->mjd);
@@ -261,9 +261,23 @@ void kd_integral_compare_write(struct kd_json *json, const struct kd_integral_an
     kd_json_number(json, "visibilities", (double)o->n);
     kd_json_number(json, "flagged", o->flagged);
     kd_json_number(json, "duplicates", o->duplicate);
-    kd_json_number(json, "averaged", (double)(c->n + c->too_short));
-    kd_json_number(json, "too_short", (double)c->too_short);
+    if (c) {
+        kd_json_number(json, "averaged", (double)(c->n + c->too_short));
+        kd_json_number(json, "too_short", (double)c->too_short);
+    }
     kd_json_end(json);
+}
+
+void kd_integral_compare_write(struct kd_json *json, const struct kd_integral_answer *answer)
+{
+    const struct kd_comparison *c = answer->request->comparison;
+    double n[KD_PRODUCTS];
+    for (int p = 0; p < KD_PRODUCTS; p++)
+        n[p] = (double)c->of[p];
+    write_products(json, "chi2", answer->chi2[0]);
+    write_products(json, "chi2_finer", answer->chi2[1]);
+    write_products(json, "n", n);
+    write_solved(json, answer);
 }
 
 #define OR_NULL "{\"type\":[\"number\",\"null\"]}"
@@ -281,6 +295,16 @@ void kd_integral_compare_write(struct kd_json *json, const struct kd_integral_an
 
 void kd_integral_compare_schema(struct kd_json *json)
 {
+    kd_schema_text(json, "chi2",
+                   OF_PRODUCTS("chi^2 over the number of data; null for a product without data", OR_NULL));
+    kd_schema_text(json, "chi2_finer",
+                   OF_PRODUCTS("the same for a map 1.5 times as fine; null with check none", OR_NULL));
+    kd_schema_text(json, "n", OF_PRODUCTS("number of data; two for each visibility", COUNT));
+    kd_schema_text(json, "solved", SOLVED);
+}
+
+void kd_integral_observation_schema(struct kd_json *json, bool compared)
+{
     static const struct kd_schema_member members[] = {
         { "source", "{\"type\":\"string\"}", false, NULL },
         { "mjd", "{\"type\":\"number\"}", false, NULL },
@@ -292,11 +316,6 @@ void kd_integral_compare_schema(struct kd_json *json)
         { "averaged", COUNT, false, NULL },
         { "too_short", COUNT, false, NULL },
     };
-    kd_schema_text(json, "chi2",
-                   OF_PRODUCTS("chi^2 over the number of data; null for a product without data", OR_NULL));
-    kd_schema_text(json, "chi2_finer",
-                   OF_PRODUCTS("the same for a map 1.5 times as fine; null with check none", OR_NULL));
-    kd_schema_text(json, "n", OF_PRODUCTS("number of data; two for each visibility", COUNT));
-    kd_schema_text(json, "solved", SOLVED);
-    kd_schema_strict(json, "observation", members, sizeof members / sizeof *members);
+    const size_t n = sizeof members / sizeof *members;
+    kd_schema_strict(json, "observation", members, compared ? n : n - 2);
 }

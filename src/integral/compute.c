@@ -73,6 +73,20 @@ static const char *const compare_approximations[] = {
     "interstellar scattering, if requested, is the average kernel without refractive noise",
     NULL,
 };
+static const char *const observe_sources[] = {
+    "A. R. Thompson, J. M. Moran & G. W. Swenson 2017, Interferometry and Synthesis in Radio Astronomy, 3rd ed., eq. "
+    "3.7, 6.2 (noise)",
+    "M. D. Johnson et al. 2018, ApJ 865, 104; D. Psaltis et al. 2018, arXiv:1805.01242 (scattering)",
+    NULL,
+};
+static const char *const observe_approximations[] = {
+    "no light comes from beyond the map's border; edge_share shows how bright the border is",
+    "each pixel has the shape that pulse names; amplitudes of baselines beyond nyquist_gl are too small",
+    "noise is Gaussian and independent; stations have no errors of amplitude and phase",
+    "the model has one time and one frequency, those of the scene, and Stokes I alone",
+    "interstellar scattering, if requested, is the average kernel without refractive noise",
+    NULL,
+};
 static const char *const volume_sources[] = {
     "G. B. Rybicki & A. P. Lightman 1979, Radiative Processes in Astrophysics, 1.3, 4.9 (flux, and I/nu^3)",
     NULL,
@@ -204,6 +218,32 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                 { "residual", "1", "difference of data and model over the error", false } },
                               compare_sources,
                               compare_approximations },
+    [KD_INTEGRAL_OBSERVE] = { "observation of a scene by the array of another observation",
+                              { { "flux_jy", "Jy", "flux of the whole map", false },
+                                { "pixel_uas", "uas", "distance from one pixel to the next", false },
+                                { "width_uas", "uas", "of the map", false },
+                                { "height_uas", "uas", "of the map", false },
+                                { "nyquist_gl", "Gl", "longest baseline that the width of the pixels resolves", false },
+                                { "edge_share", "1",
+                                  "flux of a sky as bright as the map's border over the whole map, as a share of the "
+                                  "map's flux",
+                                  false },
+                                { "undefined", "pixels",
+                                  "number of pixels whose light is not a number; they count as dark", false },
+                                { "model_error", "Jy",
+                                  "largest estimated error of the model, from a map 1.5 times as fine", false } },
+                              { { "hour", "h", "UTC, hours since the start of the observation's mjd", false },
+                                { "station_1", "", "station of the baseline", true },
+                                { "station_2", "", "the same", true },
+                                { "u_gl", "Gl", "baseline to the east, in units of 1e9 wavelengths", false },
+                                { "v_gl", "Gl", "to the north", false },
+                                { "re", "Jy", "real part of the simulated visibility", false },
+                                { "im", "Jy", "imaginary part", false },
+                                { "sigma", "Jy", "error of each part, as in the observation", false },
+                                { "model_re", "Jy", "real part without noise", false },
+                                { "model_im", "Jy", "imaginary part without noise", false } },
+                              observe_sources,
+                              observe_approximations },
 };
 
 const struct kd_integral_kind_of *kd_integral_kind_of(enum kd_integral what) { return &kinds[what]; }

@@ -15,6 +15,7 @@
 #define VOLUME (1u << KD_INTEGRAL_VOLUME)
 #define VISIBILITY (1u << KD_INTEGRAL_VISIBILITY)
 #define COMPARE (1u << KD_INTEGRAL_COMPARE)
+#define OBSERVE (1u << KD_INTEGRAL_OBSERVE)
 #define ALL (LINE | TRANSFER | SPECTRUM)
 #define REAL(name, unit, least, most, of, help) \
     { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, NULL, of, false }
@@ -112,28 +113,31 @@ const struct kd_integral_field kd_integral_fields[] = {
          "yes: amplitudes are sqrt(|V|^2 - sigma^2), also in closures; no: as measured"),
     WORD(closures, maximal, "minimal|maximal", COMPARE,
          "minimal: independent triangles and quadrangles with the first station; maximal: all"),
-    WORD(pulse, pulse, "triangle|rectangle|point", COMPARE, "shape of a pixel's light"),
-    WORD(scattering, scattering, "none|sgra", COMPARE,
+    WORD(pulse, pulse, "triangle|rectangle|point", COMPARE | OBSERVE, "shape of a pixel's light"),
+    WORD(scattering, scattering, "none|sgra", COMPARE | OBSERVE,
          "interstellar scattering of the model: sgra: the average kernel towards Sagittarius A* at the observation's "
          "frequency"),
     { "flux_jy", "Jy",
-      "flux to which the whole map is scaled; auto: the scene's flux, or the best fit to the amplitudes if the scene's "
-      "light has no frequency",
-      KD_INTEGRAL_REAL, AT(flux_jy), 1e-12, 1e12, false, "auto", COMPARE, true },
+      "flux to which the whole map is scaled; auto: the scene's flux; if its light has no frequency, a comparison "
+      "takes "
+      "the best fit to the amplitudes",
+      KD_INTEGRAL_REAL, AT(flux_jy), 1e-12, 1e12, false, "auto", COMPARE | OBSERVE, true },
     WORDS(solve, "flux|size|position_angle|shift", 0, COMPARE,
           "quantities that are fitted for the smallest chi^2 of all data: flux, angular size, position angle, and the "
           "position, which needs the product visibility"),
-    INT(pixels, 16, 2048, VOLUME | VISIBILITY | COMPARE,
-        "pixels along the longer side of a picture; default 128 for a spectrum, 256 for visibilities and a comparison"),
-    WORD(check, unchecked, "finer|none", VOLUME | VISIBILITY | COMPARE,
+    WORD(noise, noiseless, "yes|no", OBSERVE, "yes: Gaussian noise with the errors of the observation; no: none"),
+    INT(seed, 0, 4294967295, OBSERVE, "seed of the noise"),
+    INT(pixels, 16, 2048, VOLUME | VISIBILITY | COMPARE | OBSERVE,
+        "pixels along the longer side of a picture; default 128 for a spectrum, 256 otherwise"),
+    WORD(check, unchecked, "finer|none", VOLUME | VISIBILITY | COMPARE | OBSERVE,
          "estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none"),
 };
 const size_t kd_n_integral_fields = sizeof kd_integral_fields / sizeof *kd_integral_fields;
 
 const char *kd_integral_name(enum kd_integral what)
 {
-    static const char *const names[KD_INTEGRALS] = { "line",     "transfer-function", "spectrum",
-                                                     "spectrum", "visibility",        "compare" };
+    static const char *const names[KD_INTEGRALS] = { "line",       "transfer-function", "spectrum", "spectrum",
+                                                     "visibility", "compare",           "observe" };
     return names[what];
 }
 
@@ -346,11 +350,11 @@ void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_
     kd_json_string(json, "type", "object");
     kd_json_bool(json, "additionalProperties", false);
     kd_json_object(json, "properties");
-    if (of & (VOLUME | VISIBILITY | COMPARE)) {
+    if (of & (VOLUME | VISIBILITY | COMPARE | OBSERVE)) {
         add_presets(json);
         kd_json_raw(json, "scene", scene, sizeof scene - 1);
     }
-    if (of & COMPARE)
+    if (of & (COMPARE | OBSERVE))
         kd_schema_text(json, "observation",
                        "{\"type\":\"string\",\"minLength\":1,\"maxLength\":64,\"description\":\"SHA-256 of an asset "
                        "of the server: uvfits, or the EHT's CSV\"}");
@@ -366,7 +370,7 @@ void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_
     kd_json_end(json);
     if (kd_integral_apart(what))
         kd_schema_text(json, "not", kd_integral_apart(what));
-    if (of & COMPARE)
+    if (of & (COMPARE | OBSERVE))
         kd_schema_text(json, "required", "[\"observation\"]");
     kd_json_end(json);
 }

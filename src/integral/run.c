@@ -4,6 +4,7 @@
 #include "base/pause.h"
 #include "integral/compare.h"
 #include "observe/scattering.h"
+#include "observe/simulate.h"
 #include "physics/math/angle.h"
 #include "physics/math/constants.h"
 #include "render/output/wcs.h"
@@ -33,8 +34,8 @@ static void lay_out(struct kd_integral_answer *answer)
         c[U][row] = r->u.at[at], c[V][row] = r->v.at[at], c[LENGTH][row] = hypot(c[U][row], c[V][row]),
         c[ORDER][row] = (double)(row % (1 + r->orders)) - 1;
     }
-    if (r->what == KD_INTEGRAL_COMPARE) {
-        kd_integral_compare_lay_out(answer);
+    if (kd_integral_is_observed(r->what)) {
+        (r->what == KD_INTEGRAL_COMPARE ? kd_integral_compare_lay_out : kd_integral_observe_lay_out)(answer);
         return;
     }
     for (size_t row = 0; r->unchecked && row < answer->rows; row++)
@@ -47,6 +48,12 @@ static enum kd_status begin_model(struct kd_integral_run *run, struct kd_error *
     const struct kd_integral_request *r = run->answer.request;
     struct kd_scattering scattering;
     run->model = calloc(r->u.n, sizeof *run->model);
+    if (r->what == KD_INTEGRAL_OBSERVE) {
+        run->simulated = calloc(r->u.n, sizeof *run->simulated);
+        run->marks = calloc(1, KD_SIMULATION_MARKS);
+        if (!run->simulated || !run->marks)
+            return kd_error_set(error, KD_ENOMEM, "out of memory for %zu visibilities", r->u.n);
+    }
     if (kd_integral_is_searched(r))
         run->room = malloc(sizeof *run->room);
     if (r->scattering)
@@ -71,7 +78,7 @@ enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct k
     enum kd_status status = kd_integral_make_columns(&run->answer, kd_integral_rows(request), error);
     if (status)
         return status;
-    if (request->what == KD_INTEGRAL_COMPARE && (status = begin_model(run, error))) {
+    if (kd_integral_is_observed(request->what) && (status = begin_model(run, error))) {
         kd_integral_run_finish(run);
         return status;
     }
@@ -248,7 +255,7 @@ bool kd_integral_run_step(struct kd_integral_run *run, double until_ms)
     const struct kd_alignment *solved = &run->answer.solved;
     if (kd_integral_is_searched(r) && !is_finer)
         search(run), run->baseline = r->u.n;
-    while (r->what == KD_INTEGRAL_COMPARE && run->baseline < r->u.n) {
+    while (kd_integral_is_observed(r->what) && run->baseline < r->u.n) {
         model_at(run, run->baseline, solved->size, solved->angle_deg, run->model[run->baseline]);
         run->baseline++;
         if (kd_clock_ms() > until_ms)
@@ -266,6 +273,8 @@ bool kd_integral_run_step(struct kd_integral_run *run, double until_ms)
         kd_align_shift(r->comparison, solved->east, solved->north, run->model);
     if (r->what == KD_INTEGRAL_COMPARE)
         kd_integral_compare_judge(&run->answer, run->model, is_finer);
+    if (r->what == KD_INTEGRAL_OBSERVE)
+        kd_integral_observe_take(&run->answer, run->marks, run->model, run->simulated, is_finer);
     kd_buffer_finish(&run->maps);
     run->picture++;
     return false;
@@ -277,6 +286,8 @@ void kd_integral_run_finish(struct kd_integral_run *run)
     kd_buffer_finish(&run->maps);
     free(run->scratch);
     free(run->model);
+    free(run->simulated);
+    free(run->marks);
     free(run->scattering);
     free(run->room);
     *run = (struct kd_integral_run) { 0 };

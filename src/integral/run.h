@@ -25,7 +25,9 @@ struct kd_integral_run {
     const float *map[1 + KD_INTEGRAL_ORDERS];
     double scale; /* factor of a sum */
     size_t baseline;
-    double (*model)[2]; /* for a comparison: the model at each of its visibilities */
+    /* for an observation: the model at each of its visibilities, and these as they are simulated */
+    double (*model)[2], (*simulated)[2];
+    uint8_t *marks; /* for kd_simulate */
     double *scratch;
     double *scattering;         /* factor at each visibility; NULL: none */
     struct kd_align_room *room; /* for a search; NULL: none is needed */

@@ -1,10 +1,12 @@
-"""Tests of kerrd compare: chi^2 of scenes for the observation of M87*, compared with ehtim's numbers; fitted values;
-both files of one observation; refusals."""
+"""Tests of kerrd compare and kerrd observe: chi^2 of scenes for the observation of M87*, compared with ehtim's
+numbers; fitted values; both files of one observation; simulated observations; refusals."""
 
 import csv
 import io
 import json
+import pathlib
 import struct
+import zipfile
 
 import compared
 from support import Case, main
@@ -150,6 +152,76 @@ class Compare(Case):
         self.assertGreater(min(rows)[1], 0.8)
         self.assertLess(max(rows)[1], 0.6)
         self.assertAlmostEqual(scattered["chi2"]["closure_phase"] / plain["chi2"]["closure_phase"], 1, delta=1e-9)
+
+    def test_a_simulated_observation(self):
+        """Without noise chi^2 is 0 to the file's single precision. With noise it is 1 within its error. The files of
+        both forms have the visibilities of the answer; other seeds give other noise. All other bytes of the uvfits
+        remain, and nothing of the measured light does."""
+        options = ["-p", "riaf", "--pixels", "32", "--check", "none", "--flux-jy", "0.6"]
+        seen = ["--observation", compared.UVFITS, *options]
+        told = json.loads(self.good("observe", *seen, "--seed", "3"))
+        columns = told["columns"]
+        self.assertEqual((told["integral"], len(columns["re"]), told["values"]["flux_jy"]), ("observe", 1507, 0.6))
+        self.assertEqual(told["observation"]["stations"][:2], ["AA", "AP"])
+        noise = [
+            (columns[part][i] - columns["model_" + part][i]) / columns["sigma"][i]
+            for part in ("re", "im")
+            for i in range(1507)
+        ]
+        self.assertAlmostEqual(sum(noise) / len(noise), 0, delta=0.06)  # 3 / sqrt(3014)
+        self.assertAlmostEqual(sum(x * x for x in noise) / len(noise), 1, delta=0.08)
+        other = json.loads(self.good("observe", *seen, "--seed", "4"))["columns"]
+        self.assertEqual(other["model_re"], columns["model_re"])
+        self.assertNotEqual(other["re"], columns["re"])
+        asked = ["--products", "amplitude,closure_phase,log_closure_amplitude,visibility", *options]
+        for end in ("uvfits", "csv"):
+            self.good("observe", *seen, "--seed", "3", "-o", self.path("night." + end))
+            night = self.told("--observation", self.path("night." + end), *asked)
+            self.assertAlmostEqual(night["chi2"]["visibility"], 1, delta=0.08)
+            self.assertLess(night["chi2"]["closure_phase"], 1.3)
+            self.assertEqual(night["observation"]["stations"], sorted(night["observation"]["stations"]))
+            self.good("observe", *seen, "--noise", "no", "-o", self.path("quiet." + end))
+            quiet = self.told("--observation", self.path("quiet." + end), "--debias", "no", *asked)
+            for name, value in quiet["chi2"].items():
+                self.assertLess(value, 1e-6, name)
+        before, after = pathlib.Path(compared.UVFITS).read_bytes(), self.read("night.uvfits")
+        self.assertEqual(len(before), len(after))
+        groups = before.index(b"END" + 77 * b" ")
+        self.assertEqual(before[:groups], after[:groups])
+        self.assertEqual(before[before.index(b"XTENSION") :], after[after.index(b"XTENSION") :])
+        csv_alone = ["--observation", compared.CSV, *options]
+        self.good("observe", *csv_alone, "-o", self.path("again.csv"))
+        self.assertLess(self.told("--observation", self.path("again.csv"), *asked)["chi2"]["visibility"], 1.1)
+        for given, words in (
+            ([*csv_alone, "-o", self.path("a.uvfits")], "observation is a CSV, which has no places of stations"),
+            (["--observation", compared.CSV, "-p", "m87"], "flux_jy is auto; it must be a number"),
+            (["-p", "riaf"], "observation is missing"),
+            ([*csv_alone, "--seed", "-1"], "seed is -1; it must be a whole number from 0 to 4294967295"),
+        ):
+            self.bad(2, words, "observe", *given)
+
+    def test_columns_as_npz(self):
+        """numpy.savez's members: numbers as float64, words as UTF-32, and the rest of the answer."""
+        options = ["--observation", compared.CSV, "-p", "m87", "--pixels", "32", "--average-s", "600"]
+        told = self.told(*options)
+        self.good("compare", *options, "-o", self.path("a.npz"))
+        with zipfile.ZipFile(self.path("a.npz")) as file:
+            names = [name.removesuffix(".npy") for name in file.namelist() if name.endswith(".npy")]
+            self.assertEqual(names, list(told["columns"]))
+            rest = json.loads(file.read("answer.json"))
+            self.assertEqual({**rest, "columns": told["columns"]}, told)
+            for name in ("station_3", "data", "product"):
+                member = file.read(name + ".npy")
+                start = 10 + struct.unpack("<H", member[8:10])[0]
+                self.assertIn(b"'<f8'" if name == "data" else b"'<U", member[:start])
+                data, n = member[start:], len(told["columns"][name])
+                size = len(data) // n
+                rows = [data[i * size : (i + 1) * size] for i in range(n)]
+                if name == "data":
+                    self.assertEqual([struct.unpack("<d", row)[0] for row in rows], told["columns"][name])
+                else:
+                    words = [row.decode("utf-32-le").rstrip("\0") for row in rows]
+                    self.assertEqual(words, [word or "" for word in told["columns"][name]])
 
     def test_what_is_refused(self):
         seen = ["--observation", compared.CSV]

@@ -149,7 +149,7 @@ SESSION = (
     "image.tile.width is %u; in a session, which shows whole pictures of any size, it must be 0",
 )
 
-OF_SCENES = "(GET|POST) /v1/(render|pixel|share)$|POST /v1/(plan|sessions|jobs|playground|visibility|compare|spectrum)$|PATCH /v1/(sessions|playground)/{id}(/frame)?$|POST /v1/sessions/{id}/path$"
+OF_SCENES = "(GET|POST) /v1/(render|pixel|share)$|POST /v1/(plan|sessions|jobs|playground|visibility|compare|observe|spectrum)$|PATCH /v1/(sessions|playground)/{id}(/frame)?$|POST /v1/sessions/{id}/path$"
 
 # (operations, their sentences)
 TOGETHER = [
@@ -259,9 +259,20 @@ TOGETHER = [
             "the picture of %u x %u pixels is dark and has no visibilities",
         ),
     ),
+    (
+        "POST /v1/observe",
+        (
+            "observation is not an asset of this server; it must be the SHA-256 of one",
+            "flux_jy is auto; it must be a number, because the scene's light has no frequency and thus no flux in Jy",
+            "observation is a CSV, which has no places of stations; for uvfits it must be a uvfits file",
+            "the observation has %zu visibilities; it must have at most %u to be simulated",
+            'visibilities need a flat map seen from infinity: camera.r must be "infinity", and camera.projection auto or plane',
+            "the picture of %u x %u pixels is dark and has no visibilities",
+        ),
+    ),
     # pictures whose light is measured
     (
-        "POST /v1/(spectrum|visibility|compare|jobs)",
+        "POST /v1/(spectrum|visibility|compare|observe|jobs)",
         (
             'camera.stereo is "pair"; for a measurement of light it must be "none", because each eye has its own flux',
             'camera.projection is "ring", "equirectangular" or "fulldome"; for a measurement of light it must be "plane" or "pinhole", because areas of the others are not to scale',

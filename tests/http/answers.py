@@ -199,6 +199,8 @@ class Answers(daemon.Case):
             },
         ):
             self.send("POST", "/v1/compare", "/v1/compare", {"observation": seen["sha256"], **document})
+        observed = {"preset": "riaf", "pixels": 16, "seed": 1, "observation": seen["sha256"]}
+        self.send("POST", "/v1/observe", "/v1/observe", observed)
         answer = self.daemon.post("/v1/spectrum", {"preset": "riaf", "frequencies": 200, "pixels": 2048})
         self.assertEqual(answer.status, 422, answer.body)
         self.assertIn("400 pictures", answer.json()["detail"])

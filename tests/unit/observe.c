@@ -3,6 +3,7 @@
  * and damaged files. */
 #include "observe/align.h"
 #include "observe/scattering.h"
+#include "observe/simulate.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -410,7 +411,10 @@ static void test_uvfits_that_is_refused(void **state)
         { "PSCAL4  =", "PSCAL4  =                    8", "is of station" },
         { "PSCAL5  =", "PSCAL5  =                  NaN", "DATE of visibility 1 of the uvfits is nan" },
         { "PSCAL1  =", "PSCAL1  =                 1e99", "its u is" },
-        { "BSCALE  =", "BSCALE  =                  NaN", "its real part is nan; it must be a number" },
+        { "BSCALE  =", "BSCALE  =                  NaN", "BSCALE must be a number other than 0" },
+        { "BSCALE  =", "BSCALE  =                  0.0", "BSCALE and BZERO of the uvfits are 0 and 0" },
+        { "BZERO   =", "BZERO   =                  inf", "BZERO a number" },
+        { "BZERO   =", "BZERO   =                 1e99", "its real part is 1e+99; it must be a number up to 1e+12" },
         { "FREQ    =", "FREQ    =                  0.0", "FREQ of the table AIPS AN is 0" },
         { "TFORM1  =", "TFORM1  = '99999999A'         ", "TFORM1 of the table AIPS AN" },
         { "TFORM4  =", "TFORM4  = '1E      '          ", "must have the columns ANNAME" },
@@ -479,6 +483,21 @@ static void test_files_that_are_cut(void **state)
 }
 
 /* Bytes changed at random. */
+/* Replaces all visibilities of a file by 0.1 + 0.2 i, and compares what is told of them with the file. */
+static void simulate(const struct kd_observation *o, uint8_t *file, size_t size, uint64_t seed, bool exact)
+{
+    double (*model)[2] = calloc(o->n, sizeof *model), (*out)[2] = calloc(o->n, sizeof *out);
+    uint8_t *marks = calloc(1, KD_SIMULATION_MARKS);
+    for (size_t i = 0; i < o->n; i++)
+        model[i][0] = 0.1, model[i][1] = 0.2;
+    kd_simulate(&(struct kd_simulation) { o, file, size, marks, !exact, seed }, (const double (*)[2])model, out);
+    for (size_t i = 0; i < o->n && exact; i++)
+        assert_true(hypot(out[i][0] - 0.1, out[i][1] - 0.2) < 1e-6);
+    free(marks);
+    free(model);
+    free(out);
+}
+
 static void test_files_that_are_damaged(void **state)
 {
     (void)state;
@@ -493,10 +512,42 @@ static void test_files_that_are_damaged(void **state)
             seed = seed * 1664525 + 1013904223;
             copy[i % 2 ? seed % size : seed % (3 * BLOCK)] = (uint8_t)(seed >> 24);
         }
-        if (!kd_observation_read(copy, size, &o, &error))
+        if (!kd_observation_read(copy, size, &o, &error)) {
+            simulate(&o, copy, size, 1, false);
             kd_observation_finish(&o);
+        }
     }
     free(copy);
+    free(data);
+}
+
+/* A file whose second group has the time and the baseline of its first one, BSCALE 2 and BZERO 0.5: the simulated file
+ * has the model, and what was left out is empty, so that it is flagged. */
+static void test_simulated_file(void **state)
+{
+    (void)state;
+    size_t size;
+    uint8_t *data = read_file("m87-2017-04-05-lo.uvfits", &size);
+    const size_t head = (size_t)(card(data, size, "END     ") - data) / BLOCK * BLOCK + BLOCK;
+    const size_t group = (atoi((char *)card(data, size, "PCOUNT  =") + 10) + 3 * 4) * sizeof(float);
+    memcpy(data + head + group, data + head, group);
+    memcpy(card(data, size, "BSCALE  ="), "BSCALE  =                  2.0", 30);
+    memcpy(card(data, size, "BZERO   ="), "BZERO   =                  0.5", 30);
+    struct kd_observation o, read;
+    assert_int_equal(kd_observation_read(data, size, &o, NULL), KD_OK);
+    simulate(&o, data, size, 1, true);
+    assert_int_equal(kd_observation_read(data, size, &read, NULL), KD_OK);
+    assert_int_equal(read.n, o.n);
+    assert_int_equal(o.duplicate, 1);
+    assert_int_equal(read.duplicate, 0);
+    assert_int_equal(read.flagged, 1);
+    for (size_t i = 0; i < o.n; i++) {
+        assert_true(read.at[i].hour == o.at[i].hour && read.at[i].u == o.at[i].u);
+        assert_true(read.at[i].sigma == o.at[i].sigma);
+        assert_true(hypot(read.at[i].re - 0.1, read.at[i].im - 0.2) < 1e-6);
+    }
+    kd_observation_finish(&read);
+    kd_observation_finish(&o);
     free(data);
 }
 
@@ -506,6 +557,7 @@ int main(void)
         cmocka_unit_test(test_chi2_of_visibilities_is_that_of_ehtim),
         cmocka_unit_test(test_size_angle_and_position_are_found),
         cmocka_unit_test(test_scattering_is_that_of_ehtim),
+        cmocka_unit_test(test_simulated_file),
         cmocka_unit_test(test_scattering_has_the_published_widths),
         cmocka_unit_test(test_chi2_is_that_of_ehtim),
         cmocka_unit_test(test_both_files_say_the_same),

@@ -611,6 +611,49 @@ class Comparison(TypedDict):
     observation: ComparisonObservation
 
 
+class SimulationParameters(TypedDict):
+    pulse: str
+    scattering: str
+    flux_jy: float | None
+    noise: str
+    seed: float
+    pixels: float
+    check: str
+
+
+class SimulationValues(TypedDict):
+    flux_jy: float | None
+    pixel_uas: float | None
+    width_uas: float | None
+    height_uas: float | None
+    nyquist_gl: float | None
+    edge_share: float | None
+    undefined: float | None
+    model_error: float | None
+
+
+class SimulationObservation(TypedDict):
+    source: str
+    mjd: float
+    frequency_ghz: float
+    stations: list[str]
+    visibilities: int
+    flagged: int
+    duplicates: int
+
+
+class Simulation(TypedDict):
+    integral: Literal['observe']
+    parameters: SimulationParameters
+    values: SimulationValues
+    columns: Columns
+    units: dict[str, str]
+    sources: list[str]
+    approximations: list[str]
+    scene: dict[str, Any]
+    observation: SimulationObservation
+
+
 class PresetTold(TypedDict):
     name: str
     label: str
