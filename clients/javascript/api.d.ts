@@ -1509,6 +1509,11 @@ export interface CompareRequest {
   scene?: Scene;
   /** SHA-256 of an asset of the server: uvfits, or the EHT's CSV. */
   observation: string;
+  /**
+   * parameter sets, each compared for its own chi^2: fields of the scene by their paths, such as spacetime.spin,
+   * and flux_jy, size and position_angle_deg; up to 4096.
+   */
+  sets?: (Record<string, number | string | boolean>)[];
   /** quantities that are compared; visibility: real and imaginary parts, which need calibrated phases. */
   products?: ('amplitude' | 'closure_phase' | 'log_closure_amplitude' | 'visibility')[];
   /**
@@ -1687,6 +1692,103 @@ export interface Comparison {
     averaged: number;
     /** at least 0. */
     too_short: number;
+  };
+}
+
+export interface ComparisonOfSets {
+  integral: 'compare';
+  parameters: {
+    products: string[];
+    average_s: number;
+    uv_min_gl: number;
+    snr_cut: number;
+    systematic: {
+      visibility: number;
+      amplitude: number;
+      closure_phase_deg: number;
+    };
+    debias: string;
+    closures: string;
+    pulse: string;
+    scattering: string;
+    flux_jy: number | null;
+    solve: string[];
+    pixels: number;
+    check: string;
+  };
+  values: {
+    /** number of different scenes, each rendered once. */
+    pictures: number | null;
+    /** distance from one pixel to the next, in the last picture. */
+    pixel_uas: number | null;
+    /** of the last map. */
+    width_uas: number | null;
+    /** of the last map. */
+    height_uas: number | null;
+    /** longest baseline that the width of its pixels resolves. */
+    nyquist_gl: number | null;
+    /**
+     * flux of a sky as bright as a map's border over the whole map, as a share of the map's flux; the largest of
+     * all maps.
+     */
+    edge_share: number | null;
+    /** number of pixels whose light is not a number, in all pictures; they count as dark. */
+    undefined: number | null;
+  };
+  columns: {
+    /** chi^2 of the amplitudes over their number; null without data, or if the picture is dark. */
+    chi2_amplitude: (number | null)[];
+    /** the same of the closure phases. */
+    chi2_closure_phase: (number | null)[];
+    /** the same of the log closure amplitudes. */
+    chi2_log_closure_amplitude: (number | null)[];
+    /** the same of the visibilities. */
+    chi2_visibility: (number | null)[];
+    /** chi^2 summed over all data; null if the picture is dark. */
+    total: (number | null)[];
+    /** flux of the compared map; null if nothing determines it. */
+    flux_jy: (number | null)[];
+    /** factor by which the map is enlarged, at the same flux. */
+    size: (number | null)[];
+    /** angle by which the map is rotated, from north to east. */
+    position_angle_deg: (number | null)[];
+    /** shift of the map to the east. */
+    shift_east_uas: (number | null)[];
+    /** to the north. */
+    shift_north_uas: (number | null)[];
+    /** 1: all searches converged; 0: one did not, or the picture is dark. */
+    converged: (number | null)[];
+  };
+  units: Record<string, string>;
+  sources: string[];
+  approximations: string[];
+  scene: Scene;
+  observation: {
+    source: string;
+    mjd: number;
+    frequency_ghz: number;
+    stations: string[];
+    /** at least 0. */
+    visibilities: number;
+    /** at least 0. */
+    flagged: number;
+    /** at least 0. */
+    duplicates: number;
+    /** at least 0. */
+    averaged: number;
+    /** at least 0. */
+    too_short: number;
+  };
+  /** number of data; two for each visibility. */
+  n: {
+    /** at least 0. */
+    amplitude: number;
+    /** at least 0. */
+    closure_phase: number;
+    /** at least 0. */
+    log_closure_amplitude: number;
+    /** at least 0. */
+    visibility: number;
   };
 }
 
@@ -6177,7 +6279,7 @@ export interface Operations {
       type?: 'application/json';
     };
     gives: {
-      'application/json': Comparison;
+      'application/json': Comparison | ComparisonOfSets;
       'text/csv': string;
       'application/x-npy': Uint8Array;
       'application/x-npz': Uint8Array;

@@ -130,6 +130,7 @@ TOLD = (
     "VolumeSpectrum",
     "Visibilities",
     "Comparison",
+    "ComparisonOfSets",
     "Simulation",
     "PresetTold",
     "Device",

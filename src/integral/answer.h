@@ -4,6 +4,7 @@
 
 #include "base/buffer.h"
 #include "integral/request.h"
+#include "integral/sets.h"
 #include "render/plan/plan.h"
 
 enum { KD_INTEGRAL_COLUMNS = 12, KD_INTEGRAL_VALUES = 12 };
@@ -24,10 +25,11 @@ const struct kd_integral_kind_of *kd_integral_kind_of(enum kd_integral what);
 struct kd_integral_answer {
     const struct kd_integral_request *request;
     double values[KD_INTEGRAL_VALUES];
-    double map_jy;               /* flux of the last map, computed from its scene; NaN: the scene's light has no
-                                  * frequency */
-    struct kd_alignment solved;  /* of a comparison */
-    double chi2[2][KD_PRODUCTS]; /* of a comparison: for the map, and for the finer one */
+    double map_jy;                     /* flux of the last map, computed from its scene; NaN: the scene's light has no
+                                        * frequency */
+    struct kd_alignment solved;        /* of a comparison */
+    const struct kd_integral_set *set; /* of a comparison of sets: the current one; otherwise NULL */
+    double chi2[2][KD_PRODUCTS];       /* of a comparison: for the map, and for the finer one */
     size_t rows;
     double *columns[KD_INTEGRAL_COLUMNS]; /* each of length `rows`; a single allocation, columns[0] */
     const char *light;                    /* unit of columns that are light */

@@ -11,8 +11,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* SPECTRUM becomes VOLUME when a scene is given. VOLUME and the kinds after it are made of pictures
- * (integral/run.h). */
+/* SPECTRUM becomes VOLUME when a scene is given, and COMPARE becomes SETS when sets are given. VOLUME and the kinds
+ * after it are made of pictures (integral/run.h). */
 enum kd_integral {
     KD_INTEGRAL_LINE,
     KD_INTEGRAL_TRANSFER,
@@ -20,6 +20,7 @@ enum kd_integral {
     KD_INTEGRAL_VOLUME,
     KD_INTEGRAL_VISIBILITY,
     KD_INTEGRAL_COMPARE,
+    KD_INTEGRAL_SETS,
     KD_INTEGRAL_OBSERVE,
     KD_INTEGRALS
 };
@@ -65,6 +66,7 @@ struct kd_integral_request {
     /* malloc'd once a comparison's request has been checked. Its models are filled in by the run; its visibilities
      * are u and v. */
     struct kd_comparison *comparison;
+    struct kd_integral_sets *sets; /* integral/sets.h: malloc'd; NULL: none given */
     double average_s, snr_cut, uv_min_gl, systematic_visibility, systematic_amplitude, systematic_closure_phase_deg;
     int measured, maximal;
     enum kd_pixel_shape pulse;
@@ -81,10 +83,15 @@ static inline bool kd_integral_is_mapped(enum kd_integral what) { return what >=
 /* Whether the maps are transformed at the baselines of an observation. */
 static inline bool kd_integral_is_observed(enum kd_integral what) { return what >= KD_INTEGRAL_COMPARE; }
 
+static inline bool kd_integral_is_compared(enum kd_integral what)
+{
+    return what == KD_INTEGRAL_COMPARE || what == KD_INTEGRAL_SETS;
+}
+
 /* Whether a comparison searches for a size, an orientation or a position. */
 static inline bool kd_integral_is_searched(const struct kd_integral_request *r)
 {
-    return r->what == KD_INTEGRAL_COMPARE && r->solve & ~(uint32_t)KD_ALIGN_FLUX;
+    return kd_integral_is_compared(r->what) && r->solve & ~(uint32_t)KD_ALIGN_FLUX;
 }
 
 /* Number of transforms of the first map, at most. A shift's grid counts as one more. */

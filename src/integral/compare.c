@@ -3,6 +3,7 @@
 #include "base/schema.h"
 #include "integral/internal.h"
 #include "integral/pictures.h"
+#include "integral/sets.h"
 #include "scene/members.h"
 
 #include <math.h>
@@ -17,6 +18,11 @@ enum { FLUX, WORST = 7, SIZE, ANGLE, EAST, NORTH };                             
 bool kd_integral_is_observation(const struct kd_integral_request *r, const char *name)
 {
     return kd_integral_is_observed(r->what) && !strcmp(name, "observation");
+}
+
+bool kd_integral_is_sets(const struct kd_integral_request *r, const char *name)
+{
+    return kd_integral_is_compared(r->what) && !strcmp(name, "sets");
 }
 
 enum kd_status kd_integral_set_observation(struct kd_integral_request *r, const void *data, size_t size,
@@ -135,6 +141,12 @@ enum kd_status kd_integral_check_compare(struct kd_integral_request *r, struct k
         return kd_error_set(error, KD_ENOMEM, "out of memory for %zu visibilities", r->comparison->n);
     for (size_t i = 0; i < u->n; i++)
         u->at[i] = r->comparison->at[i].u * 1e-9, v->at[i] = r->comparison->at[i].v * 1e-9;
+    if (r->what == KD_INTEGRAL_SETS && kd_integral_given(r, "check") && !r->unchecked)
+        return kd_error_field(error, "/check", "check is finer; with sets it must be none");
+    if (r->what == KD_INTEGRAL_SETS) {
+        r->unchecked = 1;
+        KD_TRY(kd_integral_make_sets(r, error));
+    }
 done:
     return status;
 }
@@ -175,7 +187,8 @@ static double scale_of(const struct kd_integral_answer *answer, const double (*m
 {
     const struct kd_integral_request *r = answer->request;
     const bool is_known = isfinite(answer->map_jy);
-    return isfinite(r->flux_jy)                    ? r->flux_jy / (is_known ? answer->map_jy : 1)
+    const double flux_jy = answer->set ? answer->set->flux_jy : r->flux_jy;
+    return isfinite(flux_jy)                       ? flux_jy / (is_known ? answer->map_jy : 1)
            : r->solve & KD_ALIGN_FLUX || !is_known ? kd_comparison_scale(r->comparison, model)
                                                    : 1;
 }
@@ -236,6 +249,41 @@ static void write_solved(struct kd_json *json, const struct kd_integral_answer *
         kd_json_end(json);
     }
     kd_json_end(json);
+}
+
+static void write_products(struct kd_json *json, const char *name, const double chi2[KD_PRODUCTS]);
+
+void kd_integral_sets_judge(struct kd_integral_answer *answer, double (*model)[2])
+{
+    enum { TOTAL = KD_PRODUCTS, FLUX_JY, SIZE_OF, ANGLE_OF, EAST_OF, NORTH_OF, CONVERGED };
+    struct kd_comparison *c = answer->request->comparison;
+    const struct kd_alignment *solved = &answer->solved;
+    const size_t row = answer->set->row;
+    double *const *columns = answer->columns, chi2[KD_PRODUCTS], total = 0;
+    const double found = model ? scale_of(answer, (const double (*)[2])model) : NAN,
+                 scale = isfinite(found) ? found : 1; /* closures do not determine the scale */
+    for (size_t i = 0; model && i < c->n; i++)
+        model[i][0] *= scale, model[i][1] *= scale;
+    if (model)
+        kd_comparison_judge(c, (const double (*)[2])model, chi2);
+    for (int p = 0; p < KD_PRODUCTS; p++) {
+        columns[p][row] = model ? chi2[p] : NAN;
+        total += c->of[p] ? columns[p][row] * (double)c->of[p] : 0;
+    }
+    columns[TOTAL][row] = total;
+    columns[FLUX_JY][row] = found * (isfinite(answer->map_jy) ? answer->map_jy : 1);
+    columns[SIZE_OF][row] = solved->size * answer->set->size;
+    columns[ANGLE_OF][row] = solved->angle_deg + answer->set->angle_deg;
+    columns[EAST_OF][row] = solved->east * UAS_PER_RADIAN, columns[NORTH_OF][row] = solved->north * UAS_PER_RADIAN;
+    columns[CONVERGED][row] = model && solved->converged[1] && solved->converged[2] && solved->converged[3];
+}
+
+void kd_integral_sets_write(struct kd_json *json, const struct kd_integral_answer *answer)
+{
+    double n[KD_PRODUCTS];
+    for (int p = 0; p < KD_PRODUCTS; p++)
+        n[p] = (double)answer->request->comparison->of[p];
+    write_products(json, "n", n);
 }
 
 static void write_products(struct kd_json *json, const char *name, const double chi2[KD_PRODUCTS])
@@ -318,4 +366,9 @@ void kd_integral_observation_schema(struct kd_json *json, bool compared)
     };
     const size_t n = sizeof members / sizeof *members;
     kd_schema_strict(json, "observation", members, compared ? n : n - 2);
+}
+
+void kd_integral_sets_schema(struct kd_json *json)
+{
+    kd_schema_text(json, "n", OF_PRODUCTS("number of data; two for each visibility", COUNT));
 }

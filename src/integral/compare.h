@@ -12,6 +12,10 @@ void kd_integral_compare_judge(struct kd_integral_answer *answer, double (*model
 /* Write the members of an answer that only comparisons have, and their schemas. */
 void kd_integral_compare_write(struct kd_json *json, const struct kd_integral_answer *answer);
 void kd_integral_compare_schema(struct kd_json *json);
+/* For one set of a comparison: takes the model's visibilities, NULL if the picture is dark, and fills its row. */
+void kd_integral_sets_judge(struct kd_integral_answer *answer, double (*model)[2]);
+void kd_integral_sets_write(struct kd_json *json, const struct kd_integral_answer *answer);
+void kd_integral_sets_schema(struct kd_json *json);
 /* The member about the observation, of comparisons and simulations. */
 void kd_integral_observation_write(struct kd_json *json, const struct kd_integral_request *request);
 void kd_integral_observation_schema(struct kd_json *json, bool compared);

@@ -2,6 +2,7 @@
 #include "base/schema.h"
 #include "integral/apart.h"
 #include "integral/request.h"
+#include "integral/sets.h"
 #include "physics/disk/disk_image.h"
 
 #include <math.h>
@@ -14,7 +15,7 @@
 #define SPECTRUM (1u << KD_INTEGRAL_SPECTRUM)
 #define VOLUME (1u << KD_INTEGRAL_VOLUME)
 #define VISIBILITY (1u << KD_INTEGRAL_VISIBILITY)
-#define COMPARE (1u << KD_INTEGRAL_COMPARE)
+#define COMPARE (1u << KD_INTEGRAL_COMPARE | 1u << KD_INTEGRAL_SETS)
 #define OBSERVE (1u << KD_INTEGRAL_OBSERVE)
 #define ALL (LINE | TRANSFER | SPECTRUM)
 #define REAL(name, unit, least, most, of, help) \
@@ -132,12 +133,13 @@ const struct kd_integral_field kd_integral_fields[] = {
     WORD(check, unchecked, "finer|none", VOLUME | VISIBILITY | COMPARE | OBSERVE,
          "estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none"),
 };
+_Static_assert(sizeof kd_integral_fields / sizeof *kd_integral_fields <= 64, "a request has a bit for each field");
 const size_t kd_n_integral_fields = sizeof kd_integral_fields / sizeof *kd_integral_fields;
 
 const char *kd_integral_name(enum kd_integral what)
 {
     static const char *const names[KD_INTEGRALS] = { "line",       "transfer-function", "spectrum", "spectrum",
-                                                     "visibility", "compare",           "observe" };
+                                                     "visibility", "compare",           "compare",  "observe" };
     return names[what];
 }
 
@@ -314,6 +316,16 @@ static void add_field(struct kd_json *json, const struct kd_integral_field *f, e
     kd_json_end(json);
 }
 
+#define SETS_SCHEMA \
+    "{\"type\":\"array\",\"minItems\":1,\"maxItems\":" KD_SCHEMA_DIGITS( \
+        KD_INTEGRAL_SETS_MOST) ",\"description\":\"" \
+                               "parameter sets, each compared for its own chi^2: fields of the scene by their paths, " \
+                               "such as spacetime.spin, and " \
+                               "flux_jy, size and " \
+                               "position_angle_deg\",\"items\":{\"type\":\"object\",\"additionalProperties\":{" \
+                               "\"type\":[" \
+                               "\"number\",\"string\",\"boolean\"]}}}"
+
 static const char *preset_name(size_t i) { return i < kd_scene_preset_count() ? kd_scene_preset_name(i) : NULL; }
 
 static void add_presets(struct kd_json *json)
@@ -358,6 +370,8 @@ void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_
         kd_schema_text(json, "observation",
                        "{\"type\":\"string\",\"minLength\":1,\"maxLength\":64,\"description\":\"SHA-256 of an asset "
                        "of the server: uvfits, or the EHT's CSV\"}");
+    if (what == KD_INTEGRAL_COMPARE)
+        kd_schema_text(json, "sets", SETS_SCHEMA);
     bool inside = false; /* whether the object of fields with dotted names is open; such fields are adjacent */
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_integral_field *f = &kd_integral_fields[i];

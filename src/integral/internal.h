@@ -42,6 +42,8 @@ enum kd_status kd_integral_read_observation(struct kd_integral_request *request,
                                             struct kd_error *error);
 void kd_integral_drop_observation(struct kd_integral_request *request);
 enum kd_status kd_integral_check_map(struct kd_integral_request *request, struct kd_error *error); /* scene.c */
+bool kd_integral_is_sets(const struct kd_integral_request *request, const char *name);
+
 /* observe.c */
 enum kd_status kd_integral_check_observe(struct kd_integral_request *request, struct kd_error *error);
 enum kd_status kd_integral_check_compare(struct kd_integral_request *request, struct kd_error *error);

@@ -19,6 +19,7 @@
 enum { U, V, LENGTH, ORDER, RE, IM, AMPLITUDE, PHASE, ERROR };          /* columns of a visibility */
 enum { HZ, SI, JY, NU_L_NU, FLUX_ERROR };                               /* of a spectrum of pictures */
 enum { FLUX, PIXEL, WIDTH, HEIGHT, LONGEST, BORDER, UNDEFINED, WORST }; /* values of a visibility */
+enum { PICTURES };                                                      /* in the place of FLUX, for sets */
 
 static unsigned bands(const struct kd_integral_run *run) { return 1 + run->answer.request->orders; }
 
@@ -33,6 +34,11 @@ static void lay_out(struct kd_integral_answer *answer)
         const size_t at = row / (1 + r->orders);
         c[U][row] = r->u.at[at], c[V][row] = r->v.at[at], c[LENGTH][row] = hypot(c[U][row], c[V][row]),
         c[ORDER][row] = (double)(row % (1 + r->orders)) - 1;
+    }
+    if (r->what == KD_INTEGRAL_SETS) {
+        answer->values[PICTURES] = r->sets->pictures;
+        answer->solved = KD_ALIGNMENT_NONE;
+        return;
     }
     if (kd_integral_is_observed(r->what)) {
         (r->what == KD_INTEGRAL_COMPARE ? kd_integral_compare_lay_out : kd_integral_observe_lay_out)(answer);
@@ -125,6 +131,18 @@ static void tell_map(struct kd_integral_run *run, const struct kd_scene *scene, 
     memcpy(run->answer.values, told, sizeof told);
 }
 
+/* The worst of all maps, and the number of pictures instead of a flux. */
+static void tell_sets(struct kd_integral_run *run, const struct kd_scene *scene, double sum, double undefined)
+{
+    double *values = run->answer.values;
+    const double before = values[BORDER], all = values[UNDEFINED];
+    if (run->is_dark)
+        return;
+    tell_map(run, scene, sum, undefined);
+    values[PICTURES] = run->answer.request->sets->pictures;
+    values[BORDER] = fmax(values[BORDER], before), values[UNDEFINED] += all;
+}
+
 static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene,
                                 struct kd_error *error)
 {
@@ -144,7 +162,8 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
         sum = total(map, n, &undefined); /* map 0, total light, comes last and leaves its sum */
         run->map[k] = map;
     }
-    if (!(sum > 0))
+    run->is_dark = !(sum > 0);
+    if (run->is_dark && run->answer.request->what != KD_INTEGRAL_SETS)
         return kd_error_field(error, "/scene", "the picture of %u x %u pixels is dark and has no visibilities", width,
                               height);
     run->scale = kd_scene_is_radio_alone(scene) ? run->grid.pixel * run->grid.pixel : 1 / sum;
@@ -153,7 +172,9 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
     free(run->scratch);
     if (!(run->scratch = malloc(2 * width * sizeof(double))))
         return kd_error_set(error, KD_ENOMEM, "out of memory for a row of %u pixels", width);
-    if (!kd_integral_is_finer(run->answer.request, run->picture))
+    if (run->answer.request->what == KD_INTEGRAL_SETS)
+        tell_sets(run, scene, sum, undefined);
+    else if (!kd_integral_is_finer(run->answer.request, run->picture))
         tell_map(run, scene, sum, undefined);
     return KD_OK;
 }
@@ -211,9 +232,10 @@ static void put(struct kd_integral_run *run, size_t row, double re, double im)
 static void model_at(struct kd_integral_run *run, size_t i, double size, double angle_deg, double out[2])
 {
     const struct kd_integral_request *r = run->answer.request;
-    const double c = size * kd_cos_deg(angle_deg), s = size * kd_sin_deg(angle_deg),
-                 u = c * r->u.at[i] - s * r->v.at[i], v = s * r->u.at[i] + c * r->v.at[i],
-                 turns = 1e9 * run->grid.pixel,
+    const struct kd_integral_set *set = run->answer.set;
+    const double all = size * (set ? set->size : 1), turn_deg = angle_deg + (set ? set->angle_deg : 0),
+                 c = all * kd_cos_deg(turn_deg), s = all * kd_sin_deg(turn_deg), u = c * r->u.at[i] - s * r->v.at[i],
+                 v = s * r->u.at[i] + c * r->v.at[i], turns = 1e9 * run->grid.pixel,
                  scale = run->scale * kd_pulse_at(r->pulse, u * turns, v * turns) *
                          (run->scattering ? run->scattering[i] : 1);
     double sum[1][2];
@@ -235,7 +257,8 @@ static void search(struct kd_integral_run *run)
 {
     const struct kd_integral_request *r = run->answer.request;
     const struct kd_integral_answer *a = &run->answer;
-    const bool is_known = isfinite(a->map_jy), is_free = r->solve & KD_ALIGN_FLUX || (!is_known && isnan(r->flux_jy));
+    const double flux_jy = a->set ? a->set->flux_jy : r->flux_jy;
+    const bool is_known = isfinite(a->map_jy), is_free = r->solve & KD_ALIGN_FLUX || (!is_known && isnan(flux_jy));
     const struct kd_align_params params = {
         .solve = r->solve | (is_free ? KD_ALIGN_FLUX : 0),
         .most_shift = 0.5 * run->grid.pixel * fmax(run->grid.width, run->grid.height),
@@ -243,14 +266,39 @@ static void search(struct kd_integral_run *run)
         .user = run,
     };
     run->answer.solved = KD_ALIGNMENT_NONE;
-    run->answer.solved.scale = isfinite(r->flux_jy) ? r->flux_jy / (is_known ? a->map_jy : 1) : 1;
+    run->answer.solved.scale = isfinite(flux_jy) ? flux_jy / (is_known ? a->map_jy : 1) : 1;
     kd_align(r->comparison, &params, run->room, run->model, &run->answer.solved);
+}
+
+/* Evaluates the sets of the current picture, in the order of the pictures. True: there is more to do. */
+static bool step_sets(struct kd_integral_run *run, double until_ms)
+{
+    const struct kd_integral_request *r = run->answer.request;
+    const struct kd_integral_sets *sets = r->sets;
+    for (; run->set < sets->first[run->picture + 1]; run->set++, run->baseline = 0) {
+        run->answer.set = &sets->at[run->set];
+        if (kd_clock_ms() > until_ms)
+            return true;
+        if (kd_integral_is_searched(r) && !run->is_dark)
+            search(run), run->baseline = r->u.n;
+        for (; run->baseline < r->u.n && !run->is_dark; run->baseline++) {
+            if (run->baseline % 64 == 63 && kd_clock_ms() > until_ms)
+                return true;
+            model_at(run, run->baseline, 1, 0, run->model[run->baseline]);
+        }
+        kd_integral_sets_judge(&run->answer, run->is_dark ? NULL : run->model);
+    }
+    kd_buffer_finish(&run->maps);
+    run->picture++;
+    return false;
 }
 
 bool kd_integral_run_step(struct kd_integral_run *run, double until_ms)
 {
     const struct kd_integral_request *r = run->answer.request;
     double sum[1 + KD_INTEGRAL_ORDERS][2];
+    if (r->what == KD_INTEGRAL_SETS)
+        return step_sets(run, until_ms);
     const bool is_finer = kd_integral_is_finer(r, run->picture);
     const struct kd_alignment *solved = &run->answer.solved;
     if (kd_integral_is_searched(r) && !is_finer)

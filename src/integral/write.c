@@ -111,6 +111,8 @@ static enum kd_status write_json(const struct kd_integral_answer *answer, bool c
         kd_json_end(&json);
     if (answer->request->what == KD_INTEGRAL_COMPARE)
         kd_integral_compare_write(&json, answer);
+    if (answer->request->what == KD_INTEGRAL_SETS)
+        kd_integral_sets_write(&json, answer);
     if (kd_integral_is_observed(answer->request->what))
         kd_integral_observation_write(&json, answer->request);
     write_units(&json, kind, answer->light);
@@ -278,7 +280,7 @@ static void add_parameters(struct kd_json *json, enum kd_integral what)
         if (!(f->of & 1u << what) || f->kind == KD_INTEGRAL_NUMBERS)
             continue;
         if (strchr(f->name, '.')) {
-            names[n] = what == KD_INTEGRAL_COMPARE ? "systematic" : f->name;
+            names[n] = kd_integral_is_compared(what) ? "systematic" : f->name;
             if (!n || strcmp(names[n - 1], names[n]))
                 raw(json, names[n], SYSTEMATIC), n++;
             continue;
@@ -294,11 +296,11 @@ static void add_parameters(struct kd_json *json, enum kd_integral what)
 
 void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_integral what)
 {
-    static const char *const members[] = { "integral",    "parameters", "values",         "columns",
-                                           "units",       "sources",    "approximations", "scene",
-                                           "observation", "chi2",       "chi2_finer",     "n",
-                                           "solved" };
+    static const char *const members[] = { "integral", "parameters",     "values", "columns",     "units",
+                                           "sources",  "approximations", "scene",  "observation", "n",
+                                           "chi2",     "chi2_finer",     "solved" };
     const size_t without = what == KD_INTEGRAL_COMPARE     ? 0
+                           : what == KD_INTEGRAL_SETS      ? 3
                            : what == KD_INTEGRAL_OBSERVE   ? 4
                            : kd_integral_is_pictured(what) ? 5
                                                            : 6;
@@ -320,6 +322,8 @@ void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_i
     if (what == KD_INTEGRAL_COMPARE)
         kd_integral_compare_schema(json);
     if (kd_integral_is_observed(what))
-        kd_integral_observation_schema(json, what == KD_INTEGRAL_COMPARE);
+        kd_integral_observation_schema(json, kd_integral_is_compared(what));
+    if (what == KD_INTEGRAL_SETS)
+        kd_integral_sets_schema(json);
     kd_schema_end_strict(json, members, n);
 }

@@ -110,6 +110,8 @@ WITH_SCENES = {"/v1/jobs", "/v1/playground", "/v1/visibility", "/v1/compare", "/
 def smaller_job(path, value):
     if path == "/v1/playground" or "playground" in value or "axes" in value:
         value.setdefault("scene", {})
+    if isinstance(value.get("sets"), list):
+        del value["sets"][2:]
     if path in ("/v1/visibility", "/v1/compare", "/v1/observe") or (
         path == "/v1/spectrum" and {"scene", "preset"} & value.keys()
     ):

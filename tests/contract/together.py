@@ -251,6 +251,8 @@ TOGETHER = [
         (
             "observation is not an asset of this server; it must be the SHA-256 of one",
             "solve has flux; products must have amplitude or visibility, because closures do not depend on the flux",
+            "check is finer; with sets it must be none",
+            "set %zu: %.400s",
             "solve has shift; products must have visibility, because amplitudes and closures do not depend on the position",
             "none of the %zu visibilities can be compared, and %zu of them have too short baselines: uv_min_gl or snr_cut must be lower",
             "there are %zu visibilities and %zu rows to compare; there must be at most %u of each; a larger average_s gives fewer",

@@ -199,6 +199,8 @@ class Answers(daemon.Case):
             },
         ):
             self.send("POST", "/v1/compare", "/v1/compare", {"observation": seen["sha256"], **document})
+        sets = {"preset": "m87", "pixels": 16, "observation": seen["sha256"], "sets": [{"spacetime.spin": 0.2}, {}]}
+        self.send("POST", "/v1/compare", "/v1/compare", sets)
         observed = {"preset": "riaf", "pixels": 16, "seed": 1, "observation": seen["sha256"]}
         self.send("POST", "/v1/observe", "/v1/observe", observed)
         answer = self.daemon.post("/v1/spectrum", {"preset": "riaf", "frequencies": 200, "pixels": 2048})

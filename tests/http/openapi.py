@@ -287,6 +287,10 @@ class OpenApi(daemon.Case):
                         {"solve": ["flux"], "products": ["closure_phase"]},
                         {"solve": ["shift"]},
                         {"scattering": "m87"},
+                        {"sets": []},
+                        {"sets": {"size": 1}},
+                        {"sets": [{"spacetime.spin": None}]},
+                        {"sets": [{"spacetime.spin": [0, 1]}]},
                         {"solve": ["size", "shift"], "products": ["visibility"], "average_s": 600, "check": "none"},
                     )
                 ),

@@ -697,6 +697,29 @@ class Integrals(daemon.Case):
                 problem = answer.json()
                 self.assertEqual((answer.status, problem.get("pointer")), (422, pointer), problem)
                 self.assertIn(words, problem["detail"])
+        sets = {**document, "sets": [{"spacetime.spin": 0.5}, {}, {"size": 1.5, "spacetime.spin": 0.5}]}
+        del sets["check"], sets["flux_jy"]
+        many = self.post("compare", sets).json()
+        self.assertEqual(len(many["columns"]["total"]), 3)
+        self.assertEqual((many["values"]["pictures"], many["columns"]["size"]), (2, [1, 1, 1.5]))
+        self.assertNotIn("chi2", many)
+        for change, pointer, words in (
+            ({"sets": []}, "/sets", "it must have 1 to 4096"),
+            ({"sets": [{}] * 4097}, "/sets", "it must have 1 to 4096"),
+            ({"sets": 1}, "/sets", "array of objects"),
+            ({"sets": [{}, 1]}, "/sets/1", "an object"),
+            ({"sets": [{}, {"spacetime.spin": 2}]}, "/sets/1", "spacetime.spin is 2"),
+            ({"sets": [{"spacetime.spin": {}}]}, "/sets/0", "a number, a word, true or false"),
+            ({"sets": [{"image.width": 9}]}, "/sets/0", "cannot be in a set"),
+            ({"sets": [{"disk.outer": 2}]}, "/sets/0", "disk.outer is 2 M"),
+            ({"sets": [{"size": 0}]}, "/sets/0", "0.001 to 1000"),
+            ({"sets": [{"size": 1}], "solve": ["size"]}, "/sets/0", "which would replace it"),
+            ({"sets": [{}], "check": "finer"}, "/check", "with sets it must be none"),
+        ):
+            with self.subTest(change):
+                problem = self.post("compare", {**sets, **change}).json()
+                self.assertEqual((problem["status"], problem.get("pointer")), (422, pointer), problem)
+                self.assertIn(words, problem["detail"])
         missing = self.post("compare", {"preset": "m87"}).json()
         self.assertEqual((missing["status"], missing["pointer"]), (422, "/observation"))
 

@@ -50,7 +50,8 @@ static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_er
     const unsigned n = kd_integral_pictures(&job->request), sizes = n < 2 || job->request.unchecked ? 1 : 2;
     struct kd_capacity capacity;
     double ms = 0;
-    *bytes = kd_integral_rows(&job->request) * BYTES_PER_ROW + 2 * job->request.file_size;
+    *bytes = kd_integral_rows(&job->request) * BYTES_PER_ROW + 2 * job->request.file_size +
+             (job->request.what == KD_INTEGRAL_SETS ? job->request.sets->n * sizeof *job->request.sets->at : 0);
     kd_render_queue_capacity(server->renders, &capacity);
     for (unsigned i = 0; i < sizes && n; i++) {
         struct kd_scene scene = kd_integral_scene(&job->request, i);
@@ -58,9 +59,10 @@ static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_er
         enum kd_status status = kd_integral_plan(&job->request, &scene, &capacity, &plan, error);
         if (status)
             return status;
-        ms += plan.estimate_ms * n / sizes + (double)plan.n_layers * plan.width * plan.height *
-                                                 (double)job->request.u.n * NS_A_PRODUCT * 1e-6 *
-                                                 (i ? 1 : kd_integral_evaluations(&job->request));
+        ms += plan.estimate_ms * n / sizes +
+              (double)plan.n_layers * plan.width * plan.height * (double)job->request.u.n * NS_A_PRODUCT * 1e-6 *
+                  (i ? 1 : kd_integral_evaluations(&job->request)) *
+                  (job->request.what == KD_INTEGRAL_SETS ? (double)job->request.sets->n : 1);
         *bytes += 4 * (1 + plan.n_layers) * (size_t)plan.width * plan.height;
     }
     if (ms > server->longest_s * 1e3)

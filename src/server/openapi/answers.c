@@ -30,7 +30,7 @@ static const struct {
     { "/v1/transfer-function", KD_POST, KD_SCHEMA_REF("TransferFunction") },
     { "/v1/spectrum", KD_POST, "{\"oneOf\":[" KD_SCHEMA_REF("DiskSpectrum") "," KD_SCHEMA_REF("VolumeSpectrum") "]}" },
     { "/v1/visibility", KD_POST, KD_SCHEMA_REF("Visibilities") },
-    { "/v1/compare", KD_POST, KD_SCHEMA_REF("Comparison") },
+    { "/v1/compare", KD_POST, "{\"oneOf\":[" KD_SCHEMA_REF("Comparison") "," KD_SCHEMA_REF("ComparisonOfSets") "]}" },
     { "/v1/observe", KD_POST, KD_SCHEMA_REF("Simulation") },
     { "/v1/jobs", KD_POST, KD_SCHEMA_REF("Job") },
     { "/v1/jobs/{id}", KD_GET, KD_SCHEMA_REF("Job") },

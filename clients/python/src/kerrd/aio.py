@@ -323,6 +323,20 @@ class AsyncClient:
         told: answers.Comparison = await self._run(calls.compare(document))
         return told
 
+    async def compare_sets(
+        self,
+        observation: str | bytes | os.PathLike[str],
+        sets: Sequence[Mapping[str, Any]],
+        scene: SceneLike = None,
+        **settings: Any,
+    ) -> answers.ComparisonOfSets:
+        """chi^2 of many parameter sets in one request: `columns` as arrays with a row for each set. A set has fields of
+        the scene by their paths, and "flux_jy", "size" and "position_angle_deg": compare_sets("m87.uvfits",
+        [{"spacetime.spin": 0.5}, {"spacetime.spin": 0.9}], preset="m87"). kerrd.fit fits by such requests."""
+        document = await self._observed(observation, scene, settings)
+        told: answers.ComparisonOfSets = await self._run(calls.compare_sets({**document, "sets": list(sets)}))
+        return told
+
     async def observe(
         self, observation: str | bytes | os.PathLike[str], scene: SceneLike = None, **settings: Any
     ) -> answers.Simulation:

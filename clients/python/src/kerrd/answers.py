@@ -611,6 +611,70 @@ class Comparison(TypedDict):
     observation: ComparisonObservation
 
 
+class ComparisonOfSetsParametersSystematic(TypedDict):
+    visibility: float
+    amplitude: float
+    closure_phase_deg: float
+
+
+class ComparisonOfSetsParameters(TypedDict):
+    products: list[str]
+    average_s: float
+    uv_min_gl: float
+    snr_cut: float
+    systematic: ComparisonOfSetsParametersSystematic
+    debias: str
+    closures: str
+    pulse: str
+    scattering: str
+    flux_jy: float | None
+    solve: list[str]
+    pixels: float
+    check: str
+
+
+class ComparisonOfSetsValues(TypedDict):
+    pictures: float | None
+    pixel_uas: float | None
+    width_uas: float | None
+    height_uas: float | None
+    nyquist_gl: float | None
+    edge_share: float | None
+    undefined: float | None
+
+
+class ComparisonOfSetsObservation(TypedDict):
+    source: str
+    mjd: float
+    frequency_ghz: float
+    stations: list[str]
+    visibilities: int
+    flagged: int
+    duplicates: int
+    averaged: int
+    too_short: int
+
+
+class ComparisonOfSetsN(TypedDict):
+    amplitude: int
+    closure_phase: int
+    log_closure_amplitude: int
+    visibility: int
+
+
+class ComparisonOfSets(TypedDict):
+    integral: Literal['compare']
+    parameters: ComparisonOfSetsParameters
+    values: ComparisonOfSetsValues
+    columns: Columns
+    units: dict[str, str]
+    sources: list[str]
+    approximations: list[str]
+    scene: dict[str, Any]
+    observation: ComparisonOfSetsObservation
+    n: ComparisonOfSetsN
+
+
 class SimulationParameters(TypedDict):
     pulse: str
     scattering: str

@@ -294,6 +294,10 @@ def compare(document: Document) -> Call[answers.Comparison]:
     return post("/v1/compare", document, _comparison, accept=JSON)
 
 
+def compare_sets(document: Document) -> Call[answers.ComparisonOfSets]:
+    return post("/v1/compare", document, _comparison, accept=JSON)
+
+
 def observe(document: Document) -> Call[answers.Simulation]:
     return post("/v1/observe", document, _comparison, accept=JSON)
 

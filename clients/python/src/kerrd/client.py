@@ -323,6 +323,20 @@ class Client:
         told: answers.Comparison = self._run(calls.compare(document))
         return told
 
+    def compare_sets(
+        self,
+        observation: str | bytes | os.PathLike[str],
+        sets: Sequence[Mapping[str, Any]],
+        scene: SceneLike = None,
+        **settings: Any,
+    ) -> answers.ComparisonOfSets:
+        """chi^2 of many parameter sets in one request: `columns` as arrays with a row for each set. A set has fields of
+        the scene by their paths, and "flux_jy", "size" and "position_angle_deg": compare_sets("m87.uvfits",
+        [{"spacetime.spin": 0.5}, {"spacetime.spin": 0.9}], preset="m87"). kerrd.fit fits by such requests."""
+        document = self._observed(observation, scene, settings)
+        told: answers.ComparisonOfSets = self._run(calls.compare_sets({**document, "sets": list(sets)}))
+        return told
+
     def observe(
         self, observation: str | bytes | os.PathLike[str], scene: SceneLike = None, **settings: Any
     ) -> answers.Simulation:
