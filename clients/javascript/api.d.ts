@@ -1326,10 +1326,7 @@ export interface SpectrumRequest {
   frequencies?: number;
   /** frequencies, instead of frequency_min_hz, frequency_max_hz and frequencies [Hz]; up to 20001. */
   frequencies_hz?: number[];
-  /**
-   * pixels along the longer side of a picture; default 128 for a spectrum, 256 for visibilities and a comparison;
-   * 16 to 2048.
-   */
+  /** pixels along the longer side of a picture; default 128 for a spectrum, 256 otherwise; 16 to 2048. */
   pixels?: number;
   /** estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none. */
   check?: 'finer' | 'none';
@@ -1443,10 +1440,7 @@ export interface VisibilityRequest {
   angles_deg?: number[];
   /** number of image orders, from order 0, whose visibilities are also given separately; 0 to 8. */
   orders?: number;
-  /**
-   * pixels along the longer side of a picture; default 128 for a spectrum, 256 for visibilities and a comparison;
-   * 16 to 2048.
-   */
+  /** pixels along the longer side of a picture; default 128 for a spectrum, 256 otherwise; 16 to 2048. */
   pixels?: number;
   /** estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none. */
   check?: 'finer' | 'none';
@@ -1515,8 +1509,13 @@ export interface CompareRequest {
   scene?: Scene;
   /** SHA-256 of an asset of the server: uvfits, or the EHT's CSV. */
   observation: string;
-  /** quantities that are compared. */
-  products?: ('amplitude' | 'closure_phase' | 'log_closure_amplitude')[];
+  /**
+   * parameter sets, each compared for its own chi^2: fields of the scene by their paths, such as spacetime.spin,
+   * and flux_jy, size and position_angle_deg; up to 4096.
+   */
+  sets?: (Record<string, number | string | boolean>)[];
+  /** quantities that are compared; visibility: real and imaginary parts, which need calibrated phases. */
+  products?: ('amplitude' | 'closure_phase' | 'log_closure_amplitude' | 'visibility')[];
   /**
    * length in seconds of the bins in which visibilities are averaged, counted from 1960-01-01; 0: no averaging
    * [s]; 0 to 86400.
@@ -1547,16 +1546,21 @@ export interface CompareRequest {
   /** shape of a pixel's light. */
   pulse?: 'triangle' | 'rectangle' | 'point';
   /**
-   * flux to which the whole map is scaled; auto: the scene's flux, or the best fit to the amplitudes if the
-   * scene's light has no frequency [Jy]; 1e-12 to 1e+12.
+   * interstellar scattering of the model: sgra: the average kernel towards Sagittarius A* at the observation's
+   * frequency.
+   */
+  scattering?: 'none' | 'sgra';
+  /**
+   * flux to which the whole map is scaled; auto: the scene's flux; if its light has no frequency, a comparison
+   * takes the best fit to the amplitudes [Jy]; 1e-12 to 1e+12.
    */
   flux_jy?: 'auto' | number;
-  /** quantities that are fitted for the smallest chi^2 of the amplitudes. */
-  solve?: 'flux'[];
   /**
-   * pixels along the longer side of a picture; default 128 for a spectrum, 256 for visibilities and a comparison;
-   * 16 to 2048.
+   * quantities that are fitted for the smallest chi^2 of all data: flux, angular size, position angle, and the
+   * position, which needs the product visibility.
    */
+  solve?: ('flux' | 'size' | 'position_angle' | 'shift')[];
+  /** pixels along the longer side of a picture; default 128 for a spectrum, 256 otherwise; 16 to 2048. */
   pixels?: number;
   /** estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none. */
   check?: 'finer' | 'none';
@@ -1577,6 +1581,7 @@ export interface Comparison {
     debias: string;
     closures: string;
     pulse: string;
+    scattering: string;
     flux_jy: number | null;
     solve: string[];
     pixels: number;
@@ -1599,9 +1604,17 @@ export interface Comparison {
     undefined: number | null;
     /** largest estimated error of the model's amplitudes, from a map 1.5 times as fine. */
     model_error: number | null;
+    /** factor by which the map is enlarged, at the same flux. */
+    size: number | null;
+    /** angle by which the map is rotated, from north to east. */
+    position_angle_deg: number | null;
+    /** shift of the map to the east. */
+    shift_east_uas: number | null;
+    /** to the north. */
+    shift_north_uas: number | null;
   };
   columns: {
-    /** amplitude, closure_phase or log_closure_amplitude. */
+    /** amplitude, closure_phase, log_closure_amplitude, visibility_re or visibility_im. */
     product: (string | null)[];
     /** UTC, hours since the start of the observation's mjd. */
     hour: (number | null)[];
@@ -1613,11 +1626,11 @@ export interface Comparison {
     station_3: (string | null)[];
     /** station of a quadrangle: the log closure amplitude is that of 12 34 / 14 23. */
     station_4: (string | null)[];
-    /** baseline of an amplitude, in units of 1e9 wavelengths. */
+    /** baseline of an amplitude or visibility, in units of 1e9 wavelengths. */
     u_gl: (number | null)[];
     /** the same. */
     v_gl: (number | null)[];
-    /** observed amplitude, closure phase or log closure amplitude. */
+    /** observed amplitude, closure phase, log closure amplitude or part of a visibility. */
     data: (number | null)[];
     /** error of the datum, with systematic errors. */
     error: (number | null)[];
@@ -1635,14 +1648,16 @@ export interface Comparison {
     amplitude: number | null;
     closure_phase: number | null;
     log_closure_amplitude: number | null;
+    visibility: number | null;
   };
   /** the same for a map 1.5 times as fine; null with check none. */
   chi2_finer: {
     amplitude: number | null;
     closure_phase: number | null;
     log_closure_amplitude: number | null;
+    visibility: number | null;
   };
-  /** number of data. */
+  /** number of data; two for each visibility. */
   n: {
     /** at least 0. */
     amplitude: number;
@@ -1650,7 +1665,18 @@ export interface Comparison {
     closure_phase: number;
     /** at least 0. */
     log_closure_amplitude: number;
+    /** at least 0. */
+    visibility: number;
   };
+  /**
+   * quantities that were fitted; converged is false if a search ended at its bounds or before its steps became
+   * small.
+   */
+  solved: {
+    name: string;
+    value: number | null;
+    converged: boolean;
+  }[];
   observation: {
     source: string;
     mjd: number;
@@ -1666,6 +1692,204 @@ export interface Comparison {
     averaged: number;
     /** at least 0. */
     too_short: number;
+  };
+}
+
+export interface ComparisonOfSets {
+  integral: 'compare';
+  parameters: {
+    products: string[];
+    average_s: number;
+    uv_min_gl: number;
+    snr_cut: number;
+    systematic: {
+      visibility: number;
+      amplitude: number;
+      closure_phase_deg: number;
+    };
+    debias: string;
+    closures: string;
+    pulse: string;
+    scattering: string;
+    flux_jy: number | null;
+    solve: string[];
+    pixels: number;
+    check: string;
+  };
+  values: {
+    /** number of different scenes, each rendered once. */
+    pictures: number | null;
+    /** distance from one pixel to the next, in the last picture. */
+    pixel_uas: number | null;
+    /** of the last map. */
+    width_uas: number | null;
+    /** of the last map. */
+    height_uas: number | null;
+    /** longest baseline that the width of its pixels resolves. */
+    nyquist_gl: number | null;
+    /**
+     * flux of a sky as bright as a map's border over the whole map, as a share of the map's flux; the largest of
+     * all maps.
+     */
+    edge_share: number | null;
+    /** number of pixels whose light is not a number, in all pictures; they count as dark. */
+    undefined: number | null;
+  };
+  columns: {
+    /** chi^2 of the amplitudes over their number; null without data, or if the picture is dark. */
+    chi2_amplitude: (number | null)[];
+    /** the same of the closure phases. */
+    chi2_closure_phase: (number | null)[];
+    /** the same of the log closure amplitudes. */
+    chi2_log_closure_amplitude: (number | null)[];
+    /** the same of the visibilities. */
+    chi2_visibility: (number | null)[];
+    /** chi^2 summed over all data; null if the picture is dark. */
+    total: (number | null)[];
+    /** flux of the compared map; null if nothing determines it. */
+    flux_jy: (number | null)[];
+    /** factor by which the map is enlarged, at the same flux. */
+    size: (number | null)[];
+    /** angle by which the map is rotated, from north to east. */
+    position_angle_deg: (number | null)[];
+    /** shift of the map to the east. */
+    shift_east_uas: (number | null)[];
+    /** to the north. */
+    shift_north_uas: (number | null)[];
+    /** 1: all searches converged; 0: one did not, or the picture is dark. */
+    converged: (number | null)[];
+  };
+  units: Record<string, string>;
+  sources: string[];
+  approximations: string[];
+  scene: Scene;
+  observation: {
+    source: string;
+    mjd: number;
+    frequency_ghz: number;
+    stations: string[];
+    /** at least 0. */
+    visibilities: number;
+    /** at least 0. */
+    flagged: number;
+    /** at least 0. */
+    duplicates: number;
+    /** at least 0. */
+    averaged: number;
+    /** at least 0. */
+    too_short: number;
+  };
+  /** number of data; two for each visibility. */
+  n: {
+    /** at least 0. */
+    amplitude: number;
+    /** at least 0. */
+    closure_phase: number;
+    /** at least 0. */
+    log_closure_amplitude: number;
+    /** at least 0. */
+    visibility: number;
+  };
+}
+
+export interface ObserveRequest {
+  /** preset to which the scene is merged. */
+  preset?:
+    | 'smooth' | 'schwarzschild' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on' | 'face-on' | 'photon-rings'
+    | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk' | 'star-behind' | 'companions'
+    | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4'
+    | 'gold-5' | 'riaf' | 'torus';
+  scene?: Scene;
+  /** SHA-256 of an asset of the server: uvfits, or the EHT's CSV. */
+  observation: string;
+  /** shape of a pixel's light. */
+  pulse?: 'triangle' | 'rectangle' | 'point';
+  /**
+   * interstellar scattering of the model: sgra: the average kernel towards Sagittarius A* at the observation's
+   * frequency.
+   */
+  scattering?: 'none' | 'sgra';
+  /**
+   * flux to which the whole map is scaled; auto: the scene's flux; if its light has no frequency, a comparison
+   * takes the best fit to the amplitudes [Jy]; 1e-12 to 1e+12.
+   */
+  flux_jy?: 'auto' | number;
+  /** yes: Gaussian noise with the errors of the observation; no: none. */
+  noise?: 'yes' | 'no';
+  /** seed of the noise; 0 to 4294967295. */
+  seed?: number;
+  /** pixels along the longer side of a picture; default 128 for a spectrum, 256 otherwise; 16 to 2048. */
+  pixels?: number;
+  /** estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none. */
+  check?: 'finer' | 'none';
+}
+
+export interface Simulation {
+  integral: 'observe';
+  parameters: {
+    pulse: string;
+    scattering: string;
+    flux_jy: number | null;
+    noise: string;
+    seed: number;
+    pixels: number;
+    check: string;
+  };
+  values: {
+    /** flux of the whole map. */
+    flux_jy: number | null;
+    /** distance from one pixel to the next. */
+    pixel_uas: number | null;
+    /** of the map. */
+    width_uas: number | null;
+    /** of the map. */
+    height_uas: number | null;
+    /** longest baseline that the width of the pixels resolves. */
+    nyquist_gl: number | null;
+    /** flux of a sky as bright as the map's border over the whole map, as a share of the map's flux. */
+    edge_share: number | null;
+    /** number of pixels whose light is not a number; they count as dark. */
+    undefined: number | null;
+    /** largest estimated error of the model, from a map 1.5 times as fine. */
+    model_error: number | null;
+  };
+  columns: {
+    /** UTC, hours since the start of the observation's mjd. */
+    hour: (number | null)[];
+    /** station of the baseline. */
+    station_1: (string | null)[];
+    /** the same. */
+    station_2: (string | null)[];
+    /** baseline to the east, in units of 1e9 wavelengths. */
+    u_gl: (number | null)[];
+    /** to the north. */
+    v_gl: (number | null)[];
+    /** real part of the simulated visibility. */
+    re: (number | null)[];
+    /** imaginary part. */
+    im: (number | null)[];
+    /** error of each part, as in the observation. */
+    sigma: (number | null)[];
+    /** real part without noise. */
+    model_re: (number | null)[];
+    /** imaginary part without noise. */
+    model_im: (number | null)[];
+  };
+  units: Record<string, string>;
+  sources: string[];
+  approximations: string[];
+  scene: Scene;
+  observation: {
+    source: string;
+    mjd: number;
+    frequency_ghz: number;
+    stations: string[];
+    /** at least 0. */
+    visibilities: number;
+    /** at least 0. */
+    flagged: number;
+    /** at least 0. */
+    duplicates: number;
   };
 }
 
@@ -6001,6 +6225,7 @@ export interface Operations {
       'application/json': LineProfile;
       'text/csv': string;
       'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
     };
   };
   /** Cunningham's transfer function f(g*, r) of a thin disk, near and far side. */
@@ -6013,6 +6238,7 @@ export interface Operations {
       'application/json': TransferFunction;
       'text/csv': string;
       'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
     };
   };
   /** The spectrum of a thin disk of black bodies, or of a scene's volume, in SI units. */
@@ -6025,6 +6251,7 @@ export interface Operations {
       'application/json': DiskSpectrum | VolumeSpectrum;
       'text/csv': string;
       'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
     };
   };
   /**
@@ -6039,6 +6266,7 @@ export interface Operations {
       'application/json': Visibilities;
       'text/csv': string;
       'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
     };
   };
   /**
@@ -6051,9 +6279,24 @@ export interface Operations {
       type?: 'application/json';
     };
     gives: {
-      'application/json': Comparison;
+      'application/json': Comparison | ComparisonOfSets;
       'text/csv': string;
       'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
+    };
+  };
+  /** Visibilities of a scene as the array of an observation would have measured them, with its noise. */
+  'POST /v1/observe': {
+    takes: {
+      body: ObserveRequest;
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': Simulation;
+      'text/csv': string;
+      'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
+      'application/x-uvfits': Uint8Array;
     };
   };
   /** Opens a live session of a scene; the answer has its id and the token for changes. */

@@ -130,6 +130,8 @@ TOLD = (
     "VolumeSpectrum",
     "Visibilities",
     "Comparison",
+    "ComparisonOfSets",
+    "Simulation",
     "PresetTold",
     "Device",
     "Session",

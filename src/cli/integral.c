@@ -1,5 +1,5 @@
-/* kerrd line, transfer-function, spectrum, visibility and compare: integrals over a thin disk or over pictures of a
- * scene. */
+/* kerrd line, transfer-function, spectrum, visibility, compare and observe: integrals over a thin disk or over pictures
+ * of a scene. */
 #include "cli/cli.h"
 #include "cli/ending.h"
 #include "cli/file.h"
@@ -44,8 +44,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'o': arguments->output = text; return 0;
     case KEY_OBSERVATION: arguments->observation = text; return 0;
     case 'f':
-        if (strcmp(text, "json") && strcmp(text, "csv") && strcmp(text, "npy"))
-            argp_error(state, "--format is %s; it must be json, csv or npy", text);
+        if (strcmp(text, "json") && strcmp(text, "csv") && strcmp(text, "npy") && strcmp(text, "npz") &&
+            (strcmp(text, "uvfits") || arguments->what != KD_INTEGRAL_OBSERVE))
+            argp_error(state, "--format is %s; it must be %s", text,
+                       arguments->what == KD_INTEGRAL_OBSERVE ? "json, csv, npy, npz or uvfits"
+                                                              : "json, csv, npy or npz");
         arguments->format = text;
         return 0;
     case ARGP_KEY_ARG:
@@ -55,7 +58,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case ARGP_KEY_END:
         if (!arguments->format)
-            arguments->format = kd_cli_ending(state, "--output", arguments->output, KD_ENDINGS("json", "csv", "npy"));
+            arguments->format =
+                arguments->what == KD_INTEGRAL_OBSERVE
+                    ? kd_cli_ending(state, "--output", arguments->output,
+                                    KD_ENDINGS("json", "csv", "npy", "npz", "uvfits"))
+                    : kd_cli_ending(state, "--output", arguments->output, KD_ENDINGS("json", "csv", "npy", "npz"));
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -64,7 +71,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static enum kd_integral_format format_of(const struct arguments *arguments)
 {
     const char *format = arguments->format;
-    return !strcmp(format, "npy") ? KD_INTEGRAL_NPY : !strcmp(format, "csv") ? KD_INTEGRAL_CSV : KD_INTEGRAL_JSON;
+    return !strcmp(format, "npy")      ? KD_INTEGRAL_NPY
+           : !strcmp(format, "npz")    ? KD_INTEGRAL_NPZ
+           : !strcmp(format, "csv")    ? KD_INTEGRAL_CSV
+           : !strcmp(format, "uvfits") ? KD_INTEGRAL_UVFITS
+                                       : KD_INTEGRAL_JSON;
 }
 
 static enum kd_status read_file(const struct arguments *arguments, struct kd_integral_request *request,
@@ -188,6 +199,8 @@ static enum kd_status answer_text(struct arguments *arguments, struct kd_buffer 
     enum kd_status status;
     kd_integral_request_init(&request, arguments->what);
     KD_TRY(load(arguments, &request, error));
+    if (format_of(arguments) == KD_INTEGRAL_UVFITS && !request.file)
+        KD_TRY(kd_error_field(error, "/observation", KD_INTEGRAL_NO_UVFITS));
     KD_TRY(kd_integral_run_begin(&work.run, &request, error));
     if (work.run.pictures)
         KD_TRY(make_pictures(&work, arguments, &request, error));
@@ -204,14 +217,24 @@ static void set_options(enum kd_integral what, struct argp_option *options, char
                         char helps[FIELDS_MAX][240], char values[FIELDS_MAX][40])
 {
     size_t n = 0;
-    options[n++] =
-        (struct argp_option) { "output", 'o', "FILE", 0, "output file; .csv and .npy choose those formats", 2 };
-    options[n++] =
-        (struct argp_option) { "format", 'f', "json|csv|npy", 0, "format of the output, independent of its name", 2 };
-    if (what == KD_INTEGRAL_COMPARE)
-        options[n++] = (struct argp_option) {
-            "observation", KEY_OBSERVATION, "FILE", 0, "observation to compare with: uvfits, or the EHT's CSV", 1
-        };
+    options[n++] = (struct argp_option) { "output", 'o', "FILE", 0, "output file; its ending chooses the format", 2 };
+    options[n++] = (struct argp_option) { "format",
+                                          'f',
+                                          what == KD_INTEGRAL_OBSERVE ? "json|csv|npy|npz|uvfits" : "json|csv|npy|npz",
+                                          0,
+                                          "format of the output, independent of its name",
+                                          2 };
+    if (kd_integral_is_observed(what))
+        options[n++] =
+            (struct argp_option) { "observation",
+                                   KEY_OBSERVATION,
+                                   "FILE",
+                                   0,
+                                   what == KD_INTEGRAL_COMPARE
+                                       ? "observation to compare with: uvfits, or the EHT's CSV"
+                                       : "observation whose times, baselines and errors are used: uvfits, or the EHT's "
+                                         "CSV",
+                                   1 };
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_integral_field *f = &kd_integral_fields[i];
         if (!(f->of & (1u << what | (what == KD_INTEGRAL_SPECTRUM ? 1u << KD_INTEGRAL_VOLUME : 0))))
@@ -268,7 +291,7 @@ static int run(enum kd_integral what, const struct argp *argp, int argc, char **
 
     argp_parse(argp, argc, argv, 0, NULL, &arguments);
     bool print = !arguments.output || !strcmp(arguments.output, "-");
-    enum kd_status status = !print || format_of(&arguments) == KD_INTEGRAL_NPY
+    enum kd_status status = !print || format_of(&arguments) >= KD_INTEGRAL_NPY
                                 ? kd_file_check(print ? "-" : arguments.output, &error)
                                 : KD_OK;
     if (!status)
@@ -314,6 +337,13 @@ const struct argp *kd_cli_compare_argp(void)
     return make_argp(KD_INTEGRAL_COMPARE, &table);
 }
 int kd_cli_compare(int argc, char **argv) { return run(KD_INTEGRAL_COMPARE, kd_cli_compare_argp(), argc, argv); }
+
+const struct argp *kd_cli_observe_argp(void)
+{
+    static struct table table;
+    return make_argp(KD_INTEGRAL_OBSERVE, &table);
+}
+int kd_cli_observe(int argc, char **argv) { return run(KD_INTEGRAL_OBSERVE, kd_cli_observe_argp(), argc, argv); }
 
 const struct argp *kd_cli_spectrum_argp(void)
 {

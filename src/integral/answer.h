@@ -4,9 +4,10 @@
 
 #include "base/buffer.h"
 #include "integral/request.h"
+#include "integral/sets.h"
 #include "render/plan/plan.h"
 
-enum { KD_INTEGRAL_COLUMNS = 12, KD_INTEGRAL_VALUES = 8 };
+enum { KD_INTEGRAL_COLUMNS = 12, KD_INTEGRAL_VALUES = 12 };
 
 /* Contents of an integral's answer, besides its parameters. */
 struct kd_integral_column {
@@ -24,9 +25,11 @@ const struct kd_integral_kind_of *kd_integral_kind_of(enum kd_integral what);
 struct kd_integral_answer {
     const struct kd_integral_request *request;
     double values[KD_INTEGRAL_VALUES];
-    double map_jy;               /* flux of the last map, computed from its scene; NaN: the scene's light has no
-                                  * frequency */
-    double chi2[2][KD_PRODUCTS]; /* of a comparison: for the map, and for the finer one */
+    double map_jy;                     /* flux of the last map, computed from its scene; NaN: the scene's light has no
+                                        * frequency */
+    struct kd_alignment solved;        /* of a comparison */
+    const struct kd_integral_set *set; /* of a comparison of sets: the current one; otherwise NULL */
+    double chi2[2][KD_PRODUCTS];       /* of a comparison: for the map, and for the finer one */
     size_t rows;
     double *columns[KD_INTEGRAL_COLUMNS]; /* each of length `rows`; a single allocation, columns[0] */
     const char *light;                    /* unit of columns that are light */
@@ -47,8 +50,10 @@ const char *kd_integral_word(const struct kd_integral_answer *answer, size_t col
 void kd_integral_answer_finish(struct kd_integral_answer *answer);
 
 /* JSON: {"integral", "scene" if it has one, "parameters", "values", "columns", "units", "sources",
- * "approximations"}. CSV: a line of names, then the rows. NPY: one record a row. */
-enum kd_integral_format { KD_INTEGRAL_JSON, KD_INTEGRAL_CSV, KD_INTEGRAL_NPY };
+ * "approximations"}. CSV: a line of names, then the rows; of a simulated observation the EHT's CSV. NPY: one record a
+ * row. NPZ: an array for each column, and answer.json, the rest of the JSON. UVFITS: of a simulated observation whose
+ * request has a uvfits file. */
+enum kd_integral_format { KD_INTEGRAL_JSON, KD_INTEGRAL_CSV, KD_INTEGRAL_NPY, KD_INTEGRAL_NPZ, KD_INTEGRAL_UVFITS };
 enum kd_status kd_integral_write(const struct kd_integral_answer *answer, enum kd_integral_format format,
                                  struct kd_buffer *out);
 

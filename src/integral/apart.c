@@ -20,6 +20,8 @@
 #define OF_A_VOLUME \
     "{\"minimum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_LEAST_HZ) ",\"maximum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_MOST_HZ) "}"
 
+#define SOLVES(what) "\"solve\":{\"type\":\"array\",\"contains\":{\"const\":\"" what "\"}}"
+
 /* clang-format off */
 static const char line[] = "{\"anyOf\":["
     BOTH("edges", "energy_min") "," BOTH("edges", "energy_max") "," BOTH("edges", "bins") ","
@@ -42,8 +44,12 @@ static const char visibility[] = "{\"anyOf\":["
     ALONE("u") HAS("v") "]}}," ALONE("v") HAS("u") "]}},"
     "{\"required\":[\"u\"],\"anyOf\":[" HAS("lengths") "," HAS("length_max") ","
         HAS("baselines") "," HAS("angles_deg") "]}]}";
-static const char compare[] = "{\"required\":[\"solve\",\"flux_jy\"],\"properties\":{\"solve\":{\"minItems\":1},"
-    "\"flux_jy\":{\"type\":\"number\"}}}";
+static const char compare[] = "{\"anyOf\":["
+    "{\"required\":[\"solve\",\"flux_jy\"],\"properties\":{" SOLVES("flux") ",\"flux_jy\":{\"type\":\"number\"}}},"
+    "{\"required\":[\"solve\",\"products\"],\"properties\":{" SOLVES("flux") ",\"products\":{\"type\":\"array\","
+        "\"not\":{\"contains\":{\"enum\":[\"amplitude\",\"visibility\"]}}}}},"
+    "{\"required\":[\"solve\"],\"properties\":{" SOLVES("shift") "},\"not\":{\"required\":[\"products\"],"
+        "\"properties\":{\"products\":{\"contains\":{\"const\":\"visibility\"}}}}}]}";
 /* clang-format on */
 
 const char *kd_integral_apart(enum kd_integral what)

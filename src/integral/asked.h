@@ -2,7 +2,7 @@
 #ifndef KD_INTEGRAL_ASKED_H
 #define KD_INTEGRAL_ASKED_H
 
-#include "observe/comparison.h"
+#include "observe/align.h"
 #include "physics/disk/line_profile.h"
 #include "scene/asset.h"
 #include "scene/scene.h"
@@ -11,8 +11,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* SPECTRUM becomes VOLUME when a scene is given. VOLUME and the kinds after it are made of pictures
- * (integral/run.h). */
+/* SPECTRUM becomes VOLUME when a scene is given, and COMPARE becomes SETS when sets are given. VOLUME and the kinds
+ * after it are made of pictures (integral/run.h). */
 enum kd_integral {
     KD_INTEGRAL_LINE,
     KD_INTEGRAL_TRANSFER,
@@ -20,6 +20,8 @@ enum kd_integral {
     KD_INTEGRAL_VOLUME,
     KD_INTEGRAL_VISIBILITY,
     KD_INTEGRAL_COMPARE,
+    KD_INTEGRAL_SETS,
+    KD_INTEGRAL_OBSERVE,
     KD_INTEGRALS
 };
 
@@ -55,21 +57,48 @@ struct kd_integral_request {
         angles_deg;
     double length_max; /* NaN: half of what the pixels resolve */
     uint32_t baselines, orders;
-    struct kd_observation *observation; /* for a comparison: malloc'd; NULL: none given */
+    struct kd_observation *observation; /* for a comparison or a simulation: malloc'd; NULL: none given */
+    /* For a simulation from a uvfits file: its bytes, malloc'd, which the run fills with simulated visibilities. */
+    uint8_t *file;
+    size_t file_size;
+    uint32_t seed;
+    int noiseless;
     /* malloc'd once a comparison's request has been checked. Its models are filled in by the run; its visibilities
      * are u and v. */
     struct kd_comparison *comparison;
+    struct kd_integral_sets *sets; /* integral/sets.h: malloc'd; NULL: none given */
     double average_s, snr_cut, uv_min_gl, systematic_visibility, systematic_amplitude, systematic_closure_phase_deg;
     int measured, maximal;
     enum kd_pixel_shape pulse;
+    int scattering;           /* 1: towards Sgr A*, observe/scattering.h */
     double flux_jy;           /* NaN: the scene's own flux, or the best fit if the scene has none */
-    uint32_t products, solve; /* bit masks: products of enum kd_product; solve 1: fit the flux */
+    uint32_t products, solve; /* bit masks: products of enum kd_product; solve: KD_ALIGN_... */
     uint64_t seen;            /* bit mask of the fields that were given */
 };
 
 /* The first is true if the integral needs pictures, the second if these are maps of light to be Fourier-transformed. */
 static inline bool kd_integral_is_pictured(enum kd_integral what) { return what >= KD_INTEGRAL_VOLUME; }
 static inline bool kd_integral_is_mapped(enum kd_integral what) { return what >= KD_INTEGRAL_VISIBILITY; }
+
+/* Whether the maps are transformed at the baselines of an observation. */
+static inline bool kd_integral_is_observed(enum kd_integral what) { return what >= KD_INTEGRAL_COMPARE; }
+
+static inline bool kd_integral_is_compared(enum kd_integral what)
+{
+    return what == KD_INTEGRAL_COMPARE || what == KD_INTEGRAL_SETS;
+}
+
+/* Whether a comparison searches for a size, an orientation or a position. */
+static inline bool kd_integral_is_searched(const struct kd_integral_request *r)
+{
+    return kd_integral_is_compared(r->what) && r->solve & ~(uint32_t)KD_ALIGN_FLUX;
+}
+
+/* Number of transforms of the first map, at most. A shift's grid counts as one more. */
+static inline double kd_integral_evaluations(const struct kd_integral_request *r)
+{
+    return kd_integral_is_searched(r) ? kd_align_evaluations(r->solve) * (r->solve & KD_ALIGN_SHIFT ? 2. : 1.) : 1;
+}
 
 /* A field of requests, for the reader, the schema and the options. */
 enum kd_integral_kind { KD_INTEGRAL_REAL, KD_INTEGRAL_INT, KD_INTEGRAL_WORD, KD_INTEGRAL_WORDS, KD_INTEGRAL_NUMBERS };

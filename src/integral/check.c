@@ -1,6 +1,7 @@
 /* Checks the rules between fields of a request, and fills in fields that follow from others. */
 #include "integral/internal.h"
 #include "integral/request.h"
+#include "integral/sets.h"
 
 #include "physics/disk/thin_disk.h"
 #include "physics/math/constants.h"
@@ -218,6 +219,8 @@ size_t kd_integral_rows(const struct kd_integral_request *r)
     case KD_INTEGRAL_TRANSFER: return (size_t)r->rings * r->g_stars;
     case KD_INTEGRAL_VISIBILITY: return r->u.n * (1 + r->orders);
     case KD_INTEGRAL_COMPARE: return r->comparison->rows;
+    case KD_INTEGRAL_SETS: return r->sets->n;
+    case KD_INTEGRAL_OBSERVE: return r->observation->n;
     case KD_INTEGRAL_SPECTRUM:
     case KD_INTEGRAL_VOLUME:
     case KD_INTEGRALS: break;
@@ -239,7 +242,9 @@ enum kd_status kd_integral_request_check(struct kd_integral_request *r, struct k
     case KD_INTEGRAL_SPECTRUM: KD_TRY(check_frequencies(r, error)); break;
     case KD_INTEGRAL_VOLUME: KD_TRY(kd_integral_check_volume(r, error)); break;
     case KD_INTEGRAL_VISIBILITY: KD_TRY(kd_integral_check_visibility(r, error)); break;
-    case KD_INTEGRAL_COMPARE: KD_TRY(kd_integral_check_compare(r, error)); break;
+    case KD_INTEGRAL_COMPARE:
+    case KD_INTEGRAL_SETS: KD_TRY(kd_integral_check_compare(r, error)); break;
+    case KD_INTEGRAL_OBSERVE: KD_TRY(kd_integral_check_observe(r, error)); break;
     case KD_INTEGRALS: break;
     }
 done:

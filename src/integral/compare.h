@@ -1,4 +1,4 @@
-/* Compares a scene with an observation, as an integral. Private to this module. */
+/* Compares a scene with an observation, or simulates one, as an integral. Private to this module. */
 #ifndef KD_INTEGRAL_COMPARE_H
 #define KD_INTEGRAL_COMPARE_H
 
@@ -12,5 +12,20 @@ void kd_integral_compare_judge(struct kd_integral_answer *answer, double (*model
 /* Write the members of an answer that only comparisons have, and their schemas. */
 void kd_integral_compare_write(struct kd_json *json, const struct kd_integral_answer *answer);
 void kd_integral_compare_schema(struct kd_json *json);
+/* For one set of a comparison: takes the model's visibilities, NULL if the picture is dark, and fills its row. */
+void kd_integral_sets_judge(struct kd_integral_answer *answer, double (*model)[2]);
+void kd_integral_sets_write(struct kd_json *json, const struct kd_integral_answer *answer);
+void kd_integral_sets_schema(struct kd_json *json);
+/* The member about the observation, of comparisons and simulations. */
+void kd_integral_observation_write(struct kd_json *json, const struct kd_integral_request *request);
+void kd_integral_observation_schema(struct kd_json *json, bool compared);
+
+/* observe.c: takes the model's visibilities, and fills the columns of a simulation. For a finer map it fills only the
+ * error. */
+void kd_integral_observe_lay_out(struct kd_integral_answer *answer);
+void kd_integral_observe_take(struct kd_integral_answer *answer, uint8_t *marks, double (*model)[2],
+                              double (*simulated)[2], bool finer);
+/* Writes the observation in its own formats: the EHT's CSV, or uvfits. */
+enum kd_status kd_integral_observe_csv(const struct kd_integral_answer *answer, struct kd_buffer *out);
 
 #endif

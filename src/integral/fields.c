@@ -2,6 +2,7 @@
 #include "base/schema.h"
 #include "integral/apart.h"
 #include "integral/request.h"
+#include "integral/sets.h"
 #include "physics/disk/disk_image.h"
 
 #include <math.h>
@@ -14,7 +15,8 @@
 #define SPECTRUM (1u << KD_INTEGRAL_SPECTRUM)
 #define VOLUME (1u << KD_INTEGRAL_VOLUME)
 #define VISIBILITY (1u << KD_INTEGRAL_VISIBILITY)
-#define COMPARE (1u << KD_INTEGRAL_COMPARE)
+#define COMPARE (1u << KD_INTEGRAL_COMPARE | 1u << KD_INTEGRAL_SETS)
+#define OBSERVE (1u << KD_INTEGRAL_OBSERVE)
 #define ALL (LINE | TRANSFER | SPECTRUM)
 #define REAL(name, unit, least, most, of, help) \
     { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, NULL, of, false }
@@ -94,7 +96,8 @@ const struct kd_integral_field kd_integral_fields[] = {
       KD_INTEGRAL_NUMBERS, AT(angles_deg), -360, 360, false, NULL, VISIBILITY, false },
     INT(orders, 0, KD_INTEGRAL_ORDERS, VISIBILITY,
         "number of image orders, from order 0, whose visibilities are also given separately"),
-    WORDS(products, "amplitude|closure_phase|log_closure_amplitude", 1, COMPARE, "quantities that are compared"),
+    WORDS(products, "amplitude|closure_phase|log_closure_amplitude|visibility", 1, COMPARE,
+          "quantities that are compared; visibility: real and imaginary parts, which need calibrated phases"),
     REAL(average_s, "s", 0, 86400, COMPARE,
          "length in seconds of the bins in which visibilities are averaged, counted from 1960-01-01; 0: no averaging"),
     REAL(uv_min_gl, "Gl", 0, 1e6, COMPARE,
@@ -111,23 +114,32 @@ const struct kd_integral_field kd_integral_fields[] = {
          "yes: amplitudes are sqrt(|V|^2 - sigma^2), also in closures; no: as measured"),
     WORD(closures, maximal, "minimal|maximal", COMPARE,
          "minimal: independent triangles and quadrangles with the first station; maximal: all"),
-    WORD(pulse, pulse, "triangle|rectangle|point", COMPARE, "shape of a pixel's light"),
+    WORD(pulse, pulse, "triangle|rectangle|point", COMPARE | OBSERVE, "shape of a pixel's light"),
+    WORD(scattering, scattering, "none|sgra", COMPARE | OBSERVE,
+         "interstellar scattering of the model: sgra: the average kernel towards Sagittarius A* at the observation's "
+         "frequency"),
     { "flux_jy", "Jy",
-      "flux to which the whole map is scaled; auto: the scene's flux, or the best fit to the amplitudes if the scene's "
-      "light has no frequency",
-      KD_INTEGRAL_REAL, AT(flux_jy), 1e-12, 1e12, false, "auto", COMPARE, true },
-    WORDS(solve, "flux", 0, COMPARE, "quantities that are fitted for the smallest chi^2 of the amplitudes"),
-    INT(pixels, 16, 2048, VOLUME | VISIBILITY | COMPARE,
-        "pixels along the longer side of a picture; default 128 for a spectrum, 256 for visibilities and a comparison"),
-    WORD(check, unchecked, "finer|none", VOLUME | VISIBILITY | COMPARE,
+      "flux to which the whole map is scaled; auto: the scene's flux; if its light has no frequency, a comparison "
+      "takes "
+      "the best fit to the amplitudes",
+      KD_INTEGRAL_REAL, AT(flux_jy), 1e-12, 1e12, false, "auto", COMPARE | OBSERVE, true },
+    WORDS(solve, "flux|size|position_angle|shift", 0, COMPARE,
+          "quantities that are fitted for the smallest chi^2 of all data: flux, angular size, position angle, and the "
+          "position, which needs the product visibility"),
+    WORD(noise, noiseless, "yes|no", OBSERVE, "yes: Gaussian noise with the errors of the observation; no: none"),
+    INT(seed, 0, 4294967295, OBSERVE, "seed of the noise"),
+    INT(pixels, 16, 2048, VOLUME | VISIBILITY | COMPARE | OBSERVE,
+        "pixels along the longer side of a picture; default 128 for a spectrum, 256 otherwise"),
+    WORD(check, unchecked, "finer|none", VOLUME | VISIBILITY | COMPARE | OBSERVE,
          "estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none"),
 };
+_Static_assert(sizeof kd_integral_fields / sizeof *kd_integral_fields <= 64, "a request has a bit for each field");
 const size_t kd_n_integral_fields = sizeof kd_integral_fields / sizeof *kd_integral_fields;
 
 const char *kd_integral_name(enum kd_integral what)
 {
-    static const char *const names[KD_INTEGRALS] = { "line",     "transfer-function", "spectrum",
-                                                     "spectrum", "visibility",        "compare" };
+    static const char *const names[KD_INTEGRALS] = { "line",       "transfer-function", "spectrum", "spectrum",
+                                                     "visibility", "compare",           "compare",  "observe" };
     return names[what];
 }
 
@@ -166,7 +178,7 @@ void kd_integral_request_init(struct kd_integral_request *request, enum kd_integ
         .frequencies = what == KD_INTEGRAL_VOLUME ? 13 : 200,
         .length_max = NAN,
         .baselines = 200,
-        .products = (1u << KD_PRODUCTS) - 1,
+        .products = (1u << KD_PRODUCT_VISIBILITY) - 1,
         .uv_min_gl = 0.1,
         .flux_jy = NAN,
     };
@@ -304,6 +316,16 @@ static void add_field(struct kd_json *json, const struct kd_integral_field *f, e
     kd_json_end(json);
 }
 
+#define SETS_SCHEMA \
+    "{\"type\":\"array\",\"minItems\":1,\"maxItems\":" KD_SCHEMA_DIGITS( \
+        KD_INTEGRAL_SETS_MOST) ",\"description\":\"" \
+                               "parameter sets, each compared for its own chi^2: fields of the scene by their paths, " \
+                               "such as spacetime.spin, and " \
+                               "flux_jy, size and " \
+                               "position_angle_deg\",\"items\":{\"type\":\"object\",\"additionalProperties\":{" \
+                               "\"type\":[" \
+                               "\"number\",\"string\",\"boolean\"]}}}"
+
 static const char *preset_name(size_t i) { return i < kd_scene_preset_count() ? kd_scene_preset_name(i) : NULL; }
 
 static void add_presets(struct kd_json *json)
@@ -340,14 +362,16 @@ void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_
     kd_json_string(json, "type", "object");
     kd_json_bool(json, "additionalProperties", false);
     kd_json_object(json, "properties");
-    if (of & (VOLUME | VISIBILITY | COMPARE)) {
+    if (of & (VOLUME | VISIBILITY | COMPARE | OBSERVE)) {
         add_presets(json);
         kd_json_raw(json, "scene", scene, sizeof scene - 1);
     }
-    if (of & COMPARE)
+    if (of & (COMPARE | OBSERVE))
         kd_schema_text(json, "observation",
                        "{\"type\":\"string\",\"minLength\":1,\"maxLength\":64,\"description\":\"SHA-256 of an asset "
                        "of the server: uvfits, or the EHT's CSV\"}");
+    if (what == KD_INTEGRAL_COMPARE)
+        kd_schema_text(json, "sets", SETS_SCHEMA);
     bool inside = false; /* whether the object of fields with dotted names is open; such fields are adjacent */
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_integral_field *f = &kd_integral_fields[i];
@@ -360,7 +384,7 @@ void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_
     kd_json_end(json);
     if (kd_integral_apart(what))
         kd_schema_text(json, "not", kd_integral_apart(what));
-    if (of & COMPARE)
+    if (of & (COMPARE | OBSERVE))
         kd_schema_text(json, "required", "[\"observation\"]");
     kd_json_end(json);
 }

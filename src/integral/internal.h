@@ -37,11 +37,15 @@ enum kd_status kd_integral_check_visibility(struct kd_integral_request *request,
 
 /* compare.c */
 bool kd_integral_is_observation(const struct kd_integral_request *request,
-                                const char *name); /* true for its members in a comparison */
+                                const char *name); /* true for its members in a comparison or a simulation */
 enum kd_status kd_integral_read_observation(struct kd_integral_request *request, const cJSON *root,
                                             struct kd_error *error);
 void kd_integral_drop_observation(struct kd_integral_request *request);
 enum kd_status kd_integral_check_map(struct kd_integral_request *request, struct kd_error *error); /* scene.c */
+bool kd_integral_is_sets(const struct kd_integral_request *request, const char *name);
+
+/* observe.c */
+enum kd_status kd_integral_check_observe(struct kd_integral_request *request, struct kd_error *error);
 enum kd_status kd_integral_check_compare(struct kd_integral_request *request, struct kd_error *error);
 
 enum kd_status kd_integral_check_volume(struct kd_integral_request *request, struct kd_error *error);

@@ -1,5 +1,7 @@
 #include "integral/pictures.h"
 
+#include "integral/sets.h"
+
 #include "physics/spacetime/scale.h"
 #include "render/output/flux.h"
 #include "render/view/camera.h"
@@ -10,6 +12,8 @@
 
 unsigned kd_integral_pictures(const struct kd_integral_request *r)
 {
+    if (r->what == KD_INTEGRAL_SETS)
+        return r->sets->pictures;
     return kd_integral_is_pictured(r->what)
                ? (r->unchecked ? 1 : 2) * (r->what == KD_INTEGRAL_VOLUME ? r->frequencies : 1)
                : 0;
@@ -20,10 +24,10 @@ bool kd_integral_is_finer(const struct kd_integral_request *r, unsigned picture)
     return !r->unchecked && picture % 2;
 }
 
-static struct kd_words layers_of(const struct kd_integral_request *r)
+static struct kd_words layers_of(const struct kd_integral_request *r, const struct kd_scene *scene)
 {
     struct kd_words words = {
-        1, { { kd_scene_is_radio_alone(r->scene) ? KD_LAYER_specific_intensity : KD_LAYER_intensity, -1 } }
+        1, { { kd_scene_is_radio_alone(scene) ? KD_LAYER_specific_intensity : KD_LAYER_intensity, -1 } }
     };
     for (uint32_t n = 0; n < r->orders; n++)
         words.at[words.count++] = (struct kd_numbered_word) { KD_LAYER_intensity, (int16_t)n };
@@ -32,14 +36,14 @@ static struct kd_words layers_of(const struct kd_integral_request *r)
 
 struct kd_scene kd_integral_scene(const struct kd_integral_request *r, unsigned picture)
 {
-    struct kd_scene scene = *r->scene;
+    struct kd_scene scene = r->what == KD_INTEGRAL_SETS ? r->sets->at[r->sets->first[picture]].scene : *r->scene;
     const double w = scene.image.width, h = scene.image.height,
                  size = r->pixels * (kd_integral_is_finer(r, picture) ? KD_INTEGRAL_FINER : 1) / fmax(w, h);
     scene.image.width = (int32_t)fmax(1, rint(w * size)), scene.image.height = (int32_t)fmax(1, rint(h * size));
     scene.style.beam_uas = 0; /* no telescope beam */
     scene.style.bloom = 0;
     if (kd_integral_is_mapped(r->what)) {
-        scene.image.layers = layers_of(r);
+        scene.image.layers = layers_of(r, &scene);
     } else { /* matter normalised to a flux must be the same at all frequencies: its flux refers to the scene's own
               * frequency */
         scene.volume.normalise_ghz =

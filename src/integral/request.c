@@ -1,5 +1,6 @@
 #include "integral/internal.h"
 #include "integral/request.h"
+#include "integral/sets.h"
 
 #include "base/spelling.h"
 #include "scene/members.h"
@@ -24,6 +25,7 @@ void kd_integral_request_finish(struct kd_integral_request *request)
     free(request->scene);
     request->scene = NULL;
     kd_integral_drop_observation(request);
+    kd_integral_drop_sets(request);
 }
 
 static bool has(const struct kd_integral_request *request, const struct kd_integral_field *field)
@@ -324,6 +326,7 @@ enum kd_status kd_integral_request_read(struct kd_integral_request *request, con
         KD_TRY(kd_error_field(error, "", "the document must be an object with fields"));
     KD_TRY(kd_integral_read_scene(request, root, error));
     KD_TRY(kd_integral_read_observation(request, root, error));
+    KD_TRY(kd_integral_read_sets(request, root, error));
     for (const cJSON *item = root->child; item; item = item->next)
         if (!kd_integral_is_scene_member(request, item->string) && !kd_integral_is_observation(request, item->string))
             KD_TRY(read_item(request, item, error));

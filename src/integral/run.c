@@ -1,7 +1,11 @@
 #include "integral/run.h"
 
 #include "base/clock.h"
+#include "base/pause.h"
 #include "integral/compare.h"
+#include "observe/scattering.h"
+#include "observe/simulate.h"
+#include "physics/math/angle.h"
 #include "physics/math/constants.h"
 #include "render/output/wcs.h"
 
@@ -15,6 +19,7 @@
 enum { U, V, LENGTH, ORDER, RE, IM, AMPLITUDE, PHASE, ERROR };          /* columns of a visibility */
 enum { HZ, SI, JY, NU_L_NU, FLUX_ERROR };                               /* of a spectrum of pictures */
 enum { FLUX, PIXEL, WIDTH, HEIGHT, LONGEST, BORDER, UNDEFINED, WORST }; /* values of a visibility */
+enum { PICTURES };                                                      /* in the place of FLUX, for sets */
 
 static unsigned bands(const struct kd_integral_run *run) { return 1 + run->answer.request->orders; }
 
@@ -30,12 +35,44 @@ static void lay_out(struct kd_integral_answer *answer)
         c[U][row] = r->u.at[at], c[V][row] = r->v.at[at], c[LENGTH][row] = hypot(c[U][row], c[V][row]),
         c[ORDER][row] = (double)(row % (1 + r->orders)) - 1;
     }
-    if (r->what == KD_INTEGRAL_COMPARE) {
-        kd_integral_compare_lay_out(answer);
+    if (r->what == KD_INTEGRAL_SETS) {
+        answer->values[PICTURES] = r->sets->pictures;
+        answer->solved = KD_ALIGNMENT_NONE;
+        return;
+    }
+    if (kd_integral_is_observed(r->what)) {
+        (r->what == KD_INTEGRAL_COMPARE ? kd_integral_compare_lay_out : kd_integral_observe_lay_out)(answer);
         return;
     }
     for (size_t row = 0; r->unchecked && row < answer->rows; row++)
         c[r->what == KD_INTEGRAL_VOLUME ? FLUX_ERROR : ERROR][row] = NAN;
+}
+
+/* Allocates what a model of an observation needs, and computes the factors of scattering. */
+static enum kd_status begin_model(struct kd_integral_run *run, struct kd_error *error)
+{
+    const struct kd_integral_request *r = run->answer.request;
+    struct kd_scattering scattering;
+    run->model = calloc(r->u.n, sizeof *run->model);
+    if (r->what == KD_INTEGRAL_OBSERVE) {
+        run->simulated = calloc(r->u.n, sizeof *run->simulated);
+        run->marks = calloc(1, KD_SIMULATION_MARKS);
+        if (!run->simulated || !run->marks)
+            return kd_error_set(error, KD_ENOMEM, "out of memory for %zu visibilities", r->u.n);
+    }
+    if (kd_integral_is_searched(r))
+        run->room = malloc(sizeof *run->room);
+    if (r->scattering)
+        run->scattering = malloc(r->u.n * sizeof *run->scattering);
+    if (!run->model || (kd_integral_is_searched(r) && !run->room) || (r->scattering && !run->scattering))
+        return kd_error_set(error, KD_ENOMEM, "out of memory for %zu visibilities", r->u.n);
+    if (r->scattering)
+        kd_scattering_sgra(&scattering, r->observation->frequency_hz);
+    for (size_t i = 0; r->scattering && i < r->u.n; i++) {
+        kd_pause_every(i, 32);
+        run->scattering[i] = kd_scattering_at(&scattering, r->u.at[i] * 1e9, r->v.at[i] * 1e9);
+    }
+    return KD_OK;
 }
 
 enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct kd_integral_request *request,
@@ -47,9 +84,9 @@ enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct k
     enum kd_status status = kd_integral_make_columns(&run->answer, kd_integral_rows(request), error);
     if (status)
         return status;
-    if (request->what == KD_INTEGRAL_COMPARE && !(run->model = calloc(request->u.n, sizeof *run->model))) {
+    if (kd_integral_is_observed(request->what) && (status = begin_model(run, error))) {
         kd_integral_run_finish(run);
-        return kd_error_set(error, KD_ENOMEM, "out of memory for %zu visibilities", request->u.n);
+        return status;
     }
     if (kd_integral_is_mapped(request->what))
         run->answer.light = kd_scene_is_radio_alone(request->scene) ? "Jy" : "1";
@@ -94,6 +131,18 @@ static void tell_map(struct kd_integral_run *run, const struct kd_scene *scene, 
     memcpy(run->answer.values, told, sizeof told);
 }
 
+/* The worst of all maps, and the number of pictures instead of a flux. */
+static void tell_sets(struct kd_integral_run *run, const struct kd_scene *scene, double sum, double undefined)
+{
+    double *values = run->answer.values;
+    const double before = values[BORDER], all = values[UNDEFINED];
+    if (run->is_dark)
+        return;
+    tell_map(run, scene, sum, undefined);
+    values[PICTURES] = run->answer.request->sets->pictures;
+    values[BORDER] = fmax(values[BORDER], before), values[UNDEFINED] += all;
+}
+
 static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene,
                                 struct kd_error *error)
 {
@@ -113,7 +162,8 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
         sum = total(map, n, &undefined); /* map 0, total light, comes last and leaves its sum */
         run->map[k] = map;
     }
-    if (!(sum > 0))
+    run->is_dark = !(sum > 0);
+    if (run->is_dark && run->answer.request->what != KD_INTEGRAL_SETS)
         return kd_error_field(error, "/scene", "the picture of %u x %u pixels is dark and has no visibilities", width,
                               height);
     run->scale = kd_scene_is_radio_alone(scene) ? run->grid.pixel * run->grid.pixel : 1 / sum;
@@ -122,7 +172,9 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
     free(run->scratch);
     if (!(run->scratch = malloc(2 * width * sizeof(double))))
         return kd_error_set(error, KD_ENOMEM, "out of memory for a row of %u pixels", width);
-    if (!kd_integral_is_finer(run->answer.request, run->picture))
+    if (run->answer.request->what == KD_INTEGRAL_SETS)
+        tell_sets(run, scene, sum, undefined);
+    else if (!kd_integral_is_finer(run->answer.request, run->picture))
         tell_map(run, scene, sum, undefined);
     return KD_OK;
 }
@@ -174,32 +226,103 @@ static void put(struct kd_integral_run *run, size_t row, double re, double im)
     c[RE][row] = re, c[IM][row] = im, c[AMPLITUDE][row] = hypot(re, im), c[PHASE][row] = atan2(im, re) * (180 / M_PI);
 }
 
-/* Observations use the conjugate of kd_fourier's sign (observe/observation.h). */
-static void put_model(struct kd_integral_run *run, const double sum[2])
+/* Visibility of the map, enlarged and rotated, at a baseline. The transform of an enlarged map is that of the map at
+ * baselines longer by as much; of a rotated one, at baselines rotated back. Observations use the conjugate of
+ * kd_fourier's sign (observe/observation.h). */
+static void model_at(struct kd_integral_run *run, size_t i, double size, double angle_deg, double out[2])
 {
     const struct kd_integral_request *r = run->answer.request;
-    const double turns = 1e9 * run->grid.pixel,
-                 scale =
-                     run->scale * kd_pulse_at(r->pulse, r->u.at[run->baseline] * turns, r->v.at[run->baseline] * turns);
-    run->model[run->baseline][0] = scale * sum[0], run->model[run->baseline][1] = -scale * sum[1];
+    const struct kd_integral_set *set = run->answer.set;
+    const double all = size * (set ? set->size : 1), turn_deg = angle_deg + (set ? set->angle_deg : 0),
+                 c = all * kd_cos_deg(turn_deg), s = all * kd_sin_deg(turn_deg), u = c * r->u.at[i] - s * r->v.at[i],
+                 v = s * r->u.at[i] + c * r->v.at[i], turns = 1e9 * run->grid.pixel,
+                 scale = run->scale * kd_pulse_at(r->pulse, u * turns, v * turns) *
+                         (run->scattering ? run->scattering[i] : 1);
+    double sum[1][2];
+    kd_fourier(&run->grid, run->map, 1, u, v, run->scratch, sum);
+    out[0] = scale * sum[0][0], out[1] = -scale * sum[0][1];
+}
+
+static void model(void *user, double size, double angle_deg, double (*out)[2])
+{
+    struct kd_integral_run *run = user;
+    for (size_t i = 0; i < run->answer.request->u.n; i++) {
+        kd_pause();
+        model_at(run, i, size, angle_deg, out[i]);
+    }
+}
+
+/* Searches for what is solved for. Afterwards run->model is the model there. */
+static void search(struct kd_integral_run *run)
+{
+    const struct kd_integral_request *r = run->answer.request;
+    const struct kd_integral_answer *a = &run->answer;
+    const double flux_jy = a->set ? a->set->flux_jy : r->flux_jy;
+    const bool is_known = isfinite(a->map_jy), is_free = r->solve & KD_ALIGN_FLUX || (!is_known && isnan(flux_jy));
+    const struct kd_align_params params = {
+        .solve = r->solve | (is_free ? KD_ALIGN_FLUX : 0),
+        .most_shift = 0.5 * run->grid.pixel * fmax(run->grid.width, run->grid.height),
+        .model = model,
+        .user = run,
+    };
+    run->answer.solved = KD_ALIGNMENT_NONE;
+    run->answer.solved.scale = isfinite(flux_jy) ? flux_jy / (is_known ? a->map_jy : 1) : 1;
+    kd_align(r->comparison, &params, run->room, run->model, &run->answer.solved);
+}
+
+/* Evaluates the sets of the current picture, in the order of the pictures. True: there is more to do. */
+static bool step_sets(struct kd_integral_run *run, double until_ms)
+{
+    const struct kd_integral_request *r = run->answer.request;
+    const struct kd_integral_sets *sets = r->sets;
+    for (; run->set < sets->first[run->picture + 1]; run->set++, run->baseline = 0) {
+        run->answer.set = &sets->at[run->set];
+        if (kd_clock_ms() > until_ms)
+            return true;
+        if (kd_integral_is_searched(r) && !run->is_dark)
+            search(run), run->baseline = r->u.n;
+        for (; run->baseline < r->u.n && !run->is_dark; run->baseline++) {
+            if (run->baseline % 64 == 63 && kd_clock_ms() > until_ms)
+                return true;
+            model_at(run, run->baseline, 1, 0, run->model[run->baseline]);
+        }
+        kd_integral_sets_judge(&run->answer, run->is_dark ? NULL : run->model);
+    }
+    kd_buffer_finish(&run->maps);
+    run->picture++;
+    return false;
 }
 
 bool kd_integral_run_step(struct kd_integral_run *run, double until_ms)
 {
     const struct kd_integral_request *r = run->answer.request;
     double sum[1 + KD_INTEGRAL_ORDERS][2];
-    while (kd_integral_is_mapped(r->what) && run->baseline < r->u.n) {
-        kd_fourier(&run->grid, run->map, bands(run), r->u.at[run->baseline], r->v.at[run->baseline], run->scratch, sum);
-        for (unsigned k = 0; k < bands(run) && r->what == KD_INTEGRAL_VISIBILITY; k++)
-            put(run, run->baseline * bands(run) + k, sum[k][0] * run->scale, sum[k][1] * run->scale);
-        if (r->what == KD_INTEGRAL_COMPARE)
-            put_model(run, sum[0]);
+    if (r->what == KD_INTEGRAL_SETS)
+        return step_sets(run, until_ms);
+    const bool is_finer = kd_integral_is_finer(r, run->picture);
+    const struct kd_alignment *solved = &run->answer.solved;
+    if (kd_integral_is_searched(r) && !is_finer)
+        search(run), run->baseline = r->u.n;
+    while (kd_integral_is_observed(r->what) && run->baseline < r->u.n) {
+        model_at(run, run->baseline, solved->size, solved->angle_deg, run->model[run->baseline]);
         run->baseline++;
         if (kd_clock_ms() > until_ms)
             return true;
     }
+    while (kd_integral_is_mapped(r->what) && run->baseline < r->u.n) {
+        kd_fourier(&run->grid, run->map, bands(run), r->u.at[run->baseline], r->v.at[run->baseline], run->scratch, sum);
+        for (unsigned k = 0; k < bands(run); k++)
+            put(run, run->baseline * bands(run) + k, sum[k][0] * run->scale, sum[k][1] * run->scale);
+        run->baseline++;
+        if (kd_clock_ms() > until_ms)
+            return true;
+    }
+    if (r->what == KD_INTEGRAL_COMPARE && is_finer)
+        kd_align_shift(r->comparison, solved->east, solved->north, run->model);
     if (r->what == KD_INTEGRAL_COMPARE)
-        kd_integral_compare_judge(&run->answer, run->model, kd_integral_is_finer(r, run->picture));
+        kd_integral_compare_judge(&run->answer, run->model, is_finer);
+    if (r->what == KD_INTEGRAL_OBSERVE)
+        kd_integral_observe_take(&run->answer, run->marks, run->model, run->simulated, is_finer);
     kd_buffer_finish(&run->maps);
     run->picture++;
     return false;
@@ -211,5 +334,9 @@ void kd_integral_run_finish(struct kd_integral_run *run)
     kd_buffer_finish(&run->maps);
     free(run->scratch);
     free(run->model);
+    free(run->simulated);
+    free(run->marks);
+    free(run->scattering);
+    free(run->room);
     *run = (struct kd_integral_run) { 0 };
 }

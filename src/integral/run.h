@@ -25,8 +25,14 @@ struct kd_integral_run {
     const float *map[1 + KD_INTEGRAL_ORDERS];
     double scale; /* factor of a sum */
     size_t baseline;
-    double (*model)[2]; /* for a comparison: the model at each of its visibilities */
+    size_t set;   /* the current one, of a comparison of sets */
+    bool is_dark; /* its picture has no light */
+    /* for an observation: the model at each of its visibilities, and these as they are simulated */
+    double (*model)[2], (*simulated)[2];
+    uint8_t *marks; /* for kd_simulate */
     double *scratch;
+    double *scattering;         /* factor at each visibility; NULL: none */
+    struct kd_align_room *room; /* for a search; NULL: none is needed */
 };
 
 /* Computes everything if no pictures are needed. On failure there is nothing to finish. */

@@ -3,6 +3,7 @@
 #include "base/pause.h"
 #include "base/schema.h"
 #include "image/npy.h"
+#include "image/zip.h"
 #include "integral/answer.h"
 #include "integral/compare.h"
 
@@ -79,7 +80,8 @@ static void write_units(struct kd_json *json, const struct kd_integral_kind_of *
     kd_json_end(json);
 }
 
-static enum kd_status write_json(const struct kd_integral_answer *answer, struct kd_buffer *out)
+/* columns: whether the document has the columns. */
+static enum kd_status write_json(const struct kd_integral_answer *answer, bool columns, struct kd_buffer *out)
 {
     const struct kd_integral_kind_of *kind = kd_integral_kind_of(answer->request->what);
     struct kd_json json = kd_json_begin(out);
@@ -91,8 +93,9 @@ static enum kd_status write_json(const struct kd_integral_answer *answer, struct
     for (size_t i = 0; i < count(kind->values, KD_INTEGRAL_VALUES); i++)
         kd_json_number(&json, kind->values[i].name, answer->values[i]);
     kd_json_end(&json);
-    kd_json_object(&json, "columns");
-    for (size_t i = 0; i < count(kind->columns, KD_INTEGRAL_COLUMNS); i++) {
+    if (columns)
+        kd_json_object(&json, "columns");
+    for (size_t i = 0; columns && i < count(kind->columns, KD_INTEGRAL_COLUMNS); i++) {
         kd_json_array(&json, kind->columns[i].name);
         for (size_t row = 0; row < answer->rows; row++) {
             kd_pause_every(row, 1024);
@@ -104,9 +107,14 @@ static enum kd_status write_json(const struct kd_integral_answer *answer, struct
         }
         kd_json_end(&json);
     }
-    kd_json_end(&json);
+    if (columns)
+        kd_json_end(&json);
     if (answer->request->what == KD_INTEGRAL_COMPARE)
         kd_integral_compare_write(&json, answer);
+    if (answer->request->what == KD_INTEGRAL_SETS)
+        kd_integral_sets_write(&json, answer);
+    if (kd_integral_is_observed(answer->request->what))
+        kd_integral_observation_write(&json, answer->request);
     write_units(&json, kind, answer->light);
     write_sentences(&json, "sources", kind->sources, NULL, 0);
     write_sentences(&json, "approximations", kind->approximations, answer->told, answer->n_told);
@@ -156,12 +164,82 @@ done:
     return status;
 }
 
+/* Length of the longest word of a column; 0: its rows have no words. */
+static size_t longest_word(const struct kd_integral_answer *answer, size_t column)
+{
+    size_t longest = 0;
+    for (size_t row = 0; row < answer->rows; row++) {
+        const char *word = kd_integral_word(answer, column, answer->columns[column][row]);
+        longest = word && strlen(word) > longest ? strlen(word) : longest;
+    }
+    return longest;
+}
+
+/* Writes a column as a .npy file: float64, or text in UTF-32. */
+static enum kd_status column_npy(const struct kd_integral_answer *answer, size_t column, struct kd_buffer *out)
+{
+    const struct kd_integral_column *of = &kd_integral_kind_of(answer->request->what)->columns[column];
+    const size_t longest = of->words ? longest_word(answer, column) + 1 : 0;
+    const struct kd_npy array = { .n_fields = 1,
+                                  .fields = { { .type = of->words ? KD_NPY_TEXT : KD_NPY_F8,
+                                                .count = (uint32_t)longest } },
+                                  .shape = { answer->rows },
+                                  .n_dimensions = 1 };
+    enum kd_status status;
+    KD_TRY(kd_npy_write_header(&array, out));
+    for (size_t row = 0; row < answer->rows; row++) {
+        const double value = answer->columns[column][row];
+        const char *word = of->words ? kd_integral_word(answer, column, value) : NULL;
+        kd_pause_every(row, 1024);
+        if (!of->words)
+            KD_TRY(kd_buffer_append(out, &value, sizeof value));
+        for (size_t i = 0; i < longest; i++) {
+            const size_t length = word ? strlen(word) : 0;
+            KD_TRY(kd_buffer_append(out, (const uint8_t[4]) { i < length ? (uint8_t)word[i] : 0 }, 4));
+        }
+    }
+done:
+    return status;
+}
+
+/* Writes what numpy.savez does: an array for each column; and answer.json, the rest of the answer. */
+static enum kd_status write_npz(const struct kd_integral_answer *answer, struct kd_buffer *out)
+{
+    const struct kd_integral_kind_of *kind = kd_integral_kind_of(answer->request->what);
+    struct kd_buffer member = { 0 };
+    struct kd_zip *zip = NULL;
+    enum kd_status status;
+    KD_TRY(kd_zip_create(out, true, &zip));
+    for (size_t i = 0; i < count(kind->columns, KD_INTEGRAL_COLUMNS); i++) {
+        char name[60];
+        snprintf(name, sizeof name, "%s.npy", kind->columns[i].name);
+        kd_buffer_finish(&member);
+        KD_TRY(column_npy(answer, i, &member));
+        KD_TRY(kd_zip_add(zip, name, member.data, member.size));
+    }
+    kd_buffer_finish(&member);
+    KD_TRY(write_json(answer, false, &member));
+    KD_TRY(kd_zip_add(zip, "answer.json", member.data, member.size));
+    KD_TRY(kd_zip_close(zip));
+done:
+    kd_zip_destroy(zip);
+    kd_buffer_finish(&member);
+    return status;
+}
+
 enum kd_status kd_integral_write(const struct kd_integral_answer *answer, enum kd_integral_format format,
                                  struct kd_buffer *out)
 {
-    return format == KD_INTEGRAL_CSV   ? write_csv(answer, out)
-           : format == KD_INTEGRAL_NPY ? write_npy(answer, out)
-                                       : write_json(answer, out);
+    switch (format) {
+    case KD_INTEGRAL_CSV:
+        return answer->request->what == KD_INTEGRAL_OBSERVE ? kd_integral_observe_csv(answer, out)
+                                                            : write_csv(answer, out);
+    case KD_INTEGRAL_NPY: return write_npy(answer, out);
+    case KD_INTEGRAL_NPZ: return write_npz(answer, out);
+    case KD_INTEGRAL_UVFITS: return kd_buffer_append(out, answer->request->file, answer->request->file_size);
+    case KD_INTEGRAL_JSON: break;
+    }
+    return write_json(answer, true, out);
 }
 
 #define SYSTEMATIC \
@@ -202,7 +280,7 @@ static void add_parameters(struct kd_json *json, enum kd_integral what)
         if (!(f->of & 1u << what) || f->kind == KD_INTEGRAL_NUMBERS)
             continue;
         if (strchr(f->name, '.')) {
-            names[n] = what == KD_INTEGRAL_COMPARE ? "systematic" : f->name;
+            names[n] = kd_integral_is_compared(what) ? "systematic" : f->name;
             if (!n || strcmp(names[n - 1], names[n]))
                 raw(json, names[n], SYSTEMATIC), n++;
             continue;
@@ -218,12 +296,15 @@ static void add_parameters(struct kd_json *json, enum kd_integral what)
 
 void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_integral what)
 {
-    static const char *const members[] = { "integral", "parameters",     "values", "columns", "units",
-                                           "sources",  "approximations", "scene",  "chi2",    "chi2_finer",
-                                           "n",        "observation" };
-    const size_t n = sizeof members / sizeof *members - (what == KD_INTEGRAL_COMPARE     ? 0
-                                                         : kd_integral_is_pictured(what) ? 4
-                                                                                         : 5);
+    static const char *const members[] = { "integral", "parameters",     "values", "columns",     "units",
+                                           "sources",  "approximations", "scene",  "observation", "n",
+                                           "chi2",     "chi2_finer",     "solved" };
+    const size_t without = what == KD_INTEGRAL_COMPARE     ? 0
+                           : what == KD_INTEGRAL_SETS      ? 3
+                           : what == KD_INTEGRAL_OBSERVE   ? 4
+                           : kd_integral_is_pictured(what) ? 5
+                                                           : 6;
+    const size_t n = sizeof members / sizeof *members - without;
     const struct kd_integral_kind_of *kind = kd_integral_kind_of(what);
     size_t values = count(kind->values, KD_INTEGRAL_VALUES), columns = count(kind->columns, KD_INTEGRAL_COLUMNS);
     kd_schema_begin_strict(json, name);
@@ -240,5 +321,9 @@ void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_i
         raw(json, "scene", "{\"$ref\":\"#/components/schemas/Scene\"}");
     if (what == KD_INTEGRAL_COMPARE)
         kd_integral_compare_schema(json);
+    if (kd_integral_is_observed(what))
+        kd_integral_observation_schema(json, kd_integral_is_compared(what));
+    if (what == KD_INTEGRAL_SETS)
+        kd_integral_sets_schema(json);
     kd_schema_end_strict(json, members, n);
 }

@@ -6,9 +6,10 @@
 
 #define DEG (180 / M_PI)
 
-const char *const kd_product_names[KD_PRODUCTS] = { "amplitude", "closure_phase", "log_closure_amplitude" };
+const char *const kd_product_names[KD_PRODUCTS] = { "amplitude", "closure_phase", "log_closure_amplitude",
+                                                    "visibility" };
 
-unsigned kd_product_stations(enum kd_product product) { return 2 + product; }
+unsigned kd_product_stations(enum kd_product product) { return product == KD_PRODUCT_VISIBILITY ? 2 : 2 + product; }
 
 enum kd_status kd_comparison_add(struct kd_comparison *c, const struct kd_comparison_row *row, struct kd_error *error)
 {
@@ -45,14 +46,18 @@ static void prepare(struct kd_comparison *c, const struct kd_comparison_params *
     c->n = n;
 }
 
+/* Amplitude, debiased unless it is used as measured. */
+static double amplitude_of(const struct kd_measured *m, const struct kd_comparison_params *p)
+{
+    const double measured = hypot(m->re, m->im);
+    return p->measured ? measured : measured > m->sigma ? sqrt((measured - m->sigma) * (measured + m->sigma)) : 0;
+}
+
 static enum kd_status add_amplitude(struct kd_comparison *c, const struct kd_comparison_params *p, size_t i,
                                     struct kd_error *error)
 {
     const struct kd_measured *m = &c->at[i];
-    const double measured = hypot(m->re, m->im), amplitude = p->measured ? measured
-                                                             : measured > m->sigma
-                                                                 ? sqrt((measured - m->sigma) * (measured + m->sigma))
-                                                                 : 0;
+    const double amplitude = amplitude_of(m, p);
     const struct kd_comparison_row row = { .product = KD_PRODUCT_AMPLITUDE,
                                            .hour = m->hour,
                                            .station = { m->station[0], m->station[1] },
@@ -62,14 +67,37 @@ static enum kd_status add_amplitude(struct kd_comparison *c, const struct kd_com
     return amplitude / m->sigma >= p->snr_cut ? kd_comparison_add(c, &row, error) : KD_OK;
 }
 
+/* Adds both parts of a visibility. The error is that of each part. The cut and systematic.amplitude use the amplitude
+ * as add_amplitude does. */
+static enum kd_status add_visibility(struct kd_comparison *c, const struct kd_comparison_params *p, size_t i,
+                                     struct kd_error *error)
+{
+    const struct kd_measured *m = &c->at[i];
+    const double amplitude = amplitude_of(m, p);
+    struct kd_comparison_row row = { .product = KD_PRODUCT_VISIBILITY,
+                                     .hour = m->hour,
+                                     .station = { m->station[0], m->station[1] },
+                                     .at = { (uint32_t)i },
+                                     .data = m->re,
+                                     .error = hypot(m->sigma, M_SQRT2 * p->systematic_amplitude * amplitude) };
+    enum kd_status status = KD_OK;
+    if (amplitude / m->sigma < p->snr_cut)
+        return KD_OK;
+    KD_TRY(kd_comparison_add(c, &row, error));
+    row.imaginary = true, row.data = m->im;
+    KD_TRY(kd_comparison_add(c, &row, error));
+done:
+    return status;
+}
+
 static enum kd_status add_product(struct kd_comparison *c, const struct kd_observation *o,
                                   const struct kd_comparison_params *p, enum kd_product product, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     for (size_t i = 0, next; i < c->n; i = next) {
-        if (product == KD_PRODUCT_AMPLITUDE) {
+        if (product == KD_PRODUCT_AMPLITUDE || product == KD_PRODUCT_VISIBILITY) {
             next = i + 1;
-            KD_TRY(add_amplitude(c, p, i, error));
+            KD_TRY((product == KD_PRODUCT_AMPLITUDE ? add_amplitude : add_visibility)(c, p, i, error));
             continue;
         }
         for (next = i + 1; next < c->n && c->at[next].hour == c->at[i].hour;)
@@ -123,6 +151,7 @@ static double model_of(const struct kd_comparison_row *row, const double (*model
         for (int k = 0; k < 4; k++)
             sum += (k < 2 ? 1 : -1) * log(amplitude(model, row->at[k]));
         return sum;
+    case KD_PRODUCT_VISIBILITY: return model[row->at[0]][row->imaginary];
     case KD_PRODUCTS: break;
     }
     return NAN;
@@ -131,9 +160,11 @@ static double model_of(const struct kd_comparison_row *row, const double (*model
 double kd_comparison_scale(const struct kd_comparison *c, const double (*model)[2])
 {
     double of_data = 0, of_model = 0;
-    for (size_t i = 0; i < c->rows && c->row[i].product == KD_PRODUCT_AMPLITUDE; i++) {
+    for (size_t i = 0; i < c->rows; i++) {
         const struct kd_comparison_row *row = &c->row[i];
-        const double m = amplitude(model, row->at[0]), weight = 1 / (row->error * row->error);
+        if (row->product != KD_PRODUCT_AMPLITUDE && row->product != KD_PRODUCT_VISIBILITY)
+            continue;
+        const double m = model_of(row, model), weight = 1 / (row->error * row->error);
         of_data += row->data * m * weight, of_model += m * m * weight;
     }
     return of_model > 0 ? of_data / of_model : NAN;
@@ -164,6 +195,19 @@ void kd_comparison_judge(struct kd_comparison *c, const double (*model)[2], doub
     }
     for (int i = 0; i < KD_PRODUCTS; i++)
         chi2[i] = c->of[i] ? sum[i] / (double)c->of[i] : NAN;
+}
+
+double kd_comparison_total(const struct kd_comparison *c, const double (*model)[2], double scale)
+{
+    double sum = 0;
+    for (size_t i = 0; i < c->rows; i++) {
+        struct kd_comparison_row row = c->row[i];
+        row.model = model_of(&row, model);
+        if (row.product == KD_PRODUCT_AMPLITUDE || row.product == KD_PRODUCT_VISIBILITY)
+            row.model *= scale;
+        sum += share_of(&row);
+    }
+    return sum;
 }
 
 /* Fourier transform of a pixel's shape along one axis. x: turns for each pixel. */

@@ -11,7 +11,13 @@
 
 #include "observe/observation.h"
 
-enum kd_product { KD_PRODUCT_AMPLITUDE, KD_PRODUCT_CLOSURE_PHASE, KD_PRODUCT_LOG_CLOSURE_AMPLITUDE, KD_PRODUCTS };
+enum kd_product {
+    KD_PRODUCT_AMPLITUDE,
+    KD_PRODUCT_CLOSURE_PHASE,
+    KD_PRODUCT_LOG_CLOSURE_AMPLITUDE,
+    KD_PRODUCT_VISIBILITY,
+    KD_PRODUCTS
+};
 extern const char *const kd_product_names[KD_PRODUCTS];
 
 struct kd_comparison_params {
@@ -31,9 +37,11 @@ struct kd_comparison_params {
     bool maximal;
 };
 
-/* One datum: |V|, the phase of V1 V2 V3, or log |V1| + log |V2| - log |V3| - log |V4|. */
+/* One datum: |V|, the phase of V1 V2 V3, log |V1| + log |V2| - log |V3| - log |V4|, or the real or imaginary part of V;
+ * each visibility has two rows. */
 struct kd_comparison_row {
     enum kd_product product;
+    bool imaginary;
     double hour;
     uint8_t station[4]; /* 2, 3 or 4 stations; the datum uses V of the baselines 12, or 12, 23, 31, or 12, 34, 14, 23 */
     uint32_t at[4];     /* indices of the visibilities in `at` of struct kd_comparison */
@@ -56,12 +64,14 @@ enum kd_status kd_comparison_make(const struct kd_observation *observation, cons
                                   struct kd_comparison *out, struct kd_error *error);
 void kd_comparison_finish(struct kd_comparison *comparison);
 
-/* Factor by which the model must be multiplied to minimise the chi^2 of amplitudes: the sum of d m / sigma^2 divided by
- * the sum of m^2 / sigma^2, where d is the data and m the model. NaN if there are no amplitudes or the model has no
- * light. */
+/* Factor by which the model must be multiplied to minimise the chi^2 of amplitudes and visibilities: the sum of
+ * d m / sigma^2 divided by the sum of m^2 / sigma^2, where d is the data and m the model. NaN if there are neither, or
+ * the model has no light. */
 double kd_comparison_scale(const struct kd_comparison *comparison, const double (*model)[2]);
 /* Fills `model` of each row and computes chi^2 divided by the number of data; NaN for a product without data. */
 void kd_comparison_judge(struct kd_comparison *comparison, const double (*model)[2], double chi2[KD_PRODUCTS]);
+/* Sum of chi^2 over all data, for the model times `scale`. Leaves the rows as they are. */
+double kd_comparison_total(const struct kd_comparison *comparison, const double (*model)[2], double scale);
 /* (data - model) / error. The difference of two phases is reduced to within 180 degrees. */
 double kd_comparison_residual(const struct kd_comparison_row *row);
 

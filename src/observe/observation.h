@@ -26,6 +26,8 @@ struct kd_measured {
     double u, v;          /* in wavelengths */
     double re, im, sigma; /* in Jy */
     uint8_t station[2];   /* indices of the two stations; the first is lower than the second */
+    bool turned;          /* the file has the reverse baseline */
+    uint32_t source;      /* number of the file's group, from 0 */
 };
 
 struct kd_observation {

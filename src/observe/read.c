@@ -71,6 +71,7 @@ static void turn(struct kd_measured *m)
         return;
     const uint8_t first = m->station[0];
     m->station[0] = m->station[1], m->station[1] = first;
+    m->turned = true;
     m->u = -m->u, m->v = -m->v, m->im = -m->im;
 }
 

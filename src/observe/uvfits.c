@@ -4,7 +4,7 @@
  *
  * Stokes I is the mean of RR and LL, or one of them if the other has no weight. As in ehtim, channels and IFs are
  * averaged by their weights, and the mean is taken to be at the frequency in the table of stations. */
-#include "observe/internal.h"
+#include "observe/uvfits.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,17 +12,6 @@
 #include <string.h>
 
 enum { BLOCK = 2880, CARD = 80, CARDS = 100 * 36, AXES = 7, PARAMETERS = 32, ELEMENTS = 1 << 16, HDUS = 100, KEY = 20 };
-
-struct hdu {
-    const char *cards;
-    size_t n_cards, begin, size; /* begin, size: of the HDU's data, without padding */
-};
-
-struct file {
-    const uint8_t *data;
-    size_t size;
-    struct kd_error *error;
-};
 
 /* Returns the value of a card, the text behind "= "; NULL: the HDU has no such card. */
 static const char *find_card(const struct hdu *hdu, const char *key)
@@ -149,7 +138,7 @@ static uint64_t bits(const uint8_t *at, int n)
     return x;
 }
 
-static double real(const uint8_t *at, bool is_double)
+double kd_uvfits_number(const uint8_t *at, bool is_double)
 {
     if (is_double) {
         const uint64_t word = bits(at, 8);
@@ -189,7 +178,7 @@ static enum kd_status read_stations(const struct file *f, const struct hdu *hdu,
         const uint8_t *at = f->data + hdu->begin + i * row;
         size_t k = i;
         const double here = (sefd.type == 'D' && sefd.size == 8) || (sefd.type == 'E' && sefd.size == 4)
-                                ? real(at + sefd.at, sefd.type == 'D')
+                                ? kd_uvfits_number(at + sefd.at, sefd.type == 'D')
                                 : 0;
         /* sorted by noise; stations with equal noise stay in the order of the table */
         for (; k && noise[k - 1] > here; k--) {
@@ -233,23 +222,6 @@ done:
 }
 
 /* ---- the groups ---- */
-
-struct parameter {
-    size_t at; /* index among a group's parameters */
-    double scale, zero;
-    bool there;
-};
-
-struct groups {
-    struct hdu hdu;
-    size_t n, parameters, elements, bytes; /* bytes: size of a number */
-    /* hands: number of polarizations in STOKES; hand_step: distance from one to the next, counted in numbers */
-    size_t hands, hand_step;
-    size_t channels, channel_step, ifs, if_step;
-    bool circular; /* the polarizations are RR and LL; otherwise I */
-    struct parameter u, v, baseline, date[2];
-    double scale, zero; /* BSCALE and BZERO of the data */
-};
 
 static void find_parameter(const struct groups *g, const char *name, int which, struct parameter *out)
 {
@@ -320,7 +292,7 @@ done:
     return status;
 }
 
-static enum kd_status open_groups(const struct file *f, struct groups *g)
+enum kd_status kd_uvfits_open(const struct file *f, struct groups *g)
 {
     size_t axes = 0;
     double bitpix;
@@ -343,6 +315,11 @@ static enum kd_status open_groups(const struct file *f, struct groups *g)
     KD_TRY(read_whole(f, &g->hdu, "GCOUNT", 1, KD_OBSERVATION_ROWS, &g->n));
     KD_TRY(find_parameters(f, g));
     g->scale = number_or(&g->hdu, "BSCALE", 1), g->zero = number_or(&g->hdu, "BZERO", 0);
+    if (!isfinite(g->scale) || g->scale == 0 || !isfinite(g->zero))
+        return kd_error_set(f->error, KD_EINVAL,
+                            "BSCALE and BZERO of the uvfits are %g and %g; BSCALE must be a number other than 0, and "
+                            "BZERO a number",
+                            g->scale, g->zero);
     /* This and the product below cannot overflow: the size is at most 2^19, and there are at most 2^20 groups. */
     const size_t group = (g->parameters + g->elements) * g->bytes;
     if ((uint64_t)group * g->n > f->size - g->hdu.begin)
@@ -355,9 +332,9 @@ done:
     return status;
 }
 
-static double parameter_of(const struct groups *g, const uint8_t *group, const struct parameter *p)
+double kd_uvfits_parameter(const struct groups *g, const uint8_t *group, const struct parameter *p)
 {
-    return p->there ? real(group + p->at * g->bytes, g->bytes == 8) * p->scale + p->zero : 0;
+    return p->there ? kd_uvfits_number(group + p->at * g->bytes, g->bytes == 8) * p->scale + p->zero : 0;
 }
 
 /* Mean of one polarization over the channels, weighted by their weights. Returns the sum of the weights; 0: no data. */
@@ -368,12 +345,12 @@ static double mean_of(const struct groups *g, const uint8_t *data, size_t hand, 
     for (size_t i = 0; i < g->ifs * g->channels; i++) {
         const size_t at = hand * g->hand_step + i / g->channels * g->if_step + i % g->channels * g->channel_step;
         const uint8_t *three = data + at * g->bytes;
-        const double w = real(three + 2 * g->bytes, g->bytes == 8);
+        const double w = kd_uvfits_number(three + 2 * g->bytes, g->bytes == 8);
         if (!(w > 0 && isfinite(w)))
             continue;
         weight += w;
         for (size_t k = 0; k < 2; k++)
-            mean[k] += w * (real(three + k * g->bytes, g->bytes == 8) * g->scale + g->zero);
+            mean[k] += w * (kd_uvfits_number(three + k * g->bytes, g->bytes == 8) * g->scale + g->zero);
     }
     for (size_t k = 0; k < 2 && weight > 0; k++)
         mean[k] /= weight;
@@ -385,7 +362,7 @@ static double mean_of(const struct groups *g, const uint8_t *data, size_t hand, 
 static double error_of(double weight) { return (double)(1 / sqrtf((float)weight)); }
 
 /* Reads Stokes I and its error. Returns false if no weight is positive. */
-static bool read_light(const struct groups *g, const uint8_t *data, struct kd_measured *m)
+bool kd_uvfits_light(const struct groups *g, const uint8_t *data, struct kd_measured *m)
 {
     double value[2][2], weight[2] = { 0 };
     for (size_t hand = 0; hand < (g->circular ? 2u : 1u) && hand < g->hands; hand++)
@@ -420,10 +397,10 @@ static enum kd_status read_group(const struct file *f, const struct groups *g, c
                                  struct kd_observation *o)
 {
     const uint8_t *group = f->data + g->hdu.begin + i * (g->parameters + g->elements) * g->bytes;
-    struct kd_measured m = { 0 };
-    const double baseline = parameter_of(g, group, &g->baseline);
+    struct kd_measured m = { .source = (uint32_t)i };
+    const double baseline = kd_uvfits_parameter(g, group, &g->baseline);
     enum kd_status status = KD_OK;
-    if (!read_light(g, group + g->parameters * g->bytes, &m)) {
+    if (!kd_uvfits_light(g, group + g->parameters * g->bytes, &m)) {
         o->flagged++;
         return KD_OK;
     }
@@ -435,8 +412,9 @@ static enum kd_status read_group(const struct file *f, const struct groups *g, c
     KD_TRY(place_of(f, o, s, i, (uint32_t)baseline / 256, &m.station[0]));
     KD_TRY(place_of(f, o, s, i, (uint32_t)baseline % 256, &m.station[1]));
     /* Julian date; count_hours converts it. */
-    m.hour = parameter_of(g, group, &g->date[0]) + parameter_of(g, group, &g->date[1]);
-    m.u = parameter_of(g, group, &g->u) * o->frequency_hz, m.v = parameter_of(g, group, &g->v) * o->frequency_hz;
+    m.hour = kd_uvfits_parameter(g, group, &g->date[0]) + kd_uvfits_parameter(g, group, &g->date[1]);
+    m.u = kd_uvfits_parameter(g, group, &g->u) * o->frequency_hz,
+    m.v = kd_uvfits_parameter(g, group, &g->v) * o->frequency_hz;
     if (!(fabs(m.hour) < 1e7))
         return kd_error_set(f->error, KD_EINVAL, "DATE of visibility %zu of the uvfits is %g; it must be a Julian date",
                             i + 1, m.hour);
@@ -465,7 +443,7 @@ enum kd_status kd_observation_read_uvfits(const uint8_t *data, size_t size, stru
     struct hdu table;
     double frequency;
     enum kd_status status;
-    KD_TRY(open_groups(&f, &groups));
+    KD_TRY(kd_uvfits_open(&f, &groups));
     KD_TRY(find_stations(&f, groups.hdu.begin + (groups.hdu.size + BLOCK - 1) / BLOCK * BLOCK, &table));
     KD_TRY(read_stations(&f, &table, out, &stations));
     read_text(&groups.hdu, "OBJECT", out->source, sizeof out->source);

@@ -1,10 +1,12 @@
-"""Tests of kerrd compare: chi^2 of scenes for the observation of M87*, compared with ehtim's numbers; fitted values;
-both files of one observation; refusals."""
+"""Tests of kerrd compare and kerrd observe: chi^2 of scenes for the observation of M87*, compared with ehtim's
+numbers; fitted values; both files of one observation; simulated observations; refusals."""
 
 import csv
 import io
 import json
+import pathlib
 import struct
+import zipfile
 
 import compared
 from support import Case, main
@@ -19,7 +21,7 @@ class Compare(Case):
         picture may come from another driver's single precision."""
         for at, case in enumerate(compared.CASES):
             ours = self.told(*compared.options(case))
-            self.assertEqual(ours["n"], case["ehtim"]["n"], at)
+            self.assertEqual(ours["n"], {**case["ehtim"]["n"], "visibility": 0}, at)
             for name, value in case["ehtim"]["chi2"].items():
                 self.assertAlmostEqual(ours["chi2"][name] / value, 1, delta=1e-5, msg=f"{at} {name}")
 
@@ -79,6 +81,148 @@ class Compare(Case):
         self.assertEqual(closures["n"]["amplitude"], 0)
         self.assertAlmostEqual(closures["chi2"]["closure_phase"], best["chi2"]["closure_phase"], delta=1e-6)
 
+    def test_size_and_angle_that_fit_best(self):
+        """The search finds the size and the angle of the sky: a camera that is rolled and a hole whose mass is
+        different give the same chi^2 as the size and the angle that were solved for."""
+        options = ["--observation", compared.UVFITS, "-p", "m87", "--pixels", "96", "--average-s", "600"]
+        options += ["--check", "none"]
+        found = self.told(*options, "--solve", "flux,size,position_angle")
+        self.assertEqual([one["name"] for one in found["solved"]], ["flux_jy", "size", "position_angle_deg"])
+        self.assertTrue(all(one["converged"] for one in found["solved"]), found["solved"])
+        size, angle = found["values"]["size"], found["values"]["position_angle_deg"]
+        scene = found["scene"]
+        mass, roll = scene["spacetime"]["mass_msun"], scene["camera"]["roll_deg"]
+        scaled = self.told(*options, "-s", f"spacetime.mass_msun={mass * size}", "--solve", "position_angle")
+        self.assertAlmostEqual(scaled["values"]["position_angle_deg"], angle, delta=0.02)
+        for name, value in found["chi2"].items():
+            if value is not None:
+                self.assertAlmostEqual(scaled["chi2"][name] / value, 1, delta=1e-4, msg=name)
+        turned = self.told(*options, "-s", f"camera.roll_deg={roll + angle}", "--solve", "flux,size,position_angle")
+        self.assertLess(abs(turned["values"]["position_angle_deg"]), 3)
+        self.assertAlmostEqual(turned["values"]["size"] / size, 1, delta=0.02)
+        for one in (0.97, 1.03):
+            other = self.told(*options, "-s", f"spacetime.mass_msun={mass * size * one}", "--solve", "position_angle")
+            self.assertGreater(self.total(other), self.total(scaled))
+        # what a search leaves alone is as it was
+        plain, flux = self.told(*options), self.told(*options, "--solve", "flux")
+        self.assertEqual(plain["values"], flux["values"])
+        self.assertEqual(plain["values"]["size"], 1)
+        self.assertEqual([one["name"] for one in plain["solved"]], ["flux_jy"])
+        self.assertEqual(self.told(*options, "--flux-jy", "0.6")["solved"], [])
+
+    def total(self, told):
+        return sum(told["chi2"][name] * n for name, n in told["n"].items() if n)
+
+    def test_visibilities_determine_the_position(self):
+        """Amplitudes and closures do not change with a shift. The rows of a visibility are its two parts."""
+        options = ["--observation", compared.UVFITS, "-p", "m87", "--pixels", "64", "--average-s", "600"]
+        options += ["--check", "none", "--flux-jy", "0.6", "--products", "amplitude,closure_phase,visibility"]
+        plain, found = self.told(*options), self.told(*options, "--solve", "shift")
+        self.assertNotEqual(found["values"]["shift_east_uas"], 0)
+        self.assertLess(found["chi2"]["visibility"], plain["chi2"]["visibility"])
+        self.assertAlmostEqual(found["chi2"]["amplitude"] / plain["chi2"]["amplitude"], 1, delta=1e-9)
+        # means over bins in which a baseline is missing at some times do not quite form triangles
+        self.assertAlmostEqual(found["chi2"]["closure_phase"] / plain["chi2"]["closure_phase"], 1, delta=1e-3)
+        columns = found["columns"]
+        rows = [i for i, product in enumerate(columns["product"]) if product.startswith("visibility")]
+        self.assertEqual([columns["product"][i] for i in rows[:2]], ["visibility_re", "visibility_im"])
+        self.assertEqual(len(rows), found["n"]["visibility"])
+        for name in ("model", "data"):
+            at = columns["product"].index("amplitude")
+            parts = [columns[name][i] for i in rows[:2]]
+            if name == "model":
+                self.assertAlmostEqual(sum(x * x for x in parts) ** 0.5 / columns[name][at], 1, delta=1e-9)
+        chi2 = sum(columns["residual"][i] ** 2 for i in rows) / len(rows)
+        self.assertAlmostEqual(chi2 / found["chi2"]["visibility"], 1, delta=1e-9)
+
+    def test_scattering(self):
+        """The kernel multiplies each amplitude of the model, and longer baselines more. It leaves closure phases."""
+        options = ["--observation", compared.UVFITS, "-p", "m87", "--pixels", "64", "--average-s", "600"]
+        options += ["--check", "none", "--flux-jy", "0.6"]
+        plain, scattered = self.told(*options), self.told(*options, "--scattering", "sgra")
+        self.assertEqual(scattered["parameters"]["scattering"], "sgra")
+        rows = [
+            (u * u + v * v, s / p)
+            for product, u, v, p, s in zip(
+                *(plain["columns"][name] for name in ("product", "u_gl", "v_gl", "model")),
+                scattered["columns"]["model"],
+            )
+            if product == "amplitude"
+        ]
+        self.assertGreater(min(rows)[1], 0.8)
+        self.assertLess(max(rows)[1], 0.6)
+        self.assertAlmostEqual(scattered["chi2"]["closure_phase"] / plain["chi2"]["closure_phase"], 1, delta=1e-9)
+
+    def test_a_simulated_observation(self):
+        """Without noise chi^2 is 0 to the file's single precision. With noise it is 1 within its error. The files of
+        both forms have the visibilities of the answer; other seeds give other noise. All other bytes of the uvfits
+        remain, and nothing of the measured light does."""
+        options = ["-p", "riaf", "--pixels", "32", "--check", "none", "--flux-jy", "0.6"]
+        seen = ["--observation", compared.UVFITS, *options]
+        told = json.loads(self.good("observe", *seen, "--seed", "3"))
+        columns = told["columns"]
+        self.assertEqual((told["integral"], len(columns["re"]), told["values"]["flux_jy"]), ("observe", 1507, 0.6))
+        self.assertEqual(told["observation"]["stations"][:2], ["AA", "AP"])
+        noise = [
+            (columns[part][i] - columns["model_" + part][i]) / columns["sigma"][i]
+            for part in ("re", "im")
+            for i in range(1507)
+        ]
+        self.assertAlmostEqual(sum(noise) / len(noise), 0, delta=0.06)  # 3 / sqrt(3014)
+        self.assertAlmostEqual(sum(x * x for x in noise) / len(noise), 1, delta=0.08)
+        other = json.loads(self.good("observe", *seen, "--seed", "4"))["columns"]
+        self.assertEqual(other["model_re"], columns["model_re"])
+        self.assertNotEqual(other["re"], columns["re"])
+        asked = ["--products", "amplitude,closure_phase,log_closure_amplitude,visibility", *options]
+        for end in ("uvfits", "csv"):
+            self.good("observe", *seen, "--seed", "3", "-o", self.path("night." + end))
+            night = self.told("--observation", self.path("night." + end), *asked)
+            self.assertAlmostEqual(night["chi2"]["visibility"], 1, delta=0.08)
+            self.assertLess(night["chi2"]["closure_phase"], 1.3)
+            self.assertEqual(night["observation"]["stations"], sorted(night["observation"]["stations"]))
+            self.good("observe", *seen, "--noise", "no", "-o", self.path("quiet." + end))
+            quiet = self.told("--observation", self.path("quiet." + end), "--debias", "no", *asked)
+            for name, value in quiet["chi2"].items():
+                self.assertLess(value, 1e-6, name)
+        before, after = pathlib.Path(compared.UVFITS).read_bytes(), self.read("night.uvfits")
+        self.assertEqual(len(before), len(after))
+        groups = before.index(b"END" + 77 * b" ")
+        self.assertEqual(before[:groups], after[:groups])
+        self.assertEqual(before[before.index(b"XTENSION") :], after[after.index(b"XTENSION") :])
+        csv_alone = ["--observation", compared.CSV, *options]
+        self.good("observe", *csv_alone, "-o", self.path("again.csv"))
+        self.assertLess(self.told("--observation", self.path("again.csv"), *asked)["chi2"]["visibility"], 1.1)
+        for given, words in (
+            ([*csv_alone, "-o", self.path("a.uvfits")], "observation is a CSV, which has no places of stations"),
+            (["--observation", compared.CSV, "-p", "m87"], "flux_jy is auto; it must be a number"),
+            (["-p", "riaf"], "observation is missing"),
+            ([*csv_alone, "--seed", "-1"], "seed is -1; it must be a whole number from 0 to 4294967295"),
+        ):
+            self.bad(2, words, "observe", *given)
+
+    def test_columns_as_npz(self):
+        """numpy.savez's members: numbers as float64, words as UTF-32, and the rest of the answer."""
+        options = ["--observation", compared.CSV, "-p", "m87", "--pixels", "32", "--average-s", "600"]
+        told = self.told(*options)
+        self.good("compare", *options, "-o", self.path("a.npz"))
+        with zipfile.ZipFile(self.path("a.npz")) as file:
+            names = [name.removesuffix(".npy") for name in file.namelist() if name.endswith(".npy")]
+            self.assertEqual(names, list(told["columns"]))
+            rest = json.loads(file.read("answer.json"))
+            self.assertEqual({**rest, "columns": told["columns"]}, told)
+            for name in ("station_3", "data", "product"):
+                member = file.read(name + ".npy")
+                start = 10 + struct.unpack("<H", member[8:10])[0]
+                self.assertIn(b"'<f8'" if name == "data" else b"'<U", member[:start])
+                data, n = member[start:], len(told["columns"][name])
+                size = len(data) // n
+                rows = [data[i * size : (i + 1) * size] for i in range(n)]
+                if name == "data":
+                    self.assertEqual([struct.unpack("<d", row)[0] for row in rows], told["columns"][name])
+                else:
+                    words = [row.decode("utf-32-le").rstrip("\0") for row in rows]
+                    self.assertEqual(words, [word or "" for word in told["columns"][name]])
+
     def test_what_is_refused(self):
         seen = ["--observation", compared.CSV]
         with open(self.path("cut.uvfits"), "wb") as file, open(compared.UVFITS, "rb") as whole:
@@ -92,6 +236,9 @@ class Compare(Case):
             ([*seen, "--systematic-amplitude", "2"], "systematic.amplitude is 2; it must be 0 to 1"),
             ([*seen, "--solve", "flux", "--flux-jy", "1"], "solve cannot have flux with flux_jy"),
             ([*seen, "--solve", "flux", "--products", "closure_phase"], "products must have amplitude"),
+            ([*seen, "--solve", "shift"], "solve has shift; products must have visibility"),
+            ([*seen, "--solve", "mass"], 'solve is "mass"; it must be "flux", "size", "position_angle" or "shift"'),
+            ([*seen, "--scattering", "m87"], 'scattering is "m87"; it must be "none" or "sgra"'),
             ([*seen, "--uv-min-gl", "100"], "none of the 1507 visibilities can be compared, and 1507 of them"),
             ([*seen, "-s", "camera.r=30"], "visibilities need a flat map"),
         ):

@@ -104,13 +104,17 @@ def smaller_axes(axes):
 
 
 SCENES = {"/v1/render", "/v1/pixel", "/v1/plan", "/v1/sessions"}
-WITH_SCENES = {"/v1/jobs", "/v1/playground", "/v1/visibility", "/v1/compare", "/v1/spectrum", "/v1/plan"}
+WITH_SCENES = {"/v1/jobs", "/v1/playground", "/v1/visibility", "/v1/compare", "/v1/observe", "/v1/spectrum", "/v1/plan"}
 
 
 def smaller_job(path, value):
     if path == "/v1/playground" or "playground" in value or "axes" in value:
         value.setdefault("scene", {})
-    if path in ("/v1/visibility", "/v1/compare") or (path == "/v1/spectrum" and {"scene", "preset"} & value.keys()):
+    if isinstance(value.get("sets"), list):
+        del value["sets"][2:]
+    if path in ("/v1/visibility", "/v1/compare", "/v1/observe") or (
+        path == "/v1/spectrum" and {"scene", "preset"} & value.keys()
+    ):
         value.setdefault("pixels", 16)
         if value.get("check") in (None, "finer"):
             value["check"] = "none"

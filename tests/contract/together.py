@@ -149,7 +149,7 @@ SESSION = (
     "image.tile.width is %u; in a session, which shows whole pictures of any size, it must be 0",
 )
 
-OF_SCENES = "(GET|POST) /v1/(render|pixel|share)$|POST /v1/(plan|sessions|jobs|playground|visibility|compare|spectrum)$|PATCH /v1/(sessions|playground)/{id}(/frame)?$|POST /v1/sessions/{id}/path$"
+OF_SCENES = "(GET|POST) /v1/(render|pixel|share)$|POST /v1/(plan|sessions|jobs|playground|visibility|compare|observe|spectrum)$|PATCH /v1/(sessions|playground)/{id}(/frame)?$|POST /v1/sessions/{id}/path$"
 
 # (operations, their sentences)
 TOGETHER = [
@@ -250,7 +250,10 @@ TOGETHER = [
         "POST /v1/compare",
         (
             "observation is not an asset of this server; it must be the SHA-256 of one",
-            "solve has flux; products must have amplitude, because only amplitudes determine the flux",
+            "solve has flux; products must have amplitude or visibility, because closures do not depend on the flux",
+            "check is finer; with sets it must be none",
+            "set %zu: %.400s",
+            "solve has shift; products must have visibility, because amplitudes and closures do not depend on the position",
             "none of the %zu visibilities can be compared, and %zu of them have too short baselines: uv_min_gl or snr_cut must be lower",
             "there are %zu visibilities and %zu rows to compare; there must be at most %u of each; a larger average_s gives fewer",
             "the observation has more than %d amplitudes and closures, the limit: average over longer times, or use a minimal set",
@@ -258,9 +261,20 @@ TOGETHER = [
             "the picture of %u x %u pixels is dark and has no visibilities",
         ),
     ),
+    (
+        "POST /v1/observe",
+        (
+            "observation is not an asset of this server; it must be the SHA-256 of one",
+            "flux_jy is auto; it must be a number, because the scene's light has no frequency and thus no flux in Jy",
+            "observation is a CSV, which has no places of stations; for uvfits it must be a uvfits file",
+            "the observation has %zu visibilities; it must have at most %u to be simulated",
+            'visibilities need a flat map seen from infinity: camera.r must be "infinity", and camera.projection auto or plane',
+            "the picture of %u x %u pixels is dark and has no visibilities",
+        ),
+    ),
     # pictures whose light is measured
     (
-        "POST /v1/(spectrum|visibility|compare|jobs)",
+        "POST /v1/(spectrum|visibility|compare|observe|jobs)",
         (
             'camera.stereo is "pair"; for a measurement of light it must be "none", because each eye has its own flux',
             'camera.projection is "ring", "equirectangular" or "fulldome"; for a measurement of light it must be "plane" or "pinhole", because areas of the others are not to scale',

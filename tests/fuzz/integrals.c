@@ -24,7 +24,7 @@ static void check(struct kd_integral_request *request, enum kd_status status, co
     kd_buffer_finish(&out);
 }
 
-/* A comparison gets an observation of three stations first. */
+/* A comparison or a simulation gets an observation of three stations first. */
 static void begin(struct kd_integral_request *request, enum kd_integral what)
 {
     static const char seen[] = "#SRC:M87,DATE(MJD):57848,FREQ:227.0707GHz\n"
@@ -32,7 +32,7 @@ static void begin(struct kd_integral_request *request, enum kd_integral what)
                                "1,AA,LM,1e9,-3e9,0.1,20,0.01\n1,AA,PV,-4e9,-4e9,0.2,-60,0.01\n"
                                "1,LM,PV,-5e9,-1e9,0.3,170,0.01\n";
     kd_integral_request_init(request, what);
-    CHECK(what != KD_INTEGRAL_COMPARE || !kd_integral_set_observation(request, seen, sizeof seen - 1, NULL),
+    CHECK(!kd_integral_is_observed(what) || !kd_integral_set_observation(request, seen, sizeof seen - 1, NULL),
           "the observation is not read");
 }
 
@@ -59,11 +59,11 @@ static void read_lines(enum kd_integral what, const uint8_t *data, size_t size)
 
 int kd_fuzz_integrals(const uint8_t *data, size_t size)
 {
-    static const enum kd_integral known[] = { KD_INTEGRAL_LINE, KD_INTEGRAL_TRANSFER, KD_INTEGRAL_SPECTRUM,
-                                              KD_INTEGRAL_VISIBILITY, KD_INTEGRAL_COMPARE };
+    static const enum kd_integral known[] = { KD_INTEGRAL_LINE,       KD_INTEGRAL_TRANSFER, KD_INTEGRAL_SPECTRUM,
+                                              KD_INTEGRAL_VISIBILITY, KD_INTEGRAL_COMPARE,  KD_INTEGRAL_OBSERVE };
     if (!size)
         return 0;
-    const enum kd_integral what = known[*data % 5];
+    const enum kd_integral what = known[*data % 6];
     struct kd_fuzz_text text = kd_fuzz_bare(data + 1, size - 1);
     if (text.size && *text.at != '{')
         read_lines(what, (const uint8_t *)text.at, text.size);

@@ -183,6 +183,14 @@ class Answers(daemon.Case):
         for document in (
             {"preset": "m87", "pixels": 16, "average_s": 600},
             {
+                "preset": "m87",
+                "pixels": 16,
+                "average_s": 600,
+                "products": ["amplitude", "visibility"],
+                "solve": ["flux", "size", "shift"],
+                "scattering": "sgra",
+            },
+            {
                 "preset": "riaf",
                 "pixels": 16,
                 "check": "none",
@@ -191,6 +199,10 @@ class Answers(daemon.Case):
             },
         ):
             self.send("POST", "/v1/compare", "/v1/compare", {"observation": seen["sha256"], **document})
+        sets = {"preset": "m87", "pixels": 16, "observation": seen["sha256"], "sets": [{"spacetime.spin": 0.2}, {}]}
+        self.send("POST", "/v1/compare", "/v1/compare", sets)
+        observed = {"preset": "riaf", "pixels": 16, "seed": 1, "observation": seen["sha256"]}
+        self.send("POST", "/v1/observe", "/v1/observe", observed)
         answer = self.daemon.post("/v1/spectrum", {"preset": "riaf", "frequencies": 200, "pixels": 2048})
         self.assertEqual(answer.status, 422, answer.body)
         self.assertIn("400 pictures", answer.json()["detail"])

@@ -284,7 +284,27 @@ class OpenApi(daemon.Case):
                         {"products": ["amplitude", "amplitude"]},
                         {"systematic": {"phase": 1}},
                         {"observation": 1},
-                        {"average_s": 600, "check": "none"},
+                        {"solve": ["flux"], "products": ["closure_phase"]},
+                        {"solve": ["shift"]},
+                        {"scattering": "m87"},
+                        {"sets": []},
+                        {"sets": {"size": 1}},
+                        {"sets": [{"spacetime.spin": None}]},
+                        {"sets": [{"spacetime.spin": [0, 1]}]},
+                        {"solve": ["size", "shift"], "products": ["visibility"], "average_s": 600, "check": "none"},
+                    )
+                ),
+            ),
+            (
+                "observe",
+                *(
+                    {"observation": seen, "preset": "riaf", "pixels": 16, **more}
+                    for more in (
+                        {"seed": -1},
+                        {"noise": True},
+                        {"observation": None},
+                        {"average_s": 60},
+                        {"seed": 7, "noise": "no", "flux_jy": 1, "check": "none", "scattering": "sgra"},
                     )
                 ),
             ),

@@ -663,6 +663,11 @@ class Integrals(daemon.Case):
             self.assertAlmostEqual(told["values"]["flux_jy"], 0.6, delta=1e-12)
             self.assertEqual(told["parameters"]["systematic"]["closure_phase_deg"], 2)
         self.assertAlmostEqual(sent["csv"]["chi2"]["amplitude"] / sent["uvfits"]["chi2"]["amplitude"], 1, delta=1e-4)
+        found = self.post("compare", {**document, "solve": ["size", "position_angle"], "scattering": "sgra"}).json()
+        self.assertEqual([one["name"] for one in found["solved"]], ["size", "position_angle_deg"])
+        size = found["values"]["size"]
+        self.assertEqual(found["solved"][0], {"name": "size", "value": size, "converged": 0.5 < size < 2})
+        self.assertNotEqual(found["chi2"]["amplitude"], told["chi2"]["amplitude"])
         table = self.post("compare", document, Accept="text/csv")
         self.assertEqual(table.header("Content-Disposition"), 'attachment; filename="compare.csv"')
         rows = list(csv.DictReader(io.StringIO(table.body.decode())))
@@ -679,6 +684,10 @@ class Integrals(daemon.Case):
             ({"systematic": {"phase": 1}}, "/systematic/phase", "no field systematic.phase"),
             ({"systematic.amplitude": 1}, "/systematic.amplitude", "no field systematic.amplitude"),
             ({"solve": ["flux"]}, "/solve", "with flux_jy"),
+            ({"solve": ["shift"]}, "/solve", "products must have visibility"),
+            ({"solve": ["mass"]}, "/solve", '"flux", "size", "position_angle" or "shift"'),
+            ({"solve": ["size", "size"]}, "/solve", "size twice"),
+            ({"scattering": "yes"}, "/scattering", '"none" or "sgra"'),
             ({"uv_min_gl": 1e5}, "/observation", "can be compared"),
             ({"average_s": -1}, "/average_s", "0 to 86400"),
             ({"orders": 1}, "/orders", "no field orders"),
@@ -687,6 +696,29 @@ class Integrals(daemon.Case):
                 answer = self.post("compare", {**document, **change})
                 problem = answer.json()
                 self.assertEqual((answer.status, problem.get("pointer")), (422, pointer), problem)
+                self.assertIn(words, problem["detail"])
+        sets = {**document, "sets": [{"spacetime.spin": 0.5}, {}, {"size": 1.5, "spacetime.spin": 0.5}]}
+        del sets["check"], sets["flux_jy"]
+        many = self.post("compare", sets).json()
+        self.assertEqual(len(many["columns"]["total"]), 3)
+        self.assertEqual((many["values"]["pictures"], many["columns"]["size"]), (2, [1, 1, 1.5]))
+        self.assertNotIn("chi2", many)
+        for change, pointer, words in (
+            ({"sets": []}, "/sets", "it must have 1 to 4096"),
+            ({"sets": [{}] * 4097}, "/sets", "it must have 1 to 4096"),
+            ({"sets": 1}, "/sets", "array of objects"),
+            ({"sets": [{}, 1]}, "/sets/1", "an object"),
+            ({"sets": [{}, {"spacetime.spin": 2}]}, "/sets/1", "spacetime.spin is 2"),
+            ({"sets": [{"spacetime.spin": {}}]}, "/sets/0", "a number, a word, true or false"),
+            ({"sets": [{"image.width": 9}]}, "/sets/0", "cannot be in a set"),
+            ({"sets": [{"disk.outer": 2}]}, "/sets/0", "disk.outer is 2 M"),
+            ({"sets": [{"size": 0}]}, "/sets/0", "0.001 to 1000"),
+            ({"sets": [{"size": 1}], "solve": ["size"]}, "/sets/0", "which would replace it"),
+            ({"sets": [{}], "check": "finer"}, "/check", "with sets it must be none"),
+        ):
+            with self.subTest(change):
+                problem = self.post("compare", {**sets, **change}).json()
+                self.assertEqual((problem["status"], problem.get("pointer")), (422, pointer), problem)
                 self.assertIn(words, problem["detail"])
         missing = self.post("compare", {"preset": "m87"}).json()
         self.assertEqual((missing["status"], missing["pointer"]), (422, "/observation"))

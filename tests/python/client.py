@@ -270,6 +270,24 @@ class Blocking(Case):
         with self.assertRaises(kerrd.Problem):
             self.hole.compare(b"nothing")
 
+    def test_what_an_array_would_have_measured(self):
+        """The file's visibilities are those of the answer, and the scene fits them."""
+        file = pathlib.Path(__file__).resolve().parents[2] / "data/eht/m87-2017-04-05-lo.uvfits"
+        options = {"preset": "riaf", "pixels": 32, "check": "none", "flux_jy": 0.6}
+        told = self.hole.observe(file, seed=5, **options)
+        columns = told["columns"]
+        self.assertEqual(columns["re"].shape, (1507,))
+        off = np.hypot(columns["re"] - columns["model_re"], columns["im"] - columns["model_im"]) / columns["sigma"]
+        self.assertAlmostEqual((off**2).mean(), 2, delta=0.3)
+        for form in ("uvfits", "csv"):
+            night = self.hole.observe_file(file, seed=5, form=form, **options)
+            seen = self.hole.compare(night, products=["visibility"], uv_min_gl=0, **options)
+            self.assertAlmostEqual(seen["chi2"]["visibility"], 1, delta=0.1)
+            data = seen["columns"]["data"][seen["columns"]["product"] == "visibility_re"]
+            np.testing.assert_allclose(np.sort(data), np.sort(columns["re"]), rtol=1e-5, atol=1e-7)
+        with self.assertRaises(kerrd.Problem):
+            self.hole.observe_file(file.with_suffix(".csv"), **options)
+
     def test_a_sweep_is_its_scenes(self):
         axes = {
             "spacetime.spin": [0, 0.9],

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define OFFERED "application/json, text/csv, " KD_NPY_TYPE
+#define OFFERED "application/json, text/csv, " KD_NPY_TYPE ", application/x-npz"
 /* estimated time of one product on one core; a product combines one pixel, or one image order of a pixel, with a
  * baseline */
 #define NS_A_PRODUCT 1.2
@@ -18,7 +18,10 @@
 
 static const char *const types[] = { [KD_INTEGRAL_JSON] = "application/json",
                                      [KD_INTEGRAL_CSV] = "text/csv",
-                                     [KD_INTEGRAL_NPY] = KD_NPY_TYPE };
+                                     [KD_INTEGRAL_NPY] = KD_NPY_TYPE,
+                                     [KD_INTEGRAL_NPZ] = "application/x-npz",
+                                     [KD_INTEGRAL_UVFITS] = KD_ASSET_UVFITS_TYPE };
+static const char *const endings[] = { "json", "csv", "npy", "npz", "uvfits" };
 
 struct job {
     struct kd_task task; /* must be the first member */
@@ -47,7 +50,8 @@ static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_er
     const unsigned n = kd_integral_pictures(&job->request), sizes = n < 2 || job->request.unchecked ? 1 : 2;
     struct kd_capacity capacity;
     double ms = 0;
-    *bytes = kd_integral_rows(&job->request) * BYTES_PER_ROW;
+    *bytes = kd_integral_rows(&job->request) * BYTES_PER_ROW + 2 * job->request.file_size +
+             (job->request.what == KD_INTEGRAL_SETS ? job->request.sets->n * sizeof *job->request.sets->at : 0);
     kd_render_queue_capacity(server->renders, &capacity);
     for (unsigned i = 0; i < sizes && n; i++) {
         struct kd_scene scene = kd_integral_scene(&job->request, i);
@@ -56,7 +60,9 @@ static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_er
         if (status)
             return status;
         ms += plan.estimate_ms * n / sizes +
-              (double)plan.n_layers * plan.width * plan.height * (double)job->request.u.n * NS_A_PRODUCT * 1e-6;
+              (double)plan.n_layers * plan.width * plan.height * (double)job->request.u.n * NS_A_PRODUCT * 1e-6 *
+                  (i ? 1 : kd_integral_evaluations(&job->request)) *
+                  (job->request.what == KD_INTEGRAL_SETS ? (double)job->request.sets->n : 1);
         *bytes += 4 * (1 + plan.n_layers) * (size_t)plan.width * plan.height;
     }
     if (ms > server->longest_s * 1e3)
@@ -78,6 +84,8 @@ static enum kd_status begin(struct job *job, struct kd_error *error)
     kd_task_drop_body(task->request);
     if (status)
         return status;
+    if (job->format == KD_INTEGRAL_UVFITS && !job->request.file)
+        return kd_error_field(error, "/observation", KD_INTEGRAL_NO_UVFITS);
     KD_TRY(plan_pictures(job, &bytes, error));
     KD_TRY(kd_task_hold(task->request->server, task->scheduled.client, bytes, &task->held, &task->quota, error));
     /* An integral without pictures is computed in one slice: mostly in some hundredths of a second, and in 0.3 s for
@@ -168,6 +176,13 @@ static enum MHD_Result refuse(struct kd_request *request, const struct job *job)
     return kd_reply_problem(request, &problem);
 }
 
+/* The EHT's CSV has two lines before its rows. */
+static const char *csv_type(const struct job *job)
+{
+    return job->request.what == KD_INTEGRAL_OBSERVE ? "text/csv; charset=utf-8"
+                                                    : "text/csv; charset=utf-8; header=present";
+}
+
 static enum MHD_Result deliver(struct kd_request *request)
 {
     struct job *job = (struct job *)request->task;
@@ -178,15 +193,14 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (task->status)
         return refuse(request, job);
     request->reply_bytes = job->text.size;
-    struct MHD_Response *response = job->format == KD_INTEGRAL_NPY ? kd_reply_take(&job->text, types[KD_INTEGRAL_NPY])
+    struct MHD_Response *response = job->format >= KD_INTEGRAL_NPY ? kd_reply_take(&job->text, types[job->format])
                                     : job->format == KD_INTEGRAL_CSV
-                                        ? kd_reply_text(request, &job->text, "text/csv; charset=utf-8; header=present")
+                                        ? kd_reply_text(request, &job->text, csv_type(job))
                                         : kd_reply_text(request, &job->text, types[KD_INTEGRAL_JSON]);
     if (!response)
         return kd_reply_no_memory(request);
     if (job->format != KD_INTEGRAL_JSON)
-        kd_reply_file(request, KD_ATTACHMENT, "%s.%s", kd_integral_name(job->request.what),
-                      job->format == KD_INTEGRAL_CSV ? "csv" : "npy");
+        kd_reply_file(request, KD_ATTACHMENT, "%s.%s", kd_integral_name(job->request.what), endings[job->format]);
     snprintf(timing, sizeof timing, "queue;dur=%.3f, compute;dur=%.3f", task->begun_ms - task->submitted_ms,
              task->done_ms - task->begun_ms);
     MHD_add_response_header(response, "Server-Timing", timing);
@@ -201,11 +215,16 @@ enum MHD_Result kd_handle_integral(struct kd_request *request)
     enum MHD_Result refused;
     if (request->task)
         return deliver(request);
-    size_t format = kd_reply_accepted(request, 3, kd_accept_string, types);
-    if (format >= 3)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
-                                                                .offered = OFFERED,
-                                                                .detail = "integrals are available as " OFFERED });
+    const bool observe = kd_integral_of_route(request->route->path) == KD_INTEGRAL_OBSERVE;
+    const size_t formats = observe ? KD_INTEGRAL_UVFITS + 1 : KD_INTEGRAL_UVFITS;
+    size_t format = kd_reply_accepted(request, formats, kd_accept_string, types);
+    if (format >= formats)
+        return kd_reply_problem(request,
+                                &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
+                                                       .offered = observe ? OFFERED ", " KD_ASSET_UVFITS_TYPE : OFFERED,
+                                                       .detail = observe ? "observations are available as " OFFERED
+                                                                           ", " KD_ASSET_UVFITS_TYPE
+                                                                         : "integrals are available as " OFFERED });
     if (request->target.n_pairs)
         return kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS,

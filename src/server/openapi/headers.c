@@ -97,6 +97,7 @@ static const struct {
     { "/v1/spectrum", 0, 200, "Server-Timing Content-Disposition" },
     { "/v1/visibility", 0, 200, "Server-Timing Content-Disposition" },
     { "/v1/compare", 0, 200, "Server-Timing Content-Disposition" },
+    { "/v1/observe", 0, 200, "Server-Timing Content-Disposition" },
     { "/v1/physics/{name}", 0, 200, "Server-Timing Content-Disposition" },
     { "/v1/sessions", KD_POST, 201, "Server-Timing" },
     { "/v1/sessions/{id}", KD_PATCH, 200, "Server-Timing Preference-Applied" },

@@ -7,7 +7,8 @@
 
 /* Names of each integral's request schema. Spectra of disks and of volumes share one. */
 static const char *const requests[KD_INTEGRALS] = { "LineRequest", "TransferFunctionRequest", "SpectrumRequest",
-                                                    NULL,          "VisibilityRequest",       "CompareRequest" };
+                                                    NULL,          "VisibilityRequest",       "CompareRequest",
+                                                    NULL,          "ObserveRequest" };
 
 void kd_openapi_integral_body(struct kd_json *json, const char *path)
 {
@@ -19,8 +20,9 @@ void kd_openapi_integral_body(struct kd_json *json, const char *path)
 
 void kd_openapi_integral_schemas(struct kd_json *json)
 {
-    static const char *const names[KD_INTEGRALS] = { "LineProfile",    "TransferFunction", "DiskSpectrum",
-                                                     "VolumeSpectrum", "Visibilities",     "Comparison" };
+    static const char *const names[KD_INTEGRALS] = { "LineProfile",      "TransferFunction", "DiskSpectrum",
+                                                     "VolumeSpectrum",   "Visibilities",     "Comparison",
+                                                     "ComparisonOfSets", "Simulation" };
     for (int i = 0; i < KD_INTEGRALS; i++) {
         if (requests[i])
             kd_integral_request_schema(json, requests[i], (enum kd_integral)i);

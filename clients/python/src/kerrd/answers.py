@@ -534,6 +534,7 @@ class ComparisonParameters(TypedDict):
     debias: str
     closures: str
     pulse: str
+    scattering: str
     flux_jy: float | None
     solve: list[str]
     pixels: float
@@ -549,24 +550,37 @@ class ComparisonValues(TypedDict):
     edge_share: float | None
     undefined: float | None
     model_error: float | None
+    size: float | None
+    position_angle_deg: float | None
+    shift_east_uas: float | None
+    shift_north_uas: float | None
 
 
 class ComparisonChi2(TypedDict):
     amplitude: float | None
     closure_phase: float | None
     log_closure_amplitude: float | None
+    visibility: float | None
 
 
 class ComparisonChi2Finer(TypedDict):
     amplitude: float | None
     closure_phase: float | None
     log_closure_amplitude: float | None
+    visibility: float | None
 
 
 class ComparisonN(TypedDict):
     amplitude: int
     closure_phase: int
     log_closure_amplitude: int
+    visibility: int
+
+
+class ComparisonSolved(TypedDict):
+    name: str
+    value: float | None
+    converged: bool
 
 
 class ComparisonObservation(TypedDict):
@@ -593,7 +607,115 @@ class Comparison(TypedDict):
     chi2: ComparisonChi2
     chi2_finer: ComparisonChi2Finer
     n: ComparisonN
+    solved: list[ComparisonSolved]
     observation: ComparisonObservation
+
+
+class ComparisonOfSetsParametersSystematic(TypedDict):
+    visibility: float
+    amplitude: float
+    closure_phase_deg: float
+
+
+class ComparisonOfSetsParameters(TypedDict):
+    products: list[str]
+    average_s: float
+    uv_min_gl: float
+    snr_cut: float
+    systematic: ComparisonOfSetsParametersSystematic
+    debias: str
+    closures: str
+    pulse: str
+    scattering: str
+    flux_jy: float | None
+    solve: list[str]
+    pixels: float
+    check: str
+
+
+class ComparisonOfSetsValues(TypedDict):
+    pictures: float | None
+    pixel_uas: float | None
+    width_uas: float | None
+    height_uas: float | None
+    nyquist_gl: float | None
+    edge_share: float | None
+    undefined: float | None
+
+
+class ComparisonOfSetsObservation(TypedDict):
+    source: str
+    mjd: float
+    frequency_ghz: float
+    stations: list[str]
+    visibilities: int
+    flagged: int
+    duplicates: int
+    averaged: int
+    too_short: int
+
+
+class ComparisonOfSetsN(TypedDict):
+    amplitude: int
+    closure_phase: int
+    log_closure_amplitude: int
+    visibility: int
+
+
+class ComparisonOfSets(TypedDict):
+    integral: Literal['compare']
+    parameters: ComparisonOfSetsParameters
+    values: ComparisonOfSetsValues
+    columns: Columns
+    units: dict[str, str]
+    sources: list[str]
+    approximations: list[str]
+    scene: dict[str, Any]
+    observation: ComparisonOfSetsObservation
+    n: ComparisonOfSetsN
+
+
+class SimulationParameters(TypedDict):
+    pulse: str
+    scattering: str
+    flux_jy: float | None
+    noise: str
+    seed: float
+    pixels: float
+    check: str
+
+
+class SimulationValues(TypedDict):
+    flux_jy: float | None
+    pixel_uas: float | None
+    width_uas: float | None
+    height_uas: float | None
+    nyquist_gl: float | None
+    edge_share: float | None
+    undefined: float | None
+    model_error: float | None
+
+
+class SimulationObservation(TypedDict):
+    source: str
+    mjd: float
+    frequency_ghz: float
+    stations: list[str]
+    visibilities: int
+    flagged: int
+    duplicates: int
+
+
+class Simulation(TypedDict):
+    integral: Literal['observe']
+    parameters: SimulationParameters
+    values: SimulationValues
+    columns: Columns
+    units: dict[str, str]
+    sources: list[str]
+    approximations: list[str]
+    scene: dict[str, Any]
+    observation: SimulationObservation
 
 
 class PresetTold(TypedDict):

@@ -294,6 +294,18 @@ def compare(document: Document) -> Call[answers.Comparison]:
     return post("/v1/compare", document, _comparison, accept=JSON)
 
 
+def compare_sets(document: Document) -> Call[answers.ComparisonOfSets]:
+    return post("/v1/compare", document, _comparison, accept=JSON)
+
+
+def observe(document: Document) -> Call[answers.Simulation]:
+    return post("/v1/observe", document, _comparison, accept=JSON)
+
+
+def observe_file(document: Document, kind: str) -> Call[bytes]:
+    return post("/v1/observe", document, lambda answer: answer.body, accept=kind)
+
+
 def is_hash(text: str) -> bool:
     return len(text) == 64 and set(text) <= set("0123456789abcdef")
 

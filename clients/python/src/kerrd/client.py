@@ -7,7 +7,7 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from time import monotonic
 from types import TracebackType
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeVar
 
 import httpx
 import numpy as np
@@ -319,14 +319,57 @@ class Client:
         """Compares a scene with an observation: chi^2, and `columns` as arrays. The observation is a file (uvfits, or
         the EHT's CSV), its bytes, or the hash of an asset on the server: compare("m87.uvfits", preset="m87",
         average_s=600)."""
+        document = self._observed(observation, scene, settings)
+        told: answers.Comparison = self._run(calls.compare(document))
+        return told
+
+    def compare_sets(
+        self,
+        observation: str | bytes | os.PathLike[str],
+        sets: Sequence[Mapping[str, Any]],
+        scene: SceneLike = None,
+        **settings: Any,
+    ) -> answers.ComparisonOfSets:
+        """chi^2 of many parameter sets in one request: `columns` as arrays with a row for each set. A set has fields of
+        the scene by their paths, and "flux_jy", "size" and "position_angle_deg": compare_sets("m87.uvfits",
+        [{"spacetime.spin": 0.5}, {"spacetime.spin": 0.9}], preset="m87"). kerrd.fit fits by such requests."""
+        document = self._observed(observation, scene, settings)
+        told: answers.ComparisonOfSets = self._run(calls.compare_sets({**document, "sets": list(sets)}))
+        return told
+
+    def observe(
+        self, observation: str | bytes | os.PathLike[str], scene: SceneLike = None, **settings: Any
+    ) -> answers.Simulation:
+        """What the array of an observation would have measured of a scene, with its noise: `columns` as arrays. The
+        observation is given as for compare(): observe("m87.uvfits", preset="riaf", seed=1)."""
+        document = self._observed(observation, scene, settings)
+        told: answers.Simulation = self._run(calls.observe(document))
+        return told
+
+    def observe_file(
+        self,
+        observation: str | bytes | os.PathLike[str],
+        scene: SceneLike = None,
+        *,
+        form: Literal["uvfits", "csv"] = "uvfits",
+        **settings: Any,
+    ) -> bytes:
+        """The same as the bytes of a file: uvfits, for which the observation must be uvfits too, or the EHT's CSV."""
+        document = self._observed(observation, scene, settings)
+        kind = "application/x-uvfits" if form == "uvfits" else "text/csv"
+        return self._run(calls.observe_file(document, kind))
+
+    def _observed(
+        self, observation: str | bytes | os.PathLike[str], scene: SceneLike, settings: dict[str, Any]
+    ) -> dict[str, Any]:
+        """The request of a comparison or a simulation. Uploads the observation unless it is the hash of an asset."""
         name = observation if isinstance(observation, str) and calls.is_hash(observation) else None
         if name is None:
             name = self.put_asset(*calls.observed(observation))
         document = {**settings, "observation": name}
         if scene is not None:
             document["scene"] = scene_of(scene, {})
-        told: answers.Comparison = self._run(calls.compare(document))
-        return told
+        return document
 
     def presets(self) -> list[answers.PresetTold]:
         """Name, label and title of each preset."""

@@ -1,0 +1,55 @@
+/* Finds the size, the orientation and the position of a model that fit an observation best. Any thread.
+ *
+ * chi^2 is summed over all data of the comparison. Size and orientation are searched on a grid first, because closure
+ * phases give chi^2 several minima. The best places of the grid are then refined by the simplex method of J. A. Nelder
+ * & R. Mead 1965, Comput. J. 7, 308. At each of them the flux follows in closed form (kd_comparison_scale), and the
+ * shift from a grid and Newton's method: only the sum of Re(d* m exp(2 pi i (u x + v y)))/sigma^2 depends on it. */
+#ifndef KD_OBSERVE_ALIGN_H
+#define KD_OBSERVE_ALIGN_H
+
+#include "observe/comparison.h"
+
+enum { KD_ALIGN_FLUX = 1, KD_ALIGN_SIZE = 2, KD_ALIGN_ANGLE = 4, KD_ALIGN_SHIFT = 8 };
+
+/* Steps of the grid: 7.5 degrees and 9 percent turn a fringe of the EHT's longest baselines over a ring of 50 uas by
+ * less than a sixth of a turn. */
+enum { KD_ALIGN_SIZES = 17, KD_ALIGN_ANGLES = 48, KD_ALIGN_SHIFTS = 65 };
+
+#define KD_ALIGN_LEAST_SIZE 0.5
+#define KD_ALIGN_MOST_SIZE 2.0
+
+struct kd_alignment {
+    double size;        /* factor of the model's angular size, at the same flux */
+    double angle_deg;   /* rotation from north to east */
+    double east, north; /* shift, in radians */
+    double scale;       /* factor of the flux */
+    unsigned evaluations;
+    bool converged[4]; /* flux, size, angle, shift; true for what is not searched */
+};
+#define KD_ALIGNMENT_NONE ((struct kd_alignment) { .size = 1, .scale = 1, .converged = { true, true, true, true } })
+
+struct kd_align_params {
+    unsigned solve;    /* bits KD_ALIGN_... */
+    double most_shift; /* radians; the shift is searched within this distance along each axis */
+    /* Computes the model's visibilities for a size and a rotation, without shift and scale. */
+    void (*model)(void *user, double size, double angle_deg, double (*out)[2]);
+    void *user;
+};
+
+/* Memory of a search; needs no initialisation. */
+struct kd_align_vertex { double at[2], value; };
+struct kd_align_room {
+    struct kd_align_vertex grid[KD_ALIGN_SIZES * KD_ALIGN_ANGLES];
+    double shift[KD_ALIGN_SHIFTS * KD_ALIGN_SHIFTS];
+};
+
+/* Number of evaluations of the model that a search needs at most. */
+unsigned kd_align_evaluations(unsigned solve);
+/* Searches. *out holds the result and, at first, the scale to be used if the flux is not solved for. Afterwards
+ * model[i] is the model's visibility at *out with its shift, without the scale. */
+void kd_align(const struct kd_comparison *comparison, const struct kd_align_params *params, struct kd_align_room *room,
+              double (*model)[2], struct kd_alignment *out);
+/* Shifts a model to the east and to the north, by radians. */
+void kd_align_shift(const struct kd_comparison *comparison, double east, double north, double (*model)[2]);
+
+#endif
