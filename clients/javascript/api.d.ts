@@ -13,10 +13,10 @@ export type Patch<T> = T extends readonly (infer E)[]
 
 /** The name of a preset. */
 export type PresetName =
-  | 'smooth' | 'schwarzschild' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on' | 'face-on' | 'photon-rings'
-  | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk' | 'star-behind' | 'companions'
-  | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4'
-  | 'gold-5' | 'riaf' | 'torus';
+  | 'smooth' | 'schwarzschild' | 'reissner-nordstrom' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on'
+  | 'face-on' | 'photon-rings' | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk'
+  | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1'
+  | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
 
 export interface Scene {
   /** version of this document format. */
@@ -28,6 +28,11 @@ export interface Scene {
      * 0.7.
      */
     spin?: number;
+    /**
+     * electric charge Q of the hole (Kerr-Newman), which acts on space-time alone: light and matter are neutral; in
+     * M; 0 to 0.999999999999; default 0.
+     */
+    charge?: number;
     /**
      * mass of the hole; sets the temperature when disk.colour is "accretion"; in solar masses; 0.001 to 1e+12;
      * default 100000000.
@@ -716,7 +721,7 @@ export interface Scene {
 }
 
 export type FieldPath =
-  | 'version' | 'spacetime.spin' | 'spacetime.mass_msun' | 'spacetime.distance_pc' | 'camera.r'
+  | 'version' | 'spacetime.spin' | 'spacetime.charge' | 'spacetime.mass_msun' | 'spacetime.distance_pc' | 'camera.r'
   | 'camera.inclination_deg' | 'camera.azimuth_deg' | 'camera.observer' | 'camera.velocity_r' | 'camera.velocity_theta'
   | 'camera.velocity_phi' | 'camera.infall_from' | 'camera.infall_energy' | 'camera.infall_momentum'
   | 'camera.projection' | 'camera.field_m' | 'camera.field_uas' | 'camera.fov_deg' | 'camera.centre_alpha'
@@ -1283,10 +1288,10 @@ export interface TransferFunction {
 export interface SpectrumRequest {
   /** preset to which the scene is merged. */
   preset?:
-    | 'smooth' | 'schwarzschild' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on' | 'face-on' | 'photon-rings'
-    | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk' | 'star-behind' | 'companions'
-    | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4'
-    | 'gold-5' | 'riaf' | 'torus';
+    | 'smooth' | 'schwarzschild' | 'reissner-nordstrom' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on'
+    | 'face-on' | 'photon-rings' | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk'
+    | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1'
+    | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
   scene?: Scene;
   /** spin of the hole; below 0 the disk rotates against the hole [M]; -1 to 1. */
   spin?: number;
@@ -1414,10 +1419,10 @@ export interface VolumeSpectrum {
 export interface VisibilityRequest {
   /** preset to which the scene is merged. */
   preset?:
-    | 'smooth' | 'schwarzschild' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on' | 'face-on' | 'photon-rings'
-    | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk' | 'star-behind' | 'companions'
-    | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4'
-    | 'gold-5' | 'riaf' | 'torus';
+    | 'smooth' | 'schwarzschild' | 'reissner-nordstrom' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on'
+    | 'face-on' | 'photon-rings' | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk'
+    | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1'
+    | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
   scene?: Scene;
   /** eastward components of the baselines, in units of 1e9 wavelengths; as many as v [Gl]; up to 20001. */
   u?: number[];
@@ -1502,10 +1507,10 @@ export interface Visibilities {
 export interface CompareRequest {
   /** preset to which the scene is merged. */
   preset?:
-    | 'smooth' | 'schwarzschild' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on' | 'face-on' | 'photon-rings'
-    | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk' | 'star-behind' | 'companions'
-    | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4'
-    | 'gold-5' | 'riaf' | 'torus';
+    | 'smooth' | 'schwarzschild' | 'reissner-nordstrom' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on'
+    | 'face-on' | 'photon-rings' | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk'
+    | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1'
+    | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
   scene?: Scene;
   /** SHA-256 of an asset of the server: uvfits, or the EHT's CSV. */
   observation: string;
@@ -3011,6 +3016,11 @@ export interface SceneQuery {
    * 0.7.
    */
   'spacetime.spin'?: number;
+  /**
+   * electric charge Q of the hole (Kerr-Newman), which acts on space-time alone: light and matter are neutral; in
+   * M; 0 to 0.999999999999; default 0.
+   */
+  'spacetime.charge'?: number;
   /**
    * mass of the hole; sets the temperature when disk.colour is "accretion"; in solar masses; 0.001 to 1e+12;
    * default 100000000.
@@ -4657,6 +4667,8 @@ export interface Operations {
       query?: {
         /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /** polar angle of the observer [degrees]; 0 to 180; default 60. */
         inclination_deg?: number | string;
         /** radius of the observer [M]; 0.01 to 10000000; default "infinity". */
@@ -4701,6 +4713,7 @@ export interface Operations {
         quantity: 'shadow';
         parameters: {
           spin: number | number[];
+          charge: number | number[];
           inclination_deg: number | number[];
           observer_r: 'infinity' | number | number[];
           observer: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
@@ -4748,6 +4761,7 @@ export interface Operations {
         };
         units: {
           spin: string;
+          charge: string;
           inclination_deg: string;
           observer_r: string;
           velocity_r: string;
@@ -5619,6 +5633,8 @@ export interface Operations {
       query?: {
         /** spin parameter a [M]; -1 to 1; default 0. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /** polar angle of the falling observer [degrees]; 0 to 180; default 90. */
         inclination_deg?: number | string;
         /**
@@ -5648,6 +5664,7 @@ export interface Operations {
         quantity: 'infall';
         parameters: {
           spin: number | number[];
+          charge: number | number[];
           inclination_deg: number | number[];
           infall_from: 'infinity' | number | number[];
           infall_energy: 'rest' | number | number[];
@@ -5686,6 +5703,7 @@ export interface Operations {
         };
         units: {
           spin: string;
+          charge: string;
           inclination_deg: string;
           infall_from: string;
           infall_energy: string;

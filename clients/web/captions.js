@@ -9,6 +9,10 @@ const captions = {
     'A hole that does not spin, its disk from 10° above',
     'Un buco che non ruota, il suo disco da 10° sopra',
   ],
+  'reissner-nordstrom': [
+    'A hole charged almost to the limit, as no real one is',
+    'Un buco carico quasi al limite, come nessuno vero',
+  ],
   gargantua: [
     'The film’s hole, with the shifts that it left out',
     'Il buco del film, con gli effetti Doppler che tralasciò',

@@ -20,8 +20,14 @@ export function entitle(view, what) {
 
 export function nameOf(scene) {
   const spin = number(scene.get('spacetime.spin')),
-    tilt = number(scene.get('camera.inclination_deg'));
-  return t(`spin ${spin}, inclination ${tilt}°`, `spin ${spin}, inclinazione ${tilt}°`);
+    tilt = number(scene.get('camera.inclination_deg')),
+    charge = scene.get('spacetime.charge');
+  return charge
+    ? t(
+        `spin ${spin}, charge ${number(charge)}, inclination ${tilt}°`,
+        `spin ${spin}, carica ${number(charge)}, inclinazione ${tilt}°`,
+      )
+    : t(`spin ${spin}, inclination ${tilt}°`, `spin ${spin}, inclinazione ${tilt}°`);
 }
 
 function whence(scene) {

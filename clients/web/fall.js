@@ -35,6 +35,7 @@ function faller(scene) {
   const own = name => [name, scene.get('camera.' + name)];
   return {
     spin: scene.get('spacetime.spin'),
+    ...(scene.get('spacetime.charge') ? { charge: scene.get('spacetime.charge') } : {}),
     inclination_deg: scene.get('camera.inclination_deg'),
     mass_msun: scene.get('spacetime.mass_msun'),
     ...(falls(scene) ? Object.fromEntries(numbers.map(own)) : {}),

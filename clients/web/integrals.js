@@ -18,6 +18,8 @@ const isRadio = scene =>
 
 // The scene's disk as parameters of integrals over thin disks.
 function disk(scene) {
+  if (scene.get('spacetime.charge'))
+    throw new Error(t('known for an uncharged hole only', 'noto solo per un buco scarico'));
   const inner = scene.get('disk.inner');
   return {
     spin: scene.get('spacetime.spin'),

@@ -11,6 +11,10 @@ export const fields = {
   source: ['La sorgente'],
   motion: ['Moto'],
   'spacetime.spin': ['Spin', 'Parametro di rotazione a; se a < 0 il disco gira in verso opposto al buco'],
+  'spacetime.charge': [
+    'Carica',
+    'Carica elettrica Q del buco (Kerr-Newman), che agisce solo sullo spazio-tempo: luce e materia sono neutre',
+  ],
   'spacetime.mass_msun': ['Massa', 'Massa del buco; fissa la temperatura quando i colori vengono dall’accrescimento'],
   'spacetime.distance_pc': [
     'Distanza dalla Terra',

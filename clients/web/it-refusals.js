@@ -79,6 +79,27 @@ const refusals = [
     '{} is {}; it must be at least {}, the ISCO of {} {}, or {}',
     '{} è {}; deve essere almeno {}, l’ISCO per {} {}, o {}',
   ],
+  [
+    '{} is {}; it must be at least {}, the ISCO of {} {} and {} {}, or {}',
+    '{} è {}; deve essere almeno {}, l’ISCO per {} {} e {} {}, o {}',
+  ],
+  [
+    '{} is {}; it must be at least {}, the ISCO of {} {} and {} {}',
+    '{} è {}; deve essere almeno {}, l’ISCO per {} {} e {} {}',
+  ],
+  [
+    '{} is {}; it must be more than {}, the horizon of {} {} and {} {}',
+    '{} è {}; deve essere più di {}, l’orizzonte per {} {} e {} {}',
+  ],
+  ['{} is {}; with spacetime.spin {} it must be at most {}', '{} è {}; con spacetime.spin {} deve essere al più {}'],
+  [
+    '{} is {}; with spacetime.charge {} it must be {}, because it is known for an uncharged hole only',
+    '{} è {}; con spacetime.charge {} deve essere {}, perché lo si conosce solo per un buco scarico',
+  ],
+  [
+    "spacetime.charge is {}; it must be 0: the playground's bodies move round an uncharged hole",
+    'spacetime.charge è {}; deve essere 0: i corpi si muovono attorno a un buco scarico',
+  ],
   ['{} is {}; it must be at least {}, the ISCO of {} {}', '{} è {}; deve essere almeno {}, l’ISCO per {} {}'],
   ['{} is {}; it must be more than {}, the horizon of {} {}', '{} è {}; deve essere più di {}, l’orizzonte per {} {}'],
   [

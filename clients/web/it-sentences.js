@@ -230,6 +230,8 @@ export const sentences = {
     'mappe: quelle di luoghi e angoli sono di un solo raggio per pixel, non medie su di esso',
   'layers: a picture of a map has false colours; FITS, EXR, NPZ and NPY have its numbers':
     'mappe: l’immagine di una mappa è in falsi colori; FITS, EXR, NPZ e NPY ne contengono i numeri',
+  'hole: charged as real holes hardly are, because matter around them soon neutralises a charge; light and matter here are neutral, and feel the charge only through space-time':
+    'buco: carico come quelli veri quasi non sono, perché la materia attorno neutralizza presto la carica; qui luce e materia sono neutre, e la sentono solo attraverso lo spazio-tempo',
   'post: a tone curve like that of film; pixel values are not proportional to radiance':
     'resa: una curva dei toni da pellicola; i valori dei pixel non sono proporzionali alla radianza',
   "post: a Gaussian beam represents a telescope: no gaps between stations, no noise, no reconstruction; no light comes from beyond the picture's edge":

@@ -140,6 +140,7 @@ export const natures = {
 export const labels = {
   smooth: 'Disco liscio',
   schwarzschild: 'Senza spin',
+  'reissner-nordstrom': 'Un buco carico',
   gargantua: 'Gargantua',
   m87: 'M87*',
   sgra: 'Sagittarius A*',

@@ -66,6 +66,7 @@ const path = (points, closed) => {
     : text;
 };
 
+const charge = scene => (scene.get('spacetime.charge') ? { charge: scene.get('spacetime.charge') } : {});
 const at_infinity = scene => scene.get('camera.r') === 'infinity';
 const motion = scene =>
   Object.fromEntries(
@@ -76,6 +77,7 @@ const motion = scene =>
   );
 const hole = scene => ({
   spin: scene.get('spacetime.spin'),
+  ...charge(scene),
   inclination_deg: scene.get('camera.inclination_deg'),
   ...(at_infinity(scene)
     ? {}
@@ -232,6 +234,7 @@ const overlays = [
   ['orbit', orbit, 'Orbit of the Orbits view, lensed', 'Orbita della vista Orbite, deviata dalla lente'],
 ];
 
+const charged = ['shadow', 'names']; // these are known for a charged hole, too
 const slow = ['orbit']; // takes seconds: the other lines are drawn first
 
 export function buildOverlays(root, stage, scene) {
@@ -258,6 +261,8 @@ export function buildOverlays(root, stage, scene) {
       try {
         if (scene.get('camera.projection') === 'ring' || scene.get('camera.stereo') === 'pair')
           throw new Error(t('not in this projection', 'non in questa proiezione'));
+        if (scene.get('spacetime.charge') && !charged.includes(name))
+          throw new Error(t('known for an uncharged hole only', 'nota solo per un buco scarico'));
         if (slow.includes(name))
           lay(groups, width, height),
             layer.classList.remove('late'),

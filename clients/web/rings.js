@@ -39,6 +39,7 @@ export async function ringAxes(scene, width, height) {
   // A third of the way across, in the middle of each band that is tall enough on the screen.
   const x = width / 3,
     [inner, outer] = [scene.get('disk.inner'), scene.get('disk.outer')];
+  if (scene.get('spacetime.charge')) return { lines, nodes }; // the widths of rings are known for an uncharged hole
   const { values } = await physics('photon-rings', {
     spin: scene.get('spacetime.spin'),
     inclination_deg: get('inclination_deg'),

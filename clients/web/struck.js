@@ -33,6 +33,8 @@ export function buildStruck(scene, goTo) {
 
   async function sound() {
     try {
+      if (scene.get('spacetime.charge'))
+        throw new Error(t('known for an uncharged hole only', 'noto solo per un buco scarico'));
       const { play, ringing, told } = await import('./sound.js'),
         asked = hole(),
         ring = ringing((await physics('qnm', asked)).values, asked);

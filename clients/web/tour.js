@@ -127,7 +127,7 @@ export function buildTour(stage, scene) {
       [name, place] = stops[here][4],
       get = path => scene.get(path);
     ring.hidden = true;
-    if (!before || get('camera.r') !== 'infinity' || get('camera.roll_deg')) return;
+    if (!before || get('camera.r') !== 'infinity' || get('camera.roll_deg') || get('spacetime.charge')) return;
     const hole = { spin: get('spacetime.spin'), inclination_deg: get('camera.inclination_deg') },
       { values } = await physics(name, { ...hole, ...place }).catch(() => ({ values: {} })),
       [alpha, beta] = [values.alpha, values.beta].map(value => [value].flat()[0]);

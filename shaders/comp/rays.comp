@@ -9,9 +9,9 @@
  * Azimuth: psi + chi. polar_azimuth.glsl integrates the peak of psi' = L/(1 - u^2) near the axis exactly; the rest is L
  * e / (sqrt(c) (sqrt(y) + sqrt(c))), y = b + e u^2, c = b + e.
  *
- * Delay: t' = E/w^2 + 2E/w + [E (4 + a^2 - 2a^2 w + a^4 w^2) - a L (1 + a^2 w^2)] / Delta_w + a (L - a E (1 - u^2)),
- * Delta_w = 1 - 2w + a^2 w^2. The first two terms grow without bound towards infinity, on the way in and on the way
- * out; but
+ * Delay: t' = E/w^2 + 2E/w + [E (4 + a^2 - 2a^2 w + a^4 w^2 - q^2 (1 + 2w)) - a L (1 + a^2 w^2)] / Delta_w + a (L - a E
+ * (1 - u^2)), Delta_w = 1 - 2w + (a^2 + q^2) w^2. The first two terms grow without bound towards infinity, on the way
+ * in and on the way out; but
  *
  *   E^2/w^2 = (-w'/w)' + K w - D w^2   and   E/w = -(ln((E + w')/w))' + w^2 (K - D w)/(E + w'),
  *
@@ -22,8 +22,8 @@
  *
  *   t' = (1 + a^2 w^2) (w'/(w^2 D) + K/(W + w')) + a (L - a E (1 - u^2)),
  *
- * where the first term is d/dtau of -1/w + ln(w^2/D) + 2 kd_fall and the rest has no pole. A ray that comes from next
- * to the horizon uses outgoing time, with -w' for w'. */
+ * where the first term is d/dtau of -1/w + ln(w^2/D) + (2 - q^2) kd_fall and the rest has no pole. A ray that comes
+ * from next to the horizon uses outgoing time, with -w' for w'. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -44,9 +44,9 @@ layout(push_constant) uniform Push { uint first, count; }
 push;
 layout(set = 0, binding = 0) readonly buffer Rays
 {
-    float spin, u, s, horizon, root, w0, epsilon; /* the hole and the observer; unit roundoff */
-    float list[];                                 /* three numbers for each ray: alpha, beta, and the direction (1:
-                                                   * inwards, -1: outwards) */
+    float spin, u, s, horizon, root, w0, epsilon, charge2; /* the hole and the observer; unit roundoff; q^2 */
+    float list[]; /* three numbers for each ray: alpha, beta, and the direction (1:
+                   * inwards, -1: outwards) */
 }
 cam;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
@@ -81,8 +81,10 @@ kd_rates rates(kd_geodesic m, kd_full p, float b, float way)
     if (way != 0.0)
         o.delay += (1.0 + a2w2) * m.k / kd_one_way(m, y, 1.0, a, way);
     else
-        o.delay += (4.0 + a * a * (1.0 - 2.0 * w + a2w2) - a * m.momentum * (1.0 + a2w2)) / kd_horizons(w, cam.root) +
-                   w * (m.k - m.d * w) * (1.0 + 2.0 * w / energy_and_fall(m, w, dw));
+        o.delay +=
+            (4.0 + a * a * (1.0 - 2.0 * w + a2w2) - a * m.momentum * (1.0 + a2w2) - cam.charge2 * (1.0 + 2.0 * w)) /
+                kd_horizons(w, cam.root) +
+            w * (m.k - m.d * w) * (1.0 + 2.0 * w / energy_and_fall(m, w, dw));
     return o;
 }
 
@@ -93,7 +95,8 @@ float delay_edge(kd_geodesic m, kd_state y, float way)
     if (!(y.w > 0.0))
         return 0.0;
     if (way != 0.0)
-        return way * (2.0 * kd_fall(y.w, cam.root) - 1.0 / y.w + kd_log(y.w * y.w / kd_horizons(y.w, cam.root)));
+        return way * ((2.0 - cam.charge2) * kd_fall(y.w, cam.root) - 1.0 / y.w +
+                      kd_log(y.w * y.w / kd_horizons(y.w, cam.root)));
     return -y.dw / y.w - 2.0 * kd_log(0.5 * energy_and_fall(m, y.w, y.dw) / y.w);
 }
 
@@ -122,7 +125,7 @@ void main()
     ray.l = -cam.list[3 * i];
     ray.p = cam.list[3 * i + 1];
     ray.w = cam.w0;
-    kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
+    kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.charge2, cam.u, cam.s);
     ray.dw = cam.list[3 * i + 2] * sqrt(max(kd_radial_potential(m, ray.w, 1.0, cam.spin, cam.root), 0.0));
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
 

@@ -1,7 +1,7 @@
 /* Kernel: follows listed rays the common way, by Hamilton's equations in ingoing Cartesian Kerr-Schild coordinates, for
  * comparison.
  *
- *   H = (p.p - E^2 - f (E + l.p)^2)/2,  f = 2r^3/(r^4 + a^2 z^2),
+ *   H = (p.p - E^2 - f (E + l.p)^2)/2,  f = r^2 (2r - q^2)/(r^4 + a^2 z^2),
  *   l = ((rx + ay)/(r^2 + a^2), (ry - ax)/(r^2 + a^2), z/r)
  *
  * A ray traced backwards is a photon of the mirrored spacetime (t, phi) -> (-t, -phi) that moves away from the
@@ -26,7 +26,7 @@ layout(push_constant) uniform Push { uint first, count; }
 push;
 layout(set = 0, binding = 0) readonly buffer Rays
 {
-    float spin, horizon_r, far, pad;
+    float spin, horizon_r, far, charge2;
     float list[]; /* x, y, z, p_x, p_y, p_z; 1/r and azimuth of the crossing before the start, or 0 and 0 */
 }
 rays;
@@ -51,13 +51,14 @@ float radius(vec3 x)
 kd_point flow(vec3 x, vec3 p)
 {
     float a = rays.spin, r = radius(x), r2 = r * r, q = 1.0 / (r2 + a * a), den = 1.0 / (r2 * r2 + a * a * x.z * x.z);
-    float f = 2.0 * r2 * r * den;
+    float f = r2 * (2.0 * r - rays.charge2) * den;
     /* grad r = (r^2 x, r^2 y, (r^2 + a^2) z) r / (r^4 + a^2 z^2) */
     vec3 dr = vec3(r2 * x.x, r2 * x.y, (r2 + a * a) * x.z) * (r * den);
     vec3 l = vec3((r * x.x + a * x.y) * q, (r * x.y - a * x.x) * q, x.z / r);
     float s = 1.0 + dot(l, p);
     float in_plane = x.x * p.x + x.y * p.y;
-    vec3 df = (6.0 * r2 * dr - f * (4.0 * r2 * r * dr + vec3(0.0, 0.0, 2.0 * a * a * x.z))) * den;
+    vec3 df =
+        ((6.0 * r2 - 2.0 * rays.charge2 * r) * dr - f * (4.0 * r2 * r * dr + vec3(0.0, 0.0, 2.0 * a * a * x.z))) * den;
     vec3 ds = dr * (in_plane * q - (l.x * p.x + l.y * p.y) * 2.0 * r * q - x.z * p.z / r2) +
               vec3((r * p.x - a * p.y) * q, (r * p.y + a * p.x) * q, p.z / r);
     float h = 0.5 * (dot(p, p) - 1.0 - f * s * s);
@@ -246,5 +247,6 @@ void main()
     vec3 x = y.a.x, p = y.a.p;
     float a = rays.spin, r = radius(x), q = r * r + a * a;
     float s = 1.0 + ((r * x.x + a * x.y) * p.x + (r * x.y - a * x.x) * p.y) / q + x.z * p.z / r;
-    ends[o + 3 * ORDERS + 3] = abs(dot(p, p) - 1.0 - 2.0 * r * r * r / (r * r * r * r + a * a * x.z * x.z) * s * s);
+    ends[o + 3 * ORDERS + 3] =
+        abs(dot(p, p) - 1.0 - r * r * (2.0 * r - rays.charge2) / (r * r * r * r + a * a * x.z * x.z) * s * s);
 }

@@ -1,7 +1,11 @@
 /* Redshift of gas on circular orbits outside the ISCO.
  *
  *   g = nu_obs / nu_em = 1 / (u^t (E - Omega L)),   E, L per unit of energy that the observer measures,
- *   u^t = (1 + a r^-3/2) / sqrt(1 - 3/r + 2a r^-3/2),   Omega = 1/(r^3/2 + a)      (Bardeen, Press & Teukolsky 1972) */
+ *   u^t = (1 + a r^-3/2) / sqrt(1 - 3/r + 2a r^-3/2),   Omega = 1/(r^3/2 + a)      (Bardeen, Press & Teukolsky 1972)
+ *
+ * With charge, as in src/physics/spacetime/kerr.h, s^2 = r - q^2, sigma = s - a, P^2 = Delta - sigma^2,
+ *
+ *   u^t = (r^2 + a s) / (r P),   Omega = s / (r^2 + a s). */
 #ifndef KD_BLOCK_orbit
 #define KD_BLOCK_orbit(F, U, A)
 #define KD_TRAIT_DOPPLER 2u  /* for emitters on orbits: apply the factor 1 / (E - Omega L) */
@@ -16,6 +20,12 @@ float kd_orbit_cooled(float w, float energy, float momentum, uint traits)
      * left-hand side loses all digits. The x^3 of the right-hand side and r^(-3/4) cancel. */
     float r = 1.0 / w, x = sqrt(r), x3 = r * x, d = (1.0 - w) / (w * (x + 1.0)), all = x3 + cam.spin;
     precise float rest = d * d * (x + 2.0) - 2.0 * emission.frame.one_minus_a;
+    if (CHARGED) { /* `rest` is P^2 r^(1/2) / s^2 */
+        float n = cam.root * cam.root, y = (1.0 - w) / w, s = sqrt(r - cam.charge2),
+              sigma = cam.spin > 0.0 ? (y + n) / (s + cam.spin) : s - cam.spin, v = sigma * w;
+        all = r * r / s + cam.spin;
+        rest = (kd_delta(w, cam.root) - v * v) * r * r * x / (s * s);
+    }
     bool doppler = (traits & KD_TRAIT_DOPPLER) != 0u, redshift = (traits & KD_TRAIT_REDSHIFT) != 0u;
     float under = doppler ? all * energy - momentum : FINITE ? all * energy : all;
     return redshift ? sqrt(max(rest, 0.0)) / under : inversesqrt(x3) * all / under;

@@ -21,7 +21,7 @@ kd_nodes kd_nodes_of(kd_lattice l, float z)
 
 struct kd_drag_terms {
     float a, k, e, root, unit;
-    float e2, al; /* 2E, a L         */
+    float e2, al; /* 2E, a L + q^2 E */
     float all;    /* W = E + all w^2 */
     bool falls;   /* the ray falls straight in */
 };
@@ -35,7 +35,7 @@ kd_drag_terms kd_drag_terms_of(kd_geodesic m, float e, float a, float root, floa
     o.root = root;
     o.unit = unit;
     o.e2 = 2.0 * e;
-    o.al = a * m.momentum;
+    o.al = m.drag;
     o.all = a * (a * e - m.momentum);
     o.falls = falls;
     return o;

@@ -1,6 +1,7 @@
-/* A ray is a null geodesic of Kerr in Mino time tau, with w = M/r and u = cos(theta), M = 1, traced from the observer.
+/* A ray is a null geodesic of Kerr, or of Kerr and Newman with charge q, in Mino time tau, with w = M/r and u =
+ * cos(theta), M = 1, traced from the observer.
  *
- *   w'^2 = R(w) = E^2 + A w^2 + 2 K w^3 - D w^4     A = a^2 E^2 - L^2 - Q,  K = Q + (L - aE)^2,  D = a^2 Q
+ *   w'^2 = R(w) = E^2 + A w^2 + 2 K w^3 - D w^4     A = a^2 E^2 - L^2 - Q,  K = Q + (L - aE)^2,  D = a^2 Q + q^2 K
  *   u'^2 = U(u) = Q + A u^2 - a^2 E^2 u^4
  *
  * (Carter 1968, with w and u for r and theta.) With l = L / sin(theta_o) and p = p_theta at the observer, L^2 + Q = l^2
@@ -39,10 +40,11 @@ kd_rounding kd_rounding_of_labels(kd_ray ray, float a, float u, float s, float h
 struct kd_geodesic {
     float momentum, q, energy2; /* L, Q, a^2 E^2 */
     float a2, k, d;             /* A, K, D       */
+    float drag;                 /* aL + q^2 E    */
 };
 
-/* a: spin; u, s: cosine and sine of the observer's polar angle. */
-kd_geodesic kd_geodesic_of(kd_ray ray, float a, float u, float s)
+/* a: spin; q2: square of the charge; u, s: cosine and sine of the observer's polar angle. */
+kd_geodesic kd_geodesic_of(kd_ray ray, float a, float q2, float u, float s)
 {
     kd_geodesic m;
     float ae = a * ray.e;
@@ -52,7 +54,8 @@ kd_geodesic kd_geodesic_of(kd_ray ray, float a, float u, float s)
     m.a2 = m.energy2 * (1.0 + u * u) - ray.l * ray.l - ray.p * ray.p;
     precise float j = m.momentum - ae, k = m.q + j * j; /* a product of small factors, which must not be expanded */
     m.k = k;
-    m.d = a * a * m.q;
+    m.d = a * a * m.q + q2 * m.k;
+    m.drag = a * m.momentum + q2 * ray.e;
     return m;
 }
 

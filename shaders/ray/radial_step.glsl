@@ -32,7 +32,7 @@ float kd_radial_potential(kd_geodesic m, float w, float e, float a, float root)
     return square;
 }
 
-/* The azimuth chi by which the hole drags a ray, chi' = a (W/D - E), D = 1 - 2w + a^2 w^2.
+/* The azimuth chi by which the hole drags a ray, chi' = a (W/D - E), D = 1 - 2w + (a^2 + q^2) w^2.
  *
  * Towards the horizon chi' diverges as 1/D, and so would its quadrature. For a falling ray the azimuth of ingoing
  * Kerr-Schild coordinates is regular: it leaves out a w'/D, whose integral is elementary and is added by kd_drag_fall.
@@ -44,7 +44,7 @@ float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way
     float w = y.w, w2 = w * w;
     if (way != 0.0)
         return a * (m.k * w2 / kd_one_way(m, y, e, a, way) - e);
-    return a * w * (2.0 * e - a * m.momentum * w) / kd_horizons(w, root);
+    return a * w * (2.0 * e - m.drag * w) / kd_horizons(w, root);
 }
 
 /* kd_drag for a ray that may come from inside the horizon or return to it. It is in ingoing coordinates (way = -1)

@@ -31,7 +31,8 @@
     F(middle_x) F(middle_y) /* ray coordinates of the middle of the picture */ \
     F(spin) F(u) F(s)       /* a; cosine and sine of the observer's polar angle */ \
     F(horizon)              /* 1/r+ */ \
-    F(root)                 /* sqrt(1 - a^2): the horizons are at r = 1 +- root; near a = 1 a float of a loses it */ \
+    F(root)                 /* sqrt(1 - a^2 - q^2): the horizons are at r = 1 +- root; floats of a and q lose it */ \
+    F(charge2)              /* q^2 */ \
     F(w0)                   /* 1/r of the observer, 0 at infinity */ \
     /* falling observer outside the horizon: its Boyer-Lindquist minus its ingoing azimuth; else 0 */ \
     F(twist) \

@@ -238,6 +238,11 @@ done:
 enum kd_status kd_playground_may_show(const struct kd_playground *p, const struct kd_scene *scene,
                                       struct kd_error *error)
 {
+    if (scene->spacetime.charge != 0)
+        return kd_error_field(
+            error, "/spacetime/charge",
+            "spacetime.charge is %.9g; it must be 0: the playground's bodies move round an uncharged hole",
+            scene->spacetime.charge);
     if (p->params.gravity == KD_GRAVITY_KERR && p->params.spin != scene->spacetime.spin)
         return kd_error_field(
             error, "/spacetime/spin",

@@ -7,6 +7,7 @@
 
 #define PARAMETERS(P) \
     P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \
+    KD_PARAMETER_CHARGE(P) \
     P(inclination_deg, .unit = "degrees", .initial = "90", .minimum = 0, .maximum = 180, \
       .help = "polar angle of the falling observer") \
     P(infall_from, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity", \
@@ -65,7 +66,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     (void)memory, (void)fresh;
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
-    const struct kd_vantage at = { kd_hole_of(p->spin), p->r, kd_cos_deg(p->inclination_deg),
+    const struct kd_vantage at = { kd_hole_charged(p->spin, p->charge), p->r, kd_cos_deg(p->inclination_deg),
                                    kd_sin_deg(p->inclination_deg) };
     const struct kd_observer_motion motion = {
         .observer = KD_OBSERVER_INFALL,
@@ -73,12 +74,12 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
         .fall_energy = p->infall_energy,
         .fall_momentum = p->infall_momentum,
     };
-    const double horizon = kd_hole(p->spin)->outer, second = kd_scale_seconds(p->mass_msun);
-    if (check(&motion, &at, error))
+    const double horizon = at.hole.outer, second = kd_scale_seconds(p->mass_msun);
+    if (kd_quantity_hole_exists(p->spin, p->charge, error) || check(&motion, &at, error))
         return KD_EINVAL;
     const struct kd_tetrad frame = kd_observer_tetrad(&motion, &at);
     bool within = at.r <= horizon;
-    o->end = kd_hole(p->spin)->inner;
+    o->end = at.hole.inner;
     o->energy = kd_observer_energy(&motion, &at);
     o->proper_time_to_end = kd_infall_proper_time(&motion, &at, o->end);
     const struct kd_infall_way way = kd_infall_way(&motion, &at, o->end);

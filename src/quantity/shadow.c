@@ -5,6 +5,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
+    KD_PARAMETER_CHARGE(P) \
     P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180, \
       .help = "polar angle of the observer") \
     KD_PARAMETER_OBSERVER(P) \
@@ -48,7 +49,7 @@ struct memory { struct kd_critical curve; };
 static enum kd_status make_curve(const struct parameters *p, struct memory *m, struct outputs *o,
                                  struct kd_error *error)
 {
-    const struct kd_vantage at = { kd_hole_of(p->spin), p->observer_r, kd_cos_deg(p->inclination_deg),
+    const struct kd_vantage at = { kd_hole_charged(p->spin, p->charge), p->observer_r, kd_cos_deg(p->inclination_deg),
                                    kd_sin_deg(p->inclination_deg) };
     const struct kd_critical_observer observer = {
         .hole = at.hole,
@@ -57,6 +58,8 @@ static enum kd_status make_curve(const struct parameters *p, struct memory *m, s
         .sin_theta = at.s,
         .motion = KD_QUANTITY_MOTION(p),
     };
+    if (kd_quantity_hole_exists(p->spin, p->charge, error))
+        return KD_EINVAL;
     if (kd_quantity_observer_exists(&observer.motion, &at, error))
         return KD_EINVAL;
     m->curve = kd_critical_of(&observer);

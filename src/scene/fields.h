@@ -33,6 +33,8 @@
 #define KD_SPACETIME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(spacetime, spin, PHYSICS, FRONT, 0.7, -0.999999999999, 0.999999999999, "M", \
          "spin parameter a; a < 0: the disk is retrograde to its hole") \
+    REAL(spacetime, charge, PHYSICS, REST, 0.0, 0.0, 0.999999999999, "M", \
+         "electric charge Q of the hole (Kerr-Newman), which acts on space-time alone: light and matter are neutral") \
     REAL(spacetime, mass_msun, PHYSICS, REST, 1e8, 1e-3, 1e12, "solar masses", \
          "mass of the hole; sets the temperature when disk.colour is \"accretion\"") \
     REAL(spacetime, distance_pc, PHYSICS, REST, 260000.0, 1e-3, 1e11, "pc", \
@@ -538,6 +540,7 @@
 /* clang-format off */
 #define KD_SCENE_CONTROLS(SPAN, FIRST, SWITCH, WITH, VARIES, BUTTON) \
     SPAN("spacetime.spin", -0.998, 0.998) \
+    SPAN("spacetime.charge", 0, 0.99) \
     SPAN("spacetime.mass_msun", 1, 1e10) \
     SPAN("spacetime.distance_pc", 1e3, 1e9) \
     SPAN("camera.r", 2.1, 1000) FIRST("camera.r", 60) \

@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 
 /* For use as an argument. The value lives until the end of the enclosing block. */
-#define kd_scene_hole(scene) kd_hole((scene)->spacetime.spin)
+#define kd_scene_hole(scene) \
+    ((const struct kd_hole[]) { kd_hole_charged((scene)->spacetime.spin, (scene)->spacetime.charge) })
 
 #endif

@@ -38,6 +38,13 @@ const struct kd_preset kd_presets[] = {
       "{\"spacetime\":{\"spin\":0},"
       "\"camera\":{\"inclination_deg\":80},"
       "\"image\":{\"samples\":2}}" },
+    { "reissner-nordstrom", "A charged hole",
+      "A hole without spin that is charged almost to the limit: the shadow is a fifth smaller than without charge, and "
+      "light circles at 2 M instead of 3 M",
+      true,
+      "{\"spacetime\":{\"spin\":0,\"charge\":0.999},"
+      "\"camera\":{\"inclination_deg\":80,\"field_m\":36},"
+      "\"image\":{\"samples\":2}}" },
     { "gargantua", "Gargantua",
       "The hole and camera of James et al. 2015: nearly extremal spin, seen from 74 M, a disk from 9.26 to 18.7 M at "
       "about 4500 K; with the Doppler shift and the redshift that the film left out",

@@ -21,6 +21,18 @@ static struct shown show(double value)
     return s;
 }
 
+/* Names the fields that make the hole. */
+struct hole_shown { char text[2 * KD_NUMBER_SIZE + 40]; };
+
+static struct hole_shown show_hole(const struct kd_scene *scene)
+{
+    struct hole_shown s;
+    int n = snprintf(s.text, sizeof s.text, "spacetime.spin %s", show(scene->spacetime.spin).text);
+    if (scene->spacetime.charge != 0)
+        snprintf(s.text + n, sizeof s.text - (size_t)n, " and spacetime.charge %s", show(scene->spacetime.charge).text);
+    return s;
+}
+
 /* Rounds a computed bound up to a number that is short enough to type, and that is accepted when it is typed. */
 static struct shown show_bound(double value) { return show(ceil(value * 1e9) / 1e9); }
 
@@ -49,6 +61,64 @@ static enum kd_status bit_depth(const struct kd_scene *scene, struct kd_error *e
         return KD_OK;
     return kd_error_field(error, "/image/bit_depth", "image.bit_depth is %d; it must be 8 or 16 bits",
                           scene->image.bit_depth);
+}
+
+/* Like the largest spin, the largest charge keeps the horizons apart by 1e-6 at least. */
+static enum kd_status charge(const struct kd_scene *scene, struct kd_error *error)
+{
+    const double least = 1e-12, a = scene->spacetime.spin;
+    if (scene->spacetime.charge == 0 || kd_scene_hole(scene)->root >= (1 - 1e-3) * sqrt(least))
+        return KD_OK;
+    return kd_error_field(error, "/spacetime/charge",
+                          "spacetime.charge is %s M; with spacetime.spin %s it must be at most %s M",
+                          show(scene->spacetime.charge).text, show(a).text,
+                          show(floor(sqrt(fmax(0, (1 - a) * (1 + a) - least)) * 1e9) / 1e9).text);
+}
+
+/* What is known only for an uncharged hole. */
+static enum kd_status uncharged(const struct kd_scene *scene, struct kd_error *error)
+{
+    static const struct {
+        const char *section, *name, *wanted;
+        int refused; /* value of an enumeration; 0: all but 0 */
+    } parts[] = {
+        { "disk", "model", "\"novikov-thorne\"", KD_DISK_PARTICLES },
+        { "disk", "height", "0", 0 },
+        { "volume", "model", "\"none\"", 0 },
+        { "jets", "brightness", "0", 0 },
+        { "polarization", "model", "\"none\"", 0 },
+        { "style", "ringdown", "0", 0 },
+    };
+    _Static_assert(!KD_VOLUME_NONE && !KD_POLARIZATION_NONE, "0 is the value for none");
+    if (scene->spacetime.charge == 0)
+        return KD_OK;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        const struct kd_field *field = kd_field_find(parts[i].section, parts[i].name);
+        const double value = kd_field_get(scene, field, 0);
+        if (parts[i].refused ? value != parts[i].refused : value == 0)
+            continue;
+        const struct kd_word word = field->words ? kd_field_word(field, (int)value) : (struct kd_word) { 0 };
+        const char *quote = field->words ? "\"" : "";
+        const struct shown number = show(value);
+        char pointer[40];
+        snprintf(pointer, sizeof pointer, "/%s/%s", parts[i].section, parts[i].name);
+        return kd_error_field(error, pointer,
+                              "%s.%s is %s%.*s%s; with spacetime.charge %s it must be %s, because it is known for an "
+                              "uncharged hole only",
+                              parts[i].section, parts[i].name, quote, field->words ? word.length : KD_NUMBER_SIZE,
+                              field->words ? word.text : number.text, quote, show(scene->spacetime.charge).text,
+                              parts[i].wanted);
+    }
+    for (size_t i = 0; i < scene->bodies.count; i++)
+        if (scene->bodies.at[i].radius > 0) {
+            char pointer[40];
+            snprintf(pointer, sizeof pointer, "/bodies/%zu/radius", i);
+            return kd_error_field(error, pointer,
+                                  "bodies.%zu.radius is %s; with spacetime.charge %s it must be 0, because it is known "
+                                  "for an uncharged hole only",
+                                  i, show(scene->bodies.at[i].radius).text, show(scene->spacetime.charge).text);
+        }
+    return KD_OK;
 }
 
 static enum kd_status projection(const struct kd_scene *scene, struct kd_error *error)
@@ -117,9 +187,8 @@ static enum kd_status horizon(const struct kd_scene *scene, struct kd_error *err
     double r = scene->camera.r, least = kd_scene_hole(scene)->outer;
     if (r > least || scene->camera.observer == KD_OBSERVER_INFALL)
         return KD_OK;
-    return kd_error_field(error, "/camera/r",
-                          "camera.r is %s M; it must be more than %s M, the horizon of spacetime.spin %s", show(r).text,
-                          show_bound(least).text, show(scene->spacetime.spin).text);
+    return kd_error_field(error, "/camera/r", "camera.r is %s M; it must be more than %s M, the horizon of %s",
+                          show(r).text, show_bound(least).text, show_hole(scene).text);
 }
 
 static const struct kd_observer_names observer_names = { "/camera", "camera.", "r", "observer" };
@@ -226,8 +295,8 @@ static enum kd_status inner_edge(const struct kd_scene *scene, struct kd_error *
     if (scene->disk.model == KD_DISK_NONE || scene->disk.inner >= least)
         return KD_OK;
     return kd_error_field(error, "/disk/inner",
-                          "disk.inner is %s M; it must be at least %s M, the ISCO of spacetime.spin %s, or \"isco\"",
-                          show(scene->disk.inner).text, show_bound(least).text, show(scene->spacetime.spin).text);
+                          "disk.inner is %s M; it must be at least %s M, the ISCO of %s, or \"isco\"",
+                          show(scene->disk.inner).text, show_bound(least).text, show_hole(scene).text);
 }
 
 static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *error)
@@ -327,8 +396,8 @@ static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error
             continue;
         kd_field_path(r, i, path);
         kd_field_pointer(r, i, pointer);
-        return kd_error_field(error, pointer, "%s is %s M; it must be at least %s M, the ISCO of spacetime.spin %s",
-                              path, show(spot->r).text, show_bound(least).text, show(scene->spacetime.spin).text);
+        return kd_error_field(error, pointer, "%s is %s M; it must be at least %s M, the ISCO of %s", path,
+                              show(spot->r).text, show_bound(least).text, show_hole(scene).text);
     }
     return KD_OK;
 }
@@ -507,6 +576,10 @@ static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *er
 }
 
 const struct kd_rule kd_rules[] = {
+    { "`spacetime.charge` is at most sqrt(1 - a^2 - 1e-12) with the spin a.", charge },
+    { "Unless `spacetime.charge` is 0, `disk.model` is not \"particles\"; `volume.model` and `polarization.model` are "
+      "\"none\"; and `disk.height`, `jets.brightness`, `bodies.N.radius` and `style.ringdown` are 0.",
+      uncharged },
     { "`image.bit_depth` is 8 or 16.", bit_depth, "image", "bit_depth", BITS },
     { "`camera.projection` \"pinhole\", \"equirectangular\" and \"fulldome\" need a finite `camera.r`, \"plane\" and "
       "\"ring\" need `camera.r` \"infinity\".",
@@ -518,7 +591,8 @@ const struct kd_rule kd_rules[] = {
       "`camera.field_uas` counts; `camera.field_m` alone sets `camera.field_uas` to \"none\".",
       field_uas },
     { "`camera.ring_decades_min` is less than `camera.ring_decades_max`.", decades },
-    { "`camera.r` is outside the outer horizon, 1 + sqrt(1 - a^2), unless `camera.observer` is \"infall\".", horizon },
+    { "`camera.r` is outside the outer horizon, 1 + sqrt(1 - a^2 - Q^2), unless `camera.observer` is \"infall\".",
+      horizon },
     { "Each `camera.observer` exists in a region of its own" KD_OBSERVER_PLACES ".", observer },
     { "`camera.velocity_r`, `camera.velocity_theta` and `camera.velocity_phi` make a speed below 1. A falling observer "
       "can reach its position: `camera.infall_from` is at least `camera.r`, without a turning point between them; "

@@ -33,6 +33,10 @@ static const struct shot {
     { "default", "gas", "{" SIZE "}" },
     { "smooth", "smooth", "{" SIZE "}" },
     { "schwarzschild", "schwarzschild", "{" SIZE "}" },
+    { "reissner-nordstrom", "reissner-nordstrom", "{" SIZE "}" },
+    { "charged", "smooth",
+      "{\"spacetime\":{\"spin\":0.7,\"charge\":0.6},\"camera\":{\"r\":30,\"observer\":\"infall\"},\"sky\":{\"model\":"
+      "\"grid\"}," SIZE "}" },
     { "gargantua", "gargantua", "{" SIZE "}" },
     { "m87", "m87", "{\"image\":{\"width\":400,\"height\":225}}" }, /* with room for its scales */
     { "sgra", "sgra", "{\"image\":{\"width\":400,\"height\":225}}" },

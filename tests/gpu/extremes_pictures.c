@@ -80,6 +80,27 @@ static const struct picture pictures[] = {
       "{" NEAR_EXTREMAL ",\"camera\":{\"r\":1.0000014143,\"observer\":\"zamo\",\"yaw_deg\":180,"
       "\"inclination_deg\":90},\"sky\":{\"model\":\"grid\"}," SMALL "}",
       false, 0 },
+    { "charge 1e-300", "{\"spacetime\":{\"charge\":1e-300},\"sky\":{\"model\":\"grid\"}," SMALL "}", true, 0 },
+    { "charge 1-1e-12", "{\"spacetime\":{\"spin\":0,\"charge\":0.999999999999},\"sky\":{\"model\":\"grid\"}," SMALL "}",
+      true, 0 },
+    { "spin 1-1e-12, charge 1e-300",
+      "{\"spacetime\":{\"spin\":0.999999999999,\"charge\":1e-300},\"sky\":{\"model\":\"grid\"}," SMALL "}", true, 0 },
+    { "spin 1-1e-12, charge 1e-6",
+      "{\"spacetime\":{\"spin\":0.999999999999,\"charge\":1e-6},\"sky\":{\"model\":\"grid\"}," SMALL "}", true, 0 },
+    { "spin 0.8, charge 0.6-1e-12",
+      "{\"spacetime\":{\"spin\":0.8,\"charge\":0.599999999999},\"sky\":{\"model\":\"grid\"}," SMALL "}", true, 0 },
+    { "spin 0.8, charge 0.6-1e-12, at 1.000003",
+      "{\"spacetime\":{\"spin\":0.8,\"charge\":0.599999999999},\"camera\":{\"r\":1.000003,\"observer\":\"zamo\",\"yaw_"
+      "deg\":180,\"inclination_deg\":60},\"sky\":{\"model\":\"grid\"}," SMALL "}",
+      false, 0 },
+    { "spin 0.8, charge 0.6-1e-12, falling at 1.0000001",
+      "{\"spacetime\":{\"spin\":0.8,\"charge\":0.599999999999},\"camera\":{\"r\":1.0000001,\"observer\":\"infall\"},"
+      "\"sky\":{\"model\":\"grid\"}," SMALL "}",
+      false, 0 },
+    { "charge 0.9, falling between the horizons",
+      "{\"spacetime\":{\"spin\":0.1,\"charge\":0.9},\"camera\":{\"r\":0.8,\"observer\":\"infall\"},\"sky\":{\"model\":"
+      "\"grid\"}," SMALL "}",
+      true, 0 },
     { "a 0, next to the horizon",
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"r\":2.0000000000000004,\"observer\":\"zamo\",\"yaw_deg\":180},"
       "\"sky\":{\"model\":\"grid\"}," SMALL "}",

@@ -18,6 +18,7 @@ enum { ORDERS = 8, RAYS = 192 };
 struct view {
     double spin, inclination, r;
     double critical; /* > 0: rays at this relative distance from the edge of the shadow */
+    double charge;
 };
 
 struct list {
@@ -35,7 +36,7 @@ static struct kd_null_ray ray_of(const struct view *v, const double *alpha_beta)
 {
     double i = v->inclination;
     return (struct kd_null_ray) {
-        .hole = kd_hole_of(v->spin),
+        .hole = kd_hole_charged(v->spin, v->charge),
         .radius = v->r,
         .cos_theta = extreme_cos_deg(i),
         .sin_theta = extreme_sin_deg(i),
@@ -49,6 +50,7 @@ static struct kd_rays_params params_of(const struct view *v, enum kd_precision p
 {
     return (struct kd_rays_params) {
         .spin = v->spin,
+        .charge = v->charge,
         .r = v->r,
         .inclination_deg = v->inclination,
         .orders = ORDERS,
@@ -128,7 +130,7 @@ static void judge_crossings(const struct view *v, const struct kd_null_path *p, 
         double phi = fmax(turn(c[n].phi - x->phi) - x->error_phi, 0) / (1 + phi_gain[n]);
         t->r[t->n++] = r;
         bool thrown = p->turned && p->fate == KD_NULL_CAPTURED; /* see docs/accuracy.md */
-        if (x->r > 1.6 * kd_hole(v->spin)->outer && !thrown)
+        if (x->r > 1.6 * kd_hole_charged(v->spin, v->charge).outer && !thrown)
             t->phi = fmax(t->phi, phi);
     }
 }
@@ -187,7 +189,7 @@ static void trace(struct kd_renderer *renderer, const struct view *v, const char
                                .unsure_most = 0.05 };
     struct kd_error error = { 0 };
     /* From next to the horizon a half turn leads far out or back in, with the same number of steps as elsewhere. */
-    if (v->r < 1.1 * kd_hole(v->spin)->outer) {
+    if (v->r < 1.1 * kd_hole_charged(v->spin, v->charge).outer) {
         row.bound = wide ? 2e-8 : 1e-4;
         row.unsure_most = 0.1;
     }
@@ -222,7 +224,7 @@ static void both(struct kd_renderer *renderer, const char *what, struct view v)
 
 static const struct {
     const char *name;
-    double a;
+    double a, q;
 } spins[] = {
     { "a 0", 0 },
     { "a 5e-324", 5e-324 },
@@ -230,6 +232,9 @@ static const struct {
     { "a 1-1e-7", 0.9999999 },
     { "a 1-1e-12", 0.999999999999 },
     { "a -1+1e-12", -0.999999999999 },
+    { "a 0.9, q 1e-300", 0.9, 1e-300 },
+    { "q 1-1e-12", 0, 0.999999999999 },
+    { "a 0.8, q 0.6-1e-12", 0.8, 0.599999999999 },
 };
 enum { SPINS = sizeof spins / sizeof *spins };
 
@@ -252,27 +257,28 @@ static void inclinations(struct kd_renderer *renderer)
         for (int i = 0; i < 8; i++) {
             char what[48];
             snprintf(what, sizeof what, "%s, %s", spins[a].name, angles[i].name);
-            both(renderer, what, (struct view) { spins[a].a, angles[i].i, INFINITY, 0 });
+            both(renderer, what, (struct view) { spins[a].a, angles[i].i, INFINITY, 0, spins[a].q });
         }
 }
 
 static void observers(struct kd_renderer *renderer)
 {
     for (int a = 0; a < SPINS; a++) {
-        double spin = spins[a].a;
+        const double spin = spins[a].a;
+        const struct kd_hole hole = kd_hole_charged(spin, spins[a].q);
         const struct {
             const char *name;
             double r;
         } places[] = {
-            { "1.0001 r+", 1.0001 * kd_hole(spin)->outer },
-            { "r photon", kd_kerr_photon_orbit(kd_hole(spin)) },
-            { "r photon, retrograde", kd_kerr_photon_orbit(kd_hole(-spin)) },
+            { "1.0001 r+", 1.0001 * hole.outer },
+            { "r photon", kd_kerr_photon_orbit(&hole) },
+            { "r photon, retrograde", kd_kerr_photon_orbit(kd_hole_turned(&hole, -1)) },
             { "r 1e6", 1e6 },
         };
         for (int k = 0; k < 8; k++) {
             char what[48];
             snprintf(what, sizeof what, "%s, i %d, %s", spins[a].name, k % 2 ? 90 : 60, places[k / 2].name);
-            both(renderer, what, (struct view) { spin, k % 2 ? 90 : 60, places[k / 2].r, 0 });
+            both(renderer, what, (struct view) { spin, k % 2 ? 90 : 60, places[k / 2].r, 0, spins[a].q });
         }
     }
 }
@@ -283,7 +289,7 @@ static void critical_rays(struct kd_renderer *renderer)
         for (int k = 3; k <= 12 && spins[a].a != 5e-324; k++) {
             char what[48];
             snprintf(what, sizeof what, "%s, i %d, b/bc 1+-1e-%d", spins[a].name, k % 2 ? 60 : 90, k);
-            both(renderer, what, (struct view) { spins[a].a, k % 2 ? 60 : 90, INFINITY, pow(10, -k) });
+            both(renderer, what, (struct view) { spins[a].a, k % 2 ? 60 : 90, INFINITY, pow(10, -k), spins[a].q });
         }
 }
 

@@ -22,6 +22,7 @@ struct view {
     bool zamo;
     double field; /* M, or degrees for a pinhole */
     bool away;    /* a pinhole camera that looks outwards */
+    double q;     /* charge */
 };
 
 struct sample {
@@ -35,10 +36,11 @@ static struct ks_photon photon(const struct view *v, double x, double y, double 
     x *= scale;
     y *= scale;
     if (isinf(v->r))
-        return ks_from_infinity(v->a, v->inclination == 90 ? 0 : cos(theta), 0.5 * v->field * x, 0.5 * v->field * y);
+        return ks_from_infinity_charged(v->a, v->q, v->inclination == 90 ? 0 : cos(theta), 0.5 * v->field * x,
+                                        0.5 * v->field * y);
     double t = tan(0.5 * v->field * M_PI / 180), n = 1 / sqrt(1 + t * t * (x * x + y * y));
     const double k[3] = { v->away ? n : -n, -t * y * n, v->away ? -t * x * n : t * x * n };
-    return ks_from_camera(v->a, v->r, theta, v->zamo, k);
+    return ks_from_camera_charged(v->a, v->q, v->r, theta, v->zamo, k);
 }
 
 /* The oracle's path of a pixel of a GRID x GRID picture, and that of a ray a millionth further out. */
@@ -56,7 +58,11 @@ struct lens {
 };
 
 /* True if the plan chooses the closed form: outside the photon orbits. */
-static bool has_closed_form(const struct view *v) { return v->r > 1.05 * kd_kerr_photon_orbit(kd_hole(-fabs(v->a))); }
+static bool has_closed_form(const struct view *v)
+{
+    const struct kd_hole hole = kd_hole_charged(v->a, v->q);
+    return v->r > 1.05 * kd_kerr_outermost_photon_orbit(&hole);
+}
 
 /* steps: of a half period; 0: the plan's choice. */
 static struct lens trace(const struct view *v, const struct kd_needs *needs, int orders, int steps)
@@ -67,6 +73,7 @@ static struct lens trace(const struct view *v, const struct kd_needs *needs, int
     kd_scene_smooth(&scene);
     scene.accuracy.steps = steps;
     scene.spacetime.spin = v->a;
+    scene.spacetime.charge = v->q;
     scene.camera.inclination_deg = v->inclination;
     scene.camera.r = v->r;
     scene.camera.yaw_deg = v->away ? 180 : 0;
@@ -109,7 +116,7 @@ static bool undecided(const struct sample *s, int n, double inner)
 static void judge(const struct view *v, const struct lens *lens, const struct sample *samples, int n,
                   struct tally *radius, struct tally *azimuth)
 {
-    double inner = kd_hole(v->a)->outer;
+    double inner = kd_hole_charged(v->a, v->q).outer;
     for (int k = 0; k < GRID * GRID; k++) {
         const struct sample *s = &samples[k];
         float w = lens->planes[n * (int)lens->plan.rays + k];
@@ -162,6 +169,16 @@ static const struct view views[] = {
     { "zamo at 4.5, outwards, narrow", 0.998, 50, 4.5, true, 14, true },
     { "static at 6, near the axis, outwards", 0.9, 3, 6, false, 60, true },
     { "static at 1e6", 0.9, 60, 1e6, false, 2e-3 },
+    { "a 0, q 0.9, infinity", 0, 60, INFINITY, false, 24, false, 0.9 },
+    { "a 0.6, q 0.6, infinity", 0.6, 80, INFINITY, false, 20, false, 0.6 },
+    { "a -0.5, q 0.5, i 135", -0.5, 135, INFINITY, false, 24, false, 0.5 },
+    { "a 0.8, q 0.59999, narrow", 0.8, 60, INFINITY, false, 12, false, 0.59999 },
+    { "a 0.6, q 0.7, wide", 0.6, 70, INFINITY, false, 2000, false, 0.7 },
+    { "a 0, q 0.99, into the hole", 0, 60, INFINITY, false, 4, false, 0.99 },
+    { "q 0.6, static at 20", 0.7, 75, 20, false, 70, false, 0.6 },
+    { "q 0.6, zamo at 3", 0.7, 60, 3, true, 100, false, 0.6 },
+    { "q 0.4, zamo at 1.5, in the ergosphere", 0.88, 80, 1.5, true, 100, false, 0.4 },
+    { "q 0.7, static at 20, outwards", 0.6, 60, 20, false, 100, true, 0.7 },
 };
 enum { VIEWS = sizeof views / sizeof *views };
 
@@ -353,6 +370,47 @@ static void test_shadow(void **state)
     test_free(planes);
 }
 
+/* The edge of the shadow of charged holes without spin (J. Eiroa et al. 2002, Phys. Rev. D 66, 024010), in a row of
+ * pixels of 1e-8 M. */
+static void test_charged_shadow(void **state)
+{
+    (void)state;
+    static const struct {
+        double q, b;
+    } known[] = { { 0, 5.196152422706632 }, { 0.5, 4.96791433 }, { 0.6, 4.85869419 }, { 1 - 1e-12, 4 } };
+    enum { N = 512 };
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        const double pixel = 1e-8;
+        struct kd_scene scene;
+        struct kd_capacity capacity;
+        struct kd_plan plan;
+        float planes[16 * N];
+        int captured = 0, decided = 0;
+        kd_scene_smooth(&scene);
+        scene.spacetime.spin = 0;
+        scene.spacetime.charge = known[i].q;
+        scene.camera.inclination_deg = 60;
+        scene.camera.centre_alpha = known[i].b;
+        scene.camera.field_m = N * pixel;
+        scene.image.width = N;
+        scene.image.height = 1;
+        kd_renderer_capacity(renderer, &capacity);
+        OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_SKY, .followed = true }, &capacity,
+                            &plan, &error));
+        assert_true(plan.planes <= 16);
+        OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
+        for (int k = 0; k < N; k++) {
+            const float fate = planes[(plan.planes - 1) * N + (size_t)k];
+            captured += fate == KD_FATE_CAPTURED;
+            decided += fate != KD_FATE_UNDECIDED;
+        }
+        const double edge = known[i].b + (captured - N / 2) * pixel;
+        print_message("charge %.12g: edge at %.9f M, %d pixels decided\n", known[i].q, edge, decided);
+        assert_true(decided >= N - 2);
+        assert_true(fabs(edge - known[i].b) <= 1.5e-8);
+    }
+}
+
 int main(void)
 {
     int status = open_renderer();
@@ -362,9 +420,9 @@ int main(void)
         for (int k = 0; k < GRID * GRID; k++)
             samples[v][k] = sample(&views[v], k % GRID, k / GRID);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_promise), cmocka_unit_test(test_closed_form), cmocka_unit_test(test_integrated),
-        cmocka_unit_test(test_sky),     cmocka_unit_test(test_sky_closed),  cmocka_unit_test(test_in_plane),
-        cmocka_unit_test(test_shadow),
+        cmocka_unit_test(test_promise), cmocka_unit_test(test_closed_form),    cmocka_unit_test(test_integrated),
+        cmocka_unit_test(test_sky),     cmocka_unit_test(test_sky_closed),     cmocka_unit_test(test_in_plane),
+        cmocka_unit_test(test_shadow),  cmocka_unit_test(test_charged_shadow),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

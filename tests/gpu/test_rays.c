@@ -13,10 +13,10 @@
 #define RAYS (GRID * GRID)
 #define ORDERS 3
 
-struct hole { double a, inclination, half; };
+struct hole { double a, inclination, half, q; };
 static const struct hole holes[] = {
-    { 0.9, 70, 12 },  { 0, 45, 9 },    { 0.998, 85, 8 }, { -0.7, 20, 12 },
-    { 0.5, 135, 10 }, { 0.9, 90, 10 }, { 0.9, 0, 10 },   { 0.3, 180, 10 },
+    { 0.9, 70, 12 }, { 0, 45, 9 },   { 0.998, 85, 8 }, { -0.7, 20, 12 },  { 0.5, 135, 10 },
+    { 0.9, 90, 10 }, { 0.9, 0, 10 }, { 0.3, 180, 10 }, { 0, 60, 9, 0.9 }, { 0.6, 80, 8, 0.7 },
 };
 enum { HOLES = sizeof holes / sizeof *holes };
 
@@ -33,8 +33,8 @@ static void prepare(void)
             double *x = &lists[h][2 * k];
             x[0] = (float)(o->half * ((2 * (k % GRID) + 1.0) / GRID - 1));
             x[1] = (float)(o->half * ((2 * (k / GRID) + 1.0) / GRID - 1));
-            paths[h][k] = ks_trace(ks_from_infinity(o->a, u, x[0], x[1]), 16);
-            beside[h][k] = ks_trace(ks_from_infinity(o->a, u, x[0] * (1 + 1e-6), x[1] * (1 + 1e-6)), 16);
+            paths[h][k] = ks_trace(ks_from_infinity_charged(o->a, o->q, u, x[0], x[1]), 16);
+            beside[h][k] = ks_trace(ks_from_infinity_charged(o->a, o->q, u, x[0] * (1 + 1e-6), x[1] * (1 + 1e-6)), 16);
         }
     }
 }
@@ -53,7 +53,7 @@ static void judge_crossing(const struct hole *o, const struct ks_path *p, const 
     double gain = fabs(log(q->r[n] / p->r[n])) / 1e-6;
     t->r = fmax(t->r, fabs(c->r / p->r[n] - 1) / (1 + gain));
     t->crossings++;
-    if (p->r[n] < 1.6 * kd_hole(o->a)->outer)
+    if (p->r[n] < 1.6 * kd_hole_charged(o->a, o->q).outer)
         return;
     double phi_gain = turn(q->phi[n] - p->phi[n]) / 1e-6, delay_gain = fabs(q->delay[n] - p->delay[n]) / 1e-6;
     t->phi = fmax(t->phi, turn(c->phi - p->phi[n]) / (1 + phi_gain));
@@ -98,6 +98,7 @@ static void check(enum kd_engine engine, enum kd_precision precision, double bou
     for (int h = 0; h < HOLES; h++) {
         struct kd_rays_params params = {
             .spin = holes[h].a,
+            .charge = holes[h].q,
             .r = INFINITY,
             .inclination_deg = holes[h].inclination,
             .orders = ORDERS,
@@ -108,10 +109,10 @@ static void check(enum kd_engine engine, enum kd_precision precision, double bou
         OK(kd_rays_device(renderer, &params, &(struct kd_ray_labels) { lists[h], NULL, RAYS }, crossings, ends, NULL,
                           NULL, &error));
         judge(h, crossings, ends, precision == KD_PRECISION_F64 ? 1e-10 : 0, &t);
-        print_message("%s a %6.3f i %3g %s: %4d crossings, r %.1e phi %.1e delay %.1e sky %.1e, bounded %d of %d\n",
-                      kd_engine_name(engine), holes[h].a, holes[h].inclination,
-                      precision == KD_PRECISION_F64 ? "f64" : "f32", t.crossings, t.r, t.phi, t.delay, t.sky, t.bounded,
-                      t.rays);
+        print_message(
+            "%s a %6.3f q %g i %3g %s: %4d crossings, r %.1e phi %.1e delay %.1e sky %.1e, bounded %d of %d\n",
+            kd_engine_name(engine), holes[h].a, holes[h].q, holes[h].inclination,
+            precision == KD_PRECISION_F64 ? "f64" : "f32", t.crossings, t.r, t.phi, t.delay, t.sky, t.bounded, t.rays);
         assert_true(t.r < bound_r);
         assert_true(t.phi < bound_phi);
         assert_true(t.delay < bound_delay);
@@ -175,6 +176,7 @@ static void check_estimate(enum kd_engine engine, uint32_t steps)
     for (int h = 0; h < HOLES; h++) {
         struct kd_rays_params params = {
             .spin = holes[h].a,
+            .charge = holes[h].q,
             .r = INFINITY,
             .inclination_deg = holes[h].inclination,
             .orders = ORDERS,
@@ -308,6 +310,7 @@ static void check_kerr_schild(enum kd_engine engine, enum kd_precision precision
     static struct kd_ray_end ends[RAYS], exact_ends[RAYS];
     struct kd_rays_params params = {
         .spin = holes[h].a,
+        .charge = holes[h].q,
         .r = INFINITY,
         .inclination_deg = holes[h].inclination,
         .orders = ORDERS,
@@ -333,7 +336,7 @@ static void check_kerr_schild(enum kd_engine engine, enum kd_precision precision
         for (int n = 0; n < found; n++) {
             worst = fmax(worst, fabs(crossings[k * ORDERS + n].r / p->r[n] - 1));
             gain = fmax(gain, fabs(log(q->r[n] / p->r[n])) / 1e-6);
-            if (p->r[n] < 1.6 * kd_hole(holes[h].a)->outer || worst > 1e-2)
+            if (p->r[n] < 1.6 * kd_hole_charged(holes[h].a, holes[h].q).outer || worst > 1e-2)
                 continue;
             turns += fabs(crossings[k * ORDERS + n].phi - exact[k * ORDERS + n].phi) > 3;
             compared++;

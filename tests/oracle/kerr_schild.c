@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-struct system { double a, energy; };
+struct system { double a, energy, q; };
 typedef double state[7]; /* x, y, z, p_x, p_y, p_z, t */
 
 static double radius(double a, const double *x)
@@ -14,20 +14,22 @@ static double radius(double a, const double *x)
     return sqrt(rho2 > 0 ? 0.5 * (rho2 + root) : 2 * a * a * x[2] * x[2] / (root - rho2));
 }
 
-/* H = (p.p - E^2 - f (E + l.p)^2)/2, f = 2r^3/(r^4 + a^2 z^2), l = ((rx + ay)/(r^2 + a^2), (ry - ax)/(r^2 + a^2),
- * z/r). */
+/* H = (p.p - E^2 - f (E + l.p)^2)/2, f = r^2 (2r - q^2)/(r^4 + a^2 z^2), l = ((rx + ay)/(r^2 + a^2), (ry - ax)/(r^2 +
+ * a^2), z/r). */
 static void derivative(const struct system *s, const double *y, double *d)
 {
     double a = s->a, x = y[0], yy = y[1], z = y[2], px = y[3], py = y[4], pz = y[5];
+    const double charge2 = s->q * s->q;
     double r = radius(a, y), r2 = r * r, q = r2 + a * a, den = r2 * r2 + a * a * z * z;
     double rho2 = x * x + yy * yy + z * z - a * a, k = 1 / (2 * r2 * r - rho2 * r);
     double dr[3] = { r2 * x * k, r2 * yy * k, (r2 + a * a) * z * k };
-    double f = 2 * r2 * r / den;
+    double f = r2 * (2 * r - charge2) / den;
     double l[3] = { (r * x + a * yy) / q, (r * yy - a * x) / q, z / r };
     double along = l[0] * px + l[1] * py + l[2] * pz, sum = s->energy + along;
     double in_plane = x * px + yy * py;
     for (int i = 0; i < 3; i++) {
-        double df = (6 * r2 * dr[i] - f * (4 * r2 * r * dr[i] + (i == 2 ? 2 * a * a * z : 0))) / den;
+        double df =
+            ((6 * r2 - 2 * charge2 * r) * dr[i] - f * (4 * r2 * r * dr[i] + (i == 2 ? 2 * a * a * z : 0))) / den;
         double dl = dr[i] * in_plane / q - (l[0] * px + l[1] * py) * 2 * r * dr[i] / q - z * pz / r2 * dr[i];
         dl += i == 0 ? (r * px - a * py) / q : i == 1 ? (r * py + a * px) / q : pz / r;
         d[i] = y[3 + i] - f * sum * l[i];
@@ -78,26 +80,33 @@ static double extrapolate(const struct system *s, const double *y, double h, dou
     return error;
 }
 
-/* Integral of a/Delta from r to infinity: Boyer-Lindquist minus Kerr-Schild azimuth. */
-static double twist(double a, double r)
+/* sqrt(1 - a^2 - q^2) */
+static double half_gap(double a, double q)
 {
-    double root = sqrt((1 - a) * (1 + a));
+    const long double spin = a, charge = q;
+    return (double)sqrtl((1 - spin) * (1 + spin) - charge * charge);
+}
+
+/* Integral of a/Delta from r to infinity: Boyer-Lindquist minus Kerr-Schild azimuth. */
+static double twist(double a, double q, double r)
+{
+    double root = half_gap(a, q);
     return root > 0 ? a / (2 * root) * log1p(2 * root / (r - 1 - root)) : a / (r - 1);
 }
 
-static double azimuth(double a, const double *y)
+static double azimuth(double a, double q, const double *y)
 {
     double r = radius(a, y);
-    return atan2(y[1], y[0]) - atan2(a, r) + twist(a, r);
+    return atan2(y[1], y[0]) - atan2(a, r) + twist(a, q, r);
 }
 
-/* Kerr-Schild minus Boyer-Lindquist time at r: integral of 2r/Delta, up to a constant. */
-static double slow(double a, double r)
+/* Kerr-Schild minus Boyer-Lindquist time at r: integral of (2r - q^2)/Delta, up to a constant. */
+static double slow(double a, double q, double r)
 {
-    double root = sqrt((1 - a) * (1 + a)), plus = 1 + root, minus = 1 - root;
+    double root = half_gap(a, q), plus = 1 + root, minus = 1 - root, half = 0.5 * q * q;
     if (root == 0)
-        return 2 * log(r - 1) - 2 / (r - 1);
-    return (plus * log(r - plus) - minus * log(r - minus)) / root;
+        return 2 * log(r - 1) - (2 - q * q) / (r - 1);
+    return ((plus - half) * log(r - plus) - (minus - half) * log(r - minus)) / root;
 }
 
 /* From spherical coordinates and covariant components p_r, p_theta, p_phi to Cartesian ones. */
@@ -135,10 +144,10 @@ static void place(double a, double r, double s, double u, double phi, const doub
 
 static void start(const struct ks_photon *p, double *y)
 {
-    double a = p->a, r = p->r, u = p->u, delta = r * r - 2 * r + a * a;
-    double p_r = -p->p_r + (2 * r * p->energy - a * p->momentum) / delta;
-    place(a, r, sqrt((1 - u) * (1 + u)), u, -p->phi - twist(a, r), (double[]) { p_r, -p->p_theta, p->momentum }, y);
-    y[6] = p->delay + slow(a, r);
+    double a = p->a, q = p->q, r = p->r, u = p->u, delta = r * r - 2 * r + a * a + q * q;
+    double p_r = -p->p_r + ((2 * r - q * q) * p->energy - a * p->momentum) / delta;
+    place(a, r, sqrt((1 - u) * (1 + u)), u, -p->phi - twist(a, q, r), (double[]) { p_r, -p->p_theta, p->momentum }, y);
+    y[6] = p->delay + slow(a, q, r);
 }
 
 /* Takes the step from y that ends on z = 0, if a step of h would cross it. */
@@ -168,7 +177,7 @@ static void land(const struct system *s, const double *y, double h, double *out)
 static struct ks_path run(const struct system s, state y, bool mirrored, int max_crossings)
 {
     struct ks_path path = { .fate = KS_UNDECIDED };
-    const double horizon = 1 + sqrt((1 - s.a) * (1 + s.a)), sign = mirrored ? -1 : 1;
+    const double horizon = 1 + half_gap(s.a, s.q), sign = mirrored ? -1 : 1;
     state next;
     double h = 0.05 * radius(s.a, y);
     for (int step = 0; step < 20000; step++) {
@@ -190,9 +199,9 @@ static struct ks_path run(const struct system s, state y, bool mirrored, int max
             derivative(&s, hit, way);
             path.falls[path.crossings] = hit[0] * way[0] + hit[1] * way[1] > 0;
             path.momentum[path.crossings] = -sign * (hit[0] * hit[4] - hit[1] * hit[3]);
-            path.delay[path.crossings] = mirrored ? hit[6] - slow(s.a, hr) : NAN;
+            path.delay[path.crossings] = mirrored ? hit[6] - slow(s.a, s.q, hr) : NAN;
             path.p_z[path.crossings] = fabs(hit[5]);
-            path.phi[path.crossings++] = sign * azimuth(s.a, hit);
+            path.phi[path.crossings++] = sign * azimuth(s.a, s.q, hit);
         }
         memcpy(y, next, sizeof next);
         r = radius(s.a, y);
@@ -205,7 +214,7 @@ static struct ks_path run(const struct system s, state y, bool mirrored, int max
         if (r > 1e8 && y[0] * y[3] + y[1] * y[4] + y[2] * y[5] > 0) {
             path.fate = KS_ESCAPED;
             path.u = y[2] / r;
-            path.sky_phi = sign * azimuth(s.a, y);
+            path.sky_phi = sign * azimuth(s.a, s.q, y);
             return path;
         }
         h *= error < 1e-14 ? 2 : 1;
@@ -219,30 +228,35 @@ struct ks_path ks_trace(struct ks_photon photon, int max_crossings)
 {
     state y;
     start(&photon, y);
-    return run((struct system) { photon.a, photon.energy }, y, true, max_crossings);
+    return run((struct system) { photon.a, photon.energy, photon.q }, y, true, max_crossings);
 }
 
 struct ks_path ks_follow(const struct ks_place *at, const double p[4], int max_crossings)
 {
     state y = { 0 };
     place(at->a, at->r, sin(at->theta), cos(at->theta), 0, (double[]) { -p[1], -p[2], -p[3] }, y);
-    return run((struct system) { at->a, p[0] }, y, false, max_crossings);
+    return run((struct system) { at->a, p[0], 0 }, y, false, max_crossings);
 }
 
 struct ks_photon ks_from_infinity(double a, double u, double alpha, double beta)
+{
+    return ks_from_infinity_charged(a, 0, u, alpha, beta);
+}
+
+struct ks_photon ks_from_infinity_charged(double a, double charge, double u, double alpha, double beta)
 {
     double s = sqrt((1 - u) * (1 + u)), l = -alpha * s, r = 1e6;
     double q = (alpha * alpha - a * a) * u * u + beta * beta;
     /* From infinity to here by the first terms of the series in 1/r. */
     double t = 1 / r, pull = a * a - l * l - q, here = u + s * beta * t + 0.5 * (pull - 2 * a * a * u * u) * u * t * t;
-    double delta = r * r - 2 * r + a * a, w = r * r + a * a - a * l;
+    double delta = r * r - 2 * r + a * a + charge * charge, w = r * r + a * a - a * l;
     double big = w * w - delta * (q + (l - a) * (l - a));
     double angular = q + here * here * (a * a - l * l / ((1 - here) * (1 + here)));
-    struct ks_photon p = { .a = a, .r = r, .u = here, .energy = 1, .momentum = l };
+    struct ks_photon p = { .a = a, .r = r, .u = here, .energy = 1, .momentum = l, .q = charge };
     p.p_r = sqrt(big) / delta; /* it arrives moving outwards */
     p.p_theta = copysign(sqrt(fmax(angular, 0)), beta);
     /* The coordinate time from r_o to here, minus r_o + 2 ln r_o, by the same series. */
-    p.delay = -r - 2 * log(r) + (4 + a * a * u * u - 0.5 * pull) * t;
+    p.delay = -r - 2 * log(r) + (4 - charge * charge + a * a * u * u - 0.5 * pull) * t;
     if (s == 0) { /* on the axis the azimuth is that of the image point, since the traced ray leaves the axis in this
                    * direction */
         p.p_theta = copysign(p.p_theta, -u);
@@ -264,13 +278,19 @@ static double dot(double g[4][4], const double *x, const double *y)
 
 struct ks_photon ks_from_camera(double a, double r, double theta, bool zamo, const double k[3])
 {
-    double c = cos(theta), s = sin(theta), sigma = r * r + a * a * c * c, delta = r * r - 2 * r + a * a;
+    return ks_from_camera_charged(a, 0, r, theta, zamo, k);
+}
+
+struct ks_photon ks_from_camera_charged(double a, double charge, double r, double theta, bool zamo, const double k[3])
+{
+    const double mass = 2 * r - charge * charge;
+    double c = cos(theta), s = sin(theta), sigma = r * r + a * a * c * c, delta = r * r + a * a - mass;
     double g[4][4] = { { 0 } }; /* t, r, theta, phi */
-    g[0][0] = -(1 - 2 * r / sigma);
-    g[0][3] = g[3][0] = -2 * a * r * s * s / sigma;
+    g[0][0] = -(1 - mass / sigma);
+    g[0][3] = g[3][0] = -a * mass * s * s / sigma;
     g[1][1] = sigma / delta;
     g[2][2] = sigma;
-    g[3][3] = (r * r + a * a + 2 * a * a * r * s * s / sigma) * s * s;
+    g[3][3] = (r * r + a * a + a * a * mass * s * s / sigma) * s * s;
     double u[4] = { 1, 0, 0, zamo ? -g[0][3] / g[3][3] : 0 }, e[4] = { 0, 0, 0, 1 };
     double n = 1 / sqrt(-dot(g, u, u));
     for (int i = 0; i < 4; i++)
@@ -287,7 +307,7 @@ struct ks_photon ks_from_camera(double a, double r, double theta, bool zamo, con
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
             low[i] += g[i][j] * p[j];
-    return (struct ks_photon) { a, r, c, -low[0], low[3], low[1], low[2], 0, 0 };
+    return (struct ks_photon) { a, r, c, -low[0], low[3], low[1], low[2], 0, 0, charge };
 }
 
 struct along {
@@ -310,7 +330,7 @@ static void medium_at(const struct along *w, const double *from, double t, doubl
     struct ks_photon at = *w->photon;
     at.r = r;
     at.u = u;
-    at.phi = -azimuth(a, y);
+    at.phi = -azimuth(a, 0, y);
     at.p_r = (2 * r * at.energy - a * at.momentum) / delta - p_r;
     at.p_theta = r * s * y[5] - u / s * (y[0] * y[3] + y[1] * y[4]);
     w->medium(w->user, &at, r, u, out);
@@ -358,7 +378,7 @@ struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bo
                          void *user)
 {
     enum { PARTS = 16 };
-    struct along w = { { photon.a, photon.energy }, &photon, inner, outer, medium, user, { 0 } };
+    struct along w = { { photon.a, photon.energy, 0 }, &photon, inner, outer, medium, user, { 0 } };
     const double horizon = 1 + sqrt((1 - photon.a) * (1 + photon.a));
     state y, next;
     start(&photon, y);
@@ -396,7 +416,7 @@ struct target { double at[3], f, l[3]; };
 /* Azimuths are mirrored, like those of the path. */
 static struct target target_of(double a, double r, double u, double phi)
 {
-    const double psi = -phi + atan2(a, r) - twist(a, r), s = sqrt((1 - u) * (1 + u)) * sqrt(r * r + a * a),
+    const double psi = -phi + atan2(a, r) - twist(a, 0, r), s = sqrt((1 - u) * (1 + u)) * sqrt(r * r + a * a),
                  x = s * cos(psi), y = s * sin(psi), q = r * r + a * a;
     return (struct target) { { x, y, r * u },
                              2 * r * r * r / (r * r * r * r + a * a * r * r * u * u),
@@ -422,12 +442,12 @@ static struct ks_near near_of(const struct system *s, const struct target *c, co
         along += c->l[i] * d;
     }
     return (struct ks_near) { sqrt(fmax(x2 - t * t + c->f * (t + along) * (t + along), 0)),
-                              y[6] - slow(s->a, radius(s->a, y)) };
+                              y[6] - slow(s->a, 0, radius(s->a, y)) };
 }
 
 int ks_passes(struct ks_photon photon, double r, double u, double phi, double within, int most, struct ks_near *out)
 {
-    const struct system s = { photon.a, photon.energy };
+    const struct system s = { photon.a, photon.energy, 0 };
     const struct target c = target_of(photon.a, r, u, phi);
     const double horizon = 1 + sqrt((1 - photon.a) * (1 + photon.a));
     int n = 0;
@@ -518,14 +538,14 @@ static double delay_at(const struct system *s, struct nearest *best, struct meri
         part_of(meridian_after(s, best->from, best->low), meridian_after(s, best->from, best->high), place, &best->off);
     state y;
     extrapolate(s, best->from, best->low + t * (best->high - best->low), y);
-    return y[6] - slow(s->a, radius(s->a, y));
+    return y[6] - slow(s->a, 0, radius(s->a, y));
 }
 
 void ks_delays(struct ks_photon photon, const double (*places)[2], int n, double *delay, double *off)
 {
     static struct nearest best[KS_MOST_PLACES];
     static struct meridian at[KS_MOST_PLACES];
-    const struct system s = { photon.a, photon.energy };
+    const struct system s = { photon.a, photon.energy, 0 };
     const double horizon = 1 + sqrt((1 - photon.a) * (1 + photon.a));
     state y, next;
     start(&photon, y);

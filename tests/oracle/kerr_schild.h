@@ -16,6 +16,7 @@ struct ks_photon {  /* as it arrives at the observer, covariant Boyer-Lindquist 
     double a, r, u; /* spin; radius and cos(theta) of the observer */
     double energy, momentum, p_r, p_theta;
     double phi, delay; /* azimuth and delay of the path before a start that stands for infinity */
+    double q;          /* charge of the hole; of the functions that take a photon only ks_trace knows it */
 };
 
 enum ks_fate { KS_CAPTURED, KS_ESCAPED, KS_UNDECIDED };
@@ -34,9 +35,12 @@ struct ks_path {
 /* The photon that reaches (alpha, beta) of an observer at infinity with cos(theta) = u, started at r = 1e6. */
 struct ks_photon ks_from_infinity(double a, double u, double alpha, double beta);
 
+struct ks_photon ks_from_infinity_charged(double a, double q, double u, double alpha, double beta);
+
 /* The photon that reaches an observer at (r, theta), at rest (zamo: with zero angular momentum), from the direction
  * k = (k_r, k_theta, k_phi) of its local frame, with energy 1 there. The tetrad is orthonormalised numerically. */
 struct ks_photon ks_from_camera(double a, double r, double theta, bool zamo, const double k[3]);
+struct ks_photon ks_from_camera_charged(double a, double q, double r, double theta, bool zamo, const double k[3]);
 
 struct ks_path ks_trace(struct ks_photon photon, int max_crossings);
 

@@ -132,8 +132,35 @@ static void from_nearby(void **state)
     assert_true(compared > 2000);
 }
 
+/* The same about charged holes, up to a^2 + q^2 = 1 - 1e-9, seen from infinity and from nearby. */
+static void charged(void **state)
+{
+    (void)state;
+    uint64_t seed = 3;
+    for (int i = 0; i < 1000; i++) {
+        const double size = i % 4 ? sqrt(random_unit(&seed)) : sqrt(1 - 1e-9), turn = 2 * M_PI * random_unit(&seed),
+                     charge = size * sin(turn);
+        struct kd_null_ray ray = random_ray(&seed, i % 3 == 0 ? 25 : 8);
+        ray.hole = kd_hole_charged(size * cos(turn), charge);
+        struct ks_photon photon = ks_from_infinity_charged(ray.hole.a, charge, ray.cos_theta, ray.alpha, ray.beta);
+        if (i % 2 && fabs(ray.cos_theta) < 1 && ray.cos_theta != 0) {
+            const double r = ray.radius = 3 + 9 * random_unit(&seed), u = ray.cos_theta, theta = acos(u),
+                         along = 2 * M_PI * random_unit(&seed);
+            photon = ks_from_camera_charged(ray.hole.a, charge, r, theta, true,
+                                            (double[]) { -0.6, 0.8 * cos(along), 0.8 * sin(along) });
+            ray.sin_theta = sqrt((1 - u) * (1 + u));
+            ray.alpha = -photon.momentum / (photon.energy * ray.sin_theta);
+            ray.beta = photon.p_theta / photon.energy;
+            photon.momentum /= photon.energy, photon.p_r /= photon.energy, photon.p_theta /= photon.energy;
+            photon.energy = 1;
+        }
+        compare(&ray, photon, 2e-11);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(from_infinity), cmocka_unit_test(from_nearby) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(from_infinity), cmocka_unit_test(from_nearby),
+                                        cmocka_unit_test(charged) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

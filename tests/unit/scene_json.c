@@ -364,8 +364,9 @@ static void canonical_form_is_stable(void **state)
     scene.camera.azimuth_deg = -1e-7;
     scene.top.time = 0.1 + 0.2;
     char *text = support_canonical(&scene);
-    const char *start = "{\"version\":1,\"spacetime\":{\"spin\":0.7,\"mass_msun\":100000000,\"distance_pc\":260000},"
-                        "\"camera\":{\"r\":\"infinity\",\"inclination_deg\":82,\"azimuth_deg\":-1e-7,";
+    const char *start =
+        "{\"version\":1,\"spacetime\":{\"spin\":0.7,\"charge\":0,\"mass_msun\":100000000,\"distance_pc\":260000},"
+        "\"camera\":{\"r\":\"infinity\",\"inclination_deg\":82,\"azimuth_deg\":-1e-7,";
     const char *middle =
         ",\"spots\":[{\"brightness\":0,\"r\":10,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},"
         "{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000}],\"bodies\":[],"

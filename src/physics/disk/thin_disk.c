@@ -17,8 +17,101 @@ static double log_term(double a, double x, double x0, double root, double other1
     return k * log1p((x - x0) / (x0 - root));
 }
 
+/* With charge, from the general expression (Page & Thorne 1974, eqs 11b and 12) with the E, L and Omega of kerr.h:
+ *
+ *   4 pi r F = (3r - 4q^2)/(2 s r P^2) B(s),   dB/ds = X/(r P^2),   B = 0 at the ISCO, s^2 = r - q^2.
+ *
+ * The variable of the integral is ln(1 + (s - s_0)/gap), where gap is the distance from the photon orbit, because P
+ * vanishes there. X is a polynomial of degree 6 in s. About the ISCO, where it vanishes, it is the sum of c_k (s -
+ * s_0)^k, whose coefficients follow from
+ *
+ *   X' = 2s (Delta - 4 sigma^2 + 2ry - 4s sigma)      X'' = X'/s + 24 s (ys - sigma)      r Delta = 4 s^2 sigma^2,
+ *
+ * with 2ry - 4s sigma = (2y (y (s + a) - sigma) - 4sn)/(s + a) for a > 0, where it cancels next to r = 1. */
+struct charged {
+    const struct kd_hole *hole;
+    double y0, s0, gap, turns; /* y0, s0: at the ISCO */
+    double c[6];
+};
+
+static struct charged charged_of(const struct kd_hole *hole)
+{
+    const double y0 = kd_kerr_ring_innermost(hole), light = kd_kerr_ring_of_light(hole);
+    struct charged o = { .hole = hole, .y0 = y0, .s0 = kd_kerr_ring_at(hole, y0).s };
+    o.gap = (y0 - light) / (o.s0 + kd_kerr_ring_at(hole, light).s);
+    const struct kd_kerr_ring at = kd_kerr_ring_at(hole, y0);
+    const double a = hole->a, q2 = hole->q * hole->q, n = hole->root * hole->root, s = at.s, r = 1 + y0, sum = s + a,
+                 rest = y0 * s - at.sigma;
+    const double pull = a > 0 ? (2 * y0 * (y0 * sum - at.sigma) - 4 * s * n) / sum : 2 * r * y0 - 4 * s * at.sigma;
+    const double x1 = 2 * s * (pull - q2 * at.delta / (s * s)), x2 = x1 / s + 24 * s * rest,
+                 x3 = x2 / s - x1 / (s * s) + 24 * rest + 24 * s * (2 * s * s + y0 - 1);
+    const double c[] = { x1, x2 / 2, x3 / 6, 15 * s * s + 3 * q2 - 6, 6 * s, 1 };
+    for (int k = 0; k < 6; k++)
+        o.c[k] = c[k];
+    return o;
+}
+
+/* X over s - s_0. */
+static double charged_excess(const struct charged *o, double beyond)
+{
+    double sum = 0;
+    for (int k = 5; k >= 0; k--)
+        sum = sum * beyond + o->c[k];
+    return sum;
+}
+
+static struct kd_kerr_ring charged_ring(const struct charged *o, double beyond) /* beyond: s - s_0 */
+{
+    return kd_kerr_ring_at(o->hole, o->y0 + beyond * (2 * o->s0 + beyond));
+}
+
+static double charged_share(double along, double left, const void *context)
+{
+    const struct charged *o = context;
+    const double beyond = o->gap * expm1(o->turns * along);
+    const struct kd_kerr_ring at = charged_ring(o, beyond);
+    (void)left;
+    return o->turns * (beyond + o->gap) * beyond * charged_excess(o, beyond) / ((1 + at.y) * at.p2);
+}
+
+static double charged_bracket(struct charged *o, double beyond)
+{
+    o->turns = log1p(beyond / o->gap);
+    return kd_quadrature(charged_share, o);
+}
+
+static double charged_flux(const struct kd_hole *hole, double r)
+{
+    struct charged o = charged_of(hole);
+    const double q2 = hole->q * hole->q, s = sqrt(r - q2), beyond = (r - 1 - o.y0) / (s + o.s0);
+    if (!(beyond > 0))
+        return 0;
+    const struct kd_kerr_ring at = charged_ring(&o, beyond);
+    const double bracket = charged_bracket(&o, beyond);
+    return fmax(0, (3 * r - 4 * q2) / (2 * at.s * r * at.p2) * bracket) / (4 * M_PI * r);
+}
+
+/* A function that is positive where the flux grows with r; the place is s_0 + beyond. (P^2)' = 2r - 3 + a/s. */
+static double charged_growth(const void *user, double beyond)
+{
+    struct charged o = *(const struct charged *)user;
+    const struct kd_kerr_ring at = charged_ring(&o, beyond);
+    const double r = 1 + at.y, q2 = o.hole->q * o.hole->q;
+    const double loss = 3 / (3 * r - 4 * q2) - 0.5 / (at.s * at.s) - 2 / r - (2 * r - 3 + o.hole->a / at.s) / at.p2;
+    return beyond * charged_excess(&o, beyond) / (2 * at.s * r * at.p2) + charged_bracket(&o, beyond) * loss;
+}
+
+static double charged_peak(const struct kd_hole *hole)
+{
+    const struct charged o = charged_of(hole);
+    const double beyond = kd_root(charged_growth, &o, 1e-7 * o.s0, 0.7 * o.s0);
+    return 1 + o.y0 + beyond * (2 * o.s0 + beyond);
+}
+
 double kd_disk_flux_page_thorne(const struct kd_hole *hole, double r)
 {
+    if (kd_hole_is_charged(hole))
+        return charged_flux(hole, r);
     const double a = hole->a;
     double r0 = kd_kerr_isco(hole);
     if (!(r > r0))
@@ -77,6 +170,8 @@ static double growth(const void *user, double span)
 
 double kd_disk_peak_page_thorne(const struct kd_hole *hole)
 {
+    if (kd_hole_is_charged(hole))
+        return charged_peak(hole);
     double x0 = sqrt(kd_kerr_isco(hole));
     struct rise r = { .a = hole->a, .y0 = x0 - 1, .gap = x0 - sqrt(kd_kerr_photon_orbit(hole)) };
     /* The maximum is below 2.1 r_isco for all spins, and at the ISCO for an extremal hole. */
@@ -96,13 +191,16 @@ double kd_disk_redshift(const struct kd_hole *hole, double r, double lambda)
 
 /* -p.u = [(P U + sigma sqrt(R S))/Delta - (lambda - a)(L - a E)]/r^2, sigma being the sign of p^r, with the radial
  * potentials R = P^2 - Delta K of the photon and S = U^2 - Delta (r^2 + J^2) of the gas. u^r has a closed form that
- * does not cancel at the ISCO: (u^r)^2 = 2/(3 r0) (r0/r - 1)^3. For sigma < 0 the bracket cancels at the horizon;
+ * does not cancel at the ISCO: (u^r)^2 = 2/(3 r0) (r0/r - 1)^3, and with charge J^2 (w - w0)^3 (2 - q^2 (3 w0 + w))
+ * at w = 1/r. For sigma < 0 the bracket cancels at the horizon;
  * multiplied by its conjugate P U + sqrt(R S) it does not. */
 double kd_disk_redshift_plunging(const struct kd_hole *hole, double r, double lambda, double eta, bool outwards)
 {
     const double a = hole->a;
     double r0 = kd_kerr_isco(hole), e = 1 - kd_kerr_efficiency(hole), l = kd_kerr_momentum(hole, r0), j = l - a * e;
     double gap = fmax(0, r0 / r - 1), ur = sqrt(2 / (3 * r0) * gap) * gap;
+    if (kd_hole_is_charged(hole))
+        ur = sqrt(gap * (2 - hole->q * hole->q * (3 / r0 + 1 / r)) / r0) * gap * fabs(j) / r0;
     double delta = kd_hole_delta(hole, r);
     double p = r * r + a * (a - lambda), u = r * r * e - a * j;
     double k = eta + (lambda - a) * (lambda - a), m = r * r + j * j;

@@ -10,7 +10,8 @@
 /* Page & Thorne 1974, ApJ 191, 499, eqs 11b, 12 and 15n: energy radiated from one face, per comoving area and
  * proper time, F / Mdot, for a disk that ends at the ISCO without torque. Zero at and inside the ISCO.
  * Relative error below 1e-11 + 4e-14/(r - r_isco)^2 for |a| <= 0.9999: towards the ISCO, where F has a double zero, the
- * closed form cancels. */
+ * closed form cancels. With charge the integral is computed by quadrature; relative error below 1e-12 up to a^2 + q^2 =
+ * 1 - 1e-6. */
 double kd_disk_flux_page_thorne(const struct kd_hole *hole, double r);
 
 /* Shakura & Sunyaev 1973 (Newtonian) with the inner edge at the ISCO: 3/(8 pi r^3) (1 - sqrt(r_in/r)). */

@@ -1,4 +1,4 @@
-/* The critical curve of Kerr: the points of an observer's sky where light arrives from the spherical photon orbits.
+/* The critical curve: the points of an observer's sky where light arrives from the spherical photon orbits.
  * A ray traced back falls into the hole inside the curve and escapes outside; it is the edge of the shadow. Double
  * precision; pure functions, any thread. Units G = c = M = 1, angles in radians.
  *
@@ -40,7 +40,7 @@
 #include <stdbool.h>
 
 struct kd_critical_observer {
-    struct kd_hole hole;              /* uncharged */
+    struct kd_hole hole;
     double radius;                    /* outside the horizon, for a falling observer outside the inner one; INFINITY */
     double cos_theta;                 /* [-1, 1], exact 0 and +-1 included                               */
     double sin_theta;                 /* 0: taken from cos_theta, as in null_geodesic.h                  */

@@ -11,7 +11,7 @@ enum { ORDER = 19, STEPS = 2000 };
 struct series { double w[ORDER + 1], u[ORDER + 1]; };
 
 struct ray {
-    double a2, k3, c2, e2; /* A, 3K, 2C, 2 a^2 E^2 */
+    double a2, k3, c2, e2; /* A, 3K, -2D, 2 a^2 E^2 */
     double horizon;        /* 1/r+ */
     bool ours;             /* the ray does not leave the horizon into another exterior region */
     double w, dw, u, du;
@@ -25,7 +25,7 @@ static struct ray ray_of(const struct kd_vantage *at, const struct kd_covector *
     return (struct ray) {
         .a2 = ae * ae - q - l * l,
         .k3 = 3 * k,
-        .c2 = -2 * a * a * q,
+        .c2 = -2 * (a * a * q + at->hole.q * at->hole.q * k),
         .e2 = 2 * ae * ae,
         .horizon = 1 / r_plus,
         .ours = at->r > r_plus || (r_plus * r_plus + a * a) * p->energy - a * l > 0,

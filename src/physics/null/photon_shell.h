@@ -1,5 +1,5 @@
-/* Spherical photon orbits of Kerr, at constant Boyer-Lindquist radius, and how nearby rays depart from them in each
- * half orbit. Double precision; pure functions, any thread. Units G = c = M = 1, E = 1; |a| < 1.
+/* Spherical photon orbits, at constant Boyer-Lindquist radius, and how nearby rays depart from them in each
+ * half orbit. Double precision; pure functions, any thread. Units G = c = M = 1, E = 1; a^2 + q^2 < 1.
  *
  * Sources: Teo 2003, Gen. Rel. Grav. 35, 1909, and Bardeen 1973 (in Black Holes, eq. 49): lambda and eta of r.
  * Johnson et al. 2020, arXiv:1907.04329 (the exponent gamma); Gralla & Lupsasca 2020, arXiv:1910.12873, section V
@@ -13,21 +13,32 @@
  *   lambda = -w (y + y_P + 2N/(y y_P))
  *   eta = (r^3/y^2)(4 - r x^2) = (r^3/a^2)(3 - y - 4N/y^2)
  *
- * without cancellation (the second form of eta for y < 1). A hole with a < 0 is the mirror image of that with |a|. */
+ * without cancellation (the second form of eta for y < 1). A hole with a < 0 is the mirror image of that with |a|.
+ *
+ * With charge N = 1 - a^2 - q^2, and y_0 = (1 + sqrt(1 + 8 (N + a^2)))/2 is that of the orbits at a = 0, 2 without
+ * charge. Then x = (y - y_0)/a, and
+ *
+ *   y_P^3 - (1 + a^2 + 2N) y_P - 2N = 0      x_P = -a (y_P + 2)/((y_P + 1)(y_P + y_0 - 1))      lambda as above
+ *   eta = (r/y)^2 (4 (y + N + a^2) - x^2 (y + y_0 - 1)^2)
+ *       = (r/(a y))^2 (y^2 (2a - 1 + y)(2a + 1 - y) - 4N (N + a^2 + y (1 - y)))      for y < a. */
 #ifndef KD_PHYSICS_NULL_PHOTON_SHELL_H
 #define KD_PHYSICS_NULL_PHOTON_SHELL_H
 
 #include "physics/spacetime/hole.h"
 
+#include <stdbool.h>
+
 struct kd_shell {
     double a;                    /* as given                                                */
-    double spin, n;              /* |a|, 1 - a^2                                            */
+    double spin, n;              /* |a|, 1 - a^2 - q^2                                      */
     double y_polar, x_polar;     /* y_P, x_P                                                */
     double prograde, retrograde; /* places of the equatorial orbits: see kd_shell_orbit_at */
+    double y_still;              /* y_0                                                     */
+    bool charged;
 };
 
-/* y = r - 1; w as above. At a = 0 r alone does not identify an orbit. */
-struct kd_shell_orbit { double a, r, y, w, lambda, eta; };
+/* y = r - 1; w and n as above. At a = 0 r alone does not identify an orbit. */
+struct kd_shell_orbit { double a, r, y, w, lambda, eta, n; };
 
 struct kd_shell kd_shell_of(const struct kd_hole *hole);
 

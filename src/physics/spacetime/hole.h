@@ -31,6 +31,9 @@ static inline struct kd_hole kd_hole_of(double a)
  * those of kd_hole_of to the bit. */
 struct kd_hole kd_hole_charged(double a, double q);
 
+/* Whether the charge has any effect: its square does not underflow. */
+static inline bool kd_hole_is_charged(const struct kd_hole *hole) { return hole->q * hole->q > 0; }
+
 /* False for a struct of zeros and outside the domain. */
 static inline bool kd_hole_exists(const struct kd_hole *hole)
 {

@@ -24,8 +24,9 @@ static struct fall fall_of(const struct kd_observer_motion *m, const struct kd_v
 {
     double a = at->hole.a, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
     double ls = l == 0 ? 0 : l / at->s, q = at->u * at->u * (ls * ls - a * a * bound), rest = l - a * e;
+    const double k = q + rest * rest, q2 = at->hole.q * at->hole.q;
     struct fall f = {
-        .c = { -a * a * q, 2 * (q + rest * rest), a * a * bound - l * l - q, 2, bound },
+        .c = { -a * a * q - q2 * k, 2 * k, a * a * bound - l * l - q - q2, 2, bound },
         .hole = at->hole,
         .u = at->u,
         .low = r,
@@ -35,7 +36,7 @@ static struct fall fall_of(const struct kd_observer_motion *m, const struct kd_v
         .energy = e,
         .momentum = l,
         .swing = l == 0 ? 0 : ls / at->s,
-        .carter = q + rest * rest,
+        .carter = k,
     };
     if (f.from_rest) /* in ascending powers; the first ones vanish exactly without spin */
         for (int i = 0; i < 4; i++)
@@ -94,7 +95,7 @@ static double turning(double x, double y, const void *user)
     return f->span * (f->swing - f->hole.a * f->energy + f->hole.a * ingoing(f, r, v)) / v;
 }
 
-/* Sigma dt/dtau of those coordinates, t + integral of 2r/Delta dr. */
+/* Sigma dt/dtau of those coordinates, t + integral of (2r - q^2)/Delta dr. */
 static double ageing(double x, double y, const void *user)
 {
     const struct fall *f = user;
@@ -102,11 +103,11 @@ static double ageing(double x, double y, const void *user)
     return f->span * (a * (f->momentum - a * f->energy * s2) + (r * r + a * a) * ingoing(f, r, v) + v) / v;
 }
 
-/* The integral of 2r/Delta up to a constant; outside the horizon. */
+/* The integral of (2r - q^2)/Delta up to a constant; outside the horizon. */
 static double delay(const struct kd_hole *hole, double r)
 {
-    double outer = hole->outer, inner = hole->inner;
-    return 2 / (outer - inner) * (outer * log(r - outer) - inner * log(r - inner));
+    double outer = hole->outer, inner = hole->inner, half = 0.5 * hole->q * hole->q;
+    return 2 / (outer - inner) * ((outer - half) * log(r - outer) - (inner - half) * log(r - inner));
 }
 
 struct kd_infall_way kd_infall_way(const struct kd_observer_motion *m, const struct kd_vantage *at, double r)

@@ -1,5 +1,7 @@
 #include "physics/spacetime/kerr.h"
 
+#include "physics/math/root.h"
+
 #include <math.h>
 
 /* (1 - a)(1 + a): 1 - a*a loses all digits as |a| -> 1. */
@@ -13,12 +15,52 @@ double kd_kerr_twist(const struct kd_hole *hole, double r)
 
 double kd_kerr_ergosphere(const struct kd_hole *hole, double cos_theta)
 {
+    if (kd_hole_is_charged(hole)) /* 1 - q^2 - a^2 cos^2 = root^2 + a^2 sin^2 */
+        return 1 + sqrt(hole->root * hole->root + hole->a * hole->a * (1 - cos_theta) * (1 + cos_theta));
     return 1 + sqrt(one_minus_a2(hole->a * cos_theta));
 }
+
+struct kd_kerr_ring kd_kerr_ring_at(const struct kd_hole *hole, double y)
+{
+    const double a = hole->a, n = hole->root * hole->root, s = sqrt(fmax(0, y + n + a * a));
+    struct kd_kerr_ring o = { .y = y, .s = s, .sigma = a > 0 ? (y + n) / (s + a) : s - a };
+    o.delta = (y - hole->root) * (y + hole->root);
+    o.p2 = o.delta - o.sigma * o.sigma;
+    return o;
+}
+
+double kd_kerr_ring_excess(const struct kd_hole *hole, const struct kd_kerr_ring *o)
+{
+    const double a = hole->a, n = hole->root * hole->root, s = o->s, y = o->y, r = 1 + y, sum = s + a;
+    if (!(a > 0))
+        return r * o->delta - 4 * s * s * o->sigma * o->sigma;
+    return (y * y * (y * sum * sum - o->sigma * (3 * s + a)) - n * (r * sum * sum + 4 * s * s * (2 * y + n))) /
+           (sum * sum);
+}
+
+static double light_circles(const void *hole, double y) { return kd_kerr_ring_at(hole, y).p2; }
+
+static double orbit_is_stable(const void *hole, double y)
+{
+    const struct kd_kerr_ring o = kd_kerr_ring_at(hole, y);
+    return kd_kerr_ring_excess(hole, &o);
+}
+
+/* Without charge these orbits are at r < 4.01 and r < 9.01, and charge moves them inwards. */
+double kd_kerr_ring_of_light(const struct kd_hole *hole) { return kd_root(light_circles, hole, hole->root, 3.01); }
+
+double kd_kerr_ring_innermost(const struct kd_hole *hole)
+{
+    return kd_root(orbit_is_stable, hole, kd_kerr_ring_of_light(hole), 8.01);
+}
+
+static struct kd_kerr_ring ring_of(const struct kd_hole *hole, double r) { return kd_kerr_ring_at(hole, r - 1); }
 
 double kd_kerr_isco(const struct kd_hole *hole)
 {
     const double a = hole->a;
+    if (kd_hole_is_charged(hole))
+        return 1 + kd_kerr_ring_innermost(hole);
     if (a == 0) /* rounding of the root of 6 would make its square smaller */
         return 6;
     double z1 = 1 + cbrt(one_minus_a2(a)) * (cbrt(1 + a) + cbrt(1 - a));
@@ -39,19 +81,33 @@ double kd_kerr_isco(const struct kd_hole *hole)
 
 double kd_kerr_photon_orbit(const struct kd_hole *hole)
 {
+    if (kd_hole_is_charged(hole))
+        return 1 + kd_kerr_ring_of_light(hole);
     /* 2(1 + cos(2/3 acos(-a))) = 4 cos^2(acos(-a)/3). */
     double c = cos(acos(-hole->a) / 3);
     return 4 * c * c;
+}
+
+double kd_kerr_outermost_photon_orbit(const struct kd_hole *hole)
+{
+    return kd_kerr_photon_orbit(kd_hole_turned(hole, hole->a > 0 ? -1 : 1));
 }
 
 double kd_kerr_marginally_bound(const struct kd_hole *hole)
 {
     const double a = hole->a;
     double s = 1 + sqrt(1 - a);
-    return a >= -1 ? s * s : NAN;
+    return a >= -1 && !kd_hole_is_charged(hole) ? s * s : NAN;
 }
 
-double kd_kerr_omega(const struct kd_hole *hole, double r) { return 1 / (r * sqrt(r) + hole->a); }
+double kd_kerr_omega(const struct kd_hole *hole, double r)
+{
+    if (kd_hole_is_charged(hole)) {
+        const double s = ring_of(hole, r).s;
+        return s / (r * r + hole->a * s);
+    }
+    return 1 / (r * sqrt(r) + hole->a);
+}
 
 /* Near a = 1 prograde orbits are close to r = 1, where 1 - 3/r + 2a/r^(3/2) and the numerators of E and L cancel and
  * lose half their digits. As polynomials in x = sqrt(r) they are regrouped about x = 1, in terms of x - 1 and 1 - a,
@@ -69,6 +125,10 @@ static struct circle circle_of(double a, double r)
 /* (x^3 - 2x + a) / sqrt(x^3 (x^3 - 3x + 2a)) */
 double kd_kerr_energy(const struct kd_hole *hole, double r)
 {
+    if (kd_hole_is_charged(hole)) {
+        const struct kd_kerr_ring g = ring_of(hole, r);
+        return (g.delta + hole->a * g.sigma) / (r * sqrt(g.p2));
+    }
     struct circle o = circle_of(hole->a, r);
     return (o.d * (r + o.x - 1) - o.e) / o.norm;
 }
@@ -76,6 +136,10 @@ double kd_kerr_energy(const struct kd_hole *hole, double r)
 /* (x^4 - 2ax + a^2) / sqrt(x^3 (x^3 - 3x + 2a)) */
 double kd_kerr_momentum(const struct kd_hole *hole, double r)
 {
+    if (kd_hole_is_charged(hole)) {
+        const struct kd_kerr_ring g = ring_of(hole, r);
+        return (hole->a * g.delta + (r * r + hole->a * hole->a) * g.sigma) / (r * sqrt(g.p2));
+    }
     struct circle o = circle_of(hole->a, r);
     return (o.d * (o.x * (r + o.x + 1) - 1) + o.e * (2 * o.d + o.e)) / o.norm;
 }
@@ -83,6 +147,10 @@ double kd_kerr_momentum(const struct kd_hole *hole, double r)
 double kd_kerr_ut(const struct kd_hole *hole, double r)
 {
     const double a = hole->a;
+    if (kd_hole_is_charged(hole)) {
+        const struct kd_kerr_ring g = ring_of(hole, r);
+        return (r * r + a * g.s) / (r * sqrt(g.p2));
+    }
     struct circle o = circle_of(a, r);
     return (r * o.x + a) / o.norm;
 }
@@ -90,6 +158,8 @@ double kd_kerr_ut(const struct kd_hole *hole, double r)
 /* At the ISCO E^2 = 1 - 2/(3 r) [BPT 2.12 with 2.21], so that 1 - E needs no subtraction. */
 double kd_kerr_efficiency(const struct kd_hole *hole)
 {
+    if (kd_hole_is_charged(hole))
+        return 1 - kd_kerr_energy(hole, kd_kerr_isco(hole));
     double x = 2 / (3 * kd_kerr_isco(hole));
     return x / (1 + sqrt(1 - x));
 }

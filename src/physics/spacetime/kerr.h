@@ -1,22 +1,43 @@
 /* Scalars of the Kerr hole that depend on its spin, and circular equatorial orbits. Double precision, pure
- * functions, any thread. Units G = c = M = 1; for the sign of the spin and the domain see hole.h. The hole must be
- * uncharged, except for kd_kerr_twist and kd_kerr_dragging.
+ * functions, any thread. Units G = c = M = 1; for the sign of the spin and the domain see hole.h. About a charged hole
+ * the orbits are those of neutral matter.
  *
- * Sources: Bardeen, Press & Teukolsky 1972, ApJ 178, 347 [BPT]; Chandrasekhar 1983. */
+ * Sources: Bardeen, Press & Teukolsky 1972, ApJ 178, 347 [BPT]; Chandrasekhar 1983; with charge N. Dadhich & P. P. Kale
+ * 1977, J. Math. Phys. 18, 1727. */
 #ifndef KD_PHYSICS_SPACETIME_KERR_H
 #define KD_PHYSICS_SPACETIME_KERR_H
 
 #include "physics/spacetime/hole.h"
 
-/* Static limit at cos(theta): 1 + sqrt(1 - a^2 cos^2 theta). */
+/* Static limit at cos(theta): 1 + sqrt(1 - q^2 - a^2 cos^2 theta). */
 double kd_kerr_ergosphere(const struct kd_hole *hole, double cos_theta);
 
-/* Innermost stable circular orbit [BPT eq. 2.21], relative error below 1e-14. */
+/* Innermost stable circular orbit [BPT eq. 2.21], relative error below 1e-14; with charge the root of
+ * kd_kerr_ring_excess. */
 double kd_kerr_isco(const struct kd_hole *hole);
 
-/* Circular photon orbit [BPT eq. 2.18] and marginally bound orbit [BPT eq. 2.19]. */
+/* Circular photon orbit [BPT eq. 2.18] and marginally bound orbit [BPT eq. 2.19]. The latter is NaN for a charged
+ * hole. */
 double kd_kerr_photon_orbit(const struct kd_hole *hole);
 double kd_kerr_marginally_bound(const struct kd_hole *hole);
+
+/* Radius of the outermost photon orbit, which counter-rotates. */
+double kd_kerr_outermost_photon_orbit(const struct kd_hole *hole);
+
+/* A circular equatorial orbit towards +phi about a hole with or without charge, in terms of y = r - 1 and n = root^2,
+ * which keep their digits as a^2 + q^2 -> 1. With s^2 = r - q^2 and sigma = s - a = (y + n)/(s + a) the orbit has in
+ * Carter's frame the velocity sigma/sqrt(Delta), and
+ *
+ *   P^2 = Delta - sigma^2             E = (Delta + a sigma)/(r P)      L = (a Delta + (r^2 + a^2) sigma)/(r P)
+ *   u^t = (r^2 + a s)/(r P)           Omega = s/(r^2 + a s)            dE/dr = Omega dL/dr = X/(2 r^2 P^3)
+ *   X = r Delta - 4 s^2 sigma^2
+ *
+ * P vanishes on the photon orbit and X at the ISCO. */
+struct kd_kerr_ring { double y, s, sigma, delta, p2; };
+struct kd_kerr_ring kd_kerr_ring_at(const struct kd_hole *hole, double y);
+double kd_kerr_ring_excess(const struct kd_hole *hole, const struct kd_kerr_ring *ring); /* X */
+double kd_kerr_ring_of_light(const struct kd_hole *hole);                                /* y of the photon orbit */
+double kd_kerr_ring_innermost(const struct kd_hole *hole);                               /* y of the ISCO */
 
 /* Circular equatorial orbit at r > photon orbit: angular velocity d(phi)/dt [BPT 2.16], specific energy and angular
  * momentum [BPT 2.12, 2.13], and u^t. */

@@ -39,10 +39,10 @@ static struct kd_tetrad frame_static(const struct kd_observer_motion *motion, co
     (void)motion;
     double a = at->hole.a, r = at->r, u = at->u, s = at->s;
     double sigma = r * r + a * a * u * u, delta = delta_of(at);
-    double lapse = sqrt((sigma - 2 * r) / sigma); /* sqrt(-g_tt) */
+    double mass = 2 * r - at->hole.q * at->hole.q, lapse = sqrt((sigma - mass) / sigma); /* sqrt(-g_tt) */
     return (struct kd_tetrad) {
         .at = *at,
-        .t = { .energy = lapse, .momentum = -2 * a * r * s / (sigma * lapse) },
+        .t = { .energy = lapse, .momentum = -mass * a * s / (sigma * lapse) },
         .r = { .radial = sqrt(sigma) * sqrt(delta) },
         .theta = { .polar = sqrt(sigma) },
         .phi = { .momentum = sqrt(delta) / lapse },
@@ -51,14 +51,14 @@ static struct kd_tetrad frame_static(const struct kd_observer_motion *motion, co
 
 /* Angular velocity at constant radius, sense = +-1, at the highest latitude: r'' = 0 where r' = theta' = 0, that is
  *   d_r g_tt + 2 Omega d_r g_tphi + Omega^2 d_r g_phiphi = 0,   which is   Omega sin = +-G/(1 +- a sin G),   G^2 =
- *     (r^2 - a^2 cos^2)/(r Sigma^2).
- * In Mino time r'' depends on r alone, so that r is constant. In the equatorial plane Omega = +-1/(r^(3/2) +- a);
- * elsewhere the orbit is spherical (Wilkins 1972, Phys. Rev. D 5, 814). Returns sin * (Omega - omega), which is
+ *     (r^2 - q^2 r - a^2 cos^2)/(r Sigma^2).
+ * In Mino time r'' depends on r alone, so that r is constant. In the equatorial plane Omega = +-1/(r^2/s +- a), s^2 = r
+ * - q^2; elsewhere the orbit is spherical (Wilkins 1972, Phys. Rev. D 5, 814). Returns sin * (Omega - omega), which is
  * regular on the axis. */
 static double circling(const struct kd_hole *hole, double r, double u, double s, int sense)
 {
     double a = hole->a;
-    double g = sqrt((r - a * u) * (r + a * u) / r) / (r * r + a * a * u * u);
+    double g = sqrt((r - a * u) * (r + a * u) / r - hole->q * hole->q) / (r * r + a * a * u * u);
     return sense * g / (1 + sense * a * s * g) - s * kd_kerr_dragging(hole, r, u);
 }
 
@@ -85,13 +85,15 @@ static struct kd_tetrad frame_retrograde(const struct kd_observer_motion *motion
     return circular(at, -1);
 }
 
-/* Rain, from rest at infinity without angular momentum: E = 1, L = 0, theta constant, Sigma r' = -sqrt(2r (r^2 +
- * a^2)) (Doran 2000, Phys. Rev. D 61, 067503; Natario 2009, Gen. Rel. Grav. 41, 2579). e_phi is that of zero angular
- * momentum; e_r completes the frame. All of it is regular at the horizon: 2r (r^2 + a^2) = B - Sigma Delta. */
+/* Rain, from rest at infinity without angular momentum: E = 1, L = 0, theta constant, Sigma r' = -sqrt((2r - q^2)
+ * (r^2 + a^2)) (Doran 2000, Phys. Rev. D 61, 067503; Natario 2009, Gen. Rel. Grav. 41, 2579). e_phi is that of zero
+ * angular momentum; e_r completes the frame. All of it is regular at the horizon: (2r - q^2) (r^2 + a^2) = B - Sigma
+ * Delta, and 2r > q^2 down to the inner horizon. */
 static struct kd_tetrad rain(const struct kd_vantage *at)
 {
     const struct shape k = shape_of(at);
-    double root = sqrt(k.big / k.sigma), fall = sqrt(2 * at->r * (at->r * at->r + at->hole.a * at->hole.a));
+    double root = sqrt(k.big / k.sigma), mass = 2 * at->r - at->hole.q * at->hole.q,
+           fall = sqrt(mass * (at->r * at->r + at->hole.a * at->hole.a));
     return (struct kd_tetrad) {
         .at = *at,
         .t = { .energy = 1, .radial = -fall },
@@ -125,8 +127,8 @@ double kd_observer_energy(const struct kd_observer_motion *m, const struct kd_va
 
 /* With E' = E - omega L and constant latitude, (Sigma r')^2 = B E'^2 - Sigma Delta (1 + x_phi^2). Components x in
  * the rain frame:
- *   x_t - x_r = (sqrt(B) E' - Sigma r')/(sqrt(B) + sqrt(2r (r^2 + a^2))),   (x_t - x_r)(x_t + x_r) = 1 + x_phi^2,
- * none of which vanishes at the horizon. */
+ *   x_t - x_r = (sqrt(B) E' - Sigma r')/(sqrt(B) + sqrt((2r - q^2) (r^2 + a^2))),   (x_t - x_r)(x_t + x_r) = 1 +
+ * x_phi^2, none of which vanishes at the horizon. */
 static struct kd_tetrad frame_infall(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
     const struct kd_tetrad base = rain(at);
@@ -204,7 +206,8 @@ static bool turns_on_its_way(const struct kd_observer_motion *m, const struct kd
 {
     double a = at->hole.a, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
     double ls = l == 0 ? 0 : l / at->s, q = at->u * at->u * (ls * ls - a * a * bound), rest = l - a * e, roots[4];
-    const double c[] = { bound, 2, a * a * bound - l * l - q, 2 * (q + rest * rest), -a * a * q };
+    const double k = q + rest * rest, q2 = at->hole.q * at->hole.q;
+    const double c[] = { bound, 2, a * a * bound - l * l - q - q2, 2 * k, -a * a * q - q2 * k };
     double last = fmin(1 / at->r, 1 / at->hole.outer);
     return last > 1 / m->fall_from * (1 + 1e-9) &&
            kd_polynomial_roots(c, 4, 1 / m->fall_from * (1 + 1e-9) + 1e-12, last, roots) > 0;

@@ -16,8 +16,9 @@
  * exists at radii larger than its edge. The velocity of the last one is a parameter, so that it cannot serve as a frame
  * in which other velocities are measured. */
 #define KD_OBSERVERS_OF_NO_NUMBERS(X) \
-    X(STATIC, static, "at rest with respect to infinity", "outside the ergosphere, r > 1 + sqrt(1 - a^2 cos^2 i)", \
-      kd_kerr_ergosphere(hole, u), "the ergosphere", "nothing is at rest") \
+    X(STATIC, static, "at rest with respect to infinity", \
+      "outside the ergosphere, r > 1 + sqrt(1 - Q^2 - a^2 cos^2 i)", kd_kerr_ergosphere(hole, u), "the ergosphere", \
+      "nothing is at rest") \
     X(ZAMO, zamo, "with zero angular momentum", "outside the horizon", hole->outer, "the horizon", "everything falls") \
     X(KEPLERIAN, keplerian, "on a circular orbit towards +phi like the disk, at its highest latitude", \
       "outside the photon orbit that co-rotates with the disk", kd_observer_light_orbit(hole, u, 1), \
@@ -26,7 +27,7 @@
       "outside the photon orbit that counter-rotates", kd_observer_light_orbit(hole, u, -1), "the photon orbit", \
       "there is no circular orbit") \
     X(INFALL, infall, "in free fall, by default from rest at infinity", \
-      "outside the inner horizon, r > 1 - sqrt(1 - a^2)", hole->inner, "the inner horizon", "the model ends")
+      "outside the inner horizon, r > 1 - sqrt(1 - a^2 - Q^2)", hole->inner, "the inner horizon", "the model ends")
 #define KD_OBSERVERS(X) \
     KD_OBSERVERS_OF_NO_NUMBERS(X) \
     X(VELOCITY, velocity, "with any velocity relative to the observer of zero angular momentum", \

@@ -1,5 +1,5 @@
-/* Orthonormal frames in which observers and bodies in Kerr measure. Double precision, pure functions, any thread.
- * Units G = c = M = 1; Boyer-Lindquist coordinates.
+/* Orthonormal frames in which observers and neutral bodies measure about a hole. Double precision, pure functions, any
+ * thread. Units G = c = M = 1; Boyer-Lindquist coordinates.
  *
  * A frame is four covectors: the legs e_t (minus this, applied to a motion, is the time of a clock at rest in the
  * frame), e_r, e_theta, e_phi with their indices lowered. The vector with local components x = (x_t, x_r, x_theta,
@@ -18,8 +18,7 @@
 
 struct kd_covector { double energy, momentum, polar, radial; /* E, L/sin(theta), p_theta, Delta p_r */ };
 
-/* Position of a frame: the hole, which must be uncharged; radius; cosine and sine of the polar angle, one of which may
- * be 0. */
+/* Position of a frame: the hole; radius; cosine and sine of the polar angle, one of which may be 0. */
 struct kd_vantage {
     struct kd_hole hole;
     double r, u, s;

@@ -39,10 +39,10 @@ static double largest_flux(const struct kd_scene *scene)
 
 double kd_disk_peak_temperature(const struct kd_scene *scene)
 {
-    double a = scene->spacetime.spin;
     if (scene->disk.colour == KD_COLOUR_PEAK)
         return scene->disk.peak_temperature_k;
-    return kd_disk_temperature(largest_flux(scene), kd_hole(a), scene->spacetime.mass_msun, scene->disk.mdot_edd);
+    return kd_disk_temperature(largest_flux(scene), kd_scene_hole(scene), scene->spacetime.mass_msun,
+                               scene->disk.mdot_edd);
 }
 
 double kd_disk_heat(const struct kd_scene *scene, double r)

@@ -36,6 +36,7 @@ static enum kd_status find_crossings(struct kd_explained *x, struct kd_error *er
 {
     const struct kd_rays_params params = {
         .spin = x->scene.spacetime.spin,
+        .charge = x->scene.spacetime.charge,
         .r = x->scene.camera.r,
         .inclination_deg = x->scene.camera.inclination_deg,
         .orders = (uint32_t)x->scene.accuracy.orders,

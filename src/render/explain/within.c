@@ -15,9 +15,9 @@
  * there. */
 static double redshift(const struct kd_ray_motion *m, double r, bool outwards)
 {
-    const double a = m->ray.hole.a;
-    return r >= kd_kerr_isco(kd_hole(a)) ? kd_disk_redshift(kd_hole(a), r, m->lambda)
-                                         : kd_disk_redshift_plunging(kd_hole(a), r, m->lambda, m->eta, outwards);
+    const struct kd_hole *hole = &m->ray.hole;
+    return r >= kd_kerr_isco(hole) ? kd_disk_redshift(hole, r, m->lambda)
+                                   : kd_disk_redshift_plunging(hole, r, m->lambda, m->eta, outwards);
 }
 
 /* Inside the horizon azimuth and time stay ingoing, and a crossing has no g because there is no gas. */

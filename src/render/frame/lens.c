@@ -7,6 +7,7 @@
 #include "render/device/prepare.h"
 #include "render/frame/sample.h"
 #include "render/plan/sample.h"
+#include "scene/hole.h"
 #include "base/clock.h"
 
 #include <math.h>
@@ -115,6 +116,7 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
         .GENERATOR = l->generator,
         .SHIFT = l->shift,
         .ORDER = KD_NO_ORDER,
+        .CHARGED = kd_hole_is_charged(kd_scene_hole(j->scene)),
     };
     if (march)
         spec.INGOING = p->ingoing;

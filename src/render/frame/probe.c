@@ -292,6 +292,7 @@ static struct kd_rays_params params_of_steps(const struct kd_scene *scene, const
 {
     return (struct kd_rays_params) {
         .spin = scene->spacetime.spin,
+        .charge = scene->spacetime.charge,
         .r = scene->camera.r,
         .inclination_deg = scene->camera.inclination_deg,
         .orders = (uint32_t)scene->accuracy.orders,

@@ -56,6 +56,7 @@ static struct kd_rays_params params_of(const struct kd_scene *scene, const struc
 {
     return (struct kd_rays_params) {
         .spin = scene->spacetime.spin,
+        .charge = scene->spacetime.charge,
         .r = scene->camera.r,
         .inclination_deg = scene->camera.inclination_deg,
         .orders = plan->orders ? plan->orders : 1,

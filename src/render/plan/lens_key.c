@@ -14,8 +14,8 @@ static enum kd_status write_view(const struct kd_scene *scene, struct kd_buffer 
     const struct kd_section *camera = kd_section_find("camera");
     enum kd_status status;
     const struct kd_window window = kd_scene_window(scene);
-    KD_TRY(kd_buffer_printf(text, "%u x %u at %u %u, a %a", window.width, window.height, window.left, window.top,
-                            scene->spacetime.spin));
+    KD_TRY(kd_buffer_printf(text, "%u x %u at %u %u, a %a, q %a", window.width, window.height, window.left, window.top,
+                            scene->spacetime.spin, scene->spacetime.charge));
     for (size_t i = camera->first; i < camera->first + camera->count; i++)
         if (strcmp(kd_fields[i].name, "azimuth_deg"))
             KD_TRY(kd_buffer_printf(text, ", %s %a", kd_fields[i].name, kd_field_get(scene, &kd_fields[i], 0)));

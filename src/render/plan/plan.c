@@ -47,6 +47,7 @@ WHEN(held, plan->reuse_normalisation)
 WHEN(maps, plan->n_layers > 0)
 WHEN(cut, plan->points && plan->bands > 1 && !plan->cacheable)
 WHEN(coloured, kd_plan_is_map(plan) && !plan->numbers)
+WHEN(charged, scene->spacetime.charge != 0)
 WHEN(projected, plan->ring)
 WHEN(rounded, !plan->ring && !kd_scene_is_flat(scene))
 WHEN(interpolated, plan->interpolates > 0)
@@ -60,6 +61,10 @@ static const struct sentence {
     const char *name, *text;
     bool (*in_force)(const struct kd_plan *plan, const struct kd_scene *scene);
 } sentences[] = {
+    { "hole.charged",
+      "hole: charged as real holes hardly are, because matter around them soon neutralises a charge; light and matter "
+      "here are neutral, and feel the charge only through space-time",
+      charged },
     { "disk.orders", "disk: image orders beyond accuracy.orders are left out", crossings },
     { "volumes.march",
       "volumes: light is integrated in 32 bits with three points per step; the number of steps depends on the texture, "
@@ -255,7 +260,7 @@ static enum kd_status ring(struct kd_accuracy_request *asked_accuracy, struct kd
  * that starts outwards comes back. */
 static double beyond_orbits(const struct kd_scene *scene)
 {
-    return 1.05 * kd_kerr_photon_orbit(kd_hole(-fabs(scene->spacetime.spin)));
+    return 1.05 * kd_kerr_outermost_photon_orbit(kd_scene_hole(scene));
 }
 
 static bool within_horizon(const struct kd_scene *scene) { return scene->camera.r <= kd_scene_hole(scene)->outer; }

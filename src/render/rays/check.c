@@ -13,7 +13,8 @@ static enum kd_status check_observer(const struct kd_rays_params *p, struct kd_e
     enum kd_status status = kd_rays_field_check("spin", p->spin, error);
     if (status)
         return status;
-    double horizon = kd_hole(p->spin)->outer;
+    const struct kd_hole hole = kd_rays_hole(p);
+    double horizon = hole.outer;
     if (!isinf(p->r) && !(p->r > horizon && p->r <= KD_RAYS_FAR))
         return kd_error_field(error, "/observer/r",
                               "r is %.16g; it must be \"infinity\" or a radius above that of the horizon, %.9g at this "
@@ -87,7 +88,8 @@ enum kd_status kd_rays_check(const struct kd_rays_params *p, const double *alpha
     if (p->observer)
         return KD_OK;
     double s = kd_sin_deg(p->inclination_deg), u = kd_cos_deg(p->inclination_deg), u2 = u * u, a = p->spin, r = p->r;
-    double delta = kd_hole_delta(kd_hole(a), r);
+    const struct kd_hole hole = kd_rays_hole(p);
+    double delta = kd_hole_delta(&hole, r);
     for (size_t i = 0; i < n; i++) {
         double alpha = alpha_beta[2 * i], beta = alpha_beta[2 * i + 1];
         KD_TRY(check_number(alpha, i, 0, error));

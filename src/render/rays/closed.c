@@ -18,7 +18,7 @@ _Static_assert(KD_NULL_ORDERS >= KD_RAYS_MAX_ORDERS, "the closed form gives too 
 
 static struct kd_null_ray ray_of(const struct kd_rays_params *p, const double *alpha_beta, bool outward)
 {
-    return (struct kd_null_ray) { .hole = kd_hole_of(p->spin),
+    return (struct kd_null_ray) { .hole = kd_rays_hole(p),
                                   .radius = p->r,
                                   .cos_theta = kd_cos_deg(p->inclination_deg),
                                   .sin_theta = kd_sin_deg(p->inclination_deg),
@@ -31,11 +31,12 @@ static struct kd_null_ray ray_of(const struct kd_rays_params *p, const double *a
 /* The redshift factor at a crossing. outwards: whether the real photon moves outwards when it leaves the gas. */
 static double redshift(const struct kd_rays_params *p, const double *alpha_beta, double r, bool outwards)
 {
+    const struct kd_hole hole = kd_rays_hole(p);
     double a = p->spin, s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg);
     double alpha = alpha_beta[0], beta = alpha_beta[1], lambda = -alpha * s;
-    if (r >= kd_kerr_isco(kd_hole(a)))
-        return kd_disk_redshift(kd_hole(a), r, lambda);
-    return kd_disk_redshift_plunging(kd_hole(a), r, lambda, (alpha - a) * (alpha + a) * c * c + beta * beta, outwards);
+    if (r >= kd_kerr_isco(&hole))
+        return kd_disk_redshift(&hole, r, lambda);
+    return kd_disk_redshift_plunging(&hole, r, lambda, (alpha - a) * (alpha + a) * c * c + beta * beta, outwards);
 }
 
 static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, bool outward, bool errors,
@@ -146,7 +147,8 @@ static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_
 void kd_rays_redshift(const struct kd_rays_params *params, const struct kd_ray_labels *rays,
                       struct kd_ray_crossing *crossings, const struct kd_ray_end *ends)
 {
-    double isco = kd_kerr_isco(kd_hole(params->spin));
+    const struct kd_hole hole = kd_rays_hole(params);
+    double isco = kd_kerr_isco(&hole);
     for (size_t i = 0; i < rays->n; i++)
         for (uint32_t k = 0; k < ends[i].n_crossings; k++) {
             const double *alpha_beta = rays->alpha_beta + 2 * i;
@@ -161,9 +163,10 @@ void kd_rays_redshift(const struct kd_rays_params *params, const struct kd_ray_l
 double kd_rays_slope(const struct kd_rays_params *p, const double *alpha_beta, bool outward,
                      const struct kd_ray_end *end, uint32_t k, double r)
 {
+    const struct kd_hole hole = kd_rays_hole(p);
     double a = p->spin, s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg), w2 = 1 / (r * r);
     double alpha = alpha_beta[0], beta = alpha_beta[1], j = -alpha * s - a, all = 1 - a * j * w2;
-    double d = (1 - kd_hole(a)->outer / r) * (1 - kd_hole(a)->inner / r);
+    double d = (1 - hole.outer / r) * (1 - hole.inner / r);
     double carter = (alpha - a) * (alpha + a) * c * c + beta * beta + j * j;
     double slope = sqrt(fmax(0, all * all - d * carter * w2));
     return leaves_outwards(p, alpha_beta, outward, end, k) ? slope : -slope;

@@ -21,7 +21,7 @@
 #define MOST (1u << 20)
 #define CHUNK 65536u
 #define TARGET_MS 40.0
-#define HEADER 7u /* numbers before the list in rays.comp; rays_kerr_schild.comp has four */
+#define HEADER 8u /* numbers before the list in rays.comp; rays_kerr_schild.comp has four */
 
 struct work {
     struct kd_renderer *r;
@@ -87,15 +87,16 @@ static void upload_states(const struct work *w, const struct set *set, const str
         struct kd_rays_origin origin;
         double numbers[sizeof(struct kd_rays_origin) / sizeof(double)];
     } start;
+    const struct kd_hole hole = kd_rays_hole(p);
     double u = kd_cos_deg(p->inclination_deg), s = kd_sin_deg(p->inclination_deg);
     put(w, at, 0, p->spin);
-    put(w, at, 1, kd_hole(p->spin)->outer);
+    put(w, at, 1, hole.outer);
     put(w, at, 2, escape(w));
+    put(w, at, 3, hole.q * hole.q);
     for (size_t i = 0; i < rays->n; i++) {
         double at_eye[2];
         label(w, rays->alpha_beta + 2 * i, at_eye);
-        kd_rays_start(kd_hole(p->spin), p->r, u, s, at_eye[0], at_eye[1], rays->outward && rays->outward[i], FAR,
-                      &start.origin);
+        kd_rays_start(&hole, p->r, u, s, at_eye[0], at_eye[1], rays->outward && rays->outward[i], FAR, &start.origin);
         for (size_t k = 0; k < per_start; k++)
             put(w, at, 4 + per_start * i + k, start.numbers[k]);
     }
@@ -105,15 +106,17 @@ static void upload(const struct work *w, const struct set *set, const struct kd_
 {
     const struct kd_rays_params *p = w->params;
     void *at = kd_vk_buffer_map(set->rays);
-    double u = kd_cos_deg(p->inclination_deg), s = kd_sin_deg(p->inclination_deg), r_plus = kd_hole(p->spin)->outer;
+    const struct kd_hole hole = kd_rays_hole(p);
+    double u = kd_cos_deg(p->inclination_deg), s = kd_sin_deg(p->inclination_deg);
     const double header[HEADER] = {
         p->spin,
         u,
         s,
-        1 / r_plus,
-        sqrt((1 - p->spin) * (1 + p->spin)),
+        1 / hole.outer,
+        hole.root,
         isinf(p->r) ? 0 : 1 / p->r,
         w->wide ? DBL_EPSILON / 2 : FLT_EPSILON / 2,
+        hole.q * hole.q,
     };
     for (size_t i = 0; i < HEADER; i++)
         put(w, at, i, w->wide ? header[i] : kd_lifted(header[i]));
@@ -330,6 +333,7 @@ static enum kd_status device(struct kd_renderer *renderer, const struct kd_rays_
                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_vk_buffer *told,
                              struct kd_error *error)
 {
+    const struct kd_hole hole = kd_rays_hole(params);
     struct kd_vk *vk = renderer->vk;
     struct work w = {
         .r = renderer,
@@ -337,7 +341,7 @@ static enum kd_status device(struct kd_renderer *renderer, const struct kd_rays_
         .wide = params->precision == KD_PRECISION_F64,
         .kerr_schild = params->engine >= KD_ENGINE_KS_EULER,
         .per_ray = 3 * params->orders + 4,
-        .least = nextafter(kd_hole(params->spin)->outer, INFINITY),
+        .least = nextafter(hole.outer, INFINITY),
         .told = told,
         .error = error,
         .steps = steps_of(params),

@@ -8,7 +8,7 @@
 
 static struct kd_vantage vantage(const struct kd_rays_params *p)
 {
-    return (struct kd_vantage) { kd_hole_of(p->spin), p->r, kd_cos_deg(p->inclination_deg),
+    return (struct kd_vantage) { kd_rays_hole(p), p->r, kd_cos_deg(p->inclination_deg),
                                  kd_sin_deg(p->inclination_deg) };
 }
 

@@ -8,7 +8,7 @@
  * chi: Boyer-Lindquist azimuth minus psi. The equations are those of shaders/ray/escape.glsl. */
 struct motion {
     const struct kd_hole *hole;
-    double a, l, q, k;
+    double a, l, q, k, d; /* d: a^2 Q + q^2 K */
 };
 struct point { double y[4], v[4], chi; };
 
@@ -18,12 +18,12 @@ static void pull(const struct motion *m, const double y[4], double f[4])
     for (int i = 0; i < 3; i++)
         f[i] = -turning * y[i];
     f[2] += a2 * u;
-    f[3] = w * (a2 - m->l * m->l - m->q + w * (3 * m->k - 2 * a2 * m->q * w));
+    f[3] = w * (a2 - m->l * m->l - m->q + w * (3 * m->k - 2 * m->d * w));
 }
 
 static double drag(const struct motion *m, double w)
 {
-    return m->a * w * (2 - m->a * m->l * w) / kd_hole_delta_w(m->hole, w);
+    return m->a * w * (2 - (m->a * m->l + m->hole->q * m->hole->q) * w) / kd_hole_delta_w(m->hole, w);
 }
 
 /* A step of Nystroem's method of order 4, as in nystroem.glsl. Frame dragging is integrated by Simpson's rule, with the
@@ -87,8 +87,8 @@ static void cartesian(const struct motion *m, const struct point *p, bool outwar
     double v[3] = { c * p->v[0] - s * p->v[1], s * p->v[0] + c * p->v[1], p->v[2] };
     double x[3] = { r * n[0] - a * n[1], r * n[1] + a * n[0], r * n[2] }, k = r / (r * r * r * r + a * a * x[2] * x[2]);
     double dr[3] = { r * r * x[0] * k, r * r * x[1] * k, q * x[2] * k };
-    /* p_r = (2r - aL -+ sqrt(R))/Delta, R = W^2 - Delta K, W = r^2 + a^2 - aL. For inward rays it is computed in a form
-     * without cancellation. */
+    /* p_r = (2r - q^2 - aL -+ sqrt(R))/Delta, R = W^2 - Delta K, W = r^2 + a^2 - aL. For inward rays it is computed in
+     * a form without cancellation. */
     double big = q - a * m->l, delta = kd_hole_delta(m->hole, r), radial = sqrt(fmax(big * big - delta * m->k, 0));
     double p_r = (outward ? (big + radial) / delta : m->k / (big + radial)) - 1;
     p_r += (v[0] * (x[0] - 2 * r * n[0]) + v[1] * (x[1] - 2 * r * n[1])) / q - v[2] * n[2] / r;
@@ -105,6 +105,7 @@ void kd_rays_start(const struct kd_hole *hole, double r, double u, double s, dou
     const double a = hole->a;
     struct motion m = { .hole = hole, .a = a, .l = -alpha * s, .q = (alpha * alpha - a * a) * u * u + beta * beta };
     m.k = m.q + (m.l - a) * (m.l - a);
+    m.d = a * a * m.q + hole->q * hole->q * m.k;
     struct point p = { { s, 0, u, isinf(r) ? 0 : 1 / r }, { -u * beta, -alpha, s * beta, 1 }, 0 };
     out->w = out->phi = 0;
     if (isinf(r)) /* at infinity w' = 1, so Mino time equals w */

@@ -50,25 +50,27 @@ static void mino(const struct constants *c, const struct record *r, struct kd_ra
 }
 
 /* Kerr-Schild minus Boyer-Lindquist azimuth: atan2(a, r) minus the integral of a/Delta from infinity. */
-static double drag(double a, double r)
+static double drag(const struct kd_hole *hole, double r)
 {
-    double root = sqrt((1 - a) * (1 + a));
+    const double a = hole->a, root = hole->root;
     return root > 0 ? a / (2 * root) * log1p(2 * root / (r - 1 - root)) : a / (r - 1);
 }
 
 /* Unpacks a record in Kerr-Schild coordinates, with the Hamiltonian of rays_kerr_schild.comp implemented again.
  * momentum: L at the start. */
-static void kerr_schild(double a, double momentum, const struct record *record, struct kd_rays_step *s)
+static void kerr_schild(const struct kd_hole *hole, double momentum, const struct record *record,
+                        struct kd_rays_step *s)
 {
+    const double a = hole->a, less = 0.5 * hole->q * hole->q;
     const double *x = record->y, *p = record->dy;
     double rho2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - a * a;
     double r2 = 0.5 * (rho2 + sqrt(rho2 * rho2 + 4 * a * a * x[2] * x[2])), r = sqrt(r2), q = r2 + a * a;
     double lp = ((r * x[0] + a * x[1]) * p[0] + (r * x[1] - a * x[0]) * p[1]) / q + x[2] * p[2] / r;
     s->x = x[0], s->y = x[1], s->z = x[2], s->p_x = p[0], s->p_y = p[1], s->p_z = p[2];
     s->r = r, s->w = 1 / r, s->u = x[2] / r;
-    s->phi = azimuth(x[1], x[0], drag(a, r) - atan2(a, r));
+    s->phi = azimuth(x[1], x[0], drag(hole, r) - atan2(a, r));
     s->res_null = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1 -
-                  2 * r * r2 / (r2 * r2 + a * a * x[2] * x[2]) * (1 + lp) * (1 + lp);
+                  2 * (r - less) * r2 / (r2 * r2 + a * a * x[2] * x[2]) * (1 + lp) * (1 + lp);
     s->res_l = x[0] * p[1] - x[1] * p[0] - momentum;
 }
 
@@ -78,6 +80,7 @@ static bool is_kerr_schild(const struct kd_rays_params *p) { return p->engine >=
  * points. */
 static void tell(struct kd_rays_steps *out, const struct constants *c, const struct record *records)
 {
+    const struct kd_hole hole = kd_rays_hole(&out->params);
     double time = 0, crossed = 0, momentum = 0; /* crossed: time of the last crossing */
     unsigned number = 0, order = 0;
     for (size_t i = 0; i < out->n; i++) {
@@ -96,7 +99,7 @@ static void tell(struct kd_rays_steps *out, const struct constants *c, const str
         s->number = number += s->stage == KD_STAGE_STEP || s->stage == KD_STAGE_END;
         if (is_kerr_schild(&out->params)) {
             momentum = i ? momentum : r->y[0] * r->dy[1] - r->y[1] * r->dy[0];
-            kerr_schild(out->params.spin, momentum, r, s);
+            kerr_schild(&hole, momentum, r, s);
         } else {
             mino(c, r, s);
         }

@@ -161,8 +161,9 @@ struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
     o.spin = scene->spacetime.spin;
     o.u = at.u;
     o.s = at.s;
-    o.root = sqrt((1 - scene->spacetime.spin) * (1 + scene->spacetime.spin));
-    o.horizon = 1 / kd_scene_hole(scene)->outer;
+    o.root = at.hole.root;
+    o.charge2 = at.hole.q * at.hole.q;
+    o.horizon = 1 / at.hole.outer;
     if (isinf(c->r)) {
         plane(&o, c, kd_camera_pixel(scene) / kd_scene_side(scene));
     } else {

@@ -156,7 +156,7 @@ static void set_widths(struct kd_rim *o, const struct kd_scene *scene, double ra
 bool kd_rim_may_be(const struct kd_scene *scene)
 {
     return scene->camera.projection != KD_PROJECTION_RING &&
-           scene->camera.r >= 1.05 * kd_kerr_photon_orbit(kd_hole(-fabs(scene->spacetime.spin)));
+           scene->camera.r >= 1.05 * kd_kerr_outermost_photon_orbit(kd_scene_hole(scene));
 }
 
 void kd_rim_place(const struct kd_rim *rim, double u, double off, double place[2])

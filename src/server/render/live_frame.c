@@ -112,16 +112,16 @@ static void add_lights(struct kd_json *json, const struct kd_light_report *repor
     kd_json_end(json);
 }
 
-static void add_orbit(struct kd_json *json, double spin, double r)
+static void add_orbit(struct kd_json *json, const struct kd_hole *hole, double r)
 {
     kd_json_number(json, "r", r);
-    kd_json_number(json, "period", 2 * M_PI / kd_kerr_omega(kd_hole(spin), r));
+    kd_json_number(json, "period", 2 * M_PI / kd_kerr_omega(hole, r));
 }
 
 static void add_isco(struct kd_json *json, const struct kd_scene *scene)
 {
     kd_json_object(json, "isco");
-    add_orbit(json, scene->spacetime.spin, kd_kerr_isco(kd_scene_hole(scene)));
+    add_orbit(json, kd_scene_hole(scene), kd_kerr_isco(kd_scene_hole(scene)));
     kd_json_end(json);
 }
 
@@ -148,7 +148,7 @@ static void add_orbits(struct kd_json *json, const struct kd_scene *scene)
         kd_json_object(json, NULL);
         kd_json_number(json, "spot", (double)i + 1);
         kd_json_number(json, "phi_deg", remainder(spot->phase_deg + turned * (180 / M_PI), 360));
-        add_orbit(json, scene->spacetime.spin, spot->r);
+        add_orbit(json, kd_scene_hole(scene), spot->r);
         kd_json_end(json);
     }
     kd_json_end(json);

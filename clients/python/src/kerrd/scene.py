@@ -16,6 +16,8 @@ class Spacetime:
     """The hole.
 
     spin: spin parameter a; a < 0: the disk is retrograde to its hole; in M; -0.999999999999 to 0.999999999999; default 0.7.
+    charge: electric charge Q of the hole (Kerr-Newman), which acts on space-time alone: light and matter are neutral; in M; 0 to
+        0.999999999999; default 0.
     mass_msun: mass of the hole; sets the temperature when disk.colour is "accretion"; in solar masses; 0.001 to 1e+12; default
         100000000.
     distance_pc: angular diameter distance of the hole; with the mass it determines the width of a picture on the sky, for a beam and a
@@ -23,6 +25,7 @@ class Spacetime:
     """
 
     spin: float | None = None
+    charge: float | None = None
     mass_msun: float | None = None
     distance_pc: float | None = None
 
