@@ -195,6 +195,12 @@ export interface Scene {
     /** colour temperature over effective temperature; 1 to 3; default 1. */
     hardening?: number;
     /**
+     * light of the thin disk's surface by mu, the cosine of the angle to its normal in the gas's frame: isotropic;
+     * laor, as 1 + 2.06 mu; scattering, that of a deep atmosphere of free electrons, whose polarisation
+     * polarization.model "scattering" has; each radiates the disk's flux; default "isotropic".
+     */
+    atmosphere?: 'isotropic' | 'laor' | 'scattering';
+    /**
      * brightness: bolometric, g^4 F; or visible, the luminance that the eye perceives of the Planck spectrum;
      * default "bolometric".
      */
@@ -728,8 +734,8 @@ export type FieldPath =
   | 'camera.centre_beta' | 'camera.yaw_deg' | 'camera.pitch_deg' | 'camera.roll_deg' | 'camera.stereo'
   | 'camera.eye_distance' | 'camera.ring_decades_max' | 'camera.ring_decades_min' | 'disk.model' | 'disk.inner'
   | 'disk.outer' | 'disk.taper' | 'disk.opacity' | 'disk.emission_opacity' | 'disk.height' | 'disk.flare'
-  | 'disk.colour' | 'disk.peak_temperature_k' | 'disk.mdot_edd' | 'disk.hardening' | 'disk.band' | 'disk.doppler'
-  | 'disk.redshift' | 'disk.particles' | 'disk.seed' | 'disk.density_index' | 'disk.plunging'
+  | 'disk.colour' | 'disk.peak_temperature_k' | 'disk.mdot_edd' | 'disk.hardening' | 'disk.atmosphere' | 'disk.band'
+  | 'disk.doppler' | 'disk.redshift' | 'disk.particles' | 'disk.seed' | 'disk.density_index' | 'disk.plunging'
   | 'disk.plunging_temperature' | 'disk.epicycles' | 'disk.slow_light' | 'disk.gas.amplitude' | 'disk.gas.octaves'
   | 'disk.gas.scale' | 'disk.gas.shear' | 'disk.gas.seed' | 'spots.0.brightness' | 'spots.0.r' | 'spots.0.phase_deg'
   | 'spots.0.size' | 'spots.0.index' | 'spots.0.temperature_k' | 'spots.1.brightness' | 'spots.1.r'
@@ -1152,10 +1158,10 @@ export interface LineRequest {
   /** lamppost: photon index of the source's power law; 0 to 10. */
   photon_index?: number;
   /**
-   * dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, or ln(1 +
-   * 1/mu).
+   * dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, ln(1 +
+   * 1/mu), or that of a deep atmosphere of free electrons.
    */
-  limb?: 'isotropic' | 'laor' | 'haardt';
+  limb?: 'isotropic' | 'laor' | 'haardt' | 'scattering';
   /**
    * accepted error of the cumulative share: sums are refined until they meet it, or to the finest level; 0:
    * always to the finest level; 0 to 0.1.
@@ -1302,10 +1308,10 @@ export interface SpectrumRequest {
   /** outer edge of the disk [M]; 1 to 1000000. */
   outer?: number;
   /**
-   * dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, or ln(1 +
-   * 1/mu).
+   * dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, ln(1 +
+   * 1/mu), or that of a deep atmosphere of free electrons.
    */
-  limb?: 'isotropic' | 'laor' | 'haardt';
+  limb?: 'isotropic' | 'laor' | 'haardt' | 'scattering';
   /** mass of the hole [solar masses]; 1e-05 to 1e+12. */
   mass_msun?: number;
   /** distance of the hole [pc]; 0.001 to 1e+12. */
@@ -3176,6 +3182,12 @@ export interface SceneQuery {
   'disk.mdot_edd'?: number;
   /** colour temperature over effective temperature; 1 to 3; default 1. */
   'disk.hardening'?: number;
+  /**
+   * light of the thin disk's surface by mu, the cosine of the angle to its normal in the gas's frame: isotropic;
+   * laor, as 1 + 2.06 mu; scattering, that of a deep atmosphere of free electrons, whose polarisation
+   * polarization.model "scattering" has; each radiates the disk's flux; default "isotropic".
+   */
+  'disk.atmosphere'?: 'isotropic' | 'laor' | 'scattering';
   /**
    * brightness: bolometric, g^4 F; or visible, the luminance that the eye perceives of the Planck spectrum;
    * default "bolometric".

@@ -131,6 +131,10 @@ export const fields = {
     'Ogni raggio mostra particelle, gas e macchie dov’erano quando la luce le lasciò, invece che tutte a un solo tempo coordinato',
   ],
   'disk.hardening': ['Indurimento', 'Temperatura di colore su temperatura efficace'],
+  'disk.atmosphere': [
+    'Atmosfera',
+    'Luce della superficie del disco sottile secondo mu, il coseno dell’angolo dalla normale nel riferimento del gas: isotropa; laor, come 1 + 2,06 mu; scattering, quella di un’atmosfera profonda di elettroni liberi, la cui polarizzazione è quella di polarization.model "scattering"; ognuna irradia il flusso del disco',
+  ],
   'disk.band': ['Banda', 'Luminosità bolometrica, g⁴ F, oppure visibile: lo spettro di Planck come lo pesa l’occhio'],
   'disk.doppler': ['Doppler', 'Spostamento Doppler e concentrazione della luce del gas in orbita'],
   'disk.redshift': ['Redshift', 'Redshift gravitazionale e dilatazione del tempo del gas in orbita'],

@@ -163,6 +163,10 @@ const refusals = [
     '{} è {}; deve essere {} salvo che camera.observer sia {} a un camera.r finito',
   ],
   ['{} is {}, which needs a finite {}; at {} it must be {}', '{} è {}, che vuole un {} finito; a {} deve essere {}'],
+  [
+    '{} is {}, which needs a thin disk; with {} {} it must be {}',
+    '{} è {}, che vuole un disco sottile; con {} {} deve essere {}',
+  ],
   ['{} is {}, which needs {} {}; at {} it must be {}', '{} è {}, che vuole {} {}; a {} deve essere {}'],
   [
     '{} is {}, whose parallel rays need {} {}; at {} it must be {}',

@@ -35,6 +35,8 @@ export const sentences = {
     'disco: geometricamente sottile, nel piano equatoriale, gas su orbite circolari di Kerr che finisce al bordo interno',
   'disk: each element shines as an isotropic black body; no limb darkening, no irradiation by returning light':
     'disco: ogni elemento splende come un corpo nero isotropo; nessun oscuramento al bordo, nessuna luce di ritorno che lo scaldi',
+  'disk: the limb darkening of a deep, plane atmosphere at all wavelengths alike; each element has the spectrum of a black body; no irradiation by returning light':
+    'disco: l’oscuramento al bordo di un’atmosfera piana e profonda, uguale a tutte le lunghezze d’onda; ogni elemento ha lo spettro di un corpo nero; nessuna luce di ritorno che lo scaldi',
   'disk: the flux of the Newtonian thin disk, cut at the ISCO, instead of the Page-Thorne integral':
     'disco: flusso newtoniano di disco sottile troncato all’ISCO, invece dell’integrale di Page–Thorne',
   'disk: the peak temperature is chosen for visibility, not computed from a mass and an accretion rate':
@@ -129,6 +131,8 @@ export const sentences = {
     'polarizzazione: sincrotrone: del campo sono solo direzione e frazione; luminosità e colore sono quelli del disco, qualunque sia l’angolo col campo',
   'polarization: scattering: the fraction is that of a deep, plane atmosphere of electrons (Chandrasekhar 1960); its limb darkening, and light that returns to the disk, are ignored':
     'polarizzazione: diffusione: la frazione è quella di un’atmosfera piana e profonda di elettroni (Chandrasekhar 1960); il suo oscuramento al bordo, e la luce che torna al disco, sono tralasciati',
+  'polarization: scattering: brightness and fraction are those of a deep, plane atmosphere of electrons (Chandrasekhar 1960); light that returns to the disk is ignored':
+    'polarizzazione: diffusione: luminosità e frazione sono quelle di un’atmosfera piana e profonda di elettroni (Chandrasekhar 1960); la luce che torna al disco è tralasciata',
   'polarization: Stokes I, Q, U and V of the volume are transferred together, with coefficients that are constant over each short step; I differs from that of unpolarised transfer':
     'polarizzazione: Stokes I, Q, U e V del volume insieme, con coefficienti uguali su ogni breve tratto; I non è quello del trasporto senza polarizzazione',
   'polarization: thermal synchrotron light by the fits of Pandya et al. 2016 and Dexter 2016 (V); if the field is along the ray, or electrons are not hot, V is limited so that at most 99 % of I is polarised':

@@ -104,6 +104,8 @@ export const values = {
   'shakura-sunyaev': 'Shakura–Sunyaev',
   synchrotron: 'sincrotrone',
   scattering: 'diffusione da elettroni',
+  isotropic: 'isotropa',
+  laor: 'lineare (Laor 1991)',
   transfer: 'trasporto con Stokes',
   toroidal: 'toroidale',
   shcherbakov: 'Shcherbakov 2008',

@@ -13,11 +13,14 @@
     F(peak)                /* largest effective temperature times the hardening, K */ \
     F(luminous)            /* log2 of the fraction that the eye perceives of a black body's light at that temperature */
 /* clang-format on */
-#define KD_TABLES_disk(T) \
-    T(disk, KD_DISK_TABLE)  /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its difference to the \
-                               next row */
+#define KD_ATMOSPHERE_ROWS 64
+/* disk: (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its difference to the next row. atmosphere:
+ * emitted intensity over that of an isotropic surface of the same flux, against the square root of the cosine to the
+ * normal; in each row the coefficients of a cubic of the place in its cell. */
+#define KD_TABLES_disk(T) T(disk, KD_DISK_TABLE) T(atmosphere, KD_ATMOSPHERE_ROWS)
 #define KD_TRAIT_VISIBLE 8u /* brightness weighted as by the eye instead of bolometric */
-#define KD_TRAITS_disk(T) T(DOPPLER) T(REDSHIFT) T(VISIBLE)
+#define KD_TRAIT_LIMB 128u  /* the light depends on the angle of emission: the table `atmosphere` */
+#define KD_TRAITS_disk(T) T(DOPPLER) T(REDSHIFT) T(VISIBLE) T(LIMB)
 #define KD_BUFFERS_disk(B)
 #define KD_PASS_disk(P)
 #endif
@@ -34,6 +37,20 @@ vec3 kd_black_body(float t, uint traits)
     if ((traits & KD_TRAIT_VISIBLE) != 0u)
         weight *= exp2(max(kd_colour_luminous(at) - emission.disk.luminous, -120.0));
     return weight * kd_colour_of(at);
+}
+
+/* The same for the disk's surface, by its atmosphere. */
+vec3 kd_disk_surface(float t, kd_sample s, uint traits)
+{
+    vec3 light = kd_black_body(t, traits);
+    if ((traits & KD_TRAIT_LIMB) != 0u) {
+        float at = sqrt(clamp(s.cosine, 0.0, 1.0)) * float(KD_ATMOSPHERE_ROWS);
+        uint row = min(uint(at), KD_ATMOSPHERE_ROWS - 1u);
+        vec4 f = kd_table_row(atmosphere, row);
+        float x = at - float(row);
+        light *= f.x + x * (f.y + x * (f.z + x * f.w));
+    }
+    return light;
 }
 
 /* T r^(3/4) at r = 1/w, with T relative to the disk's largest. */
@@ -61,6 +78,6 @@ kd_gas kd_disk_gas(kd_sample s, uint traits)
 kd_glow kd_disk_glow(kd_sample s)
 {
     kd_gas gas = kd_disk_gas(s, TRAITS_disk);
-    return kd_glow(gas.alpha * kd_black_body(gas.t, TRAITS_disk), gas.alpha, 0.0);
+    return kd_glow(gas.alpha * kd_disk_surface(gas.t, s, TRAITS_disk), gas.alpha, 0.0);
 }
 #endif

@@ -12,8 +12,7 @@
  * s_k^2/2), whose mean is 1. A black body of T^4 proportional to that flux changes colour and brightness consistently.
  *
  * Opacity. A layer of optical depth tau along its normal absorbs 1 - exp(-tau/cos) of light that crosses it at an angle
- * theta to the normal, in the frame of the gas. There cos(theta) = |p_theta| g / r, with p_theta^2 = Q in the plane
- * (Carter 1968), for a photon of energy 1/g. */
+ * theta to the normal, in the frame of the gas (cosine.glsl). */
 #ifndef KD_BLOCK_gas
 #define KD_GAS_RING 0.2 /* ln of the ratio of neighbouring rings' radii */
 #define KD_GAS_RINGS 80 /* radii from 1 to 1e6 M, and one beyond */
@@ -153,22 +152,16 @@ float kd_gas_excess(kd_sample s)
     return sum;
 }
 
-/* Cosine of the emission angle to the normal, for gas on a circular orbit. */
-float kd_gas_cosine(kd_sample s)
-{
-    return sqrt(max(s.q, 0.0)) * s.w * kd_orbit_shift(s.w, s.energy, s.momentum, KD_TRAIT_DOPPLER | KD_TRAIT_REDSHIFT);
-}
-
 kd_glow kd_gas_glow(kd_sample s)
 {
     kd_gas gas = kd_disk_gas(s, TRAITS_gas);
     float more = KD_GAS_TAKEN > 0u ? exp(kd_gas_excess(s)) : 1.0;
     if ((TRAITS_gas & KD_TRAIT_GAS_DEEP) != 0u) {
         float t = gas.t / kd_orbit_shift(s.w, s.energy, s.momentum, TRAITS_gas), t2 = t * t;
-        float taken = 1.0 - exp(-emission.gas.depth * t2 * t2 * more / max(kd_gas_cosine(s), 1e-6));
+        float taken = 1.0 - exp(-emission.gas.depth * t2 * t2 * more / max(s.cosine, 1e-6));
         gas.alpha = gas.alpha > 0.0 ? gas.alpha * taken : 0.0; /* elsewhere g may be NaN: inside the photon orbit */
     }
     gas.t *= sqrt(sqrt(more));
-    return kd_glow(gas.alpha * kd_black_body(gas.t, TRAITS_gas), gas.alpha, 0.0);
+    return kd_glow(gas.alpha * kd_disk_surface(gas.t, s, TRAITS_gas), gas.alpha, 0.0);
 }
 #endif

@@ -75,6 +75,7 @@ kd_glow kd_particles_glow(kd_sample s)
     float number = kd_density_at(place);
     if (falls)
         gas = kd_plunge_gas(s, number);
-    return kd_glow(gas.alpha * (falls ? 1.0 : number) * kd_black_body(gas.t, TRAITS_particles), gas.alpha, 0.0);
+    vec3 light = falls ? kd_black_body(gas.t, TRAITS_particles) : kd_disk_surface(gas.t, s, TRAITS_particles);
+    return kd_glow(gas.alpha * (falls ? 1.0 : number) * light, gas.alpha, 0.0);
 }
 #endif

@@ -98,9 +98,7 @@ kd_polarized kd_polarization_left(kd_sample s, bool down)
     kd_polarized out_ =
         kd_polarized(emission.polarization.fraction, vec2(k.x * f.x - k.y * f_t, -(k.w * f.y - k.z * f.z)));
     if ((TRAITS_polarization & KD_TRAIT_SCATTERED) != 0u) {
-        float g = falls ? kd_plunge_shift(s, true, true)
-                        : kd_orbit_shift(w, s.energy, s.momentum, KD_TRAIT_DOPPLER | KD_TRAIT_REDSHIFT);
-        float at = sqrt(clamp(g * abs(k_theta), 0.0, 1.0)) * float(KD_SCATTERING_ROWS);
+        float at = sqrt(clamp(s.cosine, 0.0, 1.0)) * float(KD_SCATTERING_ROWS);
         uint row = min(uint(at), KD_SCATTERING_ROWS - 1u);
         vec2 of = kd_table_row(scattering, row).xy;
         out_.fraction *= mix(of.x, of.y, at - float(row));

@@ -5,10 +5,12 @@
 
 /* A sample of a ray. ago: how much earlier its light left than light that shows the scene's time; energy, momentum, q:
  * E, L and Carter's Q in units of the energy that the observer measures; footprint, shape: of the ray's footprint at
- * the sample, 0 if no emitter needs them (shared/lens.h). */
+ * the sample, 0 if no emitter needs them (shared/lens.h); cosine: of the angle between light and normal in the frame of
+ * the gas where the light left it, 0 if no emitter needs it (emit/cosine.glsl). */
 struct kd_sample {
     float w, phi, ago, slope, energy, momentum, q, footprint, shape;
     uint order;
+    float cosine;
 };
 /* The end of a ray that escapes. footprint: radians; energy: in units of the energy that the observer measures. */
 struct kd_end { float u, phi, footprint, energy; };

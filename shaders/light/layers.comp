@@ -52,8 +52,8 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
           slope = quantity(KD_LENS_SLOPE, plane);
     float q = listed ? kd_carter_of_slope(ray.e, momentum, w, slope)
                      : kd_geodesic_of(ray, cam.spin, cam.charge2, cam.u, cam.s).q;
-    return kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, q,
-                     quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n);
+    return kd_with_cosine(kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, q,
+                                    quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n, 0.0));
 }
 
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);

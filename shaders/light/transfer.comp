@@ -53,8 +53,8 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
         untold = true;
         return;
     }
-    kd_sample s = kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, carter,
-                            quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n);
+    kd_sample s = kd_with_cosine(kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, carter,
+                                           quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n, 0.0));
     float before = dot(beam.light, LUMINANCE), before_apart = beam.apart;
     kd_beam_at(beam, s);
     KD_PROBE_POLARIZED_AT(s, place, ray.p)

@@ -90,3 +90,4 @@
 #include "emit/colour.glsl"
 #include "emit/orbit.glsl"
 #include "emitter_files.h" /* emit/disk.glsl and so on, in the order of the list */
+#include "emit/cosine.glsl"

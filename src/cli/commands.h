@@ -20,6 +20,7 @@
     X("pixel", pixel, "explain one pixel of a picture: its ray and each emitter on the ray") \
     X("orbit", orbit, "path of a body round the hole, its constants and frequencies") \
     X("line", line, "the profile of a line from a thin disk: photons by energy") \
+    X("table", table, "the profiles of a line as a table model for XSPEC") \
     X("transfer-function", transfer_function, "Cunningham's transfer function of a thin disk") \
     X("spectrum", spectrum, "spectrum of a thin disk or of a volume") \
     X("visibility", visibility, "visibilities of a scene by baseline, as an interferometer measures them") \

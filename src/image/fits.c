@@ -46,6 +46,13 @@ enum kd_status kd_fits_real(struct kd_buffer *cards, const char *key, double val
     return put_value(cards, key, text, comment);
 }
 
+enum kd_status kd_fits_logical(struct kd_buffer *cards, const char *key, bool value, const char *comment)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%*s", ROOM, value ? "T" : "F");
+    return put_value(cards, key, text, comment);
+}
+
 enum kd_status kd_fits_comment(struct kd_buffer *cards, const char *text)
 {
     char card[2 * KD_FITS_CARD];

@@ -22,6 +22,7 @@ enum kd_status kd_fits_text(struct kd_buffer *cards, const char *key, const char
 /* value must be finite */
 enum kd_status kd_fits_real(struct kd_buffer *cards, const char *key, double value, const char *comment);
 enum kd_status kd_fits_integer(struct kd_buffer *cards, const char *key, long long value, const char *comment);
+enum kd_status kd_fits_logical(struct kd_buffer *cards, const char *key, bool value, const char *comment);
 enum kd_status kd_fits_comment(struct kd_buffer *cards, const char *text);
 
 struct kd_fits_array {

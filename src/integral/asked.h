@@ -35,7 +35,7 @@ struct kd_integral_request {
     double spin, inclination_deg, inner, outer; /* inner NaN: the ISCO */
     enum kd_line_emissivity emissivity;
     double index, outer_index, break_r, height, photon_index, tolerance;
-    enum kd_line_limb limb;
+    enum kd_limb limb;
     int energy;                                 /* profile in: 0 photons, 1 energy */
     double rest_energy, energy_min, energy_max; /* energy_max NaN: 1.7 rest_energy */
     uint32_t bins;

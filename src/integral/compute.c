@@ -2,6 +2,7 @@
 #include "base/pause.h"
 #include "integral/answer.h"
 #include "integral/image_cache.h"
+#include "integral/internal.h"
 #include "physics/disk/disk_spectrum.h"
 #include "physics/disk/thin_disk.h"
 #include "physics/disk/transfer_function.h"
@@ -16,7 +17,7 @@ static const char *const line_sources[] = {
     "C. T. Cunningham 1975, ApJ 202, 788 (redshift and transfer)",
     "S. E. Gralla & A. Lupsasca 2020, Phys. Rev. D 101, 044032 (rays in closed form)",
     "T. Dauser et al. 2013, MNRAS 430, 1694 (lamppost)",
-    "A. Laor 1991, ApJ 376, 90; F. Haardt 1993, ApJ 413, 680 (limb)",
+    "A. Laor 1991, ApJ 376, 90; F. Haardt 1993, ApJ 413, 680; S. Chandrasekhar 1960, Radiative Transfer, 68 (limb)",
     NULL,
 };
 static const char *const transfer_sources[] = {
@@ -293,20 +294,25 @@ enum kd_status kd_integral_make_columns(struct kd_integral_answer *answer, size_
     return KD_OK;
 }
 
+struct kd_line_params kd_integral_line_params(const struct kd_integral_request *r)
+{
+    return (struct kd_line_params) { .inner = r->inner,
+                                     .outer = r->outer,
+                                     .emissivity = r->emissivity,
+                                     .index = r->index,
+                                     .outer_index = r->outer_index,
+                                     .break_r = r->break_r,
+                                     .height = r->height,
+                                     .photon_index = r->photon_index,
+                                     .tolerance = r->tolerance,
+                                     .limb = r->limb,
+                                     .energy = r->energy };
+}
+
 static enum kd_status compute_line(const struct kd_integral_request *r, const struct kd_disk_image *image,
                                    struct kd_integral_answer *answer, struct kd_error *error)
 {
-    const struct kd_line_params params = { .inner = r->inner,
-                                           .outer = r->outer,
-                                           .emissivity = r->emissivity,
-                                           .index = r->index,
-                                           .outer_index = r->outer_index,
-                                           .break_r = r->break_r,
-                                           .height = r->height,
-                                           .photon_index = r->photon_index,
-                                           .tolerance = r->tolerance,
-                                           .limb = r->limb,
-                                           .energy = r->energy };
+    const struct kd_line_params params = kd_integral_line_params(r);
     struct kd_line_profile profile;
     double sum = 0;
     enum kd_status status;

@@ -46,9 +46,9 @@ const struct kd_integral_field kd_integral_fields[] = {
     REAL(break_r, "M", 1, 1e6, LINE, "broken: radius at which the index changes"),
     REAL(height, "M", 1, 1e4, LINE, "lamppost: height of the source on the axis"),
     REAL(photon_index, "", 0, 10, LINE, "lamppost: photon index of the source's power law"),
-    WORD(limb, limb, "isotropic|laor|haardt", LINE | SPECTRUM,
-         "dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, or ln(1 + "
-         "1/mu)"),
+    WORD(limb, limb, "isotropic|laor|haardt|scattering", LINE | SPECTRUM,
+         "dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, ln(1 + "
+         "1/mu), or that of a deep atmosphere of free electrons"),
     REAL(tolerance, "", 0, 0.1, LINE,
          "accepted error of the cumulative share: sums are refined until they meet it, or to the finest level; 0: "
          "always to the finest level"),

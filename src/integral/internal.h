@@ -28,6 +28,9 @@ enum kd_status kd_integral_fill_list(struct kd_integral_request *request, const 
 enum kd_status kd_integral_check_frequencies(struct kd_integral_request *request, uint32_t most,
                                              struct kd_error *error);
 
+/* compute.c: parameters of the line of a checked request. */
+struct kd_line_params kd_integral_line_params(const struct kd_integral_request *request);
+
 /* scene.c */
 bool kd_integral_is_scene_member(const struct kd_integral_request *request,
                                  const char *name); /* "preset" and "scene", for integrals that may have a scene */

@@ -133,6 +133,12 @@
     REAL(disk, mdot_edd, MODEL, REST, 0.1, 1e-12, 1e3, "Eddington rates", \
          "accretion rate: luminosity over the Eddington luminosity, with the efficiency for this spin") \
     REAL(disk, hardening, MODEL, REST, 1.0, 1.0, 3.0, "1", "colour temperature over effective temperature") \
+    ENUM(disk, atmosphere, MODEL, REST, KD_ATMOSPHERE_ISOTROPIC, \
+         "light of the thin disk's surface by mu, the cosine of the angle to its normal in the gas's frame: " \
+         "isotropic; " \
+         "laor, as 1 + 2.06 mu; scattering, that of a deep atmosphere of free electrons, whose polarisation " \
+         "polarization.model \"scattering\" has; each radiates the disk's flux", \
+         "isotropic|laor|scattering") \
     ENUM(disk, band, LOOK, REST, KD_BAND_BOLOMETRIC, \
          "brightness: bolometric, g^4 F; or visible, the luminance that the eye perceives of the Planck " \
          "spectrum", \
@@ -683,6 +689,7 @@ enum kd_volume_field { KD_VOLUME_TOROIDAL, KD_VOLUME_VERTICAL, KD_VOLUME_RADIAL 
 enum kd_volume_flow { KD_VOLUME_ORBITS, KD_VOLUME_REST };
 enum kd_volume_electrons { KD_VOLUME_THERMAL, KD_VOLUME_POWER_LAW, KD_VOLUME_KAPPA };
 enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
+enum kd_atmosphere { KD_ATMOSPHERE_ISOTROPIC, KD_ATMOSPHERE_LAOR, KD_ATMOSPHERE_SCATTERING };
 enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };
 enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID, KD_SKY_STARS, KD_SKY_CATALOGUE, KD_SKY_IMAGE };
 enum kd_sky_orientation { KD_SKY_GALACTIC, KD_SKY_EQUATORIAL, KD_SKY_SGRA, KD_SKY_M87 };

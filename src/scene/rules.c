@@ -321,6 +321,18 @@ static enum kd_status height(const struct kd_scene *scene, struct kd_error *erro
                           show(scene->disk.height).text);
 }
 
+/* The light of a thick disk is integrated along rays: it has no surface. */
+static enum kd_status atmosphere(const struct kd_scene *scene, struct kd_error *error)
+{
+    if (!scene->disk.atmosphere || scene->disk.height == 0)
+        return KD_OK;
+    return kd_error_field(error, "/disk/atmosphere",
+                          "disk.atmosphere is \"%s\", which needs a thin disk; with disk.height %s it must be "
+                          "\"isotropic\"",
+                          scene->disk.atmosphere == KD_ATMOSPHERE_LAOR ? "laor" : "scattering",
+                          show(scene->disk.height).text);
+}
+
 static enum kd_status volume(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_volume *v = &scene->volume;
@@ -614,6 +626,7 @@ const struct kd_rule kd_rules[] = {
     { "`disk.outer` is larger than the inner edge, if there is a disk.", outer_edge },
     { "`disk.height` is 0, or at least 1e-5; it is 0 for a disk of particles.", height, "disk", "height", 0,
       LEAST_HEIGHT },
+    { "`disk.atmosphere` is \"isotropic\" unless `disk.height` is 0.", atmosphere },
     { "If there is a volume, `volume.outer` is larger than the inner edge, which is at least 1 % outside the horizon, "
       "or 0.05 % for the models at a radio frequency. A torus has its inner edge between the photon orbit and "
       "`volume.torus_radius`, which is outside the ISCO, and an outer edge. With power-law electrons "

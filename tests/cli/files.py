@@ -135,6 +135,7 @@ class Files(support.Case):
         self.assertEqual(scene.pop("version"), written.pop("version"))
         # fields that were added since then have their defaults
         self.assertEqual(scene["polarization"].pop("rotation"), "shcherbakov")
+        self.assertEqual(scene["disk"].pop("atmosphere"), "isotropic")
         self.assertEqual(scene["camera"].pop("field_uas"), "none")
         self.assertEqual(scene.pop("source"), {"name": "none", "ra_deg": 0, "dec_deg": 0, "mjd": "none"})
         self.assertEqual(scene, written)

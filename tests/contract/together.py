@@ -44,6 +44,7 @@ SCENE = (
     'disk.inner is %s M; it must be at least %s M, the ISCO of %s, or "isco"',
     "disk.outer is %s M; it must be more than the inner edge, %s M%s",
     'disk.height is %s; with disk.model "particles" it must be 0',
+    'disk.atmosphere is "%s", which needs a thin disk; with disk.height %s it must be "isotropic"',
     "volume.torus_radius is %s M; it must be more than the ISCO, %s M",
     "volume.inner is %s%s M; it must be less than volume.torus_radius, %s M, and more than the photon orbit, %s M",
     "volume.torus_radius is %s M with the inner edge at %s M, for which the torus has no outer edge; it must be smaller, or volume.inner larger",

@@ -1,7 +1,8 @@
 /* Tests of the direction of polarisation. It is compared with an oracle that transports vectors along rays in
  * Kerr-Schild coordinates (kerr_schild_transport.h) and shares no equation with the kernels' Walker-Penrose constant.
- * The Stokes layers must be consistent. */
+ * The Stokes layers must be consistent. The light of an atmosphere is compared with the oracle's angle of emission. */
 #include "kerr_schild_transport.h"
+#include "physics/disk/limb.h"
 #include "physics/disk/scattering.h"
 #include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
@@ -250,12 +251,65 @@ static void test_face_on(void **state)
     }
 }
 
+/* Pixels of a disk with an atmosphere: their ratio to an isotropic disk's is f(mu), and their brightness f(mu) g^4 F,
+ * with mu, g and r from the ray in Kerr-Schild coordinates in double precision. Gas that falls from the ISCO stays
+ * isotropic. Within a disk of half opacity, order 1 is dimmed alike in both. */
+static void judge_atmosphere(const struct view *view, const char *word, enum kd_limb law)
+{
+    struct kd_scene even = scene_of(view, "intensity_0,intensity_1"), dark = even;
+    OK(kd_scene_set(&dark, "disk.atmosphere", word, &error));
+    struct kd_frame frames[2] = { frame_of(&even), frame_of(&dark) };
+    const double isco = kd_kerr_isco(kd_hole(view->spin));
+    const bool plain = even.disk.model != KD_DISK_PARTICLES && even.disk.emission_opacity == 0;
+    double worst[2] = { 0, 0 }, absolute = 0, least = 1;
+    int compared = 0, fallen = 0;
+    for (int k = 0; k < PIXELS; k += STRIDE)
+        for (int n = 0; n < 2; n++) {
+            const char *const name = n ? "intensity_1" : "intensity_0";
+            const double before = (double)layer(&frames[0], name)[k], after = (double)layer(&frames[1], name)[k];
+            const struct ks_screen screen = screen_of(&even, k);
+            if (!(before > 0))
+                continue;
+            const struct ks_polarized want =
+                ks_polarization(&screen, n, view->field, even.disk.model == KD_DISK_PARTICLES ? isco : 0);
+            assert_true(want.there);
+            const double f = want.falls ? 1 : kd_limb_at(law, want.cosine) * kd_limb_scale(law),
+                         off = fabs(after / before / f - 1);
+            if (!(off < (n ? 1e-3 : 2e-5)))
+                fail_msg("a %g, i %g, %s: order %d at pixel %d has %.7f times the isotropic light, by the oracle %.7f",
+                         view->spin, view->inclination, word, n, k, after / before, f);
+            worst[n] = fmax(worst[n], off);
+            if (n == 0 && plain)
+                absolute = fmax(absolute, fabs(after / (f * pow(kd_disk_heat(&dark, want.r) / want.g, 4)) - 1));
+            least = fmin(least, f);
+            compared++, fallen += want.falls;
+        }
+    printf("a %g, i %g, r %g, %s: %d places, %d where gas falls; ratio off by %.1e, of order 1 by %.1e; brightness by "
+           "%.1e; f from %.3f on\n",
+           view->spin, view->inclination, view->r, word, compared, fallen, worst[0], worst[1], absolute, least);
+    assert_true(absolute < 2e-4 && compared >= 4 && (fallen > 0) == (even.disk.model == KD_DISK_PARTICLES));
+    kd_frame_finish(&frames[0]);
+    kd_frame_finish(&frames[1]);
+}
+
+static void test_atmosphere(void **state)
+{
+    (void)state;
+    static const struct view deep = { 0.7, 75, INFINITY, 0, { { "disk.emission_opacity", "10" } }, KS_VERTICAL };
+    for (size_t i = 1; i < sizeof views / sizeof *views; i += 2) {
+        judge_atmosphere(&views[i], "laor", KD_LIMB_LAOR);
+        judge_atmosphere(&views[i], "scattering", KD_LIMB_SCATTERING);
+    }
+    judge_atmosphere(&views[6], "scattering", KD_LIMB_SCATTERING);
+    judge_atmosphere(&deep, "scattering", KD_LIMB_SCATTERING);
+}
+
 int main(void)
 {
     int status = open_renderer();
     if (status)
         return status;
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_evpa), cmocka_unit_test(test_stokes),
-                                        cmocka_unit_test(test_face_on) };
+                                        cmocka_unit_test(test_face_on), cmocka_unit_test(test_atmosphere) };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -287,6 +287,34 @@ static void gas_replaces_the_disk(void **state)
     assert_int_equal(kd_emit_needs(&scene), 0);
 }
 
+/* Kernels have code for an atmosphere only if the scene's disk has one. For rays of a ring projection, which are on no
+ * grid, the angle of emission then needs the slope of the ray. */
+static void atmospheres_are_a_variant(void **state)
+{
+    (void)state;
+    static const int models[] = { KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV, KD_DISK_PARTICLES };
+    for (size_t k = 0; k < 2 * sizeof models / sizeof *models; k++) {
+        const enum kd_emitter_number number = k / 2 == 2 ? KD_EMITTER_particles
+                                              : k % 2    ? KD_EMITTER_gas
+                                                         : KD_EMITTER_disk;
+        struct kd_scene scene;
+        uint32_t traits[KD_EMITTER_COUNT];
+        kd_scene_smooth(&scene);
+        scene.disk.model = models[k / 2];
+        scene.disk.emission_opacity = k % 2 ? 5 : 0;
+        kd_emit_traits(&scene, traits);
+        assert_true(traits[number] && !(traits[number] & KD_TRAIT_LIMB));
+        assert_true(says(&scene, "disk: each element shines as an isotropic") && !says(&scene, "disk: the limb"));
+        scene.disk.atmosphere = KD_ATMOSPHERE_SCATTERING;
+        kd_emit_traits(&scene, traits);
+        assert_true(traits[number] & KD_TRAIT_LIMB);
+        assert_true(!says(&scene, "disk: each element shines as an isotropic") && says(&scene, "disk: the limb"));
+        const uint32_t before = kd_emit_needs(&scene);
+        scene.camera.projection = KD_PROJECTION_RING;
+        assert_int_equal(kd_emit_needs(&scene), before | KD_LENS_SLOPE);
+    }
+}
+
 /* An emitter has only the variants that its GLSL lists, which do not overlap; a compile-time check ensures that. */
 #define LISTED(trait) | KD_TRAIT_##trait
 #define WORD(number, name) [number] = KD_TRAIT_PRESENT KD_TRAITS_##name(LISTED),
@@ -295,7 +323,8 @@ static void traits_are_listed(void **state)
     (void)state;
     static const uint32_t listed[KD_EMITTER_COUNT] = { KD_EMITTERS(WORD, WORD, WORD, WORD, WORD, WORD) };
     static const char *const documents[] = {
-        "{}", BASE, GAS, "{\"disk\": {\"doppler\": false, \"gas\": {\"amplitude\": 1, \"octaves\": 8}}}"
+        "{}", BASE, GAS, "{\"disk\": {\"atmosphere\": \"scattering\"}}",
+        "{\"disk\": {\"doppler\": false, \"gas\": {\"amplitude\": 1, \"octaves\": 8}}}"
     };
     for (size_t k = 0; k < sizeof documents / sizeof *documents; k++) {
         struct kd_scene scene;
@@ -467,6 +496,7 @@ int main(void)
         cmocka_unit_test(pictures_of_the_sky),
         cmocka_unit_test(brightness_of_skies),
         cmocka_unit_test(none_of_a_thousand),
+        cmocka_unit_test(atmospheres_are_a_variant),
         cmocka_unit_test(traits_are_listed),
         cmocka_unit_test(what_shines_is_told),
     };

@@ -307,9 +307,9 @@ static void test_face_on(void **state)
             within("share", energy, edges[e], share[e], in[e] / all, profile.error + 5e-4);
         within("total", 0, energy, profile.total / (M_PI * all), 1, 1e-3);
     }
-    within("Laor", 0, 0, kd_line_limb(KD_LIMB_LAOR, 0.5), 2.03, 1e-15);
-    within("Haardt", 0, 0, kd_line_limb(KD_LIMB_HAARDT, 0.5), log(3), 1e-15);
-    within("even", 0, 0, kd_line_limb(KD_LIMB_ISOTROPIC, 0.5), 1, 0);
+    within("Laor", 0, 0, kd_limb_at(KD_LIMB_LAOR, 0.5), 2.03, 1e-15);
+    within("Haardt", 0, 0, kd_limb_at(KD_LIMB_HAARDT, 0.5), log(3), 1e-15);
+    within("even", 0, 0, kd_limb_at(KD_LIMB_ISOTROPIC, 0.5), 1, 0);
 }
 
 /* A ray of Schwarzschild from r = h on the axis at the angle delta, integrated in its plane: u'' + u = 3u^2, u =

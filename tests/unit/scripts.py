@@ -134,7 +134,11 @@ class Scripts(unittest.TestCase):
             if any(suite.endswith("extra") for suite in test["suite"])
         ]
         self.assertGreater(len(tests), 9)
-        elsewhere = {"cli_ehtim": SCRIPTS.parent / "venv-ehtim", "http_balanced": pathlib.Path("/usr/sbin/haproxy")}
+        elsewhere = {
+            "cli_ehtim": SCRIPTS.parent / "venv-ehtim",
+            "cli_xspec": SCRIPTS.parent / "venv-xspec",
+            "http_balanced": pathlib.Path("/usr/sbin/haproxy"),
+        }
         with tempfile.TemporaryDirectory() as bare:
             os.symlink(sys.executable, os.path.join(bare, "python3"))
             for test in tests:

@@ -50,7 +50,7 @@ static void ask_light(struct kd_random *random, struct kd_line_params *p, double
 {
     double ends[2] = { one_in(random, 5) ? -10 : 0, one_in(random, 5) ? 20 : 8 };
     p->emissivity = (enum kd_line_emissivity)(3 * kd_random(random));
-    p->limb = (enum kd_line_limb)(3 * kd_random(random));
+    p->limb = (enum kd_limb)(4 * kd_random(random));
     p->energy = one_in(random, 2);
     p->index = between(random, ends[0], ends[1]);
     p->outer_index = between(random, ends[0], ends[1]);
@@ -88,7 +88,10 @@ static double light_of(const void *user, double r, double g, double mu)
     double emitted = p->emissivity == KD_LINE_LAMPPOST                  ? kd_lamppost_at(&q->lamp, r)
                      : p->emissivity == KD_LINE_POWER || r < p->break_r ? pow(r / p->break_r, -p->index)
                                                                         : pow(r / p->break_r, -p->outer_index);
-    double limb = p->limb == KD_LIMB_LAOR ? 1 + 2.06 * mu : p->limb == KD_LIMB_HAARDT ? log(1 + 1 / mu) : 1;
+    double limb = p->limb == KD_LIMB_LAOR         ? 1 + 2.06 * mu
+                  : p->limb == KD_LIMB_HAARDT     ? log(1 + 1 / mu)
+                  : p->limb == KD_LIMB_SCATTERING ? kd_limb_at(p->limb, mu) /* tested by physics_limb.c */
+                                                  : 1;
     return emitted * limb * g * g * g * (p->energy ? g : 1);
 }
 

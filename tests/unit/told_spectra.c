@@ -46,8 +46,8 @@ static struct asked ask(struct kd_random *random)
     q.spin = one_in(random, 2) ? -q.spin : q.spin;
     const double isco = kd_kerr_isco(kd_hole(q.spin)),
                  inner = one_in(random, 2) ? isco : isco * exp(between(random, 0, 2));
-    q.params = (struct kd_disk_spectrum_params) { inner, inner * exp(between(random, 0.2, 5)),      10, 1e3, 0.2,
-                                                  1.6,   (enum kd_line_limb)(3 * kd_random(random)) };
+    q.params = (struct kd_disk_spectrum_params) { inner, inner * exp(between(random, 0.2, 5)), 10, 1e3, 0.2,
+                                                  1.6,   (enum kd_limb)(4 * kd_random(random)) };
     for (int f = 0; f < FREQUENCIES; f++)
         q.frequencies[f] = 1e16 * pow(300, f / (FREQUENCIES - 1.));
     return q;
@@ -82,7 +82,7 @@ static bool add_ring(const struct asked *q, double r, double weight, int n, doub
                      area = fabs(a_r * along(beta, j, n) - b_r * along(alpha, j, n)) * (2 * M_PI / n);
         const struct kd_disk_light light = kd_disk_image_light(&image, &gas, alpha[j], beta[j]);
         for (int f = 0; f < FREQUENCIES; f++)
-            sum[f] += weight * area * kd_line_limb(p->limb, light.mu) /
+            sum[f] += weight * area * kd_limb_at(p->limb, light.mu) /
                       expm1(KD_H_J_S * q->frequencies[f] / (KD_K_J_K * t * light.g));
     }
     return true;

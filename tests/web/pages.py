@@ -77,6 +77,7 @@ class Pages(Browser):
             "spots.1.r=9",
             "spots.0.r=9&spots.2.r=9",
             "disk.particles=1e10",
+            "disk.atmosphere=laor&disk.height=0.1",
             "style.ringdown=1&spacetime.spin=0.99995",
             "camera.observer=static&camera.r=1.8&spacetime.spin=0.9",
             "camera.observer=keplerian&camera.r=2.5&spacetime.spin=0",

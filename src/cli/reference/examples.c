@@ -33,6 +33,8 @@ const struct kd_example kd_examples[] = {
       "A bound orbit by its shape:" },
     { "orbit", "kerrd orbit --case zoom-whirl --format json", "An orbit by name:" },
     { "line", "kerrd line --spin 0.99 --inclination-deg 40 --format csv", "The profile of an iron line:" },
+    { "table", "kerrd table -x spin=0:0.9/3 -x inclination_deg=10:60/4 --set index=3 -o line.fits",
+      "A small table model, of two parameters:" },
     { "transfer-function", "kerrd transfer-function --spin 0.9 --inclination-deg 60 -o transfer.csv",
       "The transfer function of a disk:" },
     { "spectrum", "kerrd spectrum --spin 0.9 --inclination-deg 60 --format csv", "The spectrum of a thin disk:" },

@@ -38,9 +38,6 @@ static double stretch_of(const struct ring *ring, double apart, int j, int n)
     return fabs(a_r * along(ring->beta, j, n) - b_r * along(ring->alpha, j, n));
 }
 
-/* Factor that makes Int limb mu dmu equal to 1/2, its value for limb = 1. For ln(1 + 1/mu) it is 1/2 already. */
-static double limb_scale(enum kd_line_limb limb) { return limb == KD_LIMB_LAOR ? 0.5 / (0.5 + 2.06 / 3) : 1; }
-
 /* Adds a ring's light; weight: its width in ln r. */
 static void add_ring(const struct kd_disk_image *image, const struct kd_disk_spectrum_params *p, double r,
                      double weight, int skip, int n, const double *frequencies, int n_f, struct ring *ring, double *sum)
@@ -56,8 +53,8 @@ static void add_ring(const struct kd_disk_image *image, const struct kd_disk_spe
     kd_disk_image_ring(image, r * exp(apart), skip, n, ring->above[0], ring->above[1]);
     for (int j = 0; j < n; j++) {
         struct kd_disk_light light = kd_disk_image_light(image, &gas, ring->alpha[j], ring->beta[j]);
-        double part = weight * stretch_of(ring, apart, j, n) * (2 * M_PI / n) * kd_line_limb(p->limb, light.mu) *
-                      limb_scale(p->limb);
+        double part = weight * stretch_of(ring, apart, j, n) * (2 * M_PI / n) * kd_limb_at(p->limb, light.mu) *
+                      kd_limb_scale(p->limb);
         double x = KD_H_J_S / (KD_K_J_K * t * light.g);
         /* g^3 B_nu(nu/g) equals B_nu(nu) at the temperature g T. Planck's law here is without the factor 2 h
          * nu^3/c^2 */

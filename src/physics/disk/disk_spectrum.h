@@ -16,7 +16,7 @@ struct kd_disk_spectrum_params {
     double inner, outer;                     /* M */
     double mass_msun, distance_pc, mdot_edd; /* mdot_edd: accretion rate as in thin_disk.h */
     double colour_correction;
-    enum kd_line_limb limb; /* normalised so that a face radiates F: Int limb mu dmu = 1/2 */
+    enum kd_limb limb; /* normalised so that a face radiates F: Int limb mu dmu = 1/2 */
 };
 
 /* flux: W m^-2 Hz^-1 at each of n frequencies, in Hz. *error_out: largest relative error, estimated from half as

@@ -21,16 +21,6 @@ enum {
     LOOKED = 128
 };
 
-double kd_line_limb(enum kd_line_limb limb, double mu)
-{
-    switch (limb) {
-    case KD_LIMB_LAOR: return 1 + 2.06 * mu;
-    case KD_LIMB_HAARDT: return log1p(1 / fmax(mu, 1e-300));
-    case KD_LIMB_ISOTROPIC: break;
-    }
-    return 1;
-}
-
 static double emissivity(const struct kd_line_params *p, const struct kd_lamppost *lamp, double r)
 {
     switch (p->emissivity) {
@@ -134,7 +124,7 @@ static void fill_ring(const struct kd_disk_image *image, const struct kd_line_pa
         ring->light[j] = bright * (p->energy ? g * g * g * g : g * g * g);
     }
     for (int j = 0; j < n && p->limb != KD_LIMB_ISOTROPIC; j++)
-        ring->light[j] *= kd_line_limb(p->limb, kd_disk_image_light(image, &gas, ring->alpha[j], ring->beta[j]).mu);
+        ring->light[j] *= kd_limb_at(p->limb, kd_disk_image_light(image, &gas, ring->alpha[j], ring->beta[j]).mu);
     straighten(ring->alpha, n, false);
     straighten(ring->beta, n, false);
     straighten(ring->g, n, true);

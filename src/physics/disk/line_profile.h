@@ -17,10 +17,9 @@
 
 #include "base/error.h"
 #include "physics/disk/disk_image.h"
+#include "physics/disk/limb.h"
 
 enum kd_line_emissivity { KD_LINE_POWER, KD_LINE_BROKEN, KD_LINE_LAMPPOST };
-/* f(mu): 1; 1 + 2.06 mu (Laor 1991, ApJ 376, 90); ln(1 + 1/mu) (Haardt 1993, ApJ 413, 680). */
-enum kd_line_limb { KD_LIMB_ISOTROPIC, KD_LIMB_LAOR, KD_LIMB_HAARDT };
 
 struct kd_line_params {
     double inner, outer;
@@ -28,7 +27,7 @@ struct kd_line_params {
     double index;                /* POWER and BROKEN: epsilon = r^-index, for BROKEN up to break_r */
     double outer_index, break_r; /* BROKEN: (r/break_r)^-outer_index beyond, continuous */
     double height, photon_index; /* LAMPPOST: epsilon is proportional to the received light */
-    enum kd_line_limb limb;
+    enum kd_limb limb;
     bool energy; /* count energies instead of photons */
     /* Largest allowed error of the cumulative share: the sum is refined until its estimated error is below this. 0: as
      * fine as possible. */
@@ -49,7 +48,5 @@ struct kd_line_profile {
 enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct kd_line_params *params,
                                const double *edges, int bins, double *share, struct kd_line_profile *profile,
                                struct kd_error *error);
-
-double kd_line_limb(enum kd_line_limb limb, double mu);
 
 #endif

@@ -2,6 +2,7 @@
 #include "render/emit/emitter.h"
 
 #include "physics/disk/colour.h"
+#include "physics/disk/limb.h"
 #include "physics/disk/thin_disk.h"
 #include "physics/spacetime/kerr.h"
 #include "scene/hole.h"
@@ -14,15 +15,15 @@ static bool present(const struct kd_scene *scene)
     return scene->disk.model != KD_DISK_NONE && scene->disk.model != KD_DISK_PARTICLES && scene->disk.height == 0;
 }
 
-static uint32_t needs(const struct kd_scene *scene)
+uint32_t kd_disk_needs(const struct kd_scene *scene)
 {
-    (void)scene;
-    return KD_LENS_W;
+    return KD_LENS_W | (scene->disk.atmosphere && scene->camera.projection == KD_PROJECTION_RING ? KD_LENS_SLOPE : 0);
 }
 
 uint32_t kd_disk_traits(const struct kd_scene *scene)
 {
-    return kd_orbit_traits(scene) | (scene->disk.band == KD_BAND_VISIBLE ? KD_TRAIT_VISIBLE : 0);
+    return kd_orbit_traits(scene) | (scene->disk.band == KD_BAND_VISIBLE ? KD_TRAIT_VISIBLE : 0) |
+           (scene->disk.atmosphere ? KD_TRAIT_LIMB : 0);
 }
 
 static kd_disk_flux_fn flux_of(const struct kd_scene *scene)
@@ -89,6 +90,35 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     };
 }
 
+/* The law of limb darkening of a scene's disk. */
+static enum kd_limb limb_of(const struct kd_scene *scene)
+{
+    return scene->disk.atmosphere == KD_ATMOSPHERE_LAOR         ? KD_LIMB_LAOR
+           : scene->disk.atmosphere == KD_ATMOSPHERE_SCATTERING ? KD_LIMB_SCATTERING
+                                                                : KD_LIMB_ISOTROPIC;
+}
+
+/* The cubic through the ends of a cell and the places at a third and two thirds of it. */
+static void put_cubic(float out[4], const double f[4])
+{
+    out[0] = (float)f[0];
+    out[1] = (float)(-5.5 * f[0] + 9 * f[1] - 4.5 * f[2] + f[3]);
+    out[2] = (float)(9 * f[0] - 22.5 * f[1] + 18 * f[2] - 4.5 * f[3]);
+    out[3] = (float)(-4.5 * f[0] + 13.5 * f[1] - 13.5 * f[2] + 4.5 * f[3]);
+}
+
+static void atmosphere_table(struct kd_emit_tables *out, enum kd_limb law)
+{
+    for (int i = 0; i < KD_ATMOSPHERE_ROWS; i++) {
+        double f[4];
+        for (int k = 0; k < 4; k++) {
+            const double s = (i + k / 3.) / KD_ATMOSPHERE_ROWS;
+            f[k] = kd_limb_at(law, s * s) * kd_limb_scale(law);
+        }
+        put_cubic(out->atmosphere[i], f);
+    }
+}
+
 /* Tables over y = sqrt(1 - r_isco/r), in which T r^(3/4) is smooth and bounded: linear at the ISCO, where the flux has
  * a double zero, and finite at infinity, where T falls as r^(-3/4). */
 static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
@@ -102,11 +132,14 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
         if (i > 0)
             out->disk[i - 1][1] = out->disk[i][0] - out->disk[i - 1][0];
     }
+    atmosphere_table(out, limb_of(scene));
 }
 
 #define WHEN(name, condition) \
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
 WHEN(thin, scene->disk.height == 0)
+WHEN(isotropic, !scene->disk.atmosphere)
+WHEN(darkened, scene->disk.atmosphere)
 WHEN(newtonian, scene->disk.model == KD_DISK_SHAKURA_SUNYAEV)
 WHEN(chosen_peak, scene->disk.colour == KD_COLOUR_PEAK)
 WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
@@ -122,7 +155,12 @@ static const struct kd_sentence sentences[] = {
       thin },
     { "disk.isotropic",
       "disk: each element shines as an isotropic black body; no limb darkening, no irradiation by returning light",
-      NULL },
+      isotropic },
+    { "disk.atmosphere",
+      "disk: the limb darkening of a deep, plane atmosphere at all wavelengths alike; each element has the spectrum of "
+      "a "
+      "black body; no irradiation by returning light",
+      darkened },
     { "disk.newtonian",
       "disk: the flux of the Newtonian thin disk, cut at the ISCO, instead of the Page-Thorne integral", newtonian },
     { "disk.temperature",
@@ -143,7 +181,7 @@ const struct kd_emitter kd_emit_disk = {
     .tell = tell,
     .present = present,
     .traits = kd_disk_traits,
-    .needs = needs,
+    .needs = kd_disk_needs,
     .reach = kd_disk_reach,
     .fill = fill,
     .tables = tables,

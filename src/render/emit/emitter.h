@@ -124,6 +124,9 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
 extern const struct kd_emitter kd_emit_disk;
 /* Traits of the smooth disk, shared by emitters that use its numbers and tables. */
 uint32_t kd_disk_traits(const struct kd_scene *scene);
+/* What emitters with the disk's light need of the lens map. For rays that are not on a grid, Q is computed from their
+ * slope. */
+uint32_t kd_disk_needs(const struct kd_scene *scene);
 /* Radii of the smooth disk's edges. kd_disk_sentence: a sentence such as "A thin disk from the ISCO to 22 M." for the
  * noun "thin disk". */
 void kd_disk_reach(const struct kd_scene *scene, double radii[2]);

@@ -35,7 +35,7 @@ static uint32_t traits(const struct kd_scene *scene)
 /* For rays that are not on a grid, Q is computed from their slope. */
 static uint32_t needs(const struct kd_scene *scene)
 {
-    return KD_LENS_W | (stirs(scene) ? kd_orbit_needs(scene) | KD_LENS_SHAPE : 0) |
+    return kd_disk_needs(scene) | (stirs(scene) ? kd_orbit_needs(scene) | KD_LENS_SHAPE : 0) |
            (scene->disk.emission_opacity > 0 && scene->camera.projection == KD_PROJECTION_RING ? KD_LENS_SLOPE : 0);
 }
 

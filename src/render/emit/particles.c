@@ -324,6 +324,8 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     };
 }
 
+static uint32_t needs(const struct kd_scene *scene) { return kd_orbit_needs(scene) | kd_disk_needs(scene); }
+
 static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 {
     char noun[64];
@@ -363,7 +365,7 @@ const struct kd_emitter kd_emit_particles = {
     .tell = tell,
     .present = present,
     .traits = traits,
-    .needs = kd_orbit_needs,
+    .needs = needs,
     .varies = kd_orbit_varies,
     .own = &kd_emitter_buffers_particles,
     .device_bytes = device_bytes,

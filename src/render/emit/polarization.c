@@ -51,9 +51,14 @@ static bool by_field(const struct kd_scene *scene, const struct kd_setting *rays
 {
     return (void)rays, !scatters(scene);
 }
+static bool is_darkened(const struct kd_scene *scene) { return scene->disk.atmosphere == KD_ATMOSPHERE_SCATTERING; }
 static bool by_electrons(const struct kd_scene *scene, const struct kd_setting *rays)
 {
-    return (void)rays, scatters(scene);
+    return (void)rays, scatters(scene) && !is_darkened(scene);
+}
+static bool by_atmosphere(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, scatters(scene) && is_darkened(scene);
 }
 static bool beside(const struct kd_scene *scene, const struct kd_setting *rays)
 {
@@ -73,6 +78,10 @@ static const struct kd_sentence sentences[] = {
       "polarization: scattering: the fraction is that of a deep, plane atmosphere of electrons (Chandrasekhar 1960); "
       "its limb darkening, and light that returns to the disk, are ignored",
       by_electrons },
+    { "polarization.darkened",
+      "polarization: scattering: brightness and fraction are those of a deep, plane atmosphere of electrons "
+      "(Chandrasekhar 1960); light that returns to the disk is ignored",
+      by_atmosphere },
     { "polarization.none", "polarization: light of volumes, bodies and the sky is unpolarised", beside },
 };
 

@@ -25,7 +25,7 @@
     16 /* at least the number of emitters in shaders/shared/emitters.h, which this header does not include */
 #define KD_COST_CLASSES 16
 #define KD_AUDIT_RAYS 768              /* at most, on a grid of 16 x 48 */
-#define KD_PLAN_MAX_APPROXIMATIONS 117 /* a test compares it with the number of approximations */
+#define KD_PLAN_MAX_APPROXIMATIONS 121 /* a test compares it with the number of approximations */
 
 /* What a device allows, and its measured speed. */
 struct kd_capacity {

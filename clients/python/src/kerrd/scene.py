@@ -145,6 +145,9 @@ class Disk:
     mdot_edd: accretion rate: luminosity over the Eddington luminosity, with the efficiency for this spin; in Eddington rates; 1e-12 to
         1000; default 0.1.
     hardening: colour temperature over effective temperature; 1 to 3; default 1.
+    atmosphere: light of the thin disk's surface by mu, the cosine of the angle to its normal in the gas's frame: isotropic; laor, as 1
+        + 2.06 mu; scattering, that of a deep atmosphere of free electrons, whose polarisation polarization.model "scattering" has; each
+        radiates the disk's flux; default "isotropic".
     band: brightness: bolometric, g^4 F; or visible, the luminance that the eye perceives of the Planck spectrum; default "bolometric".
     doppler: include the Doppler shift and beaming of the orbiting gas; default true.
     redshift: include the gravitational redshift and time dilation of the orbiting gas; default true.
@@ -175,6 +178,7 @@ class Disk:
     peak_temperature_k: float | None = None
     mdot_edd: float | None = None
     hardening: float | None = None
+    atmosphere: Literal['isotropic', 'laor', 'scattering'] | None = None
     band: Literal['bolometric', 'visible'] | None = None
     doppler: bool | None = None
     redshift: bool | None = None

@@ -260,6 +260,7 @@ def _thin_disk(sheet: Sheet) -> float:
         "emission_opacity": 0,
         "colour": "accretion",
         "hardening": DISK_HARDENING,
+        "atmosphere": "scattering",
         "gas": {"amplitude": 0},
     }
     for field, value in disk.items():
@@ -275,7 +276,6 @@ def _thin_disk(sheet: Sheet) -> float:
     if sheet.whole("only_unpolarized", 0) == 0:
         sheet.draft.put("polarization.model", "scattering")
     sheet.said("only_unpolarized", "polarization.model")
-    sheet.draft.lacks("ipole's disk is darkened towards its limb as a scattering atmosphere; kerrd's is isotropic")
     return spin
 
 

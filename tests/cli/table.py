@@ -1,0 +1,190 @@
+"""Tests of kerrd table. The file is a FITS file in the format of OGIP memo 92-009, its spectra are those of kerrd line,
+an interrupted table is continued, and profiles between the nodes are near those of kerrd line."""
+
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import warnings
+
+import support
+
+try:
+    import numpy
+    from astropy.io import fits
+except ImportError as missing:
+    print(f"left out: {missing}; scripts/setup --browser installs it")
+    sys.exit(77)
+
+SMALL = [
+    "-x",
+    "spin=0:0.9/3",
+    "-x",
+    "inclination_deg=10,35,60",
+    "-x",
+    "height=log:3:50/4",
+    "--set",
+    "emissivity=lamppost",
+]
+ENERGIES = ["--rest-energy", "6.4", "--energy-min", "0.32"]
+
+
+class Table(support.Case):
+    def line(self, *options):
+        data = self.good("line", *options, "--format", "npy", "-o", "-")
+        at = data.index(b"\n") + 1
+        return numpy.frombuffer(data[at:]).reshape(-1, 4)
+
+    def opened(self, name):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            file = fits.open(self.path(name), checksum=True)
+            file.verify("exception")
+        self.addCleanup(file.close)
+        return file
+
+    def test_format(self):
+        self.good("table", *SMALL, "-n", "lamp", "-o", self.path("a.fits"))
+        self.assertEqual(os.listdir(self.folder), ["a.fits"])
+        file = self.opened("a.fits")
+        self.assertEqual([unit.name for unit in file], ["PRIMARY", "PARAMETERS", "ENERGIES", "SPECTRA"])
+        head = file[0].header
+        self.assertEqual(
+            [head[k] for k in ("HDUCLASS", "HDUCLAS1", "HDUVERS", "MODLNAME", "MODLUNIT", "REDSHIFT", "ADDMODEL")],
+            ["OGIP", "XSPEC TABLE MODEL", "1.0.0", "lamp", "photons/cm^2/s", True, True],
+        )
+        self.assertEqual([unit.header["HDUCLAS2"] for unit in file[1:]], ["PARAMETERS", "ENERGIES", "MODEL SPECTRA"])
+        self.assertEqual((file[1].header["NINTPARM"], file[1].header["NADDPARM"]), (3, 0))
+        rows = file["PARAMETERS"].data
+        self.assertEqual(
+            [(r["NAME"], int(r["METHOD"]), int(r["NUMBVALS"])) for r in rows],
+            [("spin", 0, 3), ("inclination", 0, 3), ("height", 1, 4)],
+        )
+        for row in rows:
+            values = row["VALUE"][: row["NUMBVALS"]]
+            self.assertEqual((row["MINIMUM"], row["BOTTOM"]), (values[0], values[0]))
+            self.assertEqual((row["MAXIMUM"], row["TOP"]), (values[-1], values[-1]))
+            self.assertTrue(values[0] <= row["INITIAL"] <= values[-1] and row["DELTA"] > 0)
+        self.assertAlmostEqual(rows[2]["VALUE"][1] / 3, (50 / 3) ** (1 / 3), 6)
+        low, high = file["ENERGIES"].data["ENERG_LO"], file["ENERGIES"].data["ENERG_HI"]
+        self.assertTrue((low[1:] == high[:-1]).all() and (high > low).all() and len(low) == 500)
+        self.assertAlmostEqual(float(high[-1]), 1.7 * 6.4, 5)
+        asked = json.loads(head["KDTABLE"])
+        self.assertEqual((asked["emissivity"], asked["axes"]["height"]["interpolation"]), ("lamppost", "log"))
+        if shutil.which("fitsverify"):
+            told = subprocess.run(["fitsverify", self.path("a.fits")], stdout=subprocess.PIPE, check=True).stdout
+            self.assertIn(b"found 0 warning(s) and 0 error(s)", told)
+
+    def test_spectra_are_lines(self):
+        """Every node, in the order in which the last parameter varies fastest."""
+        self.good("table", *SMALL, "-o", self.path("a.fits"))
+        file = self.opened("a.fits")
+        rows = file["PARAMETERS"].data
+        values = [r["VALUE"][: r["NUMBVALS"]] for r in rows]
+        nodes = [(a, i, h) for a in values[0] for i in values[1] for h in values[2]]
+        spectra = file["SPECTRA"].data
+        self.assertEqual([tuple(v) for v in spectra["PARAMVAL"]], nodes)
+        for k in range(0, len(nodes), 5):
+            a, i, h = (float(v) for v in nodes[k])
+            shown = f"--spin={a}", f"--inclination-deg={i}", f"--height={h}"
+            share = self.line(*shown, "--emissivity=lamppost", *ENERGIES)[:, 2]
+            # edges and shares of the table have 32 bits
+            off = numpy.abs(numpy.cumsum(spectra["INTPSPEC"][k], dtype=float) - numpy.cumsum(share)).max()
+            self.assertLess(off, 3e-6, nodes[k])
+
+    def test_axes(self):
+        """An inner edge over the ISCO, a fixed inclination, and an axis of ranges."""
+        self.good("table", "-x", "inner_isco=1,2:4/3", "-x", "spin=0,0.9", "-s", "inclination_deg=40", "-s", "index=2.5",
+                  "-o", self.path("a.fits"))  # fmt: skip
+        file = self.opened("a.fits")
+        self.assertEqual([r["NAME"] for r in file["PARAMETERS"].data], ["spin", "inner_isco"])
+        self.assertEqual(list(file["PARAMETERS"].data[1]["VALUE"]), [1, 2, 3, 4])
+        isco = float(json.loads(self.good("line", "--spin=0.9"))["values"]["isco"])
+        spin = float(file["SPECTRA"].data["PARAMVAL"][6][0])
+        line = self.line(f"--spin={spin}", f"--inner={3 * isco}", "--inclination-deg=40", "--index=2.5", *ENERGIES)
+        off = numpy.abs(numpy.cumsum(file["SPECTRA"].data["INTPSPEC"][6], dtype=float) - numpy.cumsum(line[:, 2]))
+        self.assertLess(off.max(), 1e-5)
+        plan = json.loads(self.good("table", "--plan"))
+        self.assertEqual(list(plan["axes"]), ["spin", "inclination_deg"])
+        self.assertEqual(plan["nodes"], 41 * 349)
+        self.assertGreater(plan["bytes"], plan["nodes"] * 4 * plan["bins"])
+
+    def test_interrupted(self):
+        """The same command continues a table; its bytes are those of a table that was not interrupted."""
+        options = ["-x", "spin=0:0.95/20", "-x", "inclination_deg=20:70/26", "-x", "index=2:4/9"]
+        self.good("table", *options, "-o", self.path("whole.fits"), seconds=300)
+        job = subprocess.Popen([support.KERRD, "table", *options, "-o", self.path("a.fits")], stderr=subprocess.PIPE)
+        part, size = self.path("a.fits.part"), 0
+        until = time.monotonic() + 120
+        while size < 400_000 and job.poll() is None and time.monotonic() < until:
+            time.sleep(0.01)
+            size = os.stat(part).st_size if os.path.exists(part) else 0
+        job.send_signal(signal.SIGINT)
+        job.communicate(timeout=60)
+        self.assertEqual(job.returncode, -signal.SIGINT)
+        self.assertFalse(os.path.exists(self.path("a.fits")))
+        with open(part, "ab") as file:
+            file.write(b"half a row")
+        done = support.run("table", *options, "-t", "-o", self.path("a.fits"), seconds=300)
+        told = json.loads(done.stderr)
+        self.assertTrue(0 < told["resumed"] < told["nodes"] == 20 * 26 * 9, told)
+        self.assertFalse(os.path.exists(part))
+        self.assertEqual(self.read("a.fits"), self.read("whole.fits"))
+        self.opened("a.fits")
+
+    def test_of_another_table(self):
+        self.write("a.fits.part", "SIMPLE")
+        self.bad(2, "belongs to another table or version", "table", *SMALL, "-o", self.path("a.fits"))
+        self.assertEqual(self.read("a.fits.part"), b"SIMPLE")
+
+    def test_refusals(self):
+        out = ["-o", self.path("a.fits")]
+        for code, words, options in (
+            (2, "-o FILE is missing", []),
+            (2, "rings is no axis", ["-x", "rings=1,2", *out]),
+            (2, "the axis spin has one value; it must have at least two", ["-x", "spin=0.5", *out]),
+            (2, "the axis spin has 1; it must be above -1 and below 1", ["-x", "spin=0,1", *out]),
+            (2, "each must be larger than the one before", ["-x", "index=3,2", *out]),
+            (2, "a range must be START:STOP/COUNT", ["-x", "index=0:3", *out]),
+            (2, "after a number", ["-x", "index=0;3", *out]),
+            (2, "it must have numbers", ["-x", "index=a", *out]),
+            (2, "has no logarithm", ["-x", "index=log:0,3", *out]),
+            (2, "index has two axes", ["-x", "index=2,3", "-x", "index=4,5", *out]),
+            (2, "inner has two axes", ["-x", "inner=6,7", "-x", "inner_isco=1,2", *out]),
+            (2, "index has an axis and a value", ["-x", "index=2,3", "-s", "index=2", *out]),
+            (2, "within the ISCO of this spin", ["-x", "spin=0,0.9", "-x", "inner=3,4", *out]),
+            (2, "belongs to emissivity lamppost", ["-x", "height=3,4", *out]),
+            (2, "counts is energy", ["-s", "counts=energy", *out]),
+            (2, "the first edge is 0", ["-s", "energy_min=0", *out]),
+            (2, "too close to edge on", ["-x", "inclination_deg=80,88", *out]),
+            (2, "each field has one value", ["-s", "spin=0", "-s", "inclination_deg=30", *out]),
+            (2, "--name is", ["-n", "a-name-that-is-too-long", *out]),
+        ):
+            self.bad(code, words, "table", *options)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_between_nodes(self):
+        """Profiles interpolated in the default table, at a few places: bench/table.py has a thousand."""
+        axes = json.loads(self.good("table", "--plan"))["axes"]
+        chance = random.Random(4)
+        for _ in range(6):
+            corners, exact = [], []
+            for name, axis in axes.items():
+                values = axis["values"]
+                k = chance.randrange(len(values) - 1)
+                part = chance.random()
+                corners.append([(1 - part, values[k]), (part, values[k + 1])])
+                exact.append(f"--{name.replace('_', '-')}={values[k] + part * (values[k + 1] - values[k])}")
+            table = 0
+            for one, a in corners[0]:
+                for two, i in corners[1]:
+                    table = table + one * two * self.line(f"--spin={a}", f"--inclination-deg={i}", *ENERGIES)[:, 2]
+            off = numpy.abs(numpy.cumsum(table - self.line(*exact, *ENERGIES)[:, 2])).max()
+            self.assertLess(off, 3e-3, exact)
+
+
+support.main()
