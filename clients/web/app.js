@@ -200,6 +200,13 @@ async function watch(scene) {
     integrals.then(choose => choose(target.value)).catch(error => ((integrals = null), sayWrong(error.message)));
   });
 
+  // A second hole beside the first.
+  const compare = () =>
+    load(import('./pair.js'))
+      .then(({ besides }) => besides(stage, scene))
+      .catch(error => sayWrong(error.message));
+  byId('pair-begin').addEventListener('click', compare);
+
   // A lesson is begun by the card "Share". It goes on after a reload; a pupil's copy has the way back to it.
   const teach = () =>
     load(import('./lesson.js'))
@@ -247,6 +254,7 @@ async function watch(scene) {
 
   for (const gone of ['visibilitychange', 'viewchange']) document.addEventListener(gone, followLight);
   nameStars();
+  if (link.entries('pair.').length) compare();
   if (link.get('lesson') || goesOn('lesson')) teach();
   scene.addEventListener('change', () => {
     source.refresh();
