@@ -25,7 +25,6 @@ import measure
 BEAT_S, CHANGE_S = 1, 0.05
 
 
-
 class Line:
     """A connection of one client to the server."""
 

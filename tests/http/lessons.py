@@ -93,9 +93,7 @@ class Lessons(daemon.Case):
         self.hand(one, OTHER, name="Émilie", question=1, choice=0)
         told = self.seen(one, **self.owner(one))
         self.assertEqual((told["question"]["answered"], told["question"]["tally"]), (2, [1, 1]))
-        self.assertEqual(
-            sorted((hand["name"], hand["choice"]) for hand in told["hands"]), [("Ada", 1), ("Émilie", 0)]
-        )
+        self.assertEqual(sorted((hand["name"], hand["choice"]) for hand in told["hands"]), [("Ada", 1), ("Émilie", 0)])
         self.assertNotIn("hands", self.seen(one), "names are for the teacher only")
         self.assertNotIn("hands", self.hand(one).json())
 
@@ -123,9 +121,7 @@ class Lessons(daemon.Case):
             self.assertProblem(self.change(one, {"open": True}, headers), 403, "forbidden")
             gone = self.daemon.request("DELETE", "/v1/lessons/" + one["id"], headers=headers)
             self.assertProblem(gone, 403, "forbidden")
-        self.assertEqual(
-            self.daemon.request("DELETE", "/v1/lessons/" + one["id"], headers=self.owner(one)).status, 204
-        )
+        self.assertEqual(self.daemon.request("DELETE", "/v1/lessons/" + one["id"], headers=self.owner(one)).status, 204)
         for answer in self.daemon.get("/v1/lessons/" + one["id"]), self.hand(one), self.change(one, {}):
             self.assertProblem(answer, 404, "not-found")
 

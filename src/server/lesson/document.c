@@ -142,8 +142,8 @@ static enum kd_status read_choices(struct target *to, const cJSON *item, const c
         snprintf(at, sizeof at, "%s", pointer);
         snprintf(index, sizeof index, "%d", i);
         kd_text_pointer(at, sizeof at, index);
-        const enum kd_status status = copy_text(cJSON_GetArrayItem(item, i), at, sizeof question->choices[i],
-                                                question->choices[i], error);
+        const enum kd_status status =
+            copy_text(cJSON_GetArrayItem(item, i), at, sizeof question->choices[i], question->choices[i], error);
         if (status)
             return status;
     }
@@ -163,7 +163,8 @@ static enum kd_status read_right(struct target *to, const cJSON *item, const cha
 
 static enum kd_status read_question(struct target *to, const cJSON *item, const char *pointer, struct kd_error *error)
 {
-    static const struct member members[] = { { "text", read_words }, { "choices", read_choices },
+    static const struct member members[] = { { "text", read_words },
+                                             { "choices", read_choices },
                                              { "right", read_right } };
     struct kd_lesson_change *change = to->change;
     const unsigned given = to->given;
@@ -188,8 +189,10 @@ done:
 
 enum kd_status kd_lesson_read_change(const cJSON *tree, struct kd_lesson_change *out, struct kd_error *error)
 {
-    static const struct member members[] = { { "session", read_session }, { "link", read_link },
-                                             { "about", read_about },     { "question", read_question },
+    static const struct member members[] = { { "session", read_session },
+                                             { "link", read_link },
+                                             { "about", read_about },
+                                             { "question", read_question },
                                              { "open", read_open } };
     struct target to = { .change = out };
     *out = (struct kd_lesson_change) { 0 };
@@ -238,8 +241,9 @@ static enum kd_status read_choice(struct target *to, const cJSON *item, const ch
 
 enum kd_status kd_lesson_read_hand(const cJSON *tree, struct kd_hand *out, struct kd_error *error)
 {
-    static const struct member members[] = { { "pupil", read_pupil }, { "name", read_name },
-                                             { "question", read_number }, { "choice", read_choice } };
+    static const struct member members[] = {
+        { "pupil", read_pupil }, { "name", read_name }, { "question", read_number }, { "choice", read_choice }
+    };
     struct target to = { .hand = out };
     enum kd_status status;
     *out = (struct kd_hand) { 0 };

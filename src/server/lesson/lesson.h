@@ -1,6 +1,6 @@
 /* a lesson: pupils follow the session of a teacher, answer the teacher's questions, and are counted. a lesson holds the
- * id of the session, and not the session itself, so that it continues when the teacher opens another session. It is kept
- * in memory only, and ends with the teacher's request or after a while without one. HTTP thread only. */
+ * id of the session, and not the session itself, so that it continues when the teacher opens another session. It is
+ * kept in memory only, and ends with the teacher's request or after a while without one. HTTP thread only. */
 #ifndef KD_SERVER_LESSON_LESSON_H
 #define KD_SERVER_LESSON_LESSON_H
 
@@ -8,7 +8,7 @@
 #include "server/http/secret.h"
 #include "server/http/shares.h"
 
-#define KD_LESSONS 16u         /* limit of lessons */
+#define KD_LESSONS 16u          /* limit of lessons */
 #define KD_LESSON_IDLE_S 600u   /* a lesson ends after this time without a request of its teacher */
 #define KD_LESSON_PUPILS 64u    /* limit of pupils of one lesson */
 #define KD_LESSON_PRESENT_S 20u /* a pupil counts as present for this time after a request */
@@ -57,7 +57,7 @@ void kd_lessons_destroy(struct kd_lessons *all); /* accepts NULL */
 /* Opens a lesson. Returns KD_EBUSY at a limit; *quota is true if that is the limit of one client. The lesson belongs to
  * `all`; the pointer is valid until the next call of a function here. */
 enum kd_status kd_lesson_open(struct kd_lessons *all, const char *client, bool *quota, struct kd_lesson **out,
-                             struct kd_error *error);
+                              struct kd_error *error);
 /* Finds a lesson; NULL: there is none, or it has ended. */
 struct kd_lesson *kd_lesson_find(struct kd_lessons *all, const char *id);
 void kd_lesson_end(struct kd_lessons *all, struct kd_lesson *one);
@@ -66,8 +66,8 @@ void kd_lesson_end(struct kd_lessons *all, struct kd_lesson *one);
  * for longest is replaced. Returns NULL if all are present. */
 struct kd_pupil *kd_lesson_pupil(struct kd_lesson *one, const char *key);
 
-/* Writes the lesson as JSON. teacher: with who chose what, and with the tally while the question is open. pupil: the one
- * that asks, whose own choice is written; NULL: none. token: with the teacher's token. */
+/* Writes the lesson as JSON. teacher: with who chose what, and with the tally while the question is open. pupil: the
+ * one that asks, whose own choice is written; NULL: none. token: with the teacher's token. */
 struct kd_lesson_view {
     bool teacher, token;
     const struct kd_pupil *pupil;

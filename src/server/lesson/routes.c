@@ -32,7 +32,8 @@ done:
     return status;
 }
 
-static enum MHD_Result answer(struct kd_request *request, const struct kd_lesson *one, const struct kd_lesson_view *view)
+static enum MHD_Result answer(struct kd_request *request, const struct kd_lesson *one,
+                              const struct kd_lesson_view *view)
 {
     struct kd_buffer json = { 0 };
     return kd_reply_json(request, kd_lesson_to_json(one, view, &json), &json, JSON_TYPE);
@@ -150,8 +151,8 @@ enum MHD_Result kd_handle_lesson(struct kd_request *request)
 
 static enum MHD_Result conflict(struct kd_request *request, const char *detail, const char *pointer)
 {
-    return kd_reply_problem(
-        request, &(struct kd_problem) { .type = KD_PROBLEM_CONFLICT, .detail = detail, .pointer = pointer });
+    return kd_reply_problem(request,
+                            &(struct kd_problem) { .type = KD_PROBLEM_CONFLICT, .detail = detail, .pointer = pointer });
 }
 
 static enum MHD_Result raise_hand(struct kd_request *request, struct kd_lesson *one, const struct kd_hand *hand)
@@ -162,9 +163,9 @@ static enum MHD_Result raise_hand(struct kd_request *request, struct kd_lesson *
         return conflict(request, "this question is not open any more", "/question");
     if (hand->answers && hand->choice >= question->n_choices) {
         snprintf(detail, sizeof detail, "choice is %u; it must be 0 to %u", hand->choice, question->n_choices - 1);
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS,
-                                                                .detail = detail,
-                                                                .pointer = "/choice" });
+        return kd_reply_problem(
+            request,
+            &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS, .detail = detail, .pointer = "/choice" });
     }
     struct kd_pupil *pupil = kd_lesson_pupil(one, hand->pupil);
     if (!pupil)

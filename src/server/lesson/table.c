@@ -35,7 +35,7 @@ static void end_idle(struct kd_lessons *all)
 }
 
 enum kd_status kd_lesson_open(struct kd_lessons *all, const char *client, bool *quota, struct kd_lesson **out,
-                             struct kd_error *error)
+                              struct kd_error *error)
 {
     unsigned own = 0, n = 0;
     size_t place = KD_LESSONS;

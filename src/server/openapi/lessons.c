@@ -15,8 +15,8 @@ _Static_assert(KD_LESSON_CHOICES == 6 && KD_LESSON_TEXT == 600 && KD_LESSON_CHOI
                "the schemas say so");
 
 #define QUESTION_MEMBERS \
-    "\"text\":" TEXT(1, 600) ",\"choices\":{\"type\":\"array\",\"minItems\":2,\"maxItems\":6,\"items\":" TEXT(1, 200) \
-        "},\"right\":" CHOICE_OR_NULL
+    "\"text\":" TEXT(1, 600) ",\"choices\":{\"type\":\"array\",\"minItems\":2,\"maxItems\":6,\"items\":" TEXT( \
+        1, 200) "},\"right\":" CHOICE_OR_NULL
 
 void kd_openapi_lesson_schema(struct kd_json *json)
 {
