@@ -2957,6 +2957,39 @@ export interface SessionPatched {
   order?: number;
 }
 
+export interface LessonQuestion {
+  /** at least 0. */
+  number: number;
+  text: string;
+  choices: string[];
+  open: boolean;
+  /** at least 0. */
+  answered: number;
+  /** 0 to 5. */
+  right?: number | null;
+  tally?: number[];
+}
+
+export interface LessonHand {
+  name: string;
+  /** 0 to 5. */
+  choice: number | null;
+}
+
+export interface Lesson {
+  id: string;
+  token?: string;
+  session: string;
+  link: string;
+  about: string;
+  /** at least 0. */
+  pupils: number;
+  question: null | LessonQuestion;
+  /** 0 to 5. */
+  choice?: number | null;
+  hands?: LessonHand[];
+}
+
 export type SweepAxes = Record<string, (number | string | boolean | string[])[] | string>;
 
 /** created and ended are seconds since 1970. */
@@ -6609,6 +6642,113 @@ export interface Operations {
       };
     };
     gives: {};
+  };
+  /** Opens a lesson, whose pupils follow a session; the answer has its id and the token of the teacher. */
+  'POST /v1/lessons': {
+    takes: {
+      body: {
+        session: string;
+        link?: string;
+        about?: string;
+        /** whether the question accepts answers. */
+        open?: boolean;
+        question?: {
+          text: string;
+          /** up to 6. */
+          choices: string[];
+          /** 0 to 5. */
+          right?: number | null;
+        } | null;
+      };
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': Lesson;
+    };
+  };
+  /**
+   * A lesson: its session, the number of pupils, the question; with the teacher's token also who chose what.
+   * PATCH: changes the session, asks or closes a question; DELETE: ends the lesson.
+   */
+  'GET /v1/lessons/{id}': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {
+      'application/json': Lesson;
+    };
+  };
+  /**
+   * A lesson: its session, the number of pupils, the question; with the teacher's token also who chose what.
+   * PATCH: changes the session, asks or closes a question; DELETE: ends the lesson.
+   */
+  'PATCH /v1/lessons/{id}': {
+    takes: {
+      path: {
+        id: string;
+      };
+      body: Patch<{
+        session?: string;
+        link?: string;
+        about?: string;
+        /** whether the question accepts answers. */
+        open?: boolean;
+        question?: {
+          text: string;
+          /** up to 6. */
+          choices: string[];
+          /** 0 to 5. */
+          right?: number | null;
+        } | null;
+      }>;
+      type?: 'application/json';
+    } | {
+      path: {
+        id: string;
+      };
+      body: Patch<Record<string, unknown>>;
+      type: 'application/merge-patch+json';
+    };
+    gives: {
+      'application/json': Lesson;
+    };
+  };
+  /**
+   * A lesson: its session, the number of pupils, the question; with the teacher's token also who chose what.
+   * PATCH: changes the session, asks or closes a question; DELETE: ends the lesson.
+   */
+  'DELETE /v1/lessons/{id}': {
+    takes: {
+      path: {
+        id: string;
+      };
+    };
+    gives: {
+      /** without a body. */
+      '': undefined;
+    };
+  };
+  /** Says that a pupil is present, and what it chooses; the answer is the lesson. */
+  'POST /v1/lessons/{id}/hands': {
+    takes: {
+      path: {
+        id: string;
+      };
+      body: {
+        pupil: string;
+        name?: string;
+        /** 1 to 1000000000. */
+        question?: number;
+        /** 0 to 5. */
+        choice?: number;
+      };
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': Lesson;
+    };
   };
   /**
    * Presets, settings and fields of a body; POST: opens a playground, and the answer has its id and the token for

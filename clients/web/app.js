@@ -19,7 +19,7 @@ import { buildPace } from './pace.js';
 import { buildPresets, openPreset, startAgain } from './presets.js';
 import { buildRefining } from './refining.js';
 import { Scene } from './scene.js';
-import { share } from './share.js';
+import { goesOn, share } from './share.js';
 import { sheet } from './sheet.js';
 import { windowSize } from './sizes.js';
 import { openSource } from './source.js';
@@ -200,6 +200,20 @@ async function watch(scene) {
     integrals.then(choose => choose(target.value)).catch(error => ((integrals = null), sayWrong(error.message)));
   });
 
+  // A second hole beside the first.
+  const compare = () =>
+    load(import('./pair.js'))
+      .then(({ besides }) => besides(stage, scene))
+      .catch(error => sayWrong(error.message));
+  byId('pair-begin').addEventListener('click', compare);
+
+  // A lesson is begun by the card "Share". It goes on after a reload; a pupil's copy has the way back to it.
+  const teach = () =>
+    load(import('./lesson.js'))
+      .then(({ teach }) => teach(scene, () => source.address()))
+      .catch(error => sayWrong(error.message));
+  document.addEventListener('lesson', teach);
+
   // The card of a pixel is loaded when it is first opened.
   let pixel = null;
   function askPixel(what) {
@@ -240,6 +254,8 @@ async function watch(scene) {
 
   for (const gone of ['visibilitychange', 'viewchange']) document.addEventListener(gone, followLight);
   nameStars();
+  if (link.entries('pair.').length) compare();
+  if (link.get('lesson') || goesOn('lesson')) teach();
   scene.addEventListener('change', () => {
     source.refresh();
     nameStars();

@@ -16,18 +16,43 @@ export function assetRow(field, scene, id, hint) {
     type = grid ? 'application/x-npz' : 'image/png';
   const file = el('input', {
     type: 'file',
-    accept: grid ? '.npz' : type,
+    accept: grid ? '.npz' : 'image/png,image/jpeg',
     id,
     'aria-describedby': hint,
     onchange: take,
   });
 
+  // For a picture of the sky: its coordinates, and where to get one.
+  const turned = el('input', { type: 'checkbox', id: id + '-equatorial' }),
+    about = el(
+      'p',
+      { class: 'help' },
+      t('PNG or JPEG. ', 'PNG o JPEG. '),
+      el('code', {}, 'scripts/sky'),
+      t(' fetches a photograph of the whole sky.', ' scarica una fotografia di tutto il cielo.'),
+    ),
+    more = grid
+      ? []
+      : [
+          el(
+            'label',
+            { class: 'special' },
+            turned,
+            t('in equatorial coordinates (RA, Dec)', 'in coordinate equatoriali (AR, Dec)'),
+          ),
+          about,
+        ];
+
   async function take() {
-    const [picture] = file.files;
-    if (!picture) return;
+    const [chosen] = file.files;
+    if (!chosen) return;
     fault.hidden = true;
     try {
-      const answer = await ask('v1/assets', { method: 'PUT', headers: { 'Content-Type': type }, body: picture });
+      const body =
+        grid || (chosen.type === type && !turned.checked)
+          ? chosen
+          : await (await import('./panorama.js')).panorama(chosen, turned.checked);
+      const answer = await ask('v1/assets', { method: 'PUT', headers: { 'Content-Type': type }, body });
       scene.change({ [field.path]: (await answer.json()).sha256 });
     } catch (error) {
       tell(fault, error.message);
@@ -37,7 +62,7 @@ export function assetRow(field, scene, id, hint) {
   }
 
   return {
-    nodes: [file, el('div', { class: 'pair' }, name, none), fault],
+    nodes: [file, ...more, el('div', { class: 'pair' }, name, none), fault],
     show: () => {
       const hash = scene.get(field.path);
       name.value = hash

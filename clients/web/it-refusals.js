@@ -30,6 +30,14 @@ const refusals = [
     '{} è {}; deve essere false a meno che style.palette sia {} e style.tone_map {}, perché altrimenti una luminosità non ha un solo colore, o la scala non è lineare',
   ],
   ['{} is {}{?}; it must be a whole number from {} to {}', '{} è {}{?}; deve essere un intero da {} a {}'],
+  [
+    '{} is {}; it must be a text of {} to {} bytes without control characters',
+    '{} è {}; deve essere un testo da {} a {} byte senza caratteri di controllo',
+  ],
+  ['{} is {}; it must be a list of {} to {} choices', '{} è {}; deve essere un elenco da {} a {} risposte'],
+  ['{} is {}; it must be the id of an open session', '{} è {}; deve essere il nome di una sessione aperta'],
+  ['too many open lessons (limit {})', 'troppe lezioni aperte (limite {})'],
+  ['you have too many open lessons (limit {} for one client)', 'hai troppe lezioni aperte (limite {} per un cliente)'],
   ['{} is {}; it must be 0 or a multiple of 4 up to {}', '{} è {}; deve essere 0 o un multiplo di 4 fino a {}'],
   [
     '{} is {}{?}; it must be {} to {}, or a range first:last:count of {} to {} such values',

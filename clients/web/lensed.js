@@ -6,6 +6,7 @@ import { ask } from './server.js';
 
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 const even = x => Math.max(16, 2 * Math.round(x / 2));
+const slow_ms = 600; // a picture that takes longer is announced
 const widest = 960; // largest width, device pixels
 
 // box: the element for the pictures; running: see running.js. Returns { show(yes) }.
@@ -19,13 +20,26 @@ export function lensed(box, running) {
     url = '',
     frame = 0,
     camera = null;
-  const words = el('p', { class: 'help', role: 'status' });
+  const words = el('p', { class: 'help', role: 'status' }),
+    drawing = el('p', { class: 'drawing', 'aria-hidden': 'true', hidden: true }, t('Drawing …', 'Si disegna …'));
+  let late = 0; // timer of a picture that is on its way
   const begin = () =>
     (words.textContent = t('The server computes the first picture …', 'Il server calcola la prima immagine …'));
   begin();
-  box.append(picture, words);
+  box.append(picture, words, drawing);
+
+  // Says that a picture is being drawn, if it takes long. At rest no picture is on its way.
+  function expect() {
+    clearTimeout(late);
+    late = setTimeout(() => (drawing.hidden = Boolean(words.textContent)), slow_ms);
+  }
+  function arrived() {
+    clearTimeout(late);
+    drawing.hidden = true;
+  }
 
   const send = latest(async patch => {
+    expect();
     try {
       await running.change({ scene: patch });
     } catch (error) {
@@ -44,8 +58,9 @@ export function lensed(box, running) {
   new ResizeObserver(fit).observe(box);
 
   async function next() {
+    if (running.state && !running.state.paused) expect();
     const answer = await ask(running.address(`frame.png?after=${frame}&wait_ms=5000`));
-    if (answer.status === 204) return;
+    if (answer.status === 204) return arrived();
     frame = Number(answer.headers.get('Kerrd-Frame'));
     const fresh = URL.createObjectURL(await answer.blob()),
       image = picture.cloneNode();
@@ -56,6 +71,7 @@ export function lensed(box, running) {
     URL.revokeObjectURL(url);
     url = fresh;
     words.textContent = '';
+    arrived();
   }
 
   async function pull() {

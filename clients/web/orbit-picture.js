@@ -15,6 +15,8 @@ export function smooth(points, k, share) {
 }
 
 const grip = 8; // distance from the body within which a drag takes hold of it; the picture is 200 wide
+const glows = 2.4; // radius of the glow round the hole, in radii of the horizon
+const least_ring = 2.5; // radius below which a circle of the hole is not drawn
 const full = 60; // length of an arrow of the speed of light
 
 // The path seen from far away along straight lines: turned about the axis, then tilted.
@@ -30,10 +32,23 @@ export function buildPicture(root, hand) {
     'aria-label': t('The orbit in space', 'L’orbita nello spazio'),
   });
   const body = svg('circle', { class: 'body', r: 1.8 });
+  const glow = svg(
+    'radialGradient',
+    { id: 'orbit-glow' },
+    ...[
+      [1 / glows, 0.9],
+      [1.12 / glows, 0.42],
+      [1.6 / glows, 0.12],
+      [1, 0],
+    ].map(([offset, opacity]) =>
+      svg('stop', { offset, 'stop-color': offset < 0.45 ? '#ffd9a0' : '#ff9d3c', 'stop-opacity': opacity }),
+    ),
+  );
   let path = null,
     reach = 1,
     hole = 1,
-    spin = 0;
+    spin = 0,
+    circles = []; // of the hole, in the equatorial plane: { r, name, text }
 
   function project([x, y, z]) {
     const a = (turn.valueAsNumber * Math.PI) / 180,
@@ -63,16 +78,52 @@ export function buildPicture(root, hand) {
         `C${text(nudge(flat(k - 2), [x, y], flat(k - 1)))} ${text(nudge(flat(k + 1), flat(k - 1), [x, y]))} ${text([x, y])}`;
       last = side;
     }
-    const ring = [...Array(73).keys()].map(k =>
-      project([reach * Math.cos((k * Math.PI) / 36), reach * Math.sin((k * Math.PI) / 36), 0]),
-    );
+    const black = Math.max((hole * 70) / reach, 0.6);
     picture.replaceChildren(
-      svg('path', { class: 'plane', d: 'M' + ring.map(p => `${p.x.toFixed(2)} ${p.y.toFixed(2)}`).join('L') }),
+      svg('defs', {}, glow),
+      svg('path', { class: 'plane', d: ring(reach) }),
       svg('path', { class: 'back', d: parts.back }),
-      svg('circle', { class: 'hole', r: Math.max((hole * 70) / reach, 0.6) }),
+      svg('circle', { r: black * glows, fill: 'url(#orbit-glow)' }),
+      ...rings(0, 36),
+      svg('circle', { class: 'hole', r: black }),
+      ...rings(36, 72),
       svg('path', { class: 'front', d: parts.front }),
+      ...bar(),
       body,
     );
+  }
+
+  // A circle in the equatorial plane; from, to: the part of it that is drawn, in steps of 5 degrees from the right.
+  function ring(r, from = 0, to = 72) {
+    const a = (turn.valueAsNumber * Math.PI) / 180 + Math.PI / 2,
+      points = [];
+    for (let k = from; k <= to; k++) {
+      const angle = a + (k * Math.PI) / 36,
+        { x, y } = project([r * Math.cos(angle), r * Math.sin(angle), 0]);
+      points.push(`${x.toFixed(2)} ${y.toFixed(2)}`);
+    }
+    return 'M' + points.join('L');
+  }
+
+  // The hole's circles: the half behind it comes before it.
+  function rings(from, to) {
+    const large = circles.filter(({ r }) => (r * 70) / reach > least_ring),
+      flipped = tilt.valueAsNumber > 90; // from below, the other half is nearer
+    return large.map(({ r, name }) =>
+      svg('path', { class: `ring ring-${name}`, d: flipped ? ring(r, 72 - to, 72 - from) : ring(r, from, to) }),
+    );
+  }
+
+  // The scale, a round number of M.
+  function bar() {
+    const raw = (reach / 70) * 34,
+      ten = 10 ** Math.floor(Math.log10(raw)),
+      length = ten * [1, 2, 5].filter(x => x * ten <= raw).at(-1),
+      wide = (length * 70) / reach;
+    return [
+      svg('path', { class: 'scale', d: `M-95 66v3h${wide.toFixed(2)}v-3` }),
+      svg('text', { class: 'axis', x: -95, y: 63 }, `${number(length)} M`),
+    ];
   }
 
   // The point of the equatorial plane at a point of the picture. Seen nearly edge-on, the distance towards the viewer
@@ -161,8 +212,10 @@ export function buildPicture(root, hand) {
       from = null;
     });
   for (const input of [turn, tilt]) input.addEventListener('input', draw);
+  const legend = el('ul', { class: 'legend circles' });
   root.append(
     picture,
+    legend,
     el(
       'div',
       { class: 'inputs' },
@@ -171,12 +224,44 @@ export function buildPicture(root, hand) {
     ),
   );
   return {
-    show(points, horizon, a, words) {
+    // radii: { horizon, photon_prograde, photon_retrograde, isco_prograde } of the hole.
+    show(points, radii, a, words) {
       picture.setAttribute('aria-label', words);
       path = points;
-      hole = horizon;
+      hole = radii.horizon;
       spin = a;
-      reach = Math.max(...points.map(p => Math.hypot(...p)), horizon);
+      // x and y are sqrt(r^2 + a^2) times the cosine and the sine of the azimuth
+      const flat = r => Math.hypot(r, a);
+      circles = [
+        { r: flat(radii.photon_prograde), name: 'photons', text: t('light in circles', 'luce in cerchio') },
+        ...(Math.abs(a) > 0.01
+          ? [
+              {
+                r: flat(radii.photon_retrograde),
+                name: 'against',
+                text: t('light against the spin', 'luce contro la rotazione'),
+              },
+            ]
+          : []),
+        { r: flat(radii.isco), name: 'isco', text: t('last stable orbit', 'ultima orbita stabile') },
+      ];
+      reach = Math.max(...points.map(p => Math.hypot(...p)), hole);
+      legend.replaceChildren(
+        ...circles
+          .filter(({ r }) => (r * 70) / reach > least_ring)
+          .map(({ name, text }) =>
+            el(
+              'li',
+              {},
+              svg(
+                'svg',
+                { class: 'key', viewBox: '0 0 26 8', 'aria-hidden': 'true' },
+                svg('path', { class: `ring ring-${name}`, d: 'M0 4h26' }),
+              ),
+              text,
+            ),
+          ),
+      );
       draw();
     },
     // Does nothing during a drag.

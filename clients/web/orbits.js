@@ -219,7 +219,7 @@ export async function openOrbits() {
   async function show(answer, said) {
     const { column } = answer;
     const [x, y, z] = ['x', 'y', 'z'].map(column),
-      { horizon } = (await physics('kerr', { spin: answer.spin })).values;
+      radii = (await physics('kerr', { spin: answer.spin })).values;
     constants = { spin: answer.spin, ...answer.constants };
     samples = {
       t: column('t'),
@@ -231,7 +231,7 @@ export async function openOrbits() {
     shown = nameOf(answer);
     picture.show(
       samples.point,
-      horizon,
+      radii,
       answer.spin,
       t(`The orbit in space: ${shown}; ${word(answer.fate)}`, `L’orbita nello spazio: ${shown}; ${word(answer.fate)}`),
     );

@@ -6,6 +6,16 @@ import { physics } from './server.js';
 // past: points of a trail; up to `few` bodies have full trails, beyond `none` no body has one
 const turns = { past: 160, few: 400, none: 1500 };
 const least_px = 2.5;
+const sample = 400; // pieces of debris by which the view is chosen
+const ease = 0.12; // share of the way to the wanted reach, in one update
+// The glow round the hole: its radius in radii of the horizon, and its colours from the horizon outwards.
+const glows = 2.4;
+const glowing = [
+  [0, '#ffd9a0e0'],
+  [0.09, '#ffb35c70'],
+  [0.4, '#ff9d3c22'],
+  [1, '#ff9d3c00'],
+];
 const hot = { least: 1000, most: 30000, n: 117 }; // kelvin, range and number of the table of colours
 const style = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -14,6 +24,7 @@ export class Plane {
   cy = 0;
   scale = 4; // CSS pixels per M
   tilt = 0;
+  accompanies = null; // { least, most }: limits of the reach while the view follows bodies and debris by itself
   follows = null; // what stays in the middle: "all", "chosen", or null
   chosen = null; // id of the marked body
   aim = null; // { from: [x, y, z], to: [x, y, z], text, path, captured, armed }
@@ -71,6 +82,7 @@ export class Plane {
     const [w, h] = this.size;
     [this.cx, this.cy] = [x, y];
     this.scale = Math.max(Math.min(w, h), 50) / 2 / reach;
+    this.#tell();
     this.redraw();
   }
 
@@ -94,14 +106,39 @@ export class Plane {
     this.redraw();
   }
 
+  // Shows all bodies and nine tenths of the debris, at a reach that changes slowly.
+  accompany() {
+    if (!this.accompanies) return;
+    const { least, most } = this.accompanies,
+      far = this.all().map(({ x }) => Math.hypot(...x)),
+      { n = 0, words, f } = this.debris ?? {};
+    const some = Array.from({ length: Math.min(n, sample) }, (_, i) => {
+      const at = Math.floor((i * n) / Math.min(n, sample)) * words;
+      return Math.hypot(f[at], f[at + 1]);
+    }).sort((a, b) => a - b);
+    if (some.length) far.push(some[Math.floor(0.9 * some.length)]);
+    if (!far.length) return;
+    const reach = Math.min(Math.max(1.25 * Math.max(...far), least), most),
+      now = Math.max(Math.min(...this.size), 50) / 2 / this.scale;
+    this.fit([0, 0], now * (reach / now) ** ease);
+  }
+
   zoom(factor, px = this.size[0] / 2, py = this.size[1] / 2) {
     const at = this.place(px, py);
+    this.accompanies = null;
     this.scale = Math.min(Math.max(this.scale * factor, 1e-5), 2000);
     const now = this.place(px, py);
     this.pan(at[0] - now[0], at[1] - now[1]);
+    this.#tell();
+  }
+
+  // The distance from the middle to the nearer edge, in M.
+  #tell() {
+    this.#canvas.dataset.reach = (Math.max(Math.min(...this.size), 50) / 2 / this.scale).toPrecision(4);
   }
 
   pan(x, y) {
+    this.accompanies = null;
     this.cx += x;
     this.cy += y;
     this.redraw();
@@ -163,6 +200,7 @@ export class Plane {
     this.#trails = trails;
     const middle = this.follows === 'all' ? this.#middle() : this.follows === 'chosen' && this.body(this.chosen)?.x;
     if (middle) [this.cx, this.cy] = middle;
+    this.accompany();
     this.redraw();
   }
 
@@ -216,7 +254,14 @@ export class Plane {
   }
 
   #hole(c) {
-    const [x, y] = this.project([0, 0, 0]);
+    const [x, y] = this.project([0, 0, 0]),
+      black = Math.max(this.radii.horizon * this.scale, least_px),
+      glow = c.createRadialGradient(x, y, black, x, y, glows * black);
+    for (const [at, colour] of glowing) glow.addColorStop(at, colour);
+    c.beginPath();
+    c.arc(x, y, glows * black, 0, 2 * Math.PI);
+    c.fillStyle = glow;
+    c.fill();
     c.beginPath();
     c.arc(x, y, Math.max(this.radii.horizon * this.scale, least_px), 0, 2 * Math.PI);
     c.fillStyle = '#000';

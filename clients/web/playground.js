@@ -3,7 +3,7 @@ import { persistent } from './again.js';
 import { chirp } from './chirp.js';
 import { course } from './course.js';
 import { entitle } from './describe.js';
-import { byId, el, latest } from './dom.js';
+import { byId, el, latest, still } from './dom.js';
 import { foretold } from './foretold.js';
 import { hands } from './hands.js';
 import { eventList } from './happened.js';
@@ -23,7 +23,8 @@ import { thrown } from './thrown.js';
 
 const paces = { minimum: 0.1, maximum: 1e6, unit: 'M per second', default: 100 };
 const arrow_px = 90; // length of an arrow of the reference speed, as in hands.js
-const first = 'system'; // planets: they fill both pictures, go round for ever, and their answers are short
+const torn = ['white-dwarf', 'disruption']; // the view follows the star and its debris
+const first = 'white-dwarf'; // something happens at once: it is torn apart within three seconds
 const roomy = matchMedia('(min-width: 75rem)'); // wide enough for both pictures
 
 export async function openPlayground() {
@@ -151,7 +152,10 @@ export async function openPlayground() {
     const { middle, wide } = plane.around(given ? null : preset());
     part.middle.value = plane.follows ?? '';
     plane.fit(middle, 1.1 * wide);
-    if (!hand.aims.armed) hand.aim({ from: [middle[0] + 0.6 * wide, middle[1], 0], body: null });
+    const near = torn.includes(part.preset.value) && !still.matches;
+    plane.accompanies = near ? { least: 45, most: 3 * wide } : null;
+    const aside = near ? 40 : 0.6 * wide;
+    if (!hand.aims.armed) hand.aim({ from: [middle[0] + aside, middle[1], 0], body: null });
   }
 
   const form = thrown(part.body, known.body, {
@@ -175,8 +179,8 @@ export async function openPlayground() {
     (name, value) => ((hole = { ...hole, [name]: value }), (given = null), begin()),
   );
 
-  // By default the plan is shown and, for the first preset in a wide window, the lensed view too.
-  const usual = () => (part.preset.value === first && roomy.matches ? 'both' : 'plan');
+  // By default the plan is shown and, for the planets in a wide window, the lensed view too.
+  const usual = () => (part.preset.value === 'system' && roomy.matches ? 'both' : 'plan');
   const views = { plan: [true, false], lensed: [false, true], both: [true, true] };
   function show(name) {
     const [plan, light] = views[name] ?? views.plan;
@@ -287,6 +291,7 @@ export async function openPlayground() {
   });
   running.addEventListener('debris', ({ detail }) => {
     plane.debris = detail;
+    plane.accompany();
     part.canvas.dataset.debris = detail.n;
     plane.redraw();
   });

@@ -1,5 +1,5 @@
 // "Share": the address of the scene, with the preview that others see before they open it, and a poster.
-import { byId, el, svg } from './dom.js';
+import { byId, el } from './dom.js';
 import { describe } from './describe.js';
 import { t, tell } from './i18n.js';
 import { linkedTime } from './scene.js';
@@ -65,39 +65,18 @@ async function makeFilm(card, openTake) {
   inPanel(card, 'film-told', 'film-cancel');
 }
 
-const quiet = 4; // modules: the least white margin of a QR code (ISO/IEC 18004)
-
 // The QR code of an address, drawn when its box is first opened.
 function codeOf(url) {
   const box = el('details', { id: 'sending-code' }, el('summary', {}, t('QR code', 'Codice QR')));
   box.addEventListener(
     'toggle',
     async () => {
-      const say = text => box.append(el('p', { role: 'status' }, text));
-      const drawn = await import('./vendor/lean-qr/nano.mjs').catch(() => null);
-      if (!drawn) return say(t('The server does not answer', 'Il server non risponde'));
-      try {
-        const code = drawn.generate(url),
-          whole = code.size + 2 * quiet;
-        let path = '';
-        for (let y = 0; y < code.size; y++)
-          for (let x = 0; x < code.size; x++) if (code.get(x, y)) path += `M${x + quiet} ${y + quiet}h1v1h-1z`;
-        box.append(
-          svg(
-            'svg',
-            {
-              viewBox: `0 0 ${whole} ${whole}`,
-              role: 'img',
-              'aria-label': t('QR code of the link', 'Codice QR del collegamento'),
-              'shape-rendering': 'crispEdges',
-            },
-            svg('path', { d: `M0 0h${whole}v${whole}H0z`, fill: '#fff' }),
-            svg('path', { d: path, fill: '#000' }),
-          ),
-        );
-      } catch {
-        say(t('The link is too long for a code.', 'Il collegamento è troppo lungo per un codice.'));
-      }
+      const code = import('./code.js').catch(() => {
+        throw new Error(t('The server does not answer', 'Il server non risponde'));
+      });
+      box.append(
+        await code.then(({ drawCode }) => drawCode(url)).catch(({ message }) => el('p', { role: 'status' }, message)),
+      );
     },
     { once: true },
   );
@@ -150,6 +129,11 @@ function fill(card, shared, scene, openTake) {
         'button',
         { type: 'button', onclick: () => makeFilm(card, openTake) },
         t('Make a film, five seconds', 'Fai un film, cinque secondi'),
+      ),
+      el(
+        'button',
+        { type: 'button', onclick: () => (card.close(), document.dispatchEvent(new Event('lesson'))) },
+        t('Show it to a class', 'Mostralo a una classe'),
       ),
       done,
     ),

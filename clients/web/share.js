@@ -23,10 +23,11 @@ export function picked(scene, size) {
 
 const shell = text => `'${text.replaceAll("'", `'\\''`)}'`;
 
-// Whether a job was under way when the page was left (job.js). The browser may block the storage.
-function goesOn() {
+// Whether one of these was under way when the page was left: a job, a film (job.js), a lesson. The browser may block
+// the storage.
+export function goesOn(...keys) {
   try {
-    return ['job', 'film'].some(key => sessionStorage.getItem(key));
+    return keys.some(key => sessionStorage.getItem(key));
   } catch {
     return false;
   }
@@ -91,6 +92,6 @@ export function share(scene, size) {
     return save !== null;
   }
   group.addEventListener('toggle', () => group.open && loadSave());
-  if (group.open || goesOn()) loadSave();
+  if (group.open || goesOn('job', 'film')) loadSave();
   return show;
 }

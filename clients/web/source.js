@@ -25,6 +25,7 @@ const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 // rests(whether), where whether is true when the picture that is shown is the last one of the current scene: until the
 // server has answered a change, its pictures are of the scene before. Returns
 //   refresh()      to be called whenever the scene or the window has changed
+//   close()        ends the session; no other call may follow
 //   address()      of the session, or null
 //   strike(wrong)  strikes the hole, once the server has the current scene; wrong(sentence) is called on a refusal
 export function openSource(scene, size, shown, failed, rests) {
@@ -300,19 +301,25 @@ export function openSource(scene, size, shown, failed, rests) {
   }
   for (const gone of ['visibilitychange', 'viewchange']) document.addEventListener(gone, doze);
 
-  addEventListener('pagehide', () => {
+  function leave() {
     const left = session,
       owner = headers();
     session = null;
     polls.abort(); // else they would report that the session is gone
     polls = new AbortController();
     if (left) fetch(left.url, { method: 'DELETE', headers: owner, keepalive: true });
-  });
+  }
+  addEventListener('pagehide', leave);
   addEventListener('pageshow', event => {
     if (event.persisted) put();
   });
 
   return {
+    // Ends the session, for good.
+    close() {
+      clearTimeout(timer);
+      leave();
+    },
     refresh() {
       asked++;
       stirred_ms = performance.now();

@@ -163,8 +163,9 @@ export function handle(stage, scene) {
   // A tap: a finger or a button that goes down and up at one place.
   stage.addEventListener('pointerup', event => {
     if (!tapped || event.target.closest('button, a, input')) return;
-    const box = stage.getBoundingClientRect();
-    stage.dispatchEvent(new CustomEvent('tap', { detail: { x: tapped.x - box.left, y: tapped.y - box.top } }));
+    const box = stage.getBoundingClientRect(); // a second picture beside it (pair.js) has no taps
+    if (tapped.x < box.right && tapped.y < box.bottom)
+      stage.dispatchEvent(new CustomEvent('tap', { detail: { x: tapped.x - box.left, y: tapped.y - box.top } }));
     tapped = null;
   });
 

@@ -16,6 +16,7 @@
 #include "server/http/request.h"
 #include "server/http/service.h"
 #include "server/job/jobs.h"
+#include "server/lesson/lesson.h"
 #include "server/openapi/cached_documents.h"
 #include "server/playground/sessions.h"
 #include "server/render/queue.h"
@@ -253,6 +254,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(kd_scheduler_create(tasks, share_of(params, tasks), &server->rays, error));
     KD_TRY(kd_scheduler_create(tasks, share_of(params, tasks), &server->scheduler, error));
     KD_TRY(start_sessions(server, params, error));
+    if (!(server->lessons = kd_lessons_create(share_of(params, KD_LESSONS))))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
     KD_TRY(start_plays(server, params, error));
     KD_TRY(start_jobs(server, params, error));
     /* opened after the jobs, because they lock the folder; before kd_jobs_begin, because jobs may use assets */
@@ -337,6 +340,7 @@ void kd_server_destroy(struct kd_server *server)
     kd_thumbnails_destroy(server->thumbnails);
     kd_render_queue_destroy(server->renders);
     kd_sessions_destroy(server->sessions); /* destroyed after the queue, whose last frames refer to sessions */
+    kd_lessons_destroy(server->lessons);
     kd_jobs_destroy(server->jobs);
     kd_asset_store_close(server->assets);
     kd_connections_destroy(server->connections);

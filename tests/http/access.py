@@ -15,6 +15,7 @@ VIEW, RENDER = "view-0123456789abcdef", "render-0123456789abc="
 LINES = f"# who may use it\n\nann view {VIEW}\n  bob\trender {RENDER} # a comment\r\n"
 SCENE = {"image": {"width": 32, "height": 18}}
 ORBIT = {"orbit": {"case": "isco"}, "samples": 2, "duration": {"periods": 1}}
+ID, HASH = "0123456789abcdef", 64 * "a"
 QUESTIONS = {
     "/v1/plan": SCENE,
     "/v1/share": SCENE,
@@ -28,8 +29,8 @@ QUESTIONS = {
     "/v1/visibility": {"scene": SCENE},
     "/v1/compare": {"scene": SCENE, "observation": 64 * "0"},
     "/v1/observe": {"scene": SCENE, "observation": 64 * "0"},
+    f"/v1/lessons/{ID}/hands": {"pupil": ID},
 }
-ID, HASH = "0123456789abcdef", 64 * "a"
 CHANGES = [
     ("POST", "/v1/sessions"),
     ("PATCH", f"/v1/sessions/{ID}"),
@@ -38,6 +39,9 @@ CHANGES = [
     ("POST", f"/v1/sessions/{ID}/path"),
     ("DELETE", f"/v1/sessions/{ID}/path"),
     ("PATCH", f"/v1/sessions/{ID}/frame"),
+    ("POST", "/v1/lessons"),
+    ("PATCH", f"/v1/lessons/{ID}"),
+    ("DELETE", f"/v1/lessons/{ID}"),
     ("POST", "/v1/playground"),
     ("PATCH", f"/v1/playground/{ID}"),
     ("DELETE", f"/v1/playground/{ID}"),
@@ -160,10 +164,10 @@ class Roles(Access):
             for path, body in QUESTIONS.items():
                 with self.subTest(path):
                     answer = self.ask("POST", path, body, own(token))
-                    # the assets that its request names do not exist here, so that it is refused after access was
-                    # granted
-                    known = path not in ("/v1/compare", "/v1/observe")
-                    self.assertEqual(answer.status, 200 if known else 422, answer.body)
+                    # the asset and the lesson that these name do not exist here, so that they are refused after
+                    # access was granted
+                    absent = {"/v1/compare": 422, "/v1/observe": 422, f"/v1/lessons/{ID}/hands": 404}
+                    self.assertEqual(answer.status, absent.get(path, 200), answer.body)
 
     def test_what_stays_takes_the_role(self):
         for method, target in CHANGES:

@@ -246,6 +246,20 @@ class Answers(daemon.Case):
         self.assertLessEqual({"path", "clock"}, path.keys())
         self.assertEqual(self.daemon.request("DELETE", at, headers=owner).status, 204)
 
+    def test_a_lesson(self):
+        session = self.send("POST", "/v1/sessions", "/v1/sessions", {"image": IMAGE})
+        one = self.send("POST", "/v1/lessons", "/v1/lessons", {"session": session["id"]})
+        owner = {"Authorization": "Bearer " + one["token"]}
+        at, question = "/v1/lessons/" + one["id"], {"text": "Wider?", "choices": ["yes", "no"], "right": 0}
+        self.get("/v1/lessons/{id}", at)
+        hand = {"pupil": "0123456789abcdef", "name": "Ada", "question": 1, "choice": 1}
+        self.send("PATCH", "/v1/lessons/{id}", at, {"question": question}, **owner)
+        self.assertNotIn("tally", self.send("POST", "/v1/lessons/{id}/hands", at + "/hands", hand)["question"])
+        told = self.send("PATCH", "/v1/lessons/{id}", at, {"open": False}, **owner)
+        self.assertEqual((told["hands"], told["question"]["tally"]), ([{"name": "Ada", "choice": 1}], [0, 1]))
+        self.get("/v1/lessons/{id}", at)
+        self.assertEqual(self.daemon.request("DELETE", at, headers=owner).status, 204)
+
     def test_a_job(self):
         for document in (
             {"scene": {"image": IMAGE}},

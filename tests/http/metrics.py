@@ -83,6 +83,7 @@ class Metrics(daemon.Case):
             "/web/vendor/lean-qr/{name}",
             "/story",
             "/storia",
+            "/lesson",
         }
         self.assertLessEqual({s.labels["route"] for s in one.samples}, routes)
         self.assertLessEqual({s.labels["status"] for s in one.samples}, {"none", "2xx", "3xx", "4xx", "5xx"})

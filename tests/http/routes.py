@@ -23,6 +23,7 @@ GETS = {
     "/web/vendor/lean-qr/nano.mjs": "text/javascript; charset=utf-8",
     "/story": "text/html; charset=utf-8",
     "/storia": "text/html; charset=utf-8",
+    "/lesson": "text/html; charset=utf-8",
     "/web/style.css": "text/css; charset=utf-8",
     "/web/stills/first.jpg": "image/jpeg",
     "/web/icon.svg": "image/svg+xml",

@@ -72,7 +72,7 @@ FOLDERS = {
         "live",
         "selftest",
     ],
-    "server": ["http", "asset", "render", "session", "playground", "job", "openapi", "answers"],
+    "server": ["http", "asset", "render", "session", "lesson", "playground", "job", "openapi", "answers"],
 }
 # Inside physics, a folder may include itself and the listed ones; every file is in a folder.
 ROOMS = {

@@ -1,5 +1,6 @@
 """Tests of the view of orbits: orbits.py KERRD FOLDER (browser.py)."""
 
+import math
 import re
 
 from browser import READY, SMOOTH, Browser, main, value
@@ -93,7 +94,7 @@ class Orbits(Browser):
             (page.inner_text("#orbit-fault"), page.title()),
             ("", "Orbits: a = 0.9 M, p = 8 M, e = 0.5, inclination 30° – kerrd"),
         )
-        self.assertIn("p = 8 M", page.get_attribute("#orbit-picture svg", "aria-label"))
+        self.assertIn("p = 8 M", page.get_attribute("#orbit-picture .rosette", "aria-label"))
 
     def test_within_the_separatrix_the_rosette_becomes_a_plunge(self):
         page = self.open("lang=en&view=orbits", "#orbit-picture .front")
@@ -120,7 +121,7 @@ class Orbits(Browser):
             "#orbit-picture .body[cx]",
             reduced_motion="reduce",
         )
-        box = page.locator("#orbit-picture svg").bounding_box()
+        box = page.locator("#orbit-picture .rosette").bounding_box()
         unit = box["width"] / 200
 
         def drag(there):
@@ -159,7 +160,7 @@ class Orbits(Browser):
         """The body is dragged through the hole and beyond the picture, and thrown into the hole, past the separatrix
         and away. The console has no errors, and each answer is drawn."""
         page = self.open("lang=en&view=orbits", "#orbit-picture .body[cx]", reduced_motion="reduce")
-        box = page.locator("#orbit-picture svg").bounding_box()
+        box = page.locator("#orbit-picture .rosette").bounding_box()
         middle = (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
         unit = box["width"] / 200
 
@@ -302,6 +303,26 @@ class Orbits(Browser):
         for key, more in (("ArrowRight", 0.1), ("ArrowUp", 0.2), ("ArrowLeft", 0.1)):
             slider.press(key)
             self.assertAlmostEqual(float(page.input_value("#in-orbit-p")), before + more, delta=1e-9, msg=key)
+
+    def test_the_hole_has_its_circles_and_a_scale(self):
+        page = self.open("lang=en&view=orbits&orbit.spin=0.9", "#orbit-picture .front")
+        kerr = self.physics("kerr", spin=0.9)
+        bar = page.locator("#orbit-picture .scale")
+        self.assertEqual(page.locator("#orbit-picture .rosette text").inner_html(), "5 M")
+        per_m = bar.evaluate("path => path.getBBox().width") / 5
+        self.assertEqual(
+            page.locator(".circles li").all_inner_texts(),
+            ["light in circles", "light against the spin", "last stable orbit"],
+        )
+        for name, r in (("photons", "photon_prograde"), ("against", "photon_retrograde"), ("isco", "isco")):
+            halves = page.locator(f"#orbit-picture .rosette .ring-{name}")
+            self.assertEqual(halves.count(), 2)
+            wide = halves.first.evaluate("path => path.getBBox().width")
+            self.assertAlmostEqual(wide / 2 / per_m, math.hypot(kerr[r], 0.9), delta=0.02)
+        black = page.locator("#orbit-picture .hole").evaluate("circle => circle.r.baseVal.value")
+        self.assertAlmostEqual(black / per_m, kerr["horizon"], delta=0.02)
+        page = self.open("lang=it&view=orbits&orbit.spin=0", "#orbit-picture .front")
+        self.assertEqual(page.locator(".circles li").all_inner_texts(), ["luce in cerchio", "ultima orbita stabile"])
 
     def test_reduced_motion(self):
         page = self.open("lang=en&view=orbits", "#orbit-picture .body[cx]", reduced_motion="reduce")

@@ -366,6 +366,53 @@ class Playground(Browser):
             self.assertEqual([name for name, text in zip(names, told) if len(text) < 60], [])
             self.assertIn(page.inner_text("#play-words"), told)
 
+    def test_at_first_a_star_is_torn(self):
+        """The view follows the star and its debris, until somebody moves it."""
+        page = self.open_play("lang=en")
+        self.assertEqual(page.input_value("#play-preset"), "white-dwarf")
+        page.wait_for_selector("#play-events >> text=The tide has torn white dwarf apart")
+        page.wait_for_selector('#play-plane[data-debris]:not([data-debris="0"])')
+        reach = lambda: float(page.get_attribute("#play-plane", "data-reach"))
+        near = reach()
+        self.assertTrue(daemon.eventually(lambda: reach() > 1.5 * near))
+        self.shot(page, "playground-torn")
+        page.click("#play-nearer")
+        by_hand = reach()
+        page.wait_for_timeout(1500)
+        self.assertEqual(reach(), by_hand)
+
+    def test_the_view_stays_where_motion_is_reduced(self):
+        page = self.open_play("lang=en", reduced_motion="reduce")
+        before = page.get_attribute("#play-plane", "data-reach")
+        page.wait_for_selector('#play-plane[data-debris]:not([data-debris="0"])')
+        self.assertEqual(page.get_attribute("#play-plane", "data-reach"), before)
+
+    def test_a_picture_that_takes_long_says_so(self):
+        context, held = self.context(viewport={"width": 1200, "height": 900}), []
+        passing = [1]  # how many requests go through at once
+
+        def hold(route):
+            if passing[0]:
+                passing[0] -= 1
+                return route.continue_()
+            held.append(route)
+
+        context.route("**/frame.png*", hold)
+        page = self.page(context)
+        page.goto(self.base + "#lang=en&view=playground&play.preset=system&play.paused=1&play.show=both")
+        page.wait_for_selector("#play-lensed img[src]")
+        self.assertFalse(page.is_visible("#play-lensed .drawing"))
+        page.focus("#play-lensed")
+        page.keyboard.press("ArrowUp")
+        page.wait_for_selector("#play-lensed .drawing:visible")
+        self.assertEqual(page.inner_text("#play-lensed .drawing"), "Drawing …")
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or held))
+        self.shot(page, "playground-drawing")
+        passing[0] = 1000
+        for route in held:
+            route.continue_()
+        page.wait_for_selector("#play-lensed .drawing", state="hidden")
+
     def test_as_light_shows_it(self):
         context, held = self.context(viewport={"width": 1200, "height": 900}), []
         context.route("**/frame.png*", lambda route: held.append(route) if held is not None else route.continue_())

@@ -62,15 +62,17 @@ static const char *file_of(const struct kd_request *request)
 {
     static const struct {
         const char *path, *file;
-    } pages[] = { { "/", "index.html" }, { "/story", "story.html" }, { "/storia", "story-it.html" } };
+    } pages[] = {
+        { "/", "index.html" }, { "/story", "story.html" }, { "/storia", "story-it.html" }, { "/lesson", "lesson.html" }
+    };
     for (size_t i = 0; i < sizeof pages / sizeof *pages; i++)
         if (!strcmp(request->route->path, pages[i].path))
             return pages[i].file;
     return request->target.path + strlen("/web/");
 }
 
-/* Handles "/", "/story", "/storia" and files below "/web/". The files are small and may change with the next version,
- * so browsers revalidate them each time. */
+/* Handles "/", "/story", "/storia", "/lesson" and files below "/web/". The files are small and may change with the next
+ * version, so browsers revalidate them each time. */
 enum MHD_Result kd_handle_page(struct kd_request *request)
 {
     if (!*request->target.path)

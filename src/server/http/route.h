@@ -31,6 +31,8 @@ enum kd_takes {
     KD_TAKES_INTEGRAL, /* the integral that the path names */
     KD_TAKES_JOB,
     KD_TAKES_ASSET,
+    KD_TAKES_LESSON, /* a lesson, or changes of one */
+    KD_TAKES_HAND,   /* an answer of a pupil */
     KD_TAKES_STRIKE, /* a ringdown in the body, or no body */
     KD_TAKES_PATH,
     KD_TAKES_PARTICLES,  /* selection of particles and quantities, in the query */
@@ -126,6 +128,9 @@ enum MHD_Result kd_handle_session_frame(struct kd_request *request);     /* sess
 enum MHD_Result kd_handle_session_picture(struct kd_request *request);
 enum MHD_Result kd_handle_session_frames(struct kd_request *request);
 enum MHD_Result kd_handle_session_events(struct kd_request *request);
+enum MHD_Result kd_handle_lessons(struct kd_request *request); /* lesson/routes.c */
+enum MHD_Result kd_handle_lesson(struct kd_request *request);
+enum MHD_Result kd_handle_lesson_hands(struct kd_request *request);
 enum MHD_Result kd_handle_playgrounds(struct kd_request *request); /* playground/routes.c */
 enum MHD_Result kd_handle_play(struct kd_request *request);
 enum MHD_Result kd_handle_play_step(struct kd_request *request);

@@ -58,6 +58,7 @@ struct kd_auth_throttle;
 struct kd_asset_store;
 struct kd_jobs;
 struct kd_cached_documents;
+struct kd_lessons;
 struct kd_measures;
 struct kd_playground_sessions;
 struct kd_render_queue;
@@ -81,6 +82,7 @@ struct kd_server {
     struct kd_scheduler *scheduler; /* scheduler of orbits, long quantities, paths of sessions, checks of jobs */
     struct kd_quota (*quota)(const struct kd_server *server, const char *client); /* NULL: no limit of device time */
     struct kd_sessions *sessions;
+    struct kd_lessons *lessons; /* HTTP thread only */
     struct kd_playground_sessions *playgrounds;
     struct kd_jobs *jobs;
     struct kd_job_whole *cubes; /* cubes being downloaded (job/archive.c); HTTP thread only */

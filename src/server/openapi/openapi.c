@@ -8,6 +8,7 @@
 #include "server/openapi/headers.h"
 #include "server/openapi/integrals.h"
 #include "server/openapi/jobs.h"
+#include "server/openapi/lessons.h"
 #include "server/openapi/media.h"
 #include "server/openapi/orbits.h"
 #include "server/openapi/physics.h"
@@ -275,6 +276,11 @@ static void add_body(struct kd_json *json, const struct kd_route *route, unsigne
     case KD_TAKES_INTEGRAL: kd_openapi_integral_body(json, route->path); break;
     case KD_TAKES_JOB: kd_openapi_jobs_body(json); break;
     case KD_TAKES_PLAN: kd_openapi_plan_body(json); break;
+    case KD_TAKES_LESSON:
+        if (method == KD_POST || method == KD_PATCH)
+            kd_openapi_lesson_body(json, method == KD_PATCH);
+        break;
+    case KD_TAKES_HAND: kd_openapi_hand_body(json); break;
     case KD_TAKES_STRIKE: kd_openapi_strike_body(json); break;
     case KD_TAKES_PLAYGROUND:
         if (method == KD_POST || method == KD_PATCH)
@@ -325,6 +331,7 @@ static void add_components(struct kd_json *json, const cJSON *fields, const stru
     kd_openapi_pixel_schemas(json);
     kd_openapi_share_schemas(json);
     kd_openapi_session_schemas(json);
+    kd_openapi_lesson_schema(json);
     kd_openapi_job_schema(json);
     kd_openapi_problem_schema(json);
     kd_json_end(json);

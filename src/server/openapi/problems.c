@@ -54,7 +54,7 @@ static bool may_come_too_early(const struct kd_route *route, unsigned method)
 {
     static const char *const paths[] = { "/v1/jobs/{id}/result", "/v1/jobs/{id}/preview.png", NULL };
     return (method == KD_POST && route->once) || route->takes == KD_TAKES_PARTICLES ||
-           route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_STEP ||
+           route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_STEP || route->takes == KD_TAKES_HAND ||
            (route->takes == KD_TAKES_PLAYGROUND && method == KD_PATCH) || is_one_of(route, paths);
 }
 
@@ -71,7 +71,8 @@ static bool checks_what_it_is_given(const struct kd_route *route, unsigned metho
         NULL,
     };
     if (method == KD_DELETE)
-        return !strcmp(route->path, "/v1/sessions/{id}"); /* the query of its operations may only hold a token */
+        return !strcmp(route->path, "/v1/sessions/{id}") ||
+               route->takes == KD_TAKES_LESSON; /* the query of its operations may only hold a token */
     return has_body(route, method) || route->takes != KD_TAKES_NOTHING || is_one_of(route, strict);
 }
 

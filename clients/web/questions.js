@@ -1,0 +1,68 @@
+// Questions that a teacher can ask a class as they are: each asks for a prediction. `right` is the right choice;
+// `shows`, the changes of the scene that let the class see it.
+import { t } from './i18n.js';
+
+export const questions = [
+  {
+    text: t(
+      'The hole is made to spin almost as fast as it can. What does its black disk do?',
+      'Il buco viene fatto ruotare quasi al massimo. Che cosa fa il suo disco nero?',
+    ),
+    choices: [
+      t('It grows to twice its width', 'Diventa largo il doppio'),
+      t('It stays almost as wide, and one side flattens', 'Resta quasi uguale, e un lato si appiattisce'),
+      t('Nothing at all', 'Non cambia affatto'),
+    ],
+    right: 1,
+    shows: { 'spacetime.spin': 0.998 },
+  },
+  {
+    text: t(
+      'We look almost along the plane of the gas. What do we see of the gas behind the hole?',
+      'Guardiamo quasi lungo il piano del gas. Che cosa vediamo del gas dietro il buco?',
+    ),
+    choices: [
+      t('Nothing: the hole hides it', 'Niente: il buco lo nasconde'),
+      t('An arc above the black disk', 'Un arco sopra il disco nero'),
+      t('Two spots beside it', 'Due macchie ai lati'),
+    ],
+    right: 1,
+    shows: { 'camera.inclination_deg': 86 },
+  },
+  {
+    text: t(
+      'How wide is the black disk that we see, compared with the horizon of the hole?',
+      'Quanto è largo il disco nero che vediamo, rispetto all’orizzonte del buco?',
+    ),
+    choices: [
+      t('Just as wide', 'Uguale'),
+      t('One and a half times', 'Una volta e mezza'),
+      t('More than twice', 'Più del doppio'),
+    ],
+    right: 2,
+  },
+  {
+    text: t(
+      'Gas comes towards us at half the speed of light. How does its light look?',
+      'Il gas ci viene incontro a metà della velocità della luce. Come appare la sua luce?',
+    ),
+    choices: [
+      t('Brighter and bluer', 'Più luminosa e più blu'),
+      t('Fainter and redder', 'Più debole e più rossa'),
+      t('As if the gas stood still', 'Come se il gas fosse fermo'),
+    ],
+    right: 0,
+  },
+  {
+    text: t(
+      'Somebody falls through the horizon. What does the watch on their wrist do there?',
+      'Qualcuno cade attraverso l’orizzonte. Che cosa fa lì il suo orologio da polso?',
+    ),
+    choices: [
+      t('It stops', 'Si ferma'),
+      t('It ticks on as always', 'Va avanti come sempre'),
+      t('It runs backwards', 'Va all’indietro'),
+    ],
+    right: 1,
+  },
+];

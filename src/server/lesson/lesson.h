@@ -1,0 +1,96 @@
+/* a lesson: pupils follow the session of a teacher, answer the teacher's questions, and are counted. a lesson holds the
+ * id of the session, and not the session itself, so that it continues when the teacher opens another session. It is
+ * kept in memory only, and ends with the teacher's request or after a while without one. HTTP thread only. */
+#ifndef KD_SERVER_LESSON_LESSON_H
+#define KD_SERVER_LESSON_LESSON_H
+
+#include "base/json.h"
+#include "server/http/secret.h"
+#include "server/http/shares.h"
+
+#define KD_LESSONS 16u          /* limit of lessons */
+#define KD_LESSON_IDLE_S 600u   /* a lesson ends after this time without a request of its teacher */
+#define KD_LESSON_PUPILS 64u    /* limit of pupils of one lesson */
+#define KD_LESSON_PRESENT_S 20u /* a pupil counts as present for this time after a request */
+#define KD_LESSON_CHOICES 6u    /* most choices of a question; it has at least two */
+/* Limits of texts, in bytes of UTF-8. */
+#define KD_LESSON_LINK 8000u
+#define KD_LESSON_ABOUT 1000u
+#define KD_LESSON_TEXT 600u
+#define KD_LESSON_CHOICE 200u
+#define KD_LESSON_NAME 80u
+
+struct kd_question {
+    unsigned number; /* counts the questions of this lesson; 0: nothing has been asked */
+    bool shown;      /* false: the question was withdrawn */
+    bool open;       /* answers are accepted; when it closes, pupils see the tally and the right choice */
+    char text[KD_LESSON_TEXT + 1];
+    unsigned n_choices;
+    char choices[KD_LESSON_CHOICES][KD_LESSON_CHOICE + 1];
+    int right; /* index of the right choice; -1: none is marked */
+};
+
+struct kd_pupil {
+    char key[KD_SECRET_ID]; /* made by the pupil's page; "": the place is free */
+    char name[KD_LESSON_NAME + 1];
+    double seen_ms;
+    unsigned answered; /* number of the question that `choice` answers; 0: none */
+    unsigned choice;
+};
+
+struct kd_lesson {
+    char id[KD_SECRET_ID], token[KD_SECRET_TOKEN], client[KD_CLIENT];
+    double used_ms; /* time of the teacher's last request */
+    char session[KD_SECRET_ID];
+    char link[KD_LESSON_LINK + 1];   /* what follows # in the teacher's address */
+    char about[KD_LESSON_ABOUT + 1]; /* description of the picture */
+    struct kd_question question;
+    struct kd_pupil pupils[KD_LESSON_PUPILS];
+};
+
+struct kd_lessons;
+
+/* client_limit: limit of the lessons of one client. Returns NULL when out of memory. */
+struct kd_lessons *kd_lessons_create(unsigned client_limit);
+void kd_lessons_destroy(struct kd_lessons *all); /* accepts NULL */
+
+/* Opens a lesson. Returns KD_EBUSY at a limit; *quota is true if that is the limit of one client. The lesson belongs to
+ * `all`; the pointer is valid until the next call of a function here. */
+enum kd_status kd_lesson_open(struct kd_lessons *all, const char *client, bool *quota, struct kd_lesson **out,
+                              struct kd_error *error);
+/* Finds a lesson; NULL: there is none, or it has ended. */
+struct kd_lesson *kd_lesson_find(struct kd_lessons *all, const char *id);
+void kd_lesson_end(struct kd_lessons *all, struct kd_lesson *one);
+
+/* Finds or adds the pupil of this key, and marks it as present. If all places are taken, the pupil that has been away
+ * for longest is replaced. Returns NULL if all are present. */
+struct kd_pupil *kd_lesson_pupil(struct kd_lesson *one, const char *key);
+
+/* Writes the lesson as JSON. teacher: with who chose what, and with the tally while the question is open. pupil: the
+ * one that asks, whose own choice is written; NULL: none. token: with the teacher's token. */
+struct kd_lesson_view {
+    bool teacher, token;
+    const struct kd_pupil *pupil;
+};
+enum kd_status kd_lesson_to_json(const struct kd_lesson *one, const struct kd_lesson_view *view, struct kd_buffer *out);
+
+/* A change of a lesson by its teacher. A member that is absent in the document is NULL or false. */
+struct kd_lesson_change {
+    const char *session, *link, *about; /* point into the document */
+    bool asks, withdraws;               /* question, or question null */
+    struct kd_question question;
+    bool moves, open; /* moves: "open" is given */
+};
+/* An answer of a pupil. */
+struct kd_hand {
+    const char *pupil, *name; /* name NULL: not given */
+    bool answers;
+    unsigned question, choice;
+};
+struct cJSON;
+enum kd_status kd_lesson_read_change(const struct cJSON *tree, struct kd_lesson_change *out, struct kd_error *error);
+/* Returns KD_EBUSY if the question is not open any more, or is another one. */
+enum kd_status kd_lesson_read_hand(const struct cJSON *tree, struct kd_hand *out, struct kd_error *error);
+void kd_lesson_apply(struct kd_lesson *one, const struct kd_lesson_change *change);
+
+#endif

@@ -1,0 +1,12 @@
+/* /v1/lessons in openapi.json. */
+#ifndef KD_SERVER_OPENAPI_CLASSES_H
+#define KD_SERVER_OPENAPI_CLASSES_H
+
+#include "base/json.h"
+
+/* Writes Class and its parts, members of components.schemas. */
+void kd_openapi_lesson_schema(struct kd_json *json);
+void kd_openapi_lesson_body(struct kd_json *json, bool patch);
+void kd_openapi_hand_body(struct kd_json *json);
+
+#endif

@@ -1,0 +1,208 @@
+"""Tests of a lesson: the teacher's panel, the page of a pupil, and the pupil's own copy: lesson.py KERRD FOLDER
+(browser.py)."""
+
+import re
+
+from browser import AT_REST, Browser, main
+
+import daemon
+
+SPIN_TO = "[id=lead-spin]"
+
+
+class Lesson(Browser):
+    def teach(self, fragment="lang=en&preset=smooth&pause=1", **options):
+        page = self.open(fragment, **options)
+        page.click("#send")
+        page.get_by_role("button", name=re.compile("Show it to a class|Mostralo a una classe")).click()
+        page.wait_for_selector("#lesson-invite input")
+        return page
+
+    def link(self, page):
+        return page.input_value("#lesson-invite input")
+
+    def follow(self, link, locale="en-US", **options):
+        options.setdefault("viewport", {"width": 390, "height": 780})
+        page = self.page(self.context(locale=locale, **options))
+        page.goto(link)
+        page.wait_for_selector("#stage:has(> #told[hidden]) > #picture[src]")
+        return page
+
+    def picture(self, page):
+        """A hash of the picture that a pupil sees."""
+        return page.evaluate("""() => {
+            const image = document.querySelector('#picture');
+            const canvas = new OffscreenCanvas(image.naturalWidth, image.naturalHeight), context = canvas.getContext('2d');
+            context.drawImage(image, 0, 0);
+            return context.getImageData(0, 0, canvas.width, canvas.height).data.reduce((h, x) => (h * 31 + x) % 1000003, 7);
+        }""")
+
+    def test_pupils_see_what_the_teacher_moves(self):
+        teacher = self.teach()
+        self.there(teacher, "0 pupils follow.", "#lesson-count")
+        pupil = self.follow(self.link(teacher))
+        self.there(teacher, "1 pupil follows.", "#lesson-count")
+        before = self.picture(pupil)
+        self.drag(teacher, 0, -120)
+        self.assertTrue(daemon.eventually(lambda: self.picture(pupil) != before))
+        tilt = teacher.evaluate("document.querySelector('#stage').getAttribute('aria-label')").split(" ")[-1]
+        self.there(pupil, tilt, "#about")
+        self.assertEqual(pupil.get_attribute("#picture", "alt"), pupil.inner_text("#about"))
+        self.shot(pupil, "lesson-pupil")
+
+    def test_a_prediction(self):
+        teacher = self.teach()
+        pupils = [self.follow(self.link(teacher)) for _ in range(2)]
+        for pupil, name in zip(pupils, ("Ada", "Émilie")):
+            pupil.fill("#name", name)
+            pupil.keyboard.press("Tab")
+        teacher.get_by_role("button", name="Ask the class").click()
+        for pupil in pupils:
+            pupil.wait_for_selector("#choices button")
+        self.assertEqual(pupils[0].evaluate("document.activeElement.id"), "asked")
+        pupils[0].get_by_role("button", name="It grows to twice its width").click()
+        self.there(pupils[0], "You predicted: It grows to twice its width. You can change it.", "#answer")
+        pupils[1].get_by_role("button", name="It stays almost as wide").click()
+        self.there(teacher, "2 of 2 have answered.", "#lesson-answered")
+        teacher.click("#lesson details summary")
+        self.there(teacher, "Ada: It grows to twice its width", "#lesson-who")
+        self.there(teacher, "Émilie: It stays almost as wide, and one side flattens", "#lesson-who")
+        self.assertEqual(pupils[0].locator("[data-right]").count(), 0, "the answer is not shown yet")
+        self.shot(teacher, "lesson-open")
+        self.shot(pupils[0], "lesson-asked")
+        teacher.get_by_role("button", name="Close, and show the tally").click()
+        self.there(pupils[0], "Right is: It stays almost as wide, and one side flattens.", "#answer")
+        self.assertTrue(pupils[0].locator("#choices button").first.is_disabled())
+        self.shot(pupils[0], "lesson-closed")
+        teacher.get_by_role("button", name="Show it in the picture").click()
+        self.assertTrue(daemon.eventually(lambda: "spin 0.998" in pupils[0].inner_text("#about")))
+        self.shot(teacher, "lesson-closed-teacher")
+        teacher.get_by_role("button", name="Another question").click()
+        teacher.wait_for_selector("#lesson-ready")
+        pupils[0].wait_for_selector("#question", state="hidden")
+
+    def test_an_own_question_by_keys(self):
+        teacher = self.teach("lang=it&preset=smooth&pause=1")
+        pupil = self.follow(self.link(teacher), locale="it-IT")
+        self.assertEqual(pupil.inner_text("h1"), "L’immagine dell’insegnante")
+        teacher.select_option("#lesson-ready", "")
+        teacher.focus("#lesson-text")
+        teacher.keyboard.type("Quanto fa due più due?")
+        teacher.keyboard.press("Tab")
+        teacher.keyboard.type("tre\n*quattro")
+        teacher.keyboard.press("Tab")
+        teacher.keyboard.press("Enter")
+        pupil.wait_for_selector("#choices button")
+        self.assertEqual(pupil.locator("#choices button").all_inner_texts(), ["tre", "quattro"])
+        pupil.keyboard.press("Tab")
+        pupil.keyboard.press("Tab")
+        pupil.keyboard.press("Enter")
+        self.there(pupil, "Hai previsto: quattro. Puoi cambiarlo.", "#answer")
+        self.there(teacher, "Hanno risposto 1 su 1.", "#lesson-answered")
+        teacher.get_by_role("button", name="Chiudi, e mostra i voti").click()
+        self.there(teacher, "1 – giusta", "#lesson-tally")
+        self.there(pupil, "È giusto: quattro.", "#answer")
+        self.shot(teacher, "lesson-it")
+
+    def test_a_question_that_is_refused(self):
+        self.expected = "422"
+        teacher = self.teach()
+        teacher.select_option("#lesson-ready", "")
+        teacher.fill("#lesson-text", "One answer?")
+        teacher.fill("#lesson-choices", "yes")
+        teacher.get_by_role("button", name="Ask the class").click()
+        self.there(teacher, "it must be a list of 2 to 6 choices", "#lesson .fault")
+
+    def test_a_copy_and_the_way_back(self):
+        teacher = self.teach("lang=en&preset=gargantua&pause=1&spacetime.spin=0.5")
+        link = self.link(teacher)
+        pupil = self.follow(link, viewport={"width": 1000, "height": 700})
+        pupil.click("#copy")
+        pupil.wait_for_selector(AT_REST)
+        self.assertEqual(self.field(pupil, "spacetime.spin"), "0.5")
+        self.assertEqual(pupil.inner_text("#link-fault"), "")
+        self.shot(pupil, "lesson-copy")
+        self.drag(pupil, 100, 0)
+        self.assertIn("spacetime.spin=0.5", teacher.url, "the teacher's picture stays")
+        pupil.get_by_role("link", name="← Back to the class").click()
+        pupil.wait_for_url(link)
+        pupil.wait_for_selector("#copy:visible")
+        self.there(teacher, "1 pupil follows.", "#lesson-count")
+
+    def test_the_lesson_goes_on_after_a_reload(self):
+        teacher = self.teach()
+        link = self.link(teacher)
+        pupil = self.follow(link)
+        teacher.reload()
+        teacher.wait_for_selector(AT_REST)
+        teacher.wait_for_selector("#lesson-invite input")
+        self.assertEqual(self.link(teacher), link)
+        before = self.picture(pupil)
+        self.drag(teacher, 0, 120)
+        self.assertTrue(daemon.eventually(lambda: self.picture(pupil) != before))
+        self.expected = "404"  # the session before, and the lesson that has ended
+        teacher.get_by_role("button", name="End", exact=True).click()
+        self.there(pupil, "The class has ended.", "#told")
+        self.assertEqual(teacher.locator("#lesson").count(), 0)
+        teacher.reload()
+        teacher.wait_for_selector(AT_REST)
+        self.assertEqual(teacher.locator("#lesson").count(), 0)
+
+    def test_the_code_is_shown_large(self):
+        teacher = self.teach()
+        teacher.get_by_role("button", name="QR code, large").click()
+        code = teacher.get_by_role("img", name="QR code of the link")
+        code.wait_for()
+        self.shot(teacher, "lesson-code")
+        self.assertGreater(code.bounding_box()["width"], 300)
+        self.assertIn(self.link(teacher), teacher.inner_text("#lesson-large"))
+        teacher.keyboard.press("Escape")
+        teacher.wait_for_selector("#lesson-large", state="detached")
+        self.there(teacher, "This address is this computer’s own.", "#lesson-invite")
+
+    def test_a_pupils_page_is_small(self):
+        teacher = self.teach()
+        self.requests.clear()
+        self.follow(self.link(teacher))
+        own = {request.url.removeprefix(self.base) for request in self.requests if "/web/" in request.url}
+        self.assertLessEqual(own, {"web/pupil.js", "web/lesson.css", "web/icon.svg"})
+
+    def test_a_link_to_nothing(self):
+        self.expected = "404"
+        page = self.page(self.context(locale="en-US"))
+        page.goto(self.base + "lesson")
+        self.there(page, "This link names no class.", "#told")
+        page.goto(self.base + "lesson#0123456789abcdef")
+        page.reload()
+        self.there(page, "The class has ended.", "#told")
+
+    def test_axe(self):
+        try:
+            from axe_playwright_python.sync_playwright import Axe
+        except ImportError:
+            self.skipTest("axe-playwright-python is not installed")
+        rules = {"runOnly": ["wcag2a", "wcag2aa", "wcag21aa", "wcag22aa", "best-practice"]}
+        teacher = self.teach()
+        pupil = self.follow(self.link(teacher))
+        for open_question in (False, True):
+            if open_question:
+                teacher.get_by_role("button", name="Ask the class").click()
+                pupil.wait_for_selector("#choices button")
+                pupil.locator("#choices button").first.click()
+                self.there(teacher, "1 of 1 have answered.", "#lesson-answered")
+            for page in teacher, pupil:
+                found = Axe().run(page, options=rules)
+                self.assertEqual([v["id"] for v in found.response["violations"]], [])
+
+    def test_a_telephone(self):
+        teacher = self.teach()
+        pupil = self.follow(self.link(teacher), viewport={"width": 360, "height": 640}, has_touch=True)
+        teacher.get_by_role("button", name="Ask the class").click()
+        pupil.wait_for_selector("#choices button")
+        self.assertTrue(pupil.evaluate("document.documentElement.scrollWidth <= innerWidth"))
+        for button in pupil.locator("#choices button").all():
+            self.assertGreaterEqual(button.bounding_box()["height"], 40)
+
+
+if __name__ == "__main__":
+    main()
