@@ -3,7 +3,7 @@
 #include "base/schema.h"
 #include "integral/internal.h"
 #include "integral/pictures.h"
-#include "scene/members.h"
+#include "document/members.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,10 +2,10 @@
 #include "integral/request.h"
 
 #include "base/spelling.h"
-#include "scene/members.h"
-#include "scene/number.h"
-#include "scene/text.h"
-#include "scene/tree.h"
+#include "document/members.h"
+#include "document/number.h"
+#include "document/text.h"
+#include "document/tree.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,8 +6,8 @@
 
 #include "physics/math/angle.h"
 #include "render/output/wcs.h"
-#include "scene/members.h"
-#include "scene/text.h"
+#include "document/members.h"
+#include "document/text.h"
 #include "scene/tree.h"
 
 #include <math.h>

@@ -2,8 +2,8 @@
 
 #include "base/decimal.h"
 #include "orbit/cases.h"
-#include "scene/number.h"
-#include "scene/text.h"
+#include "document/number.h"
+#include "document/text.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,8 @@
 
 #include "base/error.h"
 #include "orbit/asked.h"
-#include "scene/value.h"
+#include "document/value.h"
+#include "scene/table.h"
 
 enum kd_orbit_kind { KD_FIELD_IS_REAL, KD_FIELD_IS_INT, KD_FIELD_IS_BOOL, KD_FIELD_IS_WORD };
 enum kd_orbit_words { NO_WORDS, WAY_WORDS, FRAME_WORDS, CASE_WORDS };

@@ -6,9 +6,9 @@
 #include "orbit/fields.h"
 #include "physics/math/angle.h"
 #include "physics/spacetime/hole.h"
-#include "scene/number.h"
-#include "scene/text.h"
-#include "scene/tree.h"
+#include "document/number.h"
+#include "document/text.h"
+#include "document/tree.h"
 
 #include <float.h>
 #include <math.h>

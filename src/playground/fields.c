@@ -1,8 +1,8 @@
 #include "playground/fields.h"
 
-#include "scene/number.h"
-#include "scene/text.h"
-#include "scene/tree.h"
+#include "document/number.h"
+#include "document/text.h"
+#include "document/tree.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 
 #include "playground/params.h"
 #include "base/json.h"
-#include "scene/value.h"
+#include "document/value.h"
 
 #include <cjson/cJSON.h>
 

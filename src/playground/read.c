@@ -6,8 +6,8 @@
 #include "playground/preset.h"
 #include "playground/state.h"
 
-#include "scene/text.h"
-#include "scene/tree.h"
+#include "document/text.h"
+#include "document/tree.h"
 
 #include <math.h>
 #include <stdio.h>

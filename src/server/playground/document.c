@@ -3,7 +3,7 @@
 #include "playground/fields.h"
 #include "playground/preset.h"
 #include "playground/show.h"
-#include "scene/members.h"
+#include "document/members.h"
 #include "scene/tree.h"
 
 #include <string.h>
