@@ -7,9 +7,9 @@
  *     static const struct kd_row rows[] = {
  *         { .name = "minutes", .kind = KD_KIND_REAL, .offset = AT(minutes), .initial = 3, .least = 0, .most = 10,
  *           .unit = "min", .help = "how long it draws" },
- *         { .name = "cups", .kind = KD_KIND_INT, .offset = AT(cups), .initial = 1, .least = 1, .most = 8, .help = "how many" },
- *         { .name = "leaf", .kind = KD_KIND_WORD, .offset = AT(leaf), .words = "green|black", .help = "kind of leaf" },
- *         { .object = "with", .name = "milk", .kind = KD_KIND_BOOL, .offset = AT(milk), .help = "with milk or not" },
+ *         { .name = "cups", .kind = KD_KIND_INT, .offset = AT(cups), .initial = 1, .least = 1, .most = 8, .help = "how
+ * many" }, { .name = "leaf", .kind = KD_KIND_WORD, .offset = AT(leaf), .words = "green|black", .help = "kind of leaf"
+ * }, { .object = "with", .name = "milk", .kind = KD_KIND_BOOL, .offset = AT(milk), .help = "with milk or not" },
  *     };
  *     static const struct kd_document document = { rows, sizeof rows / sizeof *rows };
  *

@@ -75,10 +75,10 @@ static enum kd_status unknown(const struct kd_document *document, const char *ob
     }
     for (int i = 0; !parameter && !object && i < 4 && kd_word_at(document->others, i, other[i]); i++)
         add_known(&known, other[i]);
-    return kd_error_field(error, pointer, "there is no %s %s%s%s%s%s %s", parameter ? "parameter" : "field", shown,
-                          parameter ? "" : " here", known.meant.name ? "; did you mean " : "",
-                          known.meant.name ? known.meant.name : "", known.meant.name ? "? Known are" : "; known are",
-                          known.list);
+    return kd_error_field(error, pointer, "there is no %s %.50s%s%s%s%s%s%s %s", parameter ? "parameter" : "field",
+                          object ? object : "", object ? "." : "", shown, parameter ? "" : " here",
+                          known.meant.name ? "; did you mean " : "", known.meant.name ? known.meant.name : "",
+                          known.meant.name ? "? Known are" : "; known are", known.list);
 }
 
 enum kd_status kd_document_unknown(const struct kd_document *document, const char *name, struct kd_error *error)

@@ -120,10 +120,10 @@ static void add_array(struct kd_json *json, const struct kd_row *row)
     const bool words = row->kind == KD_KIND_WORDS;
     kd_json_string(json, "type", "array");
     kd_json_number(json, "minItems",
-                   words                           ? row->least
-                   : row->kind == KD_KIND_VECTOR   ? (double)row->room
-                   : row->fewest                   ? (double)row->fewest
-                                                   : 1);
+                   words                         ? row->least
+                   : row->kind == KD_KIND_VECTOR ? (double)row->room
+                   : row->fewest                 ? (double)row->fewest
+                                                 : 1);
     if (words)
         kd_json_bool(json, "uniqueItems", true);
     else
@@ -198,8 +198,8 @@ static void add_required(struct kd_json *json, const struct kd_document *documen
     for (size_t i = 0; i < document->n; i++) {
         const struct kd_row *row = &document->rows[i];
         const bool own = kd_row_is_of(document, row, object) && row->needed,
-                   inner = !object && row->object && kd_row_is_of(document, row, row->object) &&
-                           opens(document, row) && needs(document, row->object);
+                   inner = !object && row->object && kd_row_is_of(document, row, row->object) && opens(document, row) &&
+                           needs(document, row->object);
         if (!own && !inner)
             continue;
         if (!separator)
@@ -221,7 +221,7 @@ static void begin_schema(struct kd_json *json, const struct kd_document *documen
     kd_json_string(json, "type", "object");
     kd_json_bool(json, "additionalProperties", false);
     add_required(json, document, object);
-    for (const struct kd_document_not *not = document->nots; not && not->object; not ++)
+    for (const struct kd_document_not *not= document->nots; not &&not->object; not ++)
         if (!strcmp(not->object, object))
             kd_schema_text(json, "not", not->schema);
     kd_json_object(json, "properties");
@@ -246,10 +246,9 @@ void kd_document_properties(struct kd_json *json, const struct kd_document *docu
 
 static void describe(struct kd_json *json, const struct kd_row *row)
 {
-    static const char *const types[] = { [KD_KIND_REAL] = "number",
-                                         [KD_KIND_INT] = "integer",
-                                         [KD_KIND_BOOL] = "boolean",
-                                         [KD_KIND_WORD] = "string" };
+    static const char *const types[] = {
+        [KD_KIND_REAL] = "number", [KD_KIND_INT] = "integer", [KD_KIND_BOOL] = "boolean", [KD_KIND_WORD] = "string"
+    };
     kd_json_object(json, NULL);
     kd_json_string(json, "name", row->name);
     kd_json_string(json, "type", types[row->kind]);

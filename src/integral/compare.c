@@ -12,11 +12,6 @@
 enum { PRODUCT, HOUR, STATION, U = STATION + 4, V, DATA, ERROR, MODEL, RESIDUAL }; /* columns */
 enum { FLUX, WORST = 7 };                                                          /* values */
 
-bool kd_integral_is_observation(const struct kd_integral_request *r, const char *name)
-{
-    return r->what == KD_INTEGRAL_COMPARE && !strcmp(name, "observation");
-}
-
 enum kd_status kd_integral_set_observation(struct kd_integral_request *r, const void *data, size_t size,
                                            struct kd_error *error)
 {
@@ -47,14 +42,7 @@ void kd_integral_drop_observation(struct kd_integral_request *r)
 /* Reads the observation by the name or the hash of its asset. */
 enum kd_status kd_integral_read_observation(struct kd_integral_request *r, const cJSON *root, struct kd_error *error)
 {
-    const cJSON *given = NULL;
-    for (const cJSON *item = root->child; item; item = item->next) {
-        if (!kd_integral_is_observation(r, item->string))
-            continue;
-        if (given)
-            return kd_error_field(error, "/observation", "observation is given twice");
-        given = item;
-    }
+    const cJSON *given = r->what == KD_INTEGRAL_COMPARE ? cJSON_GetObjectItemCaseSensitive(root, "observation") : NULL;
     if (!given)
         return KD_OK;
     struct kd_asset_found found;
@@ -96,7 +84,7 @@ static enum kd_status make_comparison(struct kd_integral_request *r, struct kd_e
 
 enum kd_status kd_integral_check_compare(struct kd_integral_request *r, struct kd_error *error)
 {
-    struct kd_integral_list *u, *v;
+    struct kd_number_list *u, *v;
     enum kd_status status;
     KD_TRY(kd_integral_check_map(r, error));
     if (!r->observation)
@@ -116,8 +104,8 @@ enum kd_status kd_integral_check_compare(struct kd_integral_request *r, struct k
                               r->comparison->n, r->comparison->rows, KD_INTEGRAL_ROWS);
     u = &r->u, v = &r->v;
     free(u->at), free(v->at);
-    *u = (struct kd_integral_list) { malloc(r->comparison->n * sizeof(double)), r->comparison->n };
-    *v = (struct kd_integral_list) { malloc(r->comparison->n * sizeof(double)), r->comparison->n };
+    *u = (struct kd_number_list) { malloc(r->comparison->n * sizeof(double)), r->comparison->n };
+    *v = (struct kd_number_list) { malloc(r->comparison->n * sizeof(double)), r->comparison->n };
     if (!u->at || !v->at)
         return kd_error_set(error, KD_ENOMEM, "out of memory for %zu visibilities", r->comparison->n);
     for (size_t i = 0; i < u->n; i++)

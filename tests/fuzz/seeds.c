@@ -133,7 +133,9 @@ static void write_scene_dictionaries(void)
                   "by");
         }
         for (size_t k = 0; k < kd_n_integral_fields && !strcmp(name, "integrals"); k++) {
-            word(dict, kd_integral_fields[k].name, strlen(kd_integral_fields[k].name));
+            if (kd_integral_fields[k].object)
+                WORDS(dict, kd_integral_fields[k].object);
+            WORDS(dict, kd_integral_fields[k].name);
             alternatives(dict, kd_integral_fields[k].words);
         }
         fclose(dict);

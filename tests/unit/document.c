@@ -45,7 +45,8 @@ static void each_kind_is_read_and_written(void **state)
     assert_string_equal((const char *)out.data, text);
     kd_buffer_finish(&out);
 
-    assert_int_equal(read_kind(&tea, "{\"heat\":\"boiling\",\"times\":[0,24],\"host\":{\"x\":1}}", 0, NULL, &error), KD_OK);
+    assert_int_equal(read_kind(&tea, "{\"heat\":\"boiling\",\"times\":[0,24],\"host\":{\"x\":1}}", 0, NULL, &error),
+                     KD_OK);
     assert_true(isinf(tea.heat) && tea.times.n == 2 && tea.times.at[1] == 24 && tea.minutes == 3 && tea.leaf == 1);
     free(tea.times.at);
 }
@@ -95,7 +96,7 @@ static void refusals_say_what_it_must_be(void **state)
         { "{\"cup\":1}", "/cup",
           "there is no field cup here; did you mean cups? Known are minutes, sugar_g, heat, cups, leaf, pot, iced, "
           "table, times, place, name, host, guests" },
-        { "{\"table\":{\"a/b\":1}}", "/table/a~1b", "there is no field a/b here; known are milk, with" },
+        { "{\"table\":{\"a/b\":1}}", "/table/a~1b", "there is no field table.a/b here; known are milk, with" },
         { "{\"table.milk\":true}", "/table.milk",
           "there is no field table.milk here; known are minutes, sugar_g, heat, cups, leaf, pot, iced, table, times, "
           "place, name, host, guests" },
@@ -121,7 +122,7 @@ static void a_kind_of_document_has_its_own_rows(void **state)
     assert_int_equal(read_kind(&tea, "{\"pot\":\"iron\"}", TEA_BAG, NULL, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/pot");
     assert_int_equal(read_kind(&tea, "{\"table\":{\"milk\":true}}", TEA_BAG, NULL, &error), KD_EINVAL);
-    assert_string_equal(error.message, "there is no field milk here; known are with");
+    assert_string_equal(error.message, "there is no field table.milk here; known are with");
 }
 
 static void typed_text_sets_one_field(void **state)
@@ -131,8 +132,9 @@ static void typed_text_sets_one_field(void **state)
     uint64_t given = 0;
     (void)state;
     kd_document_defaults(&tea_document, &tea);
-    static const char *const set[][2] = { { "minutes", "1.5" },      { "heat", "boiling" },  { "table.milk", "true" },
-                                          { "with", "bread,fruit" }, { "times", "0,12,24" }, { "place", "1,2,3" },
+    static const char *const set[][2] = { { "minutes", "1.5" },     { "heat", "boiling" },
+                                          { "table.milk", "true" }, { "with", "bread,fruit" },
+                                          { "times", "0,12,24" },   { "place", "1,2,3" },
                                           { "name", "5" } };
     for (size_t i = 0; i + 1 < sizeof set / sizeof *set; i++)
         assert_int_equal(kd_document_set(&tea_document, &tea, set[i][0], set[i][1], &given, &error), KD_OK);
@@ -180,7 +182,8 @@ static void the_schema_says_the_same(void **state)
         "\"description\":\"how long it draws [min]\"},"
         "\"sugar_g\":{\"type\":\"number\",\"minimum\":0,\"maximum\":50,\"not\":{\"exclusiveMinimum\":0,"
         "\"exclusiveMaximum\":0.5},\"description\":\"sugar [g]\"},"
-        "\"heat\":{\"anyOf\":[{\"type\":\"string\",\"enum\":[\"boiling\"]},{\"type\":\"number\",\"exclusiveMinimum\":50,"
+        "\"heat\":{\"anyOf\":[{\"type\":\"string\",\"enum\":[\"boiling\"]},{\"type\":\"number\",\"exclusiveMinimum\":"
+        "50,"
         "\"exclusiveMaximum\":100}],\"description\":\"temperature\"},"
         "\"cups\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":8,\"description\":\"number of cups\"},"
         "\"leaf\":{\"type\":\"string\",\"enum\":[\"none\",\"green\",\"black\"],\"description\":\"kind of leaf\"},"
@@ -204,8 +207,10 @@ static void the_schema_says_the_same(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_kind_is_read_and_written),        cmocka_unit_test(refusals_say_what_it_must_be),
-        cmocka_unit_test(a_kind_of_document_has_its_own_rows), cmocka_unit_test(typed_text_sets_one_field),
+        cmocka_unit_test(each_kind_is_read_and_written),
+        cmocka_unit_test(refusals_say_what_it_must_be),
+        cmocka_unit_test(a_kind_of_document_has_its_own_rows),
+        cmocka_unit_test(typed_text_sets_one_field),
         cmocka_unit_test(the_schema_says_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
