@@ -142,12 +142,12 @@ static void write_scene_dictionaries(void)
     }
 }
 
-static void orbit_words(FILE *dict, const struct kd_orbit_field *fields, size_t n)
+static void row_words(FILE *dict, const struct kd_document *document)
 {
-    for (size_t i = 0; i < n; i++) {
-        WORDS(dict, fields[i].name, fields[i].section);
-        for (int k = 0; kd_orbit_field_word(&fields[i], k); k++)
-            WORDS(dict, kd_orbit_field_word(&fields[i], k));
+    for (size_t i = 0; i < document->n; i++) {
+        const struct kd_row *row = &document->rows[i];
+        WORDS(dict, row->name, row->object ? row->object : row->name);
+        alternatives(dict, row->words);
     }
 }
 
@@ -155,8 +155,8 @@ static void write_other_dictionaries(void)
 {
     FILE *dict = open_file("orbits", "");
     json_words(dict);
-    orbit_words(dict, kd_orbit_settings, KD_ORBIT_N_SETTINGS);
-    orbit_words(dict, kd_orbit_fields, KD_ORBIT_N_FIELDS);
+    row_words(dict, &kd_orbit_request_document);
+    row_words(dict, &kd_orbit_document);
     WORDS(dict, "orbit", "orbits", "series", "spin");
     fclose(dict);
 
@@ -178,8 +178,8 @@ static void write_other_dictionaries(void)
     }
     for (int i = 0; i < KD_PARTICLE_N_COLUMNS; i++)
         WORDS(dict, kd_particle_column_name((enum kd_particle_column)i));
-    orbit_words(dict, kd_orbit_settings, KD_ORBIT_N_SETTINGS);
-    orbit_words(dict, kd_orbit_fields, KD_ORBIT_N_FIELDS);
+    row_words(dict, &kd_orbit_request_document);
+    row_words(dict, &kd_orbit_document);
     WORDS(dict, "digits", "fields=", "first=", "stride=", "count=", "time=", "0:1:3", "orbit\n", "rays\n",
           "particles\n");
     fclose(dict);
