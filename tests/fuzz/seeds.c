@@ -99,6 +99,15 @@ static void scene_words(FILE *dict, bool paths)
         word(dict, kd_presets[i].name, strlen(kd_presets[i].name));
 }
 
+static void row_words(FILE *dict, const struct kd_document *document)
+{
+    for (size_t i = 0; i < document->n; i++) {
+        const struct kd_row *row = &document->rows[i];
+        WORDS(dict, row->name, row->object ? row->object : row->name);
+        alternatives(dict, row->words);
+    }
+}
+
 static void write_scene_dictionaries(void)
 {
     static const char *const documents[] = { "scene", "patch", "job", "pictures", "playground", "state", "integrals" },
@@ -121,12 +130,8 @@ static void write_scene_dictionaries(void)
                   "hole", "free", "theta_deg", "phi_deg", "proper_time", "horizon", "end", "at", "light-curve",
                   "format", "request", "device", "version", "rows", "sets", "engine", "precision");
         if (!strcmp(name, "playground") || !strcmp(name, "job")) {
-            for (size_t k = 0; k < kd_playground_n_settings; k++) {
-                word(dict, kd_playground_settings[k].name, strlen(kd_playground_settings[k].name));
-                alternatives(dict, kd_playground_settings[k].words);
-            }
-            for (size_t k = 0; k < kd_playground_n_body_fields; k++)
-                word(dict, kd_playground_body_fields[k].name, strlen(kd_playground_body_fields[k].name));
+            row_words(dict, &kd_playground_settings);
+            row_words(dict, &kd_playground_body_fields);
             for (size_t k = 0; k < kd_playground_n_presets; k++)
                 word(dict, kd_playground_presets[k].name, strlen(kd_playground_presets[k].name));
             WORDS(dict, "preset", "bodies", "state", "position", "velocity", "name", "id", "add", "change", "remove",
@@ -139,15 +144,6 @@ static void write_scene_dictionaries(void)
             alternatives(dict, kd_integral_fields[k].words);
         }
         fclose(dict);
-    }
-}
-
-static void row_words(FILE *dict, const struct kd_document *document)
-{
-    for (size_t i = 0; i < document->n; i++) {
-        const struct kd_row *row = &document->rows[i];
-        WORDS(dict, row->name, row->object ? row->object : row->name);
-        alternatives(dict, row->words);
     }
 }
 
