@@ -102,6 +102,17 @@ void kd_json_raw(struct kd_json *json, const char *name, const char *text, size_
     put(json, text, length);
 }
 
+void kd_json_members(struct kd_json *json, const char *text)
+{
+    if (!json->depth || json->open[json->depth - 1].array)
+        json->status = json->status ? json->status : KD_EINVAL;
+    else if (json->open[json->depth - 1].filled)
+        put(json, ",", 1);
+    put(json, text, strlen(text));
+    if (json->depth)
+        json->open[json->depth - 1].filled = true;
+}
+
 void kd_json_number(struct kd_json *json, const char *name, double value)
 {
     char text[KD_DECIMAL_SIZE];

@@ -48,6 +48,9 @@ void kd_json_null(struct kd_json *json, const char *name);
 /* Writes a value that is JSON text already. */
 void kd_json_raw(struct kd_json *json, const char *name, const char *text, size_t length);
 
+/* Writes members of the object that is open: JSON text without the braces. */
+void kd_json_members(struct kd_json *json, const char *text);
+
 enum kd_status kd_json_finish(struct kd_json *json);
 enum kd_status kd_json_finish_line(struct kd_json *json); /* like kd_json_finish, and appends a line feed */
 

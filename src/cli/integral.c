@@ -129,9 +129,13 @@ static enum kd_status load(struct arguments *arguments, struct kd_integral_reque
         KD_TRY(read_file(arguments, request, error));
     if (may_have_scene(request->what))
         KD_TRY(load_scene(arguments, request, error));
-    for (size_t i = 0; i < kd_n_integral_fields; i++)
+    for (size_t i = 0; i < kd_n_integral_fields; i++) {
+        const struct kd_row *f = &kd_integral_fields[i];
+        char name[64];
+        snprintf(name, sizeof name, "%s%s%s", f->object ? f->object : "", f->object ? "." : "", f->name);
         if (arguments->given[i])
-            KD_TRY(kd_integral_request_set(request, kd_integral_fields[i].name, arguments->given[i], error));
+            KD_TRY(kd_integral_request_set(request, name, arguments->given[i], error));
+    }
     if (arguments->observation)
         KD_TRY(read_observation(arguments->observation, request, error));
     KD_TRY(kd_integral_request_check(request, error));
@@ -236,21 +240,22 @@ static void set_options(enum kd_integral what, struct argp_option *options, char
                                          "CSV",
                                    1 };
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
-        const struct kd_integral_field *f = &kd_integral_fields[i];
+        const struct kd_row *f = &kd_integral_fields[i];
         if (!(f->of & (1u << what | (what == KD_INTEGRAL_SPECTRUM ? 1u << KD_INTEGRAL_VOLUME : 0))))
             continue;
-        snprintf(names[i], sizeof names[i], "%s", f->name);
-        for (char *c = names[i]; *(c += strcspn(c, "_."));)
+        snprintf(names[i], sizeof names[i], "%s%s%s", f->object ? f->object : "", f->object ? "-" : "", f->name);
+        for (char *c = names[i]; (c = strchr(c, '_'));)
             *c = '-';
-        const bool word = f->kind == KD_INTEGRAL_REAL && f->words;
-        snprintf(helps[i], sizeof helps[i], "%s%s%s%s%s%s", f->help, *f->unit ? " [" : "", f->unit, *f->unit ? "]" : "",
+        const bool word = f->kind == KD_KIND_REAL && f->words;
+        const char *unit = f->unit ? f->unit : "";
+        snprintf(helps[i], sizeof helps[i], "%s%s%s%s%s%s", f->help, *unit ? " [" : "", unit, *unit ? "]" : "",
                  word ? "; a number or " : "", word ? f->words : "");
         snprintf(values[i], sizeof values[i], "X|%s", word ? f->words : "");
-        const char *value = f->kind == KD_INTEGRAL_WORD      ? f->words
-                            : f->kind == KD_INTEGRAL_WORDS   ? "WORD,..."
-                            : f->kind == KD_INTEGRAL_NUMBERS ? "X,Y,..."
-                            : word                           ? values[i]
-                                                             : "X";
+        const char *value = f->kind == KD_KIND_WORD    ? f->words
+                            : f->kind == KD_KIND_WORDS ? "WORD,..."
+                            : f->kind == KD_KIND_LIST  ? "X,Y,..."
+                            : word                     ? values[i]
+                                                       : "X";
         options[n++] = (struct argp_option) { names[i], KEY_FIRST + (int)i, value, 0, helps[i], 1 };
     }
 }

@@ -7,7 +7,7 @@
 #include "render/rays/answer.h"
 #include "render/rays/looks.h"
 #include "render/rays/request.h"
-#include "scene/number.h"
+#include "document/number.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -4,10 +4,10 @@
 #include "cli/cli.h"
 #include "cli/file.h"
 #include "cli/settings.h"
-#include "scene/members.h"
-#include "scene/scan.h"
-#include "scene/text.h"
-#include "scene/tree.h"
+#include "document/members.h"
+#include "document/scan.h"
+#include "document/text.h"
+#include "document/tree.h"
 
 #include <ctype.h>
 #include <errno.h>

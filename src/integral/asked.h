@@ -2,6 +2,7 @@
 #ifndef KD_INTEGRAL_ASKED_H
 #define KD_INTEGRAL_ASKED_H
 
+#include "document/document.h"
 #include "observe/align.h"
 #include "physics/disk/line_profile.h"
 #include "scene/asset.h"
@@ -25,11 +26,6 @@ enum kd_integral {
     KD_INTEGRALS
 };
 
-struct kd_integral_list {
-    double *at; /* malloc'd */
-    size_t n;
-};
-
 struct kd_integral_request {
     enum kd_integral what;
     double spin, inclination_deg, inner, outer; /* inner NaN: the ISCO */
@@ -39,19 +35,19 @@ struct kd_integral_request {
     int energy;                                 /* profile in: 0 photons, 1 energy */
     double rest_energy, energy_min, energy_max; /* energy_max NaN: 1.7 rest_energy */
     uint32_t bins;
-    struct kd_integral_list edges;
-    struct kd_integral_list radii, g_star; /* for a transfer function */
+    struct kd_number_list edges;
+    struct kd_number_list radii, g_star; /* for a transfer function */
     uint32_t rings, g_stars;
     double mass_msun, distance_pc, mdot_edd, colour_correction; /* for a spectrum */
     double frequency_min_hz, frequency_max_hz;                  /* NaN: chosen by the hottest ring */
     uint32_t frequencies;
-    struct kd_integral_list frequencies_hz;
+    struct kd_number_list frequencies_hz;
     struct kd_scene *scene; /* malloc'd; NULL: none given */
     /* Resolves names of assets while the scene is read. NULL: the caller resolves and validates the scene. */
     const struct kd_assets *assets;
     uint32_t pixels; /* on the longer side of a picture; 0: the default */
     int unchecked;   /* 0: finer pictures estimate the error */
-    struct kd_integral_list u, v, lengths,
+    struct kd_number_list u, v, lengths,
         /* For a visibility, in Gl (10^9 wavelengths): a list of baselines, or lengths and angles, which are expanded
          * into one. */
         angles_deg;
@@ -100,20 +96,9 @@ static inline double kd_integral_evaluations(const struct kd_integral_request *r
     return kd_integral_is_searched(r) ? kd_align_evaluations(r->solve) * (r->solve & KD_ALIGN_SHIFT ? 2. : 1.) : 1;
 }
 
-/* A field of requests, for the reader, the schema and the options. */
-enum kd_integral_kind { KD_INTEGRAL_REAL, KD_INTEGRAL_INT, KD_INTEGRAL_WORD, KD_INTEGRAL_WORDS, KD_INTEGRAL_NUMBERS };
-struct kd_integral_field {
-    const char *name, *unit, *help; /* a name with a dot is a member of an object: systematic.amplitude */
-    enum kd_integral_kind kind;
-    size_t offset;
-    double least, most;
-    bool open;         /* the range excludes both ends */
-    const char *words; /* "a|b". WORD: one of them; WORDS: a set of at least `least` of them; REAL: a word that stands
-                          for NaN */
-    unsigned of;       /* bit mask of the integrals that have it */
-    bool lacks;        /* may still lack a number in a checked request */
-};
-extern const struct kd_integral_field kd_integral_fields[];
+/* Fields of requests (document/document.h), for the reader, the schema and the options. `of` has a bit for each kind of
+ * integral. */
+extern const struct kd_row kd_integral_fields[];
 extern const size_t kd_n_integral_fields;
 
 #endif

@@ -13,7 +13,7 @@
 
 bool kd_integral_given(const struct kd_integral_request *request, const char *name)
 {
-    const struct kd_integral_field *f = kd_integral_field_named(request, name);
+    const struct kd_row *f = kd_integral_field_named(request, name);
     return f && request->seen & UINT64_C(1) << (f - kd_integral_fields);
 }
 
@@ -39,7 +39,7 @@ static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error 
 }
 
 /* Checks that a list is strictly increasing. */
-enum kd_status kd_integral_check_growth(const struct kd_integral_list *list, const char *name, struct kd_error *error)
+enum kd_status kd_integral_check_growth(const struct kd_number_list *list, const char *name, struct kd_error *error)
 {
     for (size_t i = 1; i < list->n; i++)
         if (!(list->at[i] > list->at[i - 1])) {
@@ -81,8 +81,8 @@ static enum kd_status check_emissivity(const struct kd_integral_request *r, stru
 
 static enum kd_status fill_edges(struct kd_integral_request *r, struct kd_error *error)
 {
-    struct kd_integral_list *list;
-    const struct kd_integral_field *f = kd_integral_field_named(r, "edges");
+    struct kd_number_list *list;
+    const struct kd_row *f = kd_integral_field_named(r, "edges");
     if (isnan(r->energy_max))
         r->energy_max = 1.7 * r->rest_energy;
     if (!(r->energy_max > r->energy_min))
@@ -104,10 +104,6 @@ static enum kd_status check_edges(struct kd_integral_request *r, struct kd_error
     for (size_t i = 0; i < 3; i++)
         if (kd_integral_given(r, even[i]))
             return kd_error_field(error, "/edges", "edges cannot be used with %s", even[i]);
-    if (r->edges.n < 2)
-        return kd_error_field(error, "/edges",
-                              "edges has one number; it must have 2 to %u, because each bin needs two ends",
-                              KD_INTEGRAL_LIST);
     r->bins = (uint32_t)r->edges.n - 1, r->energy_min = r->edges.at[0], r->energy_max = r->edges.at[r->bins];
     return kd_integral_check_growth(&r->edges, "edges", error);
 }
@@ -117,7 +113,7 @@ static enum kd_status check_edges(struct kd_integral_request *r, struct kd_error
 enum kd_status kd_integral_fill_list(struct kd_integral_request *r, const char *name, uint32_t n, double first,
                                      double last, struct kd_error *error)
 {
-    struct kd_integral_list *list;
+    struct kd_number_list *list;
     enum kd_status status = kd_integral_make_room(r, kd_integral_field_named(r, name), n, "", &list, error);
     for (size_t i = 0; !status && i < n; i++)
         list->at[i] = !(first > 0) ? ((double)i + 0.5) / n

@@ -4,7 +4,7 @@
 #include "integral/internal.h"
 #include "integral/pictures.h"
 #include "integral/sets.h"
-#include "scene/members.h"
+#include "document/members.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,16 +14,6 @@ enum { PRODUCT, HOUR, STATION, U = STATION + 4, V, DATA, ERROR, MODEL, RESIDUAL 
 enum { FLUX, WORST = 7, SIZE, ANGLE, EAST, NORTH };                                /* values */
 
 #define UAS_PER_RADIAN (180 * 3.6e9 / M_PI)
-
-bool kd_integral_is_observation(const struct kd_integral_request *r, const char *name)
-{
-    return kd_integral_is_observed(r->what) && !strcmp(name, "observation");
-}
-
-bool kd_integral_is_sets(const struct kd_integral_request *r, const char *name)
-{
-    return kd_integral_is_compared(r->what) && !strcmp(name, "sets");
-}
 
 enum kd_status kd_integral_set_observation(struct kd_integral_request *r, const void *data, size_t size,
                                            struct kd_error *error)
@@ -62,14 +52,8 @@ void kd_integral_drop_observation(struct kd_integral_request *r)
 /* Reads the observation by the name or the hash of its asset. */
 enum kd_status kd_integral_read_observation(struct kd_integral_request *r, const cJSON *root, struct kd_error *error)
 {
-    const cJSON *given = NULL;
-    for (const cJSON *item = root->child; item; item = item->next) {
-        if (!kd_integral_is_observation(r, item->string))
-            continue;
-        if (given)
-            return kd_error_field(error, "/observation", "observation is given twice");
-        given = item;
-    }
+    const cJSON *given =
+        kd_integral_is_observed(r->what) ? cJSON_GetObjectItemCaseSensitive(root, "observation") : NULL;
     if (!given)
         return KD_OK;
     struct kd_asset_found found;
@@ -111,7 +95,7 @@ static enum kd_status make_comparison(struct kd_integral_request *r, struct kd_e
 
 enum kd_status kd_integral_check_compare(struct kd_integral_request *r, struct kd_error *error)
 {
-    struct kd_integral_list *u, *v;
+    struct kd_number_list *u, *v;
     enum kd_status status;
     KD_TRY(kd_integral_check_map(r, error));
     if (!r->observation)
@@ -135,8 +119,8 @@ enum kd_status kd_integral_check_compare(struct kd_integral_request *r, struct k
                               r->comparison->n, r->comparison->rows, KD_INTEGRAL_ROWS);
     u = &r->u, v = &r->v;
     free(u->at), free(v->at);
-    *u = (struct kd_integral_list) { malloc(r->comparison->n * sizeof(double)), r->comparison->n };
-    *v = (struct kd_integral_list) { malloc(r->comparison->n * sizeof(double)), r->comparison->n };
+    *u = (struct kd_number_list) { malloc(r->comparison->n * sizeof(double)), r->comparison->n };
+    *v = (struct kd_number_list) { malloc(r->comparison->n * sizeof(double)), r->comparison->n };
     if (!u->at || !v->at)
         return kd_error_set(error, KD_ENOMEM, "out of memory for %zu visibilities", r->comparison->n);
     for (size_t i = 0; i < u->n; i++)

@@ -8,16 +8,16 @@
 #include <cjson/cJSON.h>
 
 /* request.c */
-const struct kd_integral_field *kd_integral_field_named(const struct kd_integral_request *request,
-                                                        const char *name); /* NULL: no field of this name */
+const struct kd_row *kd_integral_field_named(const struct kd_integral_request *request,
+                                             const char *name); /* NULL: no field of this name */
 /* Replaces a list by room for n numbers. */
-enum kd_status kd_integral_make_room(struct kd_integral_request *request, const struct kd_integral_field *f, size_t n,
-                                     const char *pointer, struct kd_integral_list **list, struct kd_error *error);
+enum kd_status kd_integral_make_room(struct kd_integral_request *request, const struct kd_row *f, size_t n,
+                                     const char *pointer, struct kd_number_list **list, struct kd_error *error);
 
 /* check.c */
 bool kd_integral_given(const struct kd_integral_request *request, const char *name);
 /* Checks that a list is strictly increasing. */
-enum kd_status kd_integral_check_growth(const struct kd_integral_list *list, const char *name, struct kd_error *error);
+enum kd_status kd_integral_check_growth(const struct kd_number_list *list, const char *name, struct kd_error *error);
 /* Refuses a list that is given together with fields that would generate it. */
 enum kd_status kd_integral_check_beside(const struct kd_integral_request *request, const char *list,
                                         const char *const *others, size_t n, struct kd_error *error);
@@ -32,20 +32,15 @@ enum kd_status kd_integral_check_frequencies(struct kd_integral_request *request
 struct kd_line_params kd_integral_line_params(const struct kd_integral_request *request);
 
 /* scene.c */
-bool kd_integral_is_scene_member(const struct kd_integral_request *request,
-                                 const char *name); /* "preset" and "scene", for integrals that may have a scene */
-/* Reads both from a document. */
+/* Reads the members "preset" and "scene" of a document. */
 enum kd_status kd_integral_read_scene(struct kd_integral_request *request, const cJSON *root, struct kd_error *error);
 enum kd_status kd_integral_check_visibility(struct kd_integral_request *request, struct kd_error *error);
 
 /* compare.c */
-bool kd_integral_is_observation(const struct kd_integral_request *request,
-                                const char *name); /* true for its members in a comparison or a simulation */
 enum kd_status kd_integral_read_observation(struct kd_integral_request *request, const cJSON *root,
                                             struct kd_error *error);
 void kd_integral_drop_observation(struct kd_integral_request *request);
 enum kd_status kd_integral_check_map(struct kd_integral_request *request, struct kd_error *error); /* scene.c */
-bool kd_integral_is_sets(const struct kd_integral_request *request, const char *name);
 
 /* observe.c */
 enum kd_status kd_integral_check_observe(struct kd_integral_request *request, struct kd_error *error);

@@ -12,7 +12,7 @@ enum { FLUX, WORST = 7 };                                                      /
 
 enum kd_status kd_integral_check_observe(struct kd_integral_request *r, struct kd_error *error)
 {
-    struct kd_integral_list *const lists[2] = { &r->u, &r->v };
+    struct kd_number_list *const lists[2] = { &r->u, &r->v };
     enum kd_status status;
     KD_TRY(kd_integral_check_map(r, error));
     if (!r->observation)
@@ -28,7 +28,7 @@ enum kd_status kd_integral_check_observe(struct kd_integral_request *r, struct k
                               r->observation->n, KD_INTEGRAL_ROWS);
     for (int k = 0; k < 2; k++) {
         free(lists[k]->at);
-        *lists[k] = (struct kd_integral_list) { malloc(r->observation->n * sizeof(double)), r->observation->n };
+        *lists[k] = (struct kd_number_list) { malloc(r->observation->n * sizeof(double)), r->observation->n };
     }
     if (!r->u.at || !r->v.at)
         return kd_error_set(error, KD_ENOMEM, "out of memory for %zu visibilities", r->observation->n);

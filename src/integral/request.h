@@ -22,7 +22,8 @@
 #define KD_INTEGRAL_PICTURES 200u /* maximum frequencies of a spectrum made of pictures */
 #define KD_INTEGRAL_LEAST_HZ 1e3  /* lowest frequency, and */
 #define KD_INTEGRAL_MOST_HZ 1e21  /* highest, as for volume.frequency_ghz */
-#define KD_INTEGRAL_FACE_ON 0.1   /* degrees from the axis within which no ring has a transfer function */
+#define KD_INTEGRAL_FACE_ON \
+    0.1 /* degrees from the axis within which no ring has a transfer function; INCLINATION of fields.c says so too */
 #define KD_INTEGRAL_NO_UVFITS \
     "observation is a CSV, which has no places of stations; for uvfits it must be a uvfits file"
 #define KD_INTEGRAL_ORDERS 8u /* image orders that are distinguished */
@@ -53,9 +54,8 @@ enum kd_integral kd_integral_of_route(const char *path);
 /* Number of rows in the answer to a checked request. */
 size_t kd_integral_rows(const struct kd_integral_request *request);
 
-/* Writes the value of a field that is not a list. */
-void kd_integral_field_write(struct kd_json *json, const struct kd_integral_request *request,
-                             const struct kd_integral_field *field);
+/* The fields of a kind of integral, which the request is filled by. */
+struct kd_document kd_integral_document(enum kd_integral what);
 
 /* Writes the schema of a request's document as the member `name`. */
 void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_integral what);

@@ -6,20 +6,14 @@
 
 #include "physics/math/angle.h"
 #include "render/output/wcs.h"
-#include "scene/members.h"
-#include "scene/text.h"
+#include "document/members.h"
+#include "document/text.h"
 #include "scene/tree.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-bool kd_integral_is_scene_member(const struct kd_integral_request *r, const char *name)
-{
-    return (kd_integral_is_pictured(r->what) || r->what == KD_INTEGRAL_SPECTRUM) &&
-           (!strcmp(name, "preset") || !strcmp(name, "scene"));
-}
 
 enum kd_status kd_integral_make_scene(struct kd_integral_request *r, struct kd_error *error)
 {
@@ -52,18 +46,10 @@ static enum kd_status read_fields(struct kd_integral_request *r, const cJSON *it
 
 enum kd_status kd_integral_read_scene(struct kd_integral_request *r, const cJSON *root, struct kd_error *error)
 {
-    const cJSON *preset = NULL, *scene = NULL;
+    const bool may = kd_integral_is_pictured(r->what) || r->what == KD_INTEGRAL_SPECTRUM;
+    const cJSON *preset = may ? cJSON_GetObjectItemCaseSensitive(root, "preset") : NULL,
+                *scene = may ? cJSON_GetObjectItemCaseSensitive(root, "scene") : NULL;
     enum kd_status status = KD_OK;
-    for (const cJSON *item = root->child; item; item = item->next) {
-        const cJSON **to = !kd_integral_is_scene_member(r, item->string) ? NULL
-                           : *item->string == 'p'                        ? &preset
-                                                                         : &scene;
-        if (to && *to)
-            return kd_error_field(error, *item->string == 'p' ? "/preset" : "/scene", "%s is given twice",
-                                  item->string);
-        if (to)
-            *to = item;
-    }
     if (!preset && !scene)
         return KD_OK;
     KD_TRY(kd_integral_make_scene(r, error));
@@ -120,7 +106,7 @@ done:
 static enum kd_status fill_lengths(struct kd_integral_request *r, struct kd_error *error)
 {
     const struct kd_scene scene = kd_integral_scene(r, 0);
-    struct kd_integral_list *list;
+    struct kd_number_list *list;
     if (isnan(r->length_max))
         r->length_max = 0.5 * kd_integral_nyquist_gl(&scene);
     enum kd_status status =
@@ -133,7 +119,7 @@ static enum kd_status fill_lengths(struct kd_integral_request *r, struct kd_erro
 /* Combines each length with each angle; all lengths of one angle are adjacent. */
 static enum kd_status make_baselines(struct kd_integral_request *r, struct kd_error *error)
 {
-    struct kd_integral_list *u, *v, *angles;
+    struct kd_number_list *u, *v, *angles;
     enum kd_status status = KD_OK;
     if (!r->angles_deg.n) {
         KD_TRY(kd_integral_make_room(r, kd_integral_field_named(r, "angles_deg"), 2, "/angles_deg", &angles, error));

@@ -3,9 +3,9 @@
 #include "base/pause.h"
 #include "integral/internal.h"
 #include "render/plan/plan.h"
-#include "scene/members.h"
-#include "scene/text.h"
-#include "scene/tree.h"
+#include "document/members.h"
+#include "document/text.h"
+#include "document/tree.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@ enum kd_status kd_integral_read_sets(struct kd_integral_request *r, cJSON *root,
 {
     cJSON *given = NULL;
     for (cJSON *item = root->child; item; item = item->next) {
-        if (!kd_integral_is_sets(r, item->string))
+        if (strcmp(item->string, "sets") || !kd_integral_is_compared(r->what))
             continue;
         if (given)
             return kd_error_field(error, "/sets", "sets is given twice");

@@ -6,7 +6,7 @@
 #include "integral/request.h"
 #include "physics/disk/line_profile.h"
 #include "physics/spacetime/kerr.h"
-#include "scene/number.h"
+#include "document/number.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -59,9 +59,9 @@ static double *field_at(struct kd_integral_request *request, const struct kd_tab
     return (double *)(void *)((char *)request + axis->field->offset);
 }
 
-static uint64_t bit_of(const struct kd_integral_field *field) { return UINT64_C(1) << (field - kd_integral_fields); }
+static uint64_t bit_of(const struct kd_row *field) { return UINT64_C(1) << (field - kd_integral_fields); }
 
-static const struct kd_integral_field *field_named(const struct kd_integral_request *request, const char *name)
+static const struct kd_row *field_named(const struct kd_integral_request *request, const char *name)
 {
     bool found = !strcmp(name, ISCO);
     for (size_t i = 0; i < sizeof allowed / sizeof *allowed; i++)
@@ -203,7 +203,7 @@ static enum kd_status add_defaults(struct kd_table *table, struct kd_error *erro
         char name[32];
         bool there = false;
         snprintf(name, sizeof name, "%.*s", (int)strcspn(defaults[k], "="), defaults[k]);
-        const struct kd_integral_field *field = field_named(&table->base, name);
+        const struct kd_row *field = field_named(&table->base, name);
         for (size_t i = 0; i < table->n_axes; i++)
             there = there || table->axes[i].field == field;
         if (!there && !(table->base.seen & bit_of(field)))
@@ -380,12 +380,12 @@ static enum kd_status put_request(const struct kd_table *table, struct kd_buffer
     struct kd_json json = kd_json_begin(&text);
     kd_json_object(&json, NULL);
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
-        const struct kd_integral_field *f = &kd_integral_fields[i];
-        bool varies = !(f->of & 1u << KD_INTEGRAL_LINE) || f->kind == KD_INTEGRAL_NUMBERS;
+        const struct kd_row *f = &kd_integral_fields[i];
+        bool varies = !(f->of & 1u << KD_INTEGRAL_LINE) || f->kind == KD_KIND_LIST;
         for (size_t k = 0; k < table->n_axes; k++)
             varies = varies || table->axes[k].field == f;
         if (!varies)
-            kd_integral_field_write(&json, &table->base, f);
+            kd_row_write(&json, f, &table->base);
     }
     kd_table_axes_json(table, &json, "axes");
     kd_json_end(&json);

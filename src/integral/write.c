@@ -41,32 +41,12 @@ static enum kd_status write_scene(struct kd_json *json, const struct kd_scene *s
     return status;
 }
 
-/* Opens the object named before the dot of a field's name, and closes the previous one if it differs. */
-static void enter(struct kd_json *json, const char **object, const char *name)
-{
-    char of[40];
-    const size_t length = strchr(name, '.') ? strcspn(name, ".") : 0;
-    if (length == strcspn(*object, ".") && !strncmp(*object, name, length))
-        return;
-    if (**object)
-        kd_json_end(json);
-    *object = length ? name : "";
-    snprintf(of, sizeof of, "%.*s", (int)length, name);
-    if (length)
-        kd_json_object(json, of);
-}
-
 /* Parameters that are lists are written as columns. */
 static void write_parameters(struct kd_json *json, const struct kd_integral_request *request)
 {
-    const char *object = "";
+    const struct kd_document document = kd_integral_document(request->what);
     kd_json_object(json, "parameters");
-    for (size_t i = 0; i < kd_n_integral_fields; i++)
-        if (kd_integral_fields[i].of & 1u << request->what && kd_integral_fields[i].kind != KD_INTEGRAL_NUMBERS) {
-            enter(json, &object, kd_integral_fields[i].name);
-            kd_integral_field_write(json, request, &kd_integral_fields[i]);
-        }
-    enter(json, &object, "");
+    kd_document_write(json, &document, request);
     kd_json_end(json);
 }
 
@@ -276,20 +256,20 @@ static void add_parameters(struct kd_json *json, enum kd_integral what)
     size_t n = 0;
     kd_schema_begin_strict(json, "parameters");
     for (size_t i = 0; i < kd_n_integral_fields && n < 64; i++) {
-        const struct kd_integral_field *f = &kd_integral_fields[i];
-        if (!(f->of & 1u << what) || f->kind == KD_INTEGRAL_NUMBERS)
+        const struct kd_row *f = &kd_integral_fields[i];
+        if (!(f->of & 1u << what) || f->kind == KD_KIND_LIST)
             continue;
-        if (strchr(f->name, '.')) {
-            names[n] = kd_integral_is_compared(what) ? "systematic" : f->name;
+        if (f->object) {
+            names[n] = f->object;
             if (!n || strcmp(names[n - 1], names[n]))
                 raw(json, names[n], SYSTEMATIC), n++;
             continue;
         }
         raw(json, names[n++] = f->name,
-            f->kind == KD_INTEGRAL_WORD    ? "{\"type\":\"string\"}"
-            : f->kind == KD_INTEGRAL_WORDS ? STRINGS
-            : f->lacks                     ? "{\"type\":[\"number\",\"null\"]}"
-                                           : "{\"type\":\"number\"}");
+            f->kind == KD_KIND_WORD                   ? "{\"type\":\"string\"}"
+            : f->kind == KD_KIND_WORDS                ? STRINGS
+            : f->words && kd_integral_is_mapped(what) ? "{\"type\":[\"number\",\"null\"]}"
+                                                      : "{\"type\":\"number\"}");
     }
     kd_schema_end_strict(json, names, n);
 }

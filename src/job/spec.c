@@ -3,7 +3,7 @@
 #include "playground/json.h"
 #include "playground/show.h"
 #include "render/frame/blur.h"
-#include "scene/members.h"
+#include "document/members.h"
 #include "scene/tree.h"
 
 #include <math.h>

@@ -11,6 +11,8 @@
 
 enum kd_orbit_form { KD_ORBIT_SHAPE, KD_ORBIT_CONSTANTS, KD_ORBIT_STATE, KD_ORBIT_CASE, KD_ORBIT_FORMS };
 
+#define KD_ORBIT_CASE_WORDS "mercury|zoom-whirl|plunge|isco|spherical" /* in the order of kd_orbit_case */
+#define KD_ORBIT_WAY_WORDS "yoshida6|rkn6|closed"
 enum kd_orbit_case { KD_CASE_MERCURY, KD_CASE_ZOOM_WHIRL, KD_CASE_PLUNGE, KD_CASE_ISCO, KD_CASE_SPHERICAL, KD_CASES };
 
 enum kd_orbit_way { KD_WAY_YOSHIDA6, KD_WAY_RKN6, KD_WAY_CLOSED, KD_WAYS };
@@ -25,7 +27,7 @@ struct kd_orbit_spec {
     double place_r, theta_deg, phi_deg, v[3];
     enum kd_observer frame;
     enum kd_orbit_case named;
-    unsigned seen; /* bit mask of the fields that were given */
+    uint64_t seen; /* bit mask of the fields that were given */
 };
 
 struct kd_orbit_params {

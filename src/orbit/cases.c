@@ -5,12 +5,6 @@
 
 #include <math.h>
 
-const char *kd_orbit_case_name(enum kd_orbit_case which)
-{
-    static const char *const names[KD_CASES] = { "mercury", "zoom-whirl", "plunge", "isco", "spherical" };
-    return names[which];
-}
-
 double kd_orbit_case_mass_msun(enum kd_orbit_case which) { return which == KD_CASE_MERCURY ? 1 : NAN; }
 
 /* Semi-major axis and eccentricity of Mercury from NASA's planetary fact sheet, GM of the Sun as IAU 2015 nominal. */

@@ -4,8 +4,6 @@
 
 #include "orbit/asked.h"
 
-const char *kd_orbit_case_name(enum kd_orbit_case which);
-
 /* The spec of a case in numbers. spin NAN: the case's own spin, which the result contains. */
 struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin);
 double kd_orbit_case_mass_msun(enum kd_orbit_case which); /* NAN: the case has none */

@@ -1,171 +1,292 @@
 #include "orbit/fields.h"
 
 #include "base/decimal.h"
-#include "orbit/cases.h"
-#include "scene/number.h"
-#include "scene/text.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
+#define SHAPE (1u << KD_ORBIT_SHAPE)
+#define CONSTANTS (1u << KD_ORBIT_CONSTANTS)
+#define STATE (1u << KD_ORBIT_STATE)
+#define CASE (1u << KD_ORBIT_CASE)
+/* What holds for every request, so that a schema can express it. Stricter limits, such as the horizon of the given
+ * spin, are checked later. A horizon is above 1 M: 1 + sqrt(1 - a^2), Bardeen, Press & Teukolsky 1972. */
+#define RADIUS(most) "\"type\":\"number\",\"exclusiveMinimum\":1,\"maximum\":" most
+_Static_assert(KD_ORBIT_SAMPLES_MAX == 200000, "the schema says so");
 
-enum { OPTIONAL, NEEDED };
-#define ANY KD_ORBIT_FORMS
-#define REAL KD_FIELD_IS_REAL
-#define INT KD_FIELD_IS_INT
-#define BOOL KD_FIELD_IS_BOOL
-#define WORD KD_FIELD_IS_WORD
-
-const struct kd_orbit_field kd_orbit_settings[] = {
+const struct kd_row kd_orbit_settings[] = {
 #define AT(member) offsetof(struct kd_orbit_params, member)
-    { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0, KD_OPEN, .help = "spin of the hole, a/M" },
-    { "", "samples", INT, AT(samples), 0, KD_ORBIT_SAMPLES_MAX, 0, ANY, 0, .bound = KD_BOUND_NOT_ONE,
+    { .name = "spin",
+      .kind = KD_KIND_REAL,
+      .offset = AT(spin),
+      .least = -1,
+      .most = 1,
+      .open = KD_OPEN,
+      .help = "spin of the hole, a/M" },
+    { .name = "samples",
+      .kind = KD_KIND_INT,
+      .offset = AT(samples),
+      .least = 0,
+      .most = KD_ORBIT_SAMPLES_MAX,
+      .schema = "\"type\":\"integer\",\"minimum\":0,\"maximum\":200000,\"not\":{\"const\":1}",
       .help = "number of samples of the path, both ends included; 0 for none; at most 20000 if \"seen\" is given" },
-    { "", "digits", INT, AT(digits), 1, KD_DECIMAL_DIGITS, 0, ANY, 0,
+    { .name = "digits",
+      .kind = KD_KIND_INT,
+      .offset = AT(digits),
+      .least = 1,
+      .most = KD_DECIMAL_DIGITS,
       .help = "significant digits of the series as text" },
-    { "", "steps", INT, AT(steps), 0, 100000000, 0, ANY, 0,
+    { .name = "steps",
+      .kind = KD_KIND_INT,
+      .offset = AT(steps),
+      .least = 0,
+      .most = 100000000,
       .help = "steps per radial period, instead of a tolerance; 0: by tolerance" },
-    { "", "tolerance", REAL, AT(tolerance), 1e-14, 1e-3, 0, ANY, 0,
+    { .name = "tolerance",
+      .kind = KD_KIND_REAL,
+      .offset = AT(tolerance),
+      .least = 1e-14,
+      .most = 1e-3,
       .help = "largest relative error after a period; it determines the step" },
-    { "", "method", WORD, AT(way), 0, 0, WAY_WORDS, ANY, 0, .help = "method of integration" },
-    { "", "r_max", REAL, AT(r_max), 2, 1e6, 0, ANY, 0, .help = "radius at which an escaping orbit ends [M]" },
-    { "", "mass_msun", REAL, AT(mass_msun), 1e-20, 1e20, 0, ANY, 0,
+    { .name = "method",
+      .kind = KD_KIND_WORD,
+      .offset = AT(way),
+      .words = KD_ORBIT_WAY_WORDS,
+      .help = "method of integration" },
+    { .name = "r_max",
+      .kind = KD_KIND_REAL,
+      .offset = AT(r_max),
+      .least = 2,
+      .most = 1e6,
+      .unit = "M",
+      .help = "radius at which an escaping orbit ends" },
+    { .name = "mass_msun",
+      .kind = KD_KIND_REAL,
+      .offset = AT(mass_msun),
+      .least = 1e-20,
+      .most = 1e20,
       .help = "mass of the hole [solar masses]; adds frequencies in Hz and the advance per century" },
-    { "", "series", BOOL, AT(series), 0, 1, 0, ANY, 0,
+    { .name = "series",
+      .kind = KD_KIND_BOOL,
+      .offset = AT(series),
       .help = "for a list: whether the answer has the samples of each orbit" },
-    { "duration", "periods", REAL, AT(periods), 0, 1e9, 0, ANY, 0,
+    { .object = "duration",
+      .name = "periods",
+      .kind = KD_KIND_REAL,
+      .offset = AT(periods),
+      .least = 0,
+      .most = 1e9,
       .help = "duration in radial periods, or in revolutions if r is constant" },
-    { "duration", "time", REAL, AT(time), 0, 1e30, 0, ANY, 0, .help = "coordinate time [M]" },
-    { "duration", "or_end", BOOL, AT(or_end), 0, 1, 0, ANY, 0,
+    { .object = "duration",
+      .name = "time",
+      .kind = KD_KIND_REAL,
+      .offset = AT(time),
+      .least = 0,
+      .most = 1e30,
+      .unit = "M",
+      .help = "coordinate time" },
+    { .object = "duration",
+      .name = "or_end",
+      .kind = KD_KIND_BOOL,
+      .offset = AT(or_end),
       .help = "follow an orbit that plunges or escapes to its end, because it has no periods" },
-    { "seen", "observer_r", REAL, AT(seen.r), 0, 1e7, 0, ANY, 0, .bound = KD_BOUND_RADIUS,
+    { .object = "seen",
+      .name = "observer_r",
+      .kind = KD_KIND_REAL,
+      .offset = AT(seen.r),
+      .least = 0,
+      .most = 1e7,
+      .schema = RADIUS("1e7"),
       .help = "radius of the observer [M]; default infinity" },
-    { "seen", "observer_inclination_deg", REAL, AT(seen.inclination_deg), 0, 180, 0, ANY, 0,
-      .help = "polar angle of the observer [deg]" },
-    { "seen", "observer_azimuth_deg", REAL, AT(seen.azimuth_deg), -1e6, 1e6, 0, ANY, 0,
-      .help = "azimuth of the observer [deg]" },
-    { "seen", "observer", WORD, AT(seen.motion), 0, 0, FRAME_WORDS, ANY, 0, .help = "motion of the observer" },
+    { .object = "seen",
+      .name = "observer_inclination_deg",
+      .kind = KD_KIND_REAL,
+      .offset = AT(seen.inclination_deg),
+      .least = 0,
+      .most = 180,
+      .unit = "deg",
+      .help = "polar angle of the observer" },
+    { .object = "seen",
+      .name = "observer_azimuth_deg",
+      .kind = KD_KIND_REAL,
+      .offset = AT(seen.azimuth_deg),
+      .least = -1e6,
+      .most = 1e6,
+      .unit = "deg",
+      .help = "azimuth of the observer" },
+    { .object = "seen",
+      .name = "observer",
+      .kind = KD_KIND_WORD,
+      .offset = AT(seen.motion),
+      .words = KD_OBSERVER_FRAME_WORDS,
+      .help = "motion of the observer" },
 #undef AT
 };
 _Static_assert(sizeof kd_orbit_settings / sizeof *kd_orbit_settings == KD_ORBIT_N_SETTINGS,
                "as many as the header says");
 
-const struct kd_orbit_field kd_orbit_fields[] = {
+const struct kd_row kd_orbit_fields[] = {
 #define AT(member) offsetof(struct kd_orbit_spec, member)
-    { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0, KD_OPEN, .help = "spin of the hole, a/M" },
-    { "", "p", REAL, AT(p), 0, 1e20, 0, KD_ORBIT_SHAPE, NEEDED, .bound = KD_BOUND_RADIUS,
-      .help = "semi-latus rectum of a bound orbit; its radii are between p/(1+e) and p/(1-e) [M]" },
-    { "", "e", REAL, AT(e), 0, 1, 0, KD_ORBIT_SHAPE, NEEDED, KD_OPEN_ABOVE, .help = "eccentricity" },
-    { "", "inclination_deg", REAL, AT(inclination_deg), 0, 180, 0, KD_ORBIT_SHAPE, OPTIONAL,
-      .help = "inclination; above 90 is retrograde [deg]" },
-    { "", "energy", REAL, AT(energy), -1e6, 1e6, 0, KD_ORBIT_CONSTANTS, NEEDED, .help = "energy per rest mass" },
-    { "", "angular_momentum", REAL, AT(momentum), -1e20, 1e20, 0, KD_ORBIT_CONSTANTS, NEEDED,
-      .help = "angular momentum about the axis, per rest mass [M]" },
-    { "", "carter", REAL, AT(carter), -1e30, 1e30, 0, KD_ORBIT_CONSTANTS, OPTIONAL, .bound = KD_BOUND_POSITIVE,
+    { .name = "spin",
+      .kind = KD_KIND_REAL,
+      .offset = AT(spin),
+      .least = -1,
+      .most = 1,
+      .open = KD_OPEN,
+      .help = "spin of the hole, a/M" },
+    { .name = "p",
+      .kind = KD_KIND_REAL,
+      .offset = AT(p),
+      .least = 0,
+      .most = 1e20,
+      .of = SHAPE,
+      .needed = true,
+      .schema = RADIUS("1e20"),
+      .unit = "M",
+      .help = "semi-latus rectum of a bound orbit; its radii are between p/(1+e) and p/(1-e)" },
+    { .name = "e",
+      .kind = KD_KIND_REAL,
+      .offset = AT(e),
+      .least = 0,
+      .most = 1,
+      .open = KD_OPEN_ABOVE,
+      .of = SHAPE,
+      .needed = true,
+      .help = "eccentricity" },
+    { .name = "inclination_deg",
+      .kind = KD_KIND_REAL,
+      .offset = AT(inclination_deg),
+      .least = 0,
+      .most = 180,
+      .of = SHAPE,
+      .unit = "deg",
+      .help = "inclination; above 90 is retrograde" },
+    { .name = "energy",
+      .kind = KD_KIND_REAL,
+      .offset = AT(energy),
+      .least = -1e6,
+      .most = 1e6,
+      .of = CONSTANTS,
+      .needed = true,
+      .help = "energy per rest mass" },
+    { .name = "angular_momentum",
+      .kind = KD_KIND_REAL,
+      .offset = AT(momentum),
+      .least = -1e20,
+      .most = 1e20,
+      .of = CONSTANTS,
+      .needed = true,
+      .unit = "M",
+      .help = "angular momentum about the axis, per rest mass" },
+    { .name = "carter",
+      .kind = KD_KIND_REAL,
+      .offset = AT(carter),
+      .least = -1e30,
+      .most = 1e30,
+      .of = CONSTANTS,
+      .schema = "\"type\":\"number\",\"minimum\":0,\"maximum\":1e30",
       .help = "Carter's constant, per rest mass [M^2]; 0 in the equatorial plane" },
-    { "", "r", REAL, AT(r), 0, 1e20, 0, KD_ORBIT_CONSTANTS, OPTIONAL, .bound = KD_BOUND_RADIUS,
-      .help = "radius where the path starts [M]" },
-    { "", "outward", BOOL, AT(outward), 0, 1, 0, KD_ORBIT_CONSTANTS, OPTIONAL,
+    { .name = "r",
+      .kind = KD_KIND_REAL,
+      .offset = AT(r),
+      .least = 0,
+      .most = 1e20,
+      .of = CONSTANTS,
+      .schema = RADIUS("1e20"),
+      .unit = "M",
+      .help = "radius where the path starts" },
+    { .name = "outward",
+      .kind = KD_KIND_BOOL,
+      .offset = AT(outward),
+      .of = CONSTANTS,
       .help = "whether the path starts outwards" },
-    { "position", "r", REAL, AT(place_r), 0, 1e20, 0, KD_ORBIT_STATE, NEEDED, .bound = KD_BOUND_RADIUS,
-      .help = "radius [M]" },
-    { "position", "theta_deg", REAL, AT(theta_deg), 0, 180, 0, KD_ORBIT_STATE, OPTIONAL, .help = "polar angle [deg]" },
-    { "position", "phi_deg", REAL, AT(phi_deg), -360, 360, 0, KD_ORBIT_STATE, OPTIONAL, .help = "azimuth [deg]" },
-    { "velocity", "frame", WORD, AT(frame), 0, 0, FRAME_WORDS, KD_ORBIT_STATE, OPTIONAL,
+    { .object = "position",
+      .name = "r",
+      .kind = KD_KIND_REAL,
+      .offset = AT(place_r),
+      .least = 0,
+      .most = 1e20,
+      .of = STATE,
+      .needed = true,
+      .schema = RADIUS("1e20"),
+      .unit = "M",
+      .help = "radius" },
+    { .object = "position",
+      .name = "theta_deg",
+      .kind = KD_KIND_REAL,
+      .offset = AT(theta_deg),
+      .least = 0,
+      .most = 180,
+      .of = STATE,
+      .unit = "deg",
+      .help = "polar angle" },
+    { .object = "position",
+      .name = "phi_deg",
+      .kind = KD_KIND_REAL,
+      .offset = AT(phi_deg),
+      .least = -360,
+      .most = 360,
+      .of = STATE,
+      .unit = "deg",
+      .help = "azimuth" },
+    { .object = "velocity",
+      .name = "frame",
+      .kind = KD_KIND_WORD,
+      .offset = AT(frame),
+      .words = KD_OBSERVER_FRAME_WORDS,
+      .of = STATE,
       .help = "observer whose frame the velocity refers to" },
-    { "velocity", "v_r", REAL, AT(v), -1, 1, 0, KD_ORBIT_STATE, OPTIONAL, .help = "component along r [c]" },
-    { "velocity", "v_theta", REAL, AT(v) + sizeof(double), -1, 1, 0, KD_ORBIT_STATE, OPTIONAL,
-      .help = "component along theta [c]" },
-    { "velocity", "v_phi", REAL, AT(v) + 2 * sizeof(double), -1, 1, 0, KD_ORBIT_STATE, OPTIONAL,
-      .help = "component along phi [c]" },
-    { "", "case", WORD, AT(named), 0, 0, CASE_WORDS, KD_ORBIT_CASE, NEEDED, .help = "an orbit by name" },
+    { .object = "velocity",
+      .name = "v_r",
+      .kind = KD_KIND_REAL,
+      .offset = AT(v[0]),
+      .least = -1,
+      .most = 1,
+      .of = STATE,
+      .unit = "c",
+      .help = "component along r" },
+    { .object = "velocity",
+      .name = "v_theta",
+      .kind = KD_KIND_REAL,
+      .offset = AT(v[1]),
+      .least = -1,
+      .most = 1,
+      .of = STATE,
+      .unit = "c",
+      .help = "component along theta" },
+    { .object = "velocity",
+      .name = "v_phi",
+      .kind = KD_KIND_REAL,
+      .offset = AT(v[2]),
+      .least = -1,
+      .most = 1,
+      .of = STATE,
+      .unit = "c",
+      .help = "component along phi" },
+    { .name = "case",
+      .kind = KD_KIND_WORD,
+      .offset = AT(named),
+      .words = KD_ORBIT_CASE_WORDS,
+      .of = CASE,
+      .needed = true,
+      .help = "an orbit by name" },
 #undef AT
 };
 _Static_assert(sizeof kd_orbit_fields / sizeof *kd_orbit_fields == KD_ORBIT_N_FIELDS, "as many as the header says");
+
+/* A duration has one length; or_end is for durations without periods. An observer needs a place. */
+static const struct kd_document_not nots[] = {
+    { "duration", "{\"anyOf\":[{\"required\":[\"periods\",\"time\"]},{\"required\":[\"or_end\"],\"properties\":{\"or_"
+                  "end\":{\"const\":true}},\"not\":{\"required\":[\"periods\"]}}]}" },
+    { "seen",
+      "{\"not\":{\"required\":[\"observer_inclination_deg\"]},\"anyOf\":[{\"required\":[\"observer_r\"]},"
+      "{\"required\":[\"observer_azimuth_deg\"],\"properties\":{\"observer_azimuth_deg\":{\"not\":{\"const\":0}}}},"
+      "{\"required\":[\"observer\"],\"properties\":{\"observer\":{\"not\":{\"const\":\"static\"}}}}]}" },
+    { NULL, NULL },
+};
+const struct kd_document kd_orbit_request_document = { kd_orbit_settings, KD_ORBIT_N_SETTINGS, 0, "orbit|orbits",
+                                                       nots };
+const struct kd_document kd_orbit_document = { kd_orbit_fields, KD_ORBIT_N_FIELDS, 0, NULL, NULL };
 
 const char *kd_orbit_way_name(enum kd_orbit_way way)
 {
     static const char *const names[KD_WAYS] = { "yoshida6", "rkn6", "closed" };
     return names[way];
-}
-
-const char *kd_orbit_field_word(const struct kd_orbit_field *field, int i)
-{
-    switch (field->words) {
-    case WAY_WORDS: return i < KD_WAYS ? kd_orbit_way_name((enum kd_orbit_way)i) : NULL;
-    case FRAME_WORDS: return i < KD_OBSERVER_FRAMES ? kd_observers[i].word : NULL;
-    case CASE_WORDS: return i < KD_CASES ? kd_orbit_case_name((enum kd_orbit_case)i) : NULL;
-    case NO_WORDS: break;
-    }
-    return NULL;
-}
-
-static void describe_allowed(const struct kd_orbit_field *field, char out[KD_ALLOWED_SIZE])
-{
-    static const char *const ranges[] = { "%s to %s", "%s up to, not including, %s", "a number above %s and below %s" };
-    char low[KD_NUMBER_SIZE], high[KD_NUMBER_SIZE];
-    size_t used = 0;
-    *out = 0;
-    kd_number_format(low, field->least);
-    kd_number_format(high, field->most);
-    switch (field->kind) {
-    case BOOL: snprintf(out, KD_ALLOWED_SIZE, "true or false"); return;
-    case INT: snprintf(out, KD_ALLOWED_SIZE, "a whole number from %s to %s", low, high); return;
-    case REAL: snprintf(out, KD_ALLOWED_SIZE, ranges[field->open], low, high); return;
-    case WORD:
-        for (int i = 0; kd_orbit_field_word(field, i) && used < KD_ALLOWED_SIZE; i++)
-            used += (size_t)snprintf(
-                out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"",
-                kd_text_or((size_t)i, kd_orbit_field_word(field, i + 1) ? (size_t)i + 2 : (size_t)i + 1),
-                kd_orbit_field_word(field, i));
-        return;
-    }
-}
-
-static bool inside(const struct kd_orbit_field *field, double x)
-{
-    bool low = field->open == KD_OPEN ? x > field->least : x >= field->least;
-    return low && (field->open ? x < field->most : x <= field->most);
-}
-
-static bool store(void *to, const struct kd_orbit_field *field, const struct kd_value *value)
-{
-    void *at = (char *)to + field->offset;
-    bool good = value->kind == KD_VALUE_NUMBER && inside(field, value->number);
-    switch (field->kind) {
-    case REAL:
-        if (good)
-            *(double *)at = value->number;
-        return good;
-    case INT:
-        if (!good || value->number != floor(value->number))
-            return false;
-        *(uint32_t *)at = (uint32_t)value->number;
-        return true;
-    case BOOL:
-        if (value->kind != KD_VALUE_BOOL)
-            return false;
-        *(bool *)at = value->number != 0;
-        return true;
-    case WORD:
-        for (int i = 0; value->kind == KD_VALUE_STRING && kd_orbit_field_word(field, i); i++)
-            if (!strcmp(value->text, kd_orbit_field_word(field, i))) {
-                memcpy(at, &i, sizeof i); /* every enum here is as wide as int */
-                return true;
-            }
-        return false;
-    }
-    return false;
-}
-
-enum kd_status kd_orbit_field_put(void *to, const struct kd_orbit_field *field, const struct kd_value *value,
-                                  const char *pointer, struct kd_error *error)
-{
-    char given[KD_VALUE_SIZE], allowed[KD_ALLOWED_SIZE];
-    if (store(to, field, value))
-        return KD_OK;
-    kd_value_describe(value, given);
-    describe_allowed(field, allowed);
-    return kd_error_field(error, pointer, "%s is %s%s; it must be %s", field->name, given,
-                          field->kind == REAL || field->kind == INT ? kd_value_unwanted(value) : "", allowed);
 }

@@ -1,14 +1,14 @@
 #include "orbit/request.h"
 
 #include "base/decimal.h"
-#include "base/spelling.h"
 #include "orbit/cases.h"
+#include "document/members.h"
 #include "orbit/fields.h"
 #include "physics/math/angle.h"
 #include "physics/spacetime/hole.h"
-#include "scene/number.h"
-#include "scene/text.h"
-#include "scene/tree.h"
+#include "document/number.h"
+#include "document/text.h"
+#include "document/tree.h"
 
 #include <float.h>
 #include <math.h>
@@ -49,163 +49,73 @@ static struct kd_orbit_spec empty_spec(void)
     };
 }
 
-/* A table of fields and the struct that it fills. */
-struct target {
-    const struct kd_orbit_field *fields;
-    size_t n;
-    void *to;
-    unsigned seen;     /* bit mask: a bit a field, then a bit a section */
-    const char *extra; /* further known names, for messages */
-};
-
-static const struct kd_orbit_field *find(const struct target *t, const char *section, const char *name)
-{
-    for (size_t i = 0; i < t->n; i++)
-        if (!strcmp(t->fields[i].section, section) && !strcmp(t->fields[i].name, name))
-            return &t->fields[i];
-    return NULL;
-}
-
-static bool has_section(const struct target *t, const char *name)
-{
-    for (size_t i = 0; i < t->n; i++)
-        if (*t->fields[i].section && !strcmp(t->fields[i].section, name))
-            return true;
-    return false;
-}
-
-static enum kd_status unknown(const struct target *t, const char *section, const char *name, const char *pointer,
-                              struct kd_error *error)
-{
-    char shown[60], known[240] = "";
-    struct kd_spelling_best meant = { 0 };
-    kd_text_clip(shown, sizeof shown, name);
-    for (size_t i = 0; i < t->n; i++) {
-        const struct kd_orbit_field *f = &t->fields[i];
-        bool own = !strcmp(f->section, section),
-             inner = !*section && *f->section && (!i || strcmp(f[-1].section, f->section));
-        size_t used = strlen(known);
-        if (own || inner)
-            kd_spelling_offer(&meant, name, own ? f->name : f->section);
-        if (own || inner)
-            snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", own ? f->name : f->section);
-    }
-    if (meant.name)
-        return kd_error_field(error, pointer, "there is no field %s here; did you mean %s? Known are %s%s", shown,
-                              meant.name, known, *section ? "" : t->extra);
-    return kd_error_field(error, pointer, "there is no field %s here; known are %s%s", shown, known,
-                          *section ? "" : t->extra);
-}
-
-static enum kd_status read_field(struct target *t, const char *section, const cJSON *item, const char *pointer,
-                                 struct kd_error *error)
-{
-    const struct kd_orbit_field *field = find(t, section, item->string);
-    if (!field)
-        return unknown(t, section, item->string, pointer, error);
-    unsigned bit = 1u << (field - t->fields);
-    if (t->seen & bit)
-        return kd_error_field(error, pointer, "%s is given twice", field->name);
-    t->seen |= bit;
-    struct kd_value value = kd_tree_value(item);
-    return kd_orbit_field_put(t->to, field, &value, pointer, error);
-}
-
-static enum kd_status not_a(const cJSON *item, const char *pointer, const char *allowed, struct kd_error *error)
-{
-    char given[KD_VALUE_SIZE];
-    struct kd_value value = kd_tree_value(item);
-    kd_value_describe(&value, given);
-    return kd_error_field(error, pointer, "%s is %s; it must be %s", *pointer ? pointer + 1 : "the document", given,
-                          allowed);
-}
-
-/* Reads a field, or a section with its fields. */
-static enum kd_status read_item(struct target *t, const cJSON *item, const char *parent, struct kd_error *error)
-{
-    char pointer[sizeof error->pointer];
-    snprintf(pointer, sizeof pointer, "%s", parent);
-    kd_text_pointer(pointer, sizeof pointer, item->string);
-    if (!has_section(t, item->string))
-        return read_field(t, "", item, pointer, error);
-    if (!cJSON_IsObject(item))
-        return not_a(item, pointer, "an object with fields", error);
-    enum kd_status status = KD_OK;
-    for (const cJSON *one = item->child; one && !status; one = one->next) {
-        char inner[sizeof error->pointer];
-        snprintf(inner, sizeof inner, "%s", pointer);
-        kd_text_pointer(inner, sizeof inner, one->string);
-        status = read_field(t, item->string, one, inner, error);
-    }
-    return status;
-}
-
 #define FORMS "an orbit must be defined by %s, by %s, by %s, or by %s"
 #define FORM_TEXTS form_texts[0], form_texts[1], form_texts[2], form_texts[3]
 
 /* Refuses a field that does not belong to the orbit's form. */
-static enum kd_status mixed(const struct kd_orbit_spec *spec, const struct kd_orbit_field *field, const char *pointer,
+static enum kd_status mixed(const struct kd_orbit_spec *spec, const struct kd_row *field, const char *pointer,
                             struct kd_error *error)
 {
     size_t i = 0;
-    while (!(spec->seen & 1u << i) || kd_orbit_fields[i].form != spec->form)
+    while (!(spec->seen & 1u << i) || kd_orbit_fields[i].of != 1u << spec->form)
         i++;
     return kd_error_field(error, pointer, "%s cannot be used with %s; " FORMS, field->name, kd_orbit_fields[i].name,
                           FORM_TEXTS);
 }
 
+/* The form that a field belongs to. */
+static enum kd_orbit_form form_of(const struct kd_row *row)
+{
+    enum kd_orbit_form form = KD_ORBIT_SHAPE;
+    while (form < KD_ORBIT_FORMS && row->of != 1u << form)
+        form++;
+    return form;
+}
+
 /* Checks that an orbit is given in exactly one form, completely. */
 static enum kd_status settle(struct kd_orbit_spec *spec, const char *pointer, struct kd_error *error)
 {
-    unsigned seen = spec->seen;
+    const uint64_t seen = spec->seen;
     for (size_t i = 0; i < KD_ORBIT_N_FIELDS; i++) {
-        enum kd_orbit_form form = kd_orbit_fields[i].form;
-        if (!(seen & 1u << i) || form == KD_ORBIT_FORMS)
+        const struct kd_row *row = &kd_orbit_fields[i];
+        if (!(seen & 1u << i) || !row->of)
             continue;
-        if (spec->form != KD_ORBIT_FORMS && spec->form != form)
-            return mixed(spec, &kd_orbit_fields[i], pointer, error);
-        spec->form = form;
+        if (spec->form != KD_ORBIT_FORMS && row->of != 1u << spec->form)
+            return mixed(spec, row, pointer, error);
+        spec->form = form_of(row);
     }
     if (spec->form == KD_ORBIT_FORMS)
         return kd_error_field(error, pointer, FORMS, FORM_TEXTS);
-    for (size_t i = 0; i < KD_ORBIT_N_FIELDS; i++)
-        if (kd_orbit_fields[i].form == spec->form && kd_orbit_fields[i].needed && !(seen & 1u << i)) {
-            char missing[sizeof error->pointer];
-            snprintf(missing, sizeof missing, "%s", pointer);
-            if (*kd_orbit_fields[i].section)
-                kd_text_pointer(missing, sizeof missing, kd_orbit_fields[i].section);
-            kd_text_pointer(missing, sizeof missing, kd_orbit_fields[i].name);
-            return kd_error_field(error, missing, "%s is missing", kd_orbit_fields[i].name);
-        }
+    for (size_t i = 0; i < KD_ORBIT_N_FIELDS; i++) {
+        const struct kd_row *row = &kd_orbit_fields[i];
+        if (row->of != 1u << spec->form || !row->needed || seen & 1u << i)
+            continue;
+        char missing[sizeof error->pointer];
+        snprintf(missing, sizeof missing, "%s", pointer);
+        if (row->object)
+            kd_text_pointer(missing, sizeof missing, row->object);
+        kd_text_pointer(missing, sizeof missing, row->name);
+        return kd_error_field(error, missing, "%s is missing", row->name);
+    }
     return KD_OK;
 }
 
 static enum kd_status read_orbit(struct kd_orbit_spec *spec, const cJSON *object, const char *pointer,
                                  struct kd_error *error)
 {
-    struct target target = { kd_orbit_fields, KD_ORBIT_N_FIELDS, spec, 0, "" };
-    enum kd_status status = KD_OK;
     *spec = empty_spec();
-    if (!cJSON_IsObject(object))
-        return not_a(object, pointer, "an object with fields", error);
-    for (const cJSON *item = object->child; item; item = item->next)
-        KD_TRY(read_item(&target, item, pointer, error));
-    spec->seen = target.seen;
-    KD_TRY(settle(spec, pointer, error));
-done:
-    return status;
+    enum kd_status status = kd_document_read(&kd_orbit_document, spec, object, pointer, &spec->seen, error);
+    return status ? status : settle(spec, pointer, error);
 }
 
 static enum kd_status read_orbits(struct kd_orbit_request *request, const cJSON *item, struct kd_error *error)
 {
     size_t n = 1, i = 0;
     enum kd_status status = KD_OK;
-    if (request->specs)
-        return kd_error_field(error, "/orbits", "orbits are given twice; there must be one of orbit and orbits, once");
     request->many = !strcmp(item->string, "orbits");
     if (request->many) {
         if (!cJSON_IsArray(item))
-            return not_a(item, "/orbits", "an array of orbits", error);
+            return kd_member_refuse(item, "/orbits", "an array of orbits", error);
         n = (size_t)cJSON_GetArraySize(item);
         if (!n || n > KD_ORBITS_MAX)
             return kd_error_field(error, "/orbits", "there are %zu orbits; there must be 1 to %u", n, KD_ORBITS_MAX);
@@ -225,17 +135,12 @@ static enum kd_status read_orbits(struct kd_orbit_request *request, const cJSON 
 
 static enum kd_status read_tree(struct kd_orbit_request *request, const cJSON *root, struct kd_error *error)
 {
-    struct target target = { kd_orbit_settings, KD_ORBIT_N_SETTINGS, &request->params, 0, ", orbit and orbits" };
-    enum kd_status status = KD_OK;
-    if (!cJSON_IsObject(root)) {
-        not_a(root, "", "an object", error);
-        return KD_EINVAL;
-    }
-    for (const cJSON *item = root->child; item && !status; item = item->next)
-        status = !strcmp(item->string, "orbit") || !strcmp(item->string, "orbits")
-                     ? read_orbits(request, item, error)
-                     : read_item(&target, item, "", error);
-    return status;
+    const cJSON *one = cJSON_GetObjectItemCaseSensitive(root, "orbit"),
+                *many = cJSON_GetObjectItemCaseSensitive(root, "orbits");
+    if (one && many)
+        return kd_error_field(error, "/orbits", "orbits are given twice; there must be one of orbit and orbits, once");
+    enum kd_status status = kd_document_read(&kd_orbit_request_document, &request->params, root, "", NULL, error);
+    return status || !(one || many) ? status : read_orbits(request, one ? one : many, error);
 }
 
 enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const char *text, size_t length,
@@ -251,18 +156,11 @@ done:
     return status;
 }
 
-static const struct kd_orbit_field *by_name(const struct kd_orbit_field *table, size_t n, const char *name)
-{
-    for (size_t i = 0; i < n; i++)
-        if (!strcmp(table[i].name, name))
-            return &table[i];
-    return NULL;
-}
-
 /* Sets a field. "r" also means position.r, according to the orbit's form. */
-static enum kd_status set_field(struct kd_orbit_request *request, const struct kd_orbit_field *field,
-                                const struct kd_value *value, const char *pointer, struct kd_error *error)
+static enum kd_status set_field(struct kd_orbit_request *request, const struct kd_row *field, const char *text,
+                                const char *pointer, struct kd_error *error)
 {
+    const struct kd_value value = kd_value_typed(text);
     if (!request->specs) {
         if (!(request->specs = malloc(sizeof *request->specs)))
             return kd_error_set(error, KD_ENOMEM, "out of memory for an orbit");
@@ -275,30 +173,26 @@ static enum kd_status set_field(struct kd_orbit_request *request, const struct k
                               "%s cannot be used with a list of %zu orbits, because it belongs to a single orbit",
                               field->name, request->n);
     if (!strcmp(field->name, "r") && spec->form != KD_ORBIT_CONSTANTS)
-        field = find(&(struct target) { kd_orbit_fields, KD_ORBIT_N_FIELDS, spec, 0, "" }, "position", "r");
-    enum kd_status status = kd_orbit_field_put(spec, field, value, pointer, error);
-    bool other = spec->form != KD_ORBIT_FORMS && field->form != spec->form && field->form != KD_ORBIT_FORMS;
+        field = kd_document_find(&kd_orbit_document, "position.r");
+    enum kd_status status = kd_row_put(field, spec, &value, field->name, pointer, error);
+    bool other = spec->form != KD_ORBIT_FORMS && field->of && field->of != 1u << spec->form;
     if (!status && other)
         return mixed(spec, field, pointer, error);
-    if (!status && field->form != KD_ORBIT_FORMS)
-        spec->form = field->form;
-    spec->seen |= 1u << (field - kd_orbit_fields);
+    if (!status && field->of)
+        spec->form = form_of(field);
+    spec->seen |= UINT64_C(1) << (field - kd_orbit_fields);
     return status;
 }
 
 enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char *name, const char *text,
                                     struct kd_error *error)
 {
-    struct kd_value value = kd_value_typed(text);
-    char pointer[sizeof error->pointer] = "", shown[60];
+    char pointer[sizeof error->pointer] = "";
+    const struct kd_row *field = kd_document_find(&kd_orbit_document, name);
     kd_text_pointer(pointer, sizeof pointer, name);
-    const struct kd_orbit_field *field = by_name(kd_orbit_settings, KD_ORBIT_N_SETTINGS, name);
-    if (field)
-        return kd_orbit_field_put(&request->params, field, &value, pointer, error);
-    if ((field = by_name(kd_orbit_fields, KD_ORBIT_N_FIELDS, name)))
-        return set_field(request, field, &value, pointer, error);
-    kd_text_clip(shown, sizeof shown, name);
-    return kd_error_field(error, pointer, "there is no parameter %s", shown);
+    if (field && !kd_document_find(&kd_orbit_request_document, name))
+        return set_field(request, field, text, pointer, error);
+    return kd_document_set(&kd_orbit_request_document, &request->params, name, text, NULL, error);
 }
 
 enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, struct kd_error *error)

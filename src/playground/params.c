@@ -2,44 +2,60 @@
 
 #include "playground/body.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #define AT(name) offsetof(struct kd_playground_params, name)
-#define REAL(name, value, least, most, help) { #name, KD_SETTING_REAL, AT(name), value, least, most, 0, NULL, help },
-#define INT(name, value, least, most, help) { #name, KD_SETTING_INT, AT(name), value, least, most, 0, NULL, help },
-#define BOOL(name, value, help) { #name, KD_SETTING_BOOL, AT(name), value, 0, 1, 0, NULL, help },
-#define WORD(name, value, words, help) { #name, KD_SETTING_WORD, AT(name), value, 0, 0, 0, words, help },
-const struct kd_playground_setting kd_playground_settings[] = { KD_PLAYGROUND_SETTINGS(REAL, INT, BOOL, WORD) };
+#define REAL(n, value, low, high, h) \
+    { .name = #n, \
+      .kind = KD_KIND_REAL, \
+      .offset = AT(n), \
+      .initial = value, \
+      .least = low, \
+      .most = high, \
+      .help = h, \
+      .fixed = AT(n) == AT(spin) },
+#define INT(n, value, low, high, h) \
+    { .name = #n, .kind = KD_KIND_INT, .offset = AT(n), .initial = value, .least = low, .most = high, .help = h },
+#define BOOL(n, value, h) { .name = #n, .kind = KD_KIND_BOOL, .offset = AT(n), .initial = value, .help = h },
+#define WORD(n, value, w, h) \
+    { .name = #n, \
+      .kind = KD_KIND_WORD, \
+      .offset = AT(n), \
+      .initial = value, \
+      .words = w, \
+      .help = h, \
+      .fixed = AT(n) == AT(gravity) },
+static const struct kd_row settings[] = { KD_PLAYGROUND_SETTINGS(REAL, INT, BOOL, WORD) };
 #undef AT
-const size_t kd_playground_n_settings = sizeof kd_playground_settings / sizeof *kd_playground_settings;
+const struct kd_document kd_playground_settings = { .rows = settings, .n = sizeof settings / sizeof *settings };
 
 #define AT(name) offsetof(struct kd_playground_body, name)
-const struct kd_playground_setting kd_playground_body_fields[] = {
-    { "mass", KD_SETTING_REAL, AT(mass), 1e-6, 0, 1e12, KD_PLAYGROUND_LEAST, NULL,
-      "mass in units of the hole's mass, at least 1e-30; 0: a test body that attracts nothing" },
-    { "radius", KD_SETTING_REAL, AT(radius), 0, 0, 1e6, KD_PLAYGROUND_LEAST, NULL,
-      "radius in M, at least 1e-30; 0: a point without collisions and tides" },
-    REAL(temperature_k, 5800, 0, 1e10, "temperature of the surface in K; 0: dark")
+static const struct kd_row body_fields[] = {
+    { .name = "mass",
+      .kind = KD_KIND_REAL,
+      .offset = AT(mass),
+      .initial = 1e-6,
+      .most = 1e12,
+      .above_0 = KD_PLAYGROUND_LEAST,
+      .help = "mass in units of the hole's mass, at least 1e-30; 0: a test body that attracts nothing" },
+    { .name = "radius",
+      .kind = KD_KIND_REAL,
+      .offset = AT(radius),
+      .most = 1e6,
+      .above_0 = KD_PLAYGROUND_LEAST,
+      .help = "radius in M, at least 1e-30; 0: a point without collisions and tides" },
+    { .name = "temperature_k",
+      .kind = KD_KIND_REAL,
+      .offset = AT(temperature_k),
+      .initial = 5800,
+      .most = 1e10,
+      .help = "temperature of the surface in K; 0: dark" },
 };
-const size_t kd_playground_n_body_fields = sizeof kd_playground_body_fields / sizeof *kd_playground_body_fields;
+#undef AT
+const struct kd_document kd_playground_body_fields = { .rows = body_fields,
+                                                       .n = sizeof body_fields / sizeof *body_fields };
 
 struct kd_playground_params kd_playground_defaults(void)
 {
-    return (struct kd_playground_params) {
-#define VALUE(name, value, ...) .name = (value),
-        KD_PLAYGROUND_SETTINGS(VALUE, VALUE, VALUE, VALUE)
-    };
-}
-
-bool kd_playground_word(const char *words, int i, char *out, size_t size)
-{
-    for (; i > 0 && words; i--) {
-        words = strchr(words, '|');
-        words = words ? words + 1 : NULL;
-    }
-    if (!words)
-        return false;
-    snprintf(out, size, "%.*s", (int)strcspn(words, "|"), words);
-    return true;
+    struct kd_playground_params params = { 0 };
+    kd_document_defaults(&kd_playground_settings, &params);
+    return params;
 }

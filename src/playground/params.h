@@ -3,6 +3,8 @@
 #ifndef KD_PLAYGROUND_PARAMS_H
 #define KD_PLAYGROUND_PARAMS_H
 
+#include "document/document.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -50,27 +52,11 @@ struct kd_playground_params {
 #undef KD_WORD_
 };
 
-/* Also used for the table of a body's fields, except "position" and "velocity". */
-enum kd_playground_kind { KD_SETTING_REAL, KD_SETTING_INT, KD_SETTING_BOOL, KD_SETTING_WORD };
-struct kd_playground_setting {
-    const char *name;
-    enum kd_playground_kind kind;
-    size_t offset;
-    double value, least, most; /* value: the default */
-    double above_0;            /* non-zero values are at least this */
-    const char *words;         /* for WORD: "a|b", with the values 0, 1, ... */
-    const char *help;
-};
-extern const struct kd_playground_setting kd_playground_settings[];
-extern const size_t kd_playground_n_settings;
-extern const struct kd_playground_setting kd_playground_body_fields[]; /* fields of struct kd_playground_body */
-extern const size_t kd_playground_n_body_fields;
+extern const struct kd_document kd_playground_settings;    /* of struct kd_playground_params */
+extern const struct kd_document kd_playground_body_fields; /* numbers of struct kd_playground_body */
 
 struct kd_playground_params kd_playground_defaults(void);
 bool kd_playground_params_same(const struct kd_playground_params *a,
                                const struct kd_playground_params *b); /* compares all settings; in playground.c */
-
-/* Copies word `i` of "a|b|c"; false if there are fewer. */
-bool kd_playground_word(const char *words, int i, char *out, size_t size);
 
 #endif

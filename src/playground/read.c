@@ -6,8 +6,8 @@
 #include "playground/preset.h"
 #include "playground/state.h"
 
-#include "scene/text.h"
-#include "scene/tree.h"
+#include "document/text.h"
+#include "document/tree.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,20 +31,19 @@ static enum kd_status read_name(struct kd_playground_body *body, const cJSON *it
 static enum kd_status read_body(struct kd_playground_body *body, const cJSON *item, const char *pointer, uint32_t *id,
                                 double grown, struct kd_error *error)
 {
-    static const struct kd_playground_setting id_row = { "id", KD_SETTING_INT, 0, 0, 1, UINT32_MAX, 0, NULL, NULL };
+    static const struct kd_row id_row = { .name = "id", .kind = KD_KIND_INT, .least = 1, .most = UINT32_MAX };
     enum kd_status status = KD_OK;
     if (!cJSON_IsObject(item))
         return kd_error_field(error, pointer, "a body must be an object");
     for (const cJSON *one = item->child; one; one = one->next) {
-        const struct kd_playground_setting *row =
-            kd_playground_row(kd_playground_body_fields, kd_playground_n_body_fields, one->string);
+        const struct kd_row *row = kd_document_find(&kd_playground_body_fields, one->string);
         const struct kd_value value = kd_tree_value(one);
         char at[160];
         kd_playground_pointer(at, pointer, one->string);
-        struct kd_playground_setting wide = row ? *row : id_row;
+        struct kd_row wide = row ? *row : id_row;
         wide.most *= grown;
         if (row)
-            KD_TRY(kd_playground_put(body, &wide, &value, at, error));
+            KD_TRY(kd_row_put(&wide, body, &value, wide.name, at, error));
         else if (!strcmp(one->string, "name"))
             KD_TRY(read_name(body, one, at, error));
         else if (!strcmp(one->string, "position"))
@@ -53,7 +52,7 @@ static enum kd_status read_body(struct kd_playground_body *body, const cJSON *it
         else if (!strcmp(one->string, "velocity"))
             KD_TRY(kd_playground_numbers(body->v, 3, 1 + 1e-12, one, at, error));
         else if (id && !strcmp(one->string, "id"))
-            KD_TRY(kd_playground_put(id, &id_row, &value, at, error));
+            KD_TRY(kd_row_put(&id_row, id, &value, id_row.name, at, error));
         else
             KD_TRY(kd_playground_unknown(pointer, one->string, error));
     }
@@ -72,8 +71,7 @@ static enum kd_status in_list(enum kd_status status, const char *pointer, struct
 static struct kd_playground_body plain(void)
 {
     struct kd_playground_body body = { .x = { NAN, NAN, NAN } };
-    for (size_t i = 0; i < kd_playground_n_body_fields; i++)
-        *(double *)((char *)&body + kd_playground_body_fields[i].offset) = kd_playground_body_fields[i].value;
+    kd_document_defaults(&kd_playground_body_fields, &body);
     return body;
 }
 
@@ -140,31 +138,13 @@ done:
     return status;
 }
 
-static bool among(const char *name, const char *const *names)
-{
-    while (*names && strcmp(name, *names))
-        names++;
-    return *names;
-}
-
 /* Reads the given settings; members other than these and `others` are errors. */
-static enum kd_status read_settings(struct kd_playground_params *params, const cJSON *tree, const char *const *others,
+static enum kd_status read_settings(struct kd_playground_params *params, const cJSON *tree, const char *others,
                                     struct kd_error *error)
 {
-    enum kd_status status = KD_OK;
-    for (const cJSON *one = tree->child; one; one = one->next) {
-        const struct kd_playground_setting *row =
-            kd_playground_row(kd_playground_settings, kd_playground_n_settings, one->string);
-        const struct kd_value value = kd_tree_value(one);
-        char at[160];
-        kd_playground_pointer(at, "", one->string);
-        if (row)
-            KD_TRY(kd_playground_put(params, row, &value, at, error));
-        else if (!among(one->string, others))
-            KD_TRY(kd_playground_unknown("", one->string, error));
-    }
-done:
-    return status;
+    struct kd_document document = kd_playground_settings;
+    document.others = others;
+    return kd_document_read(&document, params, tree, "", NULL, error);
 }
 
 enum kd_status kd_playground_parse(const char *text, size_t length, cJSON **tree, struct kd_error *error)
@@ -223,7 +203,6 @@ done:
 
 enum kd_status kd_playground_read_tree(const cJSON *tree, struct kd_playground **out, struct kd_error *error)
 {
-    static const char *const others[] = { "preset", "bodies", "state", NULL };
     struct kd_playground_params params = kd_playground_defaults();
     const struct kd_playground_preset *preset = NULL;
     struct kd_playground *p = NULL;
@@ -231,7 +210,7 @@ enum kd_status kd_playground_read_tree(const cJSON *tree, struct kd_playground *
     KD_TRY(read_preset(tree, &preset, error));
     if (preset)
         preset->settings(&params);
-    KD_TRY(read_settings(&params, tree, others, error));
+    KD_TRY(read_settings(&params, tree, "preset|bodies|state", error));
     const cJSON *state = cJSON_GetObjectItemCaseSensitive(tree, "state"),
                 *bodies = cJSON_GetObjectItemCaseSensitive(tree, "bodies");
     if (state && preset)
@@ -294,11 +273,10 @@ static enum kd_status copy(const struct kd_playground *from, struct kd_playgroun
 
 enum kd_status kd_playground_patch_tree(struct kd_playground **p, const cJSON *tree, struct kd_error *error)
 {
-    static const char *const others[] = { "add", "change", "remove", NULL };
     struct kd_playground_params params = (*p)->params;
     struct kd_playground *changed = NULL;
     enum kd_status status;
-    KD_TRY(read_settings(&params, tree, others, error));
+    KD_TRY(read_settings(&params, tree, "add|change|remove", error));
     KD_TRY(copy(*p, &changed, error));
     if (!kd_playground_params_same(&params, &changed->params))
         KD_TRY(kd_playground_set(changed, &params, error));
@@ -327,9 +305,5 @@ enum kd_status kd_playground_patch(struct kd_playground **p, const char *text, s
 enum kd_status kd_playground_params_set(struct kd_playground_params *params, const char *name, const char *text,
                                         struct kd_error *error)
 {
-    const struct kd_playground_setting *row = kd_playground_row(kd_playground_settings, kd_playground_n_settings, name);
-    const struct kd_value value = kd_value_typed(text);
-    char at[160];
-    kd_playground_pointer(at, "", name);
-    return row ? kd_playground_put(params, row, &value, at, error) : kd_playground_unknown("", name, error);
+    return kd_document_set(&kd_playground_settings, params, name, text, NULL, error);
 }

@@ -1,7 +1,7 @@
 #include "playground/series.h"
 
 #include "image/npy.h"
-#include "scene/number.h"
+#include "document/number.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -13,12 +13,6 @@ static void vector(const double v[3], struct kd_json *json, const char *name)
     kd_json_end(json);
 }
 
-static void settings(const struct kd_playground *p, struct kd_json *json)
-{
-    for (size_t i = 0; i < kd_playground_n_settings; i++)
-        kd_playground_tell(&p->params, &kd_playground_settings[i], json);
-}
-
 static void bodies(const struct kd_playground *p, bool ids, struct kd_json *json)
 {
     kd_json_array(json, "bodies");
@@ -28,8 +22,7 @@ static void bodies(const struct kd_playground *p, bool ids, struct kd_json *json
         if (ids)
             kd_json_number(json, "id", p->bodies[i].id);
         kd_json_string(json, "name", p->bodies[i].name);
-        for (size_t k = 0; k < kd_playground_n_body_fields; k++)
-            kd_playground_tell(&p->bodies[i], &kd_playground_body_fields[k], json);
+        kd_document_write(json, &kd_playground_body_fields, &p->bodies[i]);
         vector(p->bodies[i].x, json, "position");
         vector(p->bodies[i].v, json, "velocity");
         kd_json_end(json);
@@ -43,7 +36,7 @@ enum kd_status kd_playground_write(struct kd_playground *p, bool snapshot, struc
     enum kd_status status = KD_OK;
     kd_playground_settle(p);
     kd_json_object(&json, NULL);
-    settings(p, &json);
+    kd_document_write(&json, &kd_playground_settings, &p->params);
     bodies(p, false, &json);
     if (snapshot)
         status = kd_state_write(p, &json);
@@ -110,7 +103,7 @@ void kd_playground_status_json(struct kd_playground *p, struct kd_json *json)
     kd_json_number(json, "t", p->t);
     kd_json_number(json, "steps", (double)p->steps);
     kd_json_object(json, "settings");
-    settings(p, json);
+    kd_document_write(json, &kd_playground_settings, &p->params);
     kd_json_end(json);
     bodies(p, true, json);
     totals(p, json);

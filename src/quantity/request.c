@@ -3,8 +3,8 @@
 
 #include "base/decimal.h"
 #include "base/spelling.h"
-#include "scene/number.h"
-#include "scene/text.h"
+#include "document/number.h"
+#include "document/text.h"
 
 #include <math.h>
 #include <stdio.h>

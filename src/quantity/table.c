@@ -2,7 +2,7 @@
 
 #include "physics/spacetime/kerr.h"
 #include "scene/observer_fault.h"
-#include "scene/number.h"
+#include "document/number.h"
 
 #include <stdio.h>
 #include <string.h>

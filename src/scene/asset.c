@@ -1,7 +1,7 @@
 #include "scene/asset.h"
 
 #include "scene/table.h"
-#include "scene/text.h"
+#include "document/text.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 #include "scene/element.h"
 
-#include "scene/text.h"
+#include "document/text.h"
 
 #include <stdio.h>
 #include <stdlib.h>

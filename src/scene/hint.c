@@ -2,7 +2,7 @@
 
 #include "base/spelling.h"
 #include "scene/table.h"
-#include "scene/text.h"
+#include "document/text.h"
 
 #include <stdio.h>
 #include <string.h>

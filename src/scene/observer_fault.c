@@ -1,6 +1,6 @@
 #include "scene/observer_fault.h"
 
-#include "scene/number.h"
+#include "document/number.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,11 +1,12 @@
 /* Reads scene documents from JSON. */
 #include "scene/element.h"
 #include "scene/hint.h"
-#include "scene/scan.h"
+#include "document/scan.h"
 #include "scene/sky_scale.h"
 #include "scene/style.h"
-#include "scene/text.h"
+#include "document/text.h"
 #include "scene/tree.h"
+#include "scene/value.h"
 #include "scene/words.h"
 
 #include <stdio.h>

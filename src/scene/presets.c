@@ -3,7 +3,7 @@
 
 #include "base/spelling.h"
 #include "scene/scene.h"
-#include "scene/text.h"
+#include "document/text.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -6,9 +6,10 @@
 #include "physics/waves/qnm.h"
 #include "physics/spacetime/worldline.h"
 #include "scene/hole.h"
-#include "scene/number.h"
+#include "document/number.h"
 #include "scene/sky_scale.h"
-#include "scene/value.h"
+#include "document/value.h"
+#include "scene/table.h"
 
 #include <stdio.h>
 

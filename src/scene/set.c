@@ -3,7 +3,7 @@
 #include "scene/hint.h"
 #include "scene/sky_scale.h"
 #include "scene/style.h"
-#include "scene/text.h"
+#include "document/text.h"
 #include "scene/value.h"
 
 #include <stdio.h>

@@ -1,10 +1,10 @@
 /* Reads the axes of a sweep, from a request or a command line. */
-#include "scene/members.h"
-#include "scene/number.h"
+#include "document/members.h"
+#include "document/number.h"
 #include "scene/sweep.h"
 #include "scene/table.h"
-#include "scene/text.h"
-#include "scene/tree.h"
+#include "document/text.h"
+#include "document/tree.h"
 
 #include <stdio.h>
 #include <stdlib.h>

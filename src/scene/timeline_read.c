@@ -1,6 +1,6 @@
 /* Reads a timeline from a request. */
-#include "scene/members.h"
-#include "scene/number.h"
+#include "document/members.h"
+#include "document/number.h"
 #include "scene/timeline.h"
 #include "scene/tree.h"
 

@@ -1,27 +1,9 @@
-/* Reads a JSON document into cJSON's tree, and refuses what cJSON accepts by mistake (scan.h). Any thread. */
+/* Scenes as parts of larger documents. Any thread. */
 #ifndef KD_SCENE_TREE_H
 #define KD_SCENE_TREE_H
 
-#include "base/error.h"
-#include "scene/value.h"
-
-#include <cjson/cJSON.h>
-#include <stdbool.h>
-#include <stddef.h>
-
-/* text need not end in a NUL. KD_EINVAL without a pointer: it is not a JSON document, or has more than `most` bytes or
- * `values` values. While it reads, other requests may run (base/pause.h). Free *out with kd_tree_free, during which
- * they may run too; cJSON_Delete is enough if the tree cannot be large. */
-enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_t values, cJSON **out,
-                             struct kd_error *error);
-void kd_tree_free(cJSON *root); /* accepts NULL */
-
-/* Parses text of kerrd's own files. Returns NULL if it is not JSON, or when out of memory; *starved is then set. Free
- * the result with cJSON_Delete. */
-cJSON *kd_tree_read(const char *text, size_t length, bool *starved);
-
-/* Converts an item to a value. The value is valid as long as the item. */
-struct kd_value kd_tree_value(const cJSON *item);
+#include "document/tree.h"
+#include "scene/scene.h"
 
 /* Reads a scene that is part of a larger document, like kd_scene_from_json, or like kd_scene_patch if patch is true. On
  * error *scene is unchanged, and the error's pointer is relative to the scene. */

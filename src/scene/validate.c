@@ -1,7 +1,7 @@
 /* Validates scenes: the range of every field, and the rules about several fields. */
 #include "scene/asset.h"
 #include "scene/element.h"
-#include "scene/number.h"
+#include "document/number.h"
 #include "scene/rules.h"
 #include "scene/value.h"
 #include "scene/words.h"

@@ -3,7 +3,7 @@
 #include "physics/spacetime/kerr.h"
 #include "scene/asset.h"
 #include "scene/hole.h"
-#include "scene/number.h"
+#include "document/number.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* Writes scene documents as canonical JSON, and computes their hash. */
 #include "scene/asset.h"
-#include "scene/number.h"
+#include "document/number.h"
 #include "scene/sha256.h"
 #include "scene/words.h"
 #include "scene/writer.h"

@@ -21,7 +21,7 @@ class Playground(Case):
         self.bad(2, "at /preset", "playground", "-p", "chaos")
         self.bad(2, "at /softening", "playground", "-p", "emri", "--set", "softening=0")
         self.bad(2, "at /spin", "playground", "-p", "emri", "--set", "spin=0.5")
-        self.bad(2, "there is no field colour", "playground", "--set", "colour=1")
+        self.bad(2, "there is no parameter colour", "playground", "--set", "colour=1")
         for idle in (
             ["--every", "1"],
             ["--scene", "a.json"],

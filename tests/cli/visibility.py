@@ -227,7 +227,7 @@ class Visibility(Case):
 
     def test_refused(self):
         for args, words in (
-            (["-p", "riaf", "--spin", "0"], "there is no field spin"),
+            (["-p", "riaf", "--spin", "0"], "there is no parameter spin"),
             (["--set", "time=1"], "(at /scene/volume/model)"),
             (["-p", "riaf", "--frequencies", "300"], "2 to 200"),
         ):

@@ -15,9 +15,8 @@ static void check(struct kd_integral_request *request, enum kd_status status, co
     struct kd_buffer out = { 0 };
     struct kd_json json = kd_json_begin(&out);
     kd_json_object(&json, NULL);
-    for (size_t i = 0; i < kd_n_integral_fields; i++)
-        if (kd_integral_fields[i].kind != KD_INTEGRAL_NUMBERS && kd_integral_fields[i].of & 1u << request->what)
-            kd_integral_field_write(&json, request, &kd_integral_fields[i]);
+    const struct kd_document document = kd_integral_document(request->what);
+    kd_document_write(&json, &document, request);
     kd_json_end(&json);
     CHECK(!kd_json_finish(&json), "a request cannot be written");
     kd_fuzz_json(&out);

@@ -99,6 +99,15 @@ static void scene_words(FILE *dict, bool paths)
         word(dict, kd_presets[i].name, strlen(kd_presets[i].name));
 }
 
+static void row_words(FILE *dict, const struct kd_document *document)
+{
+    for (size_t i = 0; i < document->n; i++) {
+        const struct kd_row *row = &document->rows[i];
+        WORDS(dict, row->name, row->object ? row->object : row->name);
+        alternatives(dict, row->words);
+    }
+}
+
 static void write_scene_dictionaries(void)
 {
     static const char *const documents[] = { "scene", "patch", "job", "pictures", "playground", "state", "integrals" },
@@ -121,31 +130,20 @@ static void write_scene_dictionaries(void)
                   "hole", "free", "theta_deg", "phi_deg", "proper_time", "horizon", "end", "at", "light-curve",
                   "format", "request", "device", "version", "rows", "sets", "engine", "precision");
         if (!strcmp(name, "playground") || !strcmp(name, "job")) {
-            for (size_t k = 0; k < kd_playground_n_settings; k++) {
-                word(dict, kd_playground_settings[k].name, strlen(kd_playground_settings[k].name));
-                alternatives(dict, kd_playground_settings[k].words);
-            }
-            for (size_t k = 0; k < kd_playground_n_body_fields; k++)
-                word(dict, kd_playground_body_fields[k].name, strlen(kd_playground_body_fields[k].name));
+            row_words(dict, &kd_playground_settings);
+            row_words(dict, &kd_playground_body_fields);
             for (size_t k = 0; k < kd_playground_n_presets; k++)
                 word(dict, kd_playground_presets[k].name, strlen(kd_playground_presets[k].name));
             WORDS(dict, "preset", "bodies", "state", "position", "velocity", "name", "id", "add", "change", "remove",
                   "by");
         }
         for (size_t k = 0; k < kd_n_integral_fields && !strcmp(name, "integrals"); k++) {
-            word(dict, kd_integral_fields[k].name, strlen(kd_integral_fields[k].name));
+            if (kd_integral_fields[k].object)
+                WORDS(dict, kd_integral_fields[k].object);
+            WORDS(dict, kd_integral_fields[k].name);
             alternatives(dict, kd_integral_fields[k].words);
         }
         fclose(dict);
-    }
-}
-
-static void orbit_words(FILE *dict, const struct kd_orbit_field *fields, size_t n)
-{
-    for (size_t i = 0; i < n; i++) {
-        WORDS(dict, fields[i].name, fields[i].section);
-        for (int k = 0; kd_orbit_field_word(&fields[i], k); k++)
-            WORDS(dict, kd_orbit_field_word(&fields[i], k));
     }
 }
 
@@ -153,8 +151,8 @@ static void write_other_dictionaries(void)
 {
     FILE *dict = open_file("orbits", "");
     json_words(dict);
-    orbit_words(dict, kd_orbit_settings, KD_ORBIT_N_SETTINGS);
-    orbit_words(dict, kd_orbit_fields, KD_ORBIT_N_FIELDS);
+    row_words(dict, &kd_orbit_request_document);
+    row_words(dict, &kd_orbit_document);
     WORDS(dict, "orbit", "orbits", "series", "spin");
     fclose(dict);
 
@@ -176,8 +174,8 @@ static void write_other_dictionaries(void)
     }
     for (int i = 0; i < KD_PARTICLE_N_COLUMNS; i++)
         WORDS(dict, kd_particle_column_name((enum kd_particle_column)i));
-    orbit_words(dict, kd_orbit_settings, KD_ORBIT_N_SETTINGS);
-    orbit_words(dict, kd_orbit_fields, KD_ORBIT_N_FIELDS);
+    row_words(dict, &kd_orbit_request_document);
+    row_words(dict, &kd_orbit_document);
     WORDS(dict, "digits", "fields=", "first=", "stride=", "count=", "time=", "0:1:3", "orbit\n", "rays\n",
           "particles\n");
     fclose(dict);

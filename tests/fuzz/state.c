@@ -5,9 +5,9 @@
 #include "base/log.h"
 #include "cli/film_state.h"
 #include "render/accuracy/table.h"
-#include "scene/members.h"
+#include "document/members.h"
 #include "scene/timeline.h"
-#include "scene/tree.h"
+#include "document/tree.h"
 #include "server/job/store.h"
 
 #include <math.h>

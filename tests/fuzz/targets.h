@@ -7,8 +7,8 @@
 
 /* clang-format off */
 #define KD_FUZZ_TARGETS(TARGET) \
-    TARGET(access) TARGET(assets) TARGET(config) TARGET(files) TARGET(http) TARGET(integrals) TARGET(job) \
-    TARGET(line) TARGET(link) TARGET(orbits) TARGET(patch) TARGET(pictures) \
+    TARGET(access) TARGET(assets) TARGET(config) TARGET(document) TARGET(files) TARGET(http) TARGET(integrals) \
+    TARGET(job) TARGET(line) TARGET(link) TARGET(orbits) TARGET(patch) TARGET(pictures) \
     TARGET(playground) TARGET(quantity) TARGET(query) TARGET(rays) TARGET(scene) TARGET(state)
 /* clang-format on */
 

@@ -732,7 +732,7 @@ class Integrals(daemon.Case):
             ({"outer": 2}, "/outer", "larger than inner"),
             ({"emissivity": "lamppost", "height": 2}, "/height", "horizon"),
             ({"height": 9}, "/height", "belongs to emissivity lamppost"),
-            ({"edges": [1]}, "/edges", "one number"),
+            ({"edges": [1]}, "/edges", "1 number; it must have 2 to 20001"),
             ({"edges": [1, 2, 2]}, "/edges/2", "larger than the one before"),
             ({"edges": [1, 2], "bins": 3}, "/edges", "cannot be used with bins"),
             ({"edges": [1, "x"]}, "/edges/1", "a number is needed"),

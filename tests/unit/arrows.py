@@ -13,19 +13,21 @@ import tempfile
 # needs a row here.
 MODULES = {
     "base": set(),
+    "document": {"base"},
     "physics": {"base"},
-    "scene": {"base", "physics"},
-    "quantity": {"base", "physics", "scene"},  # of scene: how numbers and names are read and written
+    "scene": {"base", "document", "physics"},
+    "quantity": {"base", "document", "physics", "scene"},  # of scene: its field table and its writer
     "image": {"base"},
-    "orbit": {"base", "physics", "scene", "image"},  # of scene, the same as quantity
+    "orbit": {"base", "document", "physics", "scene", "image"},  # of scene, the same as quantity
     "observe": {"base"},
-    "integral": {"base", "observe", "physics", "scene", "image", "render"},  # of render: plans and frames
-    "playground": {"base", "physics", "scene", "image"},  # of scene, the same as quantity
+    "integral": {"base", "document", "observe", "physics", "scene", "image", "render"},  # of render: plans and frames
+    "playground": {"base", "document", "physics", "scene", "image"},  # of scene, the same as quantity
     "vk": {"base"},
-    "render": {"base", "physics", "scene", "image", "vk"},
-    "job": {"base", "scene", "playground", "render"},  # of render: what frames become
+    "render": {"base", "document", "physics", "scene", "image", "vk"},
+    "job": {"base", "document", "scene", "playground", "render"},  # of render: what frames become
     "server": {
         "base",
+        "document",
         "physics",
         "scene",
         "quantity",
@@ -39,6 +41,7 @@ MODULES = {
     },
     "cli": {
         "base",
+        "document",
         "physics",
         "scene",
         "quantity",
@@ -87,11 +90,23 @@ ROOMS = {
 }
 # In these modules files must not include each other in a circle. A header and its source count as one, with the
 # includes of both.
-NO_CIRCLES = {"base", "physics", "scene", "quantity", "orbit", "observe", "integral", "playground", "job", "cli"}
+NO_CIRCLES = {
+    "base",
+    "document",
+    "physics",
+    "scene",
+    "quantity",
+    "orbit",
+    "observe",
+    "integral",
+    "playground",
+    "job",
+    "cli",
+}
 # Headers of other projects, and who may include them.
 FOREIGN = {
     "vulkan/": {"vk"},
-    "cjson/": {"scene", "orbit", "integral", "playground", "render", "job", "server", "cli"},
+    "cjson/": {"document", "scene", "orbit", "integral", "playground", "render", "job", "server", "cli"},
     "microhttpd.h": {"server"},
     "png.h": {"image"},
     "libdeflate.h": {"image"},

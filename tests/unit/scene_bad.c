@@ -2,7 +2,7 @@
  * damage. */
 #include "scene_support.h"
 
-#include "scene/scan.h"
+#include "document/scan.h"
 
 struct bad { const char *text, *pointer, *fragment; };
 

@@ -2,7 +2,7 @@
 #include "scene_support.h"
 
 #include "scene/control.h"
-#include "scene/number.h"
+#include "document/number.h"
 
 #include <cjson/cJSON.h>
 #include <limits.h>

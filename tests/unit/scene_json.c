@@ -2,9 +2,9 @@
 #include "scene_support.h"
 
 #include "base/pause.h"
-#include "scene/number.h"
+#include "document/number.h"
 #include "scene/sky_scale.h"
-#include "scene/tree.h"
+#include "document/tree.h"
 
 #include <locale.h>
 #include <malloc.h>

@@ -4,7 +4,7 @@
 #include "render/output/gather.h"
 #include "render/plan/plan.h"
 #include "render/plan/sweep_order.h"
-#include "scene/number.h"
+#include "document/number.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -138,12 +138,12 @@ void kd_argument_fields(kd_named_value_fn one, struct kd_writer *w)
 
 void kd_argument_settings(kd_named_value_fn one, struct kd_writer *w)
 {
-    for (size_t i = 0; i < kd_playground_n_settings; i++) {
-        const struct kd_playground_setting *s = &kd_playground_settings[i];
+    for (size_t i = 0; i < kd_playground_settings.n; i++) {
+        const struct kd_row *s = &kd_playground_settings.rows[i];
         one(w, s->name,
-            s->kind == KD_SETTING_WORD   ? s->words
-            : s->kind == KD_SETTING_BOOL ? "true|false"
-                                         : "",
+            s->kind == KD_KIND_WORD   ? s->words
+            : s->kind == KD_KIND_BOOL ? "true|false"
+                                      : "",
             false, s->help);
     }
 }

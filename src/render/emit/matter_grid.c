@@ -5,7 +5,7 @@
 #include "physics/math/constants.h"
 #include "physics/spacetime/kerr.h"
 #include "render/emit/matter_array.h"
-#include "scene/tree.h"
+#include "document/tree.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>

@@ -8,8 +8,8 @@
 #include "render/rays/closed.h"
 #include "render/view/critical_pixels.h"
 #include "scene/hole.h"
-#include "scene/number.h"
-#include "scene/text.h"
+#include "document/number.h"
+#include "document/text.h"
 
 #include <math.h>
 #include <stdio.h>

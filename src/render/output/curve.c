@@ -1,6 +1,6 @@
 #include "render/output/curve.h"
 
-#include "scene/number.h"
+#include "document/number.h"
 
 #include <string.h>
 

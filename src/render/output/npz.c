@@ -9,7 +9,7 @@
 #include "image/zip.h"
 #include "render/output/notes.h"
 #include "render/output/numbers.h"
-#include "scene/tree.h"
+#include "document/tree.h"
 
 #include <cjson/cJSON.h>
 #include <stdio.h>

@@ -1,9 +1,9 @@
 #include "render/output/particle_list.h"
 
 #include "physics/spacetime/kerr.h"
-#include "scene/number.h"
+#include "document/number.h"
 #include "scene/table.h"
-#include "scene/text.h"
+#include "document/text.h"
 #include "render/device/prepare.h"
 #include "render/emit/deposit.h"
 

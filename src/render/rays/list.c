@@ -2,9 +2,9 @@
 
 #include "base/pause.h"
 #include "render/rays/rays.h"
-#include "scene/mistake.h"
-#include "scene/number.h"
-#include "scene/text.h"
+#include "document/mistake.h"
+#include "document/number.h"
+#include "document/text.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,11 +4,12 @@
 #include "render/rays/check.h"
 #include "render/rays/fields.h"
 #include "render/rays/list.h"
-#include "scene/number.h"
-#include "scene/scan.h"
+#include "document/number.h"
+#include "document/scan.h"
 #include "scene/table.h"
-#include "scene/text.h"
-#include "scene/tree.h"
+#include "document/text.h"
+#include "document/tree.h"
+#include "scene/value.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 
 #include "image/png.h"
 #include "scene/asset.h"
-#include "scene/text.h"
+#include "document/text.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* POST /v1/plan: cost of rendering a scene, or all scenes of a sweep. For a sweep the body is that of a job with axes,
  * and workers plan the scenes in slices. */
 #include "render/output/cost.h"
-#include "scene/scan.h"
+#include "document/scan.h"
 #include "server/asset/store.h"
 #include "server/http/reply.h"
 #include "job/spec.h"

@@ -1,6 +1,6 @@
 #include "server/http/base_path.h"
 
-#include "scene/text.h"
+#include "document/text.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 #include "server/http/guard.h"
 
-#include "scene/text.h"
+#include "document/text.h"
 #include "server/http/negotiate.h"
 
 #include <stdio.h>

@@ -1,6 +1,6 @@
 #include "server/http/public_url.h"
 
-#include "scene/text.h"
+#include "document/text.h"
 #include "server/http/negotiate.h"
 
 #include <stdio.h>

@@ -1,7 +1,7 @@
 #include "server/http/target.h"
 
 #include "base/utf8.h"
-#include "scene/text.h"
+#include "document/text.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 #include "base/replace.h"
 #include "server/job/folder.h"
 #include "job/spec.h"
-#include "scene/tree.h"
+#include "document/tree.h"
 
 #include <cjson/cJSON.h>
 #include <dirent.h>

@@ -1,7 +1,7 @@
 /* Reads the documents that change a lesson. */
 #include "base/utf8.h"
-#include "scene/text.h"
-#include "scene/tree.h"
+#include "document/text.h"
+#include "document/tree.h"
 #include "server/lesson/lesson.h"
 
 #include <stdio.h>

@@ -13,39 +13,6 @@
     "real time"
 #define BODIES(schema) "{\"type\":\"array\",\"maxItems\":4096,\"items\":{\"$ref\":\"#/components/schemas/" schema "\"}}"
 
-static void add_words(struct kd_json *json, const char *words)
-{
-    char word[40];
-    kd_json_array(json, "enum");
-    for (int i = 0; kd_playground_word(words, i, word, sizeof word); i++)
-        kd_json_string(json, NULL, word);
-    kd_json_end(json);
-}
-
-static void add_row(struct kd_json *json, const struct kd_playground_setting *row)
-{
-    static const char *const types[] = { [KD_SETTING_REAL] = "number",
-                                         [KD_SETTING_INT] = "integer",
-                                         [KD_SETTING_BOOL] = "boolean",
-                                         [KD_SETTING_WORD] = "string" };
-    kd_json_object(json, row->name);
-    kd_json_string(json, "type", types[row->kind]);
-    if (row->kind == KD_SETTING_WORD)
-        add_words(json, row->words);
-    if (row->kind == KD_SETTING_REAL || row->kind == KD_SETTING_INT) {
-        kd_json_number(json, "minimum", row->least);
-        kd_json_number(json, "maximum", row->most);
-    }
-    if (row->above_0 > 0) {
-        kd_json_object(json, "not");
-        kd_json_number(json, "exclusiveMinimum", 0);
-        kd_json_number(json, "exclusiveMaximum", row->above_0);
-        kd_json_end(json);
-    }
-    kd_json_string(json, "description", row->help);
-    kd_json_end(json);
-}
-
 static void add_vector(struct kd_json *json, const char *name, double most, const char *help)
 {
     kd_json_object(json, name);
@@ -77,8 +44,7 @@ static void add_body(struct kd_json *json, const char *name, bool id)
     if (id)
         add_raw(json, "id", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":4294967295}");
     add_raw(json, "name", "{\"type\":\"string\",\"maxLength\":31}");
-    for (size_t i = 0; i < kd_playground_n_body_fields; i++)
-        add_row(json, &kd_playground_body_fields[i]);
+    kd_document_properties(json, &kd_playground_body_fields);
     add_vector(json, "position", 1e6, "x, y, z in M; the hole is at the origin, its axis along z");
     add_vector(json, "velocity", 1, "velocity in c; the speed must be at most 1");
     kd_json_end(json);
@@ -106,8 +72,7 @@ static void add_properties(struct kd_json *json, bool patch)
     kd_json_end(json);
     add_raw(json, "paused", "{\"type\":\"boolean\",\"default\":false}");
     add_raw(json, "scene", KD_SCHEMA_REF("Scene")); /* a merge patch for the scene of the playground's pictures */
-    for (size_t i = 0; i < kd_playground_n_settings; i++)
-        add_row(json, &kd_playground_settings[i]);
+    kd_document_properties(json, &kd_playground_settings);
     if (patch) {
         add_raw(json, "add", BODIES("PlaygroundBody"));
         add_raw(json, "change", BODIES("PlaygroundBodyChange"));
@@ -136,17 +101,16 @@ static void add_document(struct kd_json *json, const char *name, bool patch)
     kd_json_end(json);
 }
 
-static const char *const kinds[] = { [KD_SETTING_REAL] = KD_SCHEMA_NUMBER,
-                                     [KD_SETTING_INT] = KD_SCHEMA_COUNT,
-                                     [KD_SETTING_BOOL] = KD_SCHEMA_BOOL,
-                                     [KD_SETTING_WORD] = KD_SCHEMA_TEXT };
+static const char *const kinds[] = { [KD_KIND_REAL] = KD_SCHEMA_NUMBER,
+                                     [KD_KIND_INT] = KD_SCHEMA_COUNT,
+                                     [KD_KIND_BOOL] = KD_SCHEMA_BOOL,
+                                     [KD_KIND_WORD] = KD_SCHEMA_TEXT };
 
 /* Appends members for the rows of a table. */
-static size_t add_members(struct kd_openapi_member *to, size_t n, const struct kd_playground_setting *rows,
-                          size_t n_rows)
+static size_t add_members(struct kd_openapi_member *to, size_t n, const struct kd_document *document)
 {
-    for (size_t i = 0; i < n_rows; i++)
-        to[n++] = (struct kd_openapi_member) { rows[i].name, kinds[rows[i].kind], false };
+    for (size_t i = 0; i < document->n; i++)
+        to[n++] = (struct kd_openapi_member) { document->rows[i].name, kinds[document->rows[i].kind], false };
     return n;
 }
 
@@ -157,15 +121,13 @@ static void add_body_state(struct kd_json *json)
                                              { "name", KD_SCHEMA_TEXT, false },
                                              { "position", KD_SCHEMA_VECTOR, false },
                                              { "velocity", KD_SCHEMA_VECTOR, false } };
-    kd_schema_told(json, "PlaygroundBodyState", UNITS, members,
-                   add_members(members, 4, kd_playground_body_fields, kd_playground_n_body_fields));
+    kd_schema_told(json, "PlaygroundBodyState", UNITS, members, add_members(members, 4, &kd_playground_body_fields));
 }
 
 static void add_settings_state(struct kd_json *json)
 {
     struct kd_openapi_member members[40];
-    kd_openapi_strict(json, "PlaygroundSettings", members,
-                      add_members(members, 0, kd_playground_settings, kd_playground_n_settings));
+    kd_openapi_strict(json, "PlaygroundSettings", members, add_members(members, 0, &kd_playground_settings));
 }
 
 static void add_state(struct kd_json *json)

@@ -1,9 +1,8 @@
 #include "server/playground/document.h"
 
-#include "playground/fields.h"
 #include "playground/preset.h"
 #include "playground/show.h"
-#include "scene/members.h"
+#include "document/members.h"
 #include "scene/tree.h"
 
 #include <string.h>
@@ -12,14 +11,19 @@
 #define STEP_VALUES 16 /* limit of JSON values in the body of a step, which has one field */
 #define STEP_MOST KD_PLAYGROUND_TIME
 
-static const struct kd_playground_setting pace_rows[] = {
-    { "rate", KD_SETTING_REAL, offsetof(struct kd_playground_session_pace, rate), USUAL_RATE, 0, KD_PLAY_RATE_MAX, 0,
-      NULL, "pace in M per second of real time" },
-    { "paused", KD_SETTING_BOOL, offsetof(struct kd_playground_session_pace, paused), 0, 0, 1, 0, NULL,
-      "whether the simulation is paused" },
+#define AT(name) offsetof(struct kd_playground_session_pace, name)
+static const struct kd_row pace_rows[] = {
+    { .name = "rate",
+      .kind = KD_KIND_REAL,
+      .offset = AT(rate),
+      .initial = USUAL_RATE,
+      .most = KD_PLAY_RATE_MAX,
+      .help = "pace in M per second of real time" },
+    { .name = "paused", .kind = KD_KIND_BOOL, .offset = AT(paused), .help = "whether the simulation is paused" },
 };
-static const struct kd_playground_setting step_row = { "by", KD_SETTING_REAL,       0, 0, 0, STEP_MOST, 0,
-                                                       NULL, "time in M to advance" };
+static const struct kd_document pace_document = { .rows = pace_rows, .n = sizeof pace_rows / sizeof *pace_rows };
+static const struct kd_row step_row = { .name = "by", .kind = KD_KIND_REAL, .most = STEP_MOST };
+static const struct kd_document step_document = { .rows = &step_row, .n = 1 };
 
 enum kd_status kd_playground_session_read_pace(cJSON *tree, struct kd_playground_session_pace *pace,
                                                struct kd_error *error)
@@ -31,7 +35,7 @@ enum kd_status kd_playground_session_read_pace(cJSON *tree, struct kd_playground
         if (!item)
             continue;
         const struct kd_value value = kd_tree_value(item);
-        status = kd_playground_put(pace, &pace_rows[i], &value, strcat(pointer, pace_rows[i].name), error);
+        status = kd_row_put(&pace_rows[i], pace, &value, pace_rows[i].name, strcat(pointer, pace_rows[i].name), error);
         cJSON_Delete(item);
         if (status)
             break;
@@ -66,17 +70,11 @@ enum kd_status kd_playground_session_read_step(const char *text, size_t length, 
 {
     cJSON *tree = NULL;
     enum kd_status status;
-    bool given = false;
+    uint64_t given = 0;
     KD_TRY(kd_tree_parse(text, length, 4096, STEP_VALUES, &tree, error));
     if (!cJSON_IsObject(tree))
         KD_TRY(kd_error_set(error, KD_EINVAL, "the body is not a JSON object"));
-    for (const cJSON *item = tree->child; item; item = item->next) {
-        const struct kd_value value = kd_tree_value(item);
-        if (strcmp(item->string, "by"))
-            KD_TRY(kd_playground_unknown("", item->string, error));
-        KD_TRY(kd_playground_put(by, &step_row, &value, "/by", error));
-        given = true;
-    }
+    KD_TRY(kd_document_read(&step_document, by, tree, "", &given, error));
     if (!given || !(*by > 0))
         KD_TRY(kd_error_field(error, "/by", "by is %s; it must be a number above 0", given ? "0" : "missing"));
 done:
@@ -143,42 +141,6 @@ enum kd_status kd_playground_session_series_json(const struct kd_playground_seri
     return kd_json_finish_line(&json);
 }
 
-static void add_rows(struct kd_json *json, const char *name, const struct kd_playground_setting *rows, size_t n)
-{
-    static const char *const kinds[] = { [KD_SETTING_REAL] = "number",
-                                         [KD_SETTING_INT] = "integer",
-                                         [KD_SETTING_BOOL] = "boolean",
-                                         [KD_SETTING_WORD] = "string" };
-    kd_json_array(json, name);
-    for (size_t i = 0; i < n; i++) {
-        const struct kd_playground_setting *row = &rows[i];
-        const bool number = row->kind == KD_SETTING_REAL || row->kind == KD_SETTING_INT;
-        char word[40] = "";
-        kd_json_object(json, NULL);
-        kd_json_string(json, "name", row->name);
-        kd_json_string(json, "type", kinds[row->kind]);
-        if (number) {
-            kd_json_number(json, "default", row->value);
-            kd_json_number(json, "least", row->least);
-            kd_json_number(json, "most", row->most);
-        } else if (row->kind == KD_SETTING_BOOL) {
-            kd_json_bool(json, "default", row->value != 0);
-        } else {
-            kd_playground_word(row->words, (int)row->value, word, sizeof word);
-            kd_json_string(json, "default", word);
-            kd_json_array(json, "words");
-            for (int k = 0; kd_playground_word(row->words, k, word, sizeof word); k++)
-                kd_json_string(json, NULL, word);
-            kd_json_end(json);
-        }
-        if (!strcmp(row->name, "gravity") || !strcmp(row->name, "spin"))
-            kd_json_bool(json, "fixed", true);
-        kd_json_string(json, "help", row->help);
-        kd_json_end(json);
-    }
-    kd_json_end(json);
-}
-
 enum kd_status kd_playground_session_catalogue_json(struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
@@ -198,9 +160,9 @@ enum kd_status kd_playground_session_catalogue_json(struct kd_buffer *out)
         kd_json_end(&json);
     }
     kd_json_end(&json);
-    add_rows(&json, "settings", kd_playground_settings, kd_playground_n_settings);
-    add_rows(&json, "pace", pace_rows, sizeof pace_rows / sizeof *pace_rows);
-    add_rows(&json, "body", kd_playground_body_fields, kd_playground_n_body_fields);
+    kd_document_describe(&json, "settings", &kd_playground_settings);
+    kd_document_describe(&json, "pace", &pace_document);
+    kd_document_describe(&json, "body", &kd_playground_body_fields);
     kd_json_end(&json);
     return kd_json_finish_line(&json);
 }

@@ -4,7 +4,7 @@
 
 #include "base/clock.h"
 #include "playground/show.h"
-#include "scene/tree.h"
+#include "document/tree.h"
 #include "server/asset/store.h"
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"

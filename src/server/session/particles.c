@@ -1,6 +1,6 @@
 /* GET /v1/sessions/ID/particles: positions of a session's particles as numbers. They are listed in slices; between two
  * slices others may use the device. */
-#include "scene/number.h"
+#include "document/number.h"
 #include "base/clock.h"
 #include "server/http/reply.h"
 #include "server/render/task.h"

@@ -1,7 +1,7 @@
 /* POST and DELETE of a session's path. Workers parse and check a path in slices, because that takes milliseconds. */
 #include "base/clock.h"
-#include "scene/members.h"
-#include "scene/tree.h"
+#include "document/members.h"
+#include "document/tree.h"
 #include "server/asset/store.h"
 #include "server/http/reply.h"
 #include "server/render/task.h"

@@ -1,10 +1,10 @@
-#include "scene/tree.h"
+#include "document/tree.h"
 
 #include "base/pause.h"
-#include "scene/long_strings.h"
-#include "scene/number.h"
-#include "scene/scan.h"
-#include "scene/text.h"
+#include "document/long_strings.h"
+#include "document/number.h"
+#include "document/scan.h"
+#include "document/text.h"
 
 #include <errno.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 /* Reads the known members of a JSON object in a request. Each may occur at most once. Errors name the member, its value
  * and what is allowed, and have the pointer into the request. Any thread. */
-#ifndef KD_SCENE_MEMBERS_H
-#define KD_SCENE_MEMBERS_H
+#ifndef KD_DOCUMENT_MEMBERS_H
+#define KD_DOCUMENT_MEMBERS_H
 
 #include "base/error.h"
 

@@ -1,6 +1,6 @@
 /* Reads and writes numbers as in JSON and on command lines, whatever the locale of the process is. Any thread. */
-#ifndef KD_SCENE_NUMBER_H
-#define KD_SCENE_NUMBER_H
+#ifndef KD_DOCUMENT_NUMBER_H
+#define KD_DOCUMENT_NUMBER_H
 
 #include <locale.h>
 #include <stddef.h>

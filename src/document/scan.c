@@ -1,10 +1,10 @@
-#include "scene/scan.h"
+#include "document/scan.h"
 
-#include "scene/mistake.h"
-#include "scene/number.h"
+#include "document/mistake.h"
+#include "document/number.h"
 #include "base/pause.h"
 #include "base/utf8.h"
-#include "scene/text.h"
+#include "document/text.h"
 
 #include <ctype.h>
 #include <stdbool.h>

@@ -3,8 +3,8 @@
  * cJSON skips any byte below 33 as if it were a blank. It accepts 01, 1. and raw control characters in strings. It cuts
  * a key at an escaped NUL, and takes \u00zz for one. It reads only 63 bytes of a number, recurses 1000 levels deep,
  * and does not check UTF-8. */
-#ifndef KD_SCENE_SCAN_H
-#define KD_SCENE_SCAN_H
+#ifndef KD_DOCUMENT_SCAN_H
+#define KD_DOCUMENT_SCAN_H
 
 #include "base/error.h"
 

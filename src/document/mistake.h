@@ -1,6 +1,6 @@
 /* Explains the most common mistakes in hand-written JSON, and says what to write instead. Pure, any thread. */
-#ifndef KD_SCENE_MISTAKE_H
-#define KD_SCENE_MISTAKE_H
+#ifndef KD_DOCUMENT_MISTAKE_H
+#define KD_DOCUMENT_MISTAKE_H
 
 #include <stddef.h>
 

@@ -1,6 +1,6 @@
 /* Prepares text from outside for quoting in messages. Any thread. */
-#ifndef KD_SCENE_TEXT_H
-#define KD_SCENE_TEXT_H
+#ifndef KD_DOCUMENT_TEXT_H
+#define KD_DOCUMENT_TEXT_H
 
 #include <stddef.h>
 

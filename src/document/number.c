@@ -1,4 +1,4 @@
-#include "scene/number.h"
+#include "document/number.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-#include "scene/text.h"
+#include "document/text.h"
 
 #include "base/utf8.h"
 

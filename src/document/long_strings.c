@@ -1,4 +1,4 @@
-#include "scene/long_strings.h"
+#include "document/long_strings.h"
 
 #include "base/pause.h"
 

@@ -1,8 +1,8 @@
 /* Handles long strings of a JSON document, such as a playground's debris. cJSON would read them without a pause, for up
  * to 200 ms. They are cut out before cJSON reads the rest, and inserted into its tree afterwards. The document must
  * have been scanned (scan.h), so that all escapes are complete. Any thread. */
-#ifndef KD_SCENE_LONG_STRINGS_H
-#define KD_SCENE_LONG_STRINGS_H
+#ifndef KD_DOCUMENT_LONG_STRINGS_H
+#define KD_DOCUMENT_LONG_STRINGS_H
 
 #include "base/error.h"
 

@@ -1,4 +1,4 @@
-#include "scene/mistake.h"
+#include "document/mistake.h"
 
 #include <ctype.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
-#include "scene/members.h"
+#include "document/members.h"
 
-#include "scene/text.h"
-#include "scene/tree.h"
+#include "document/text.h"
+#include "document/tree.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,0 +1,127 @@
+/* One engine for everything that is asked in words. A table has one row for each field of a document. From the table
+ * follow the defaults, the reader of JSON and of typed text, refusals, the writer and the JSON Schema. The engine knows
+ * nothing about the meaning of a field. Constant data and pure functions, any thread.
+ *
+ *     struct tea { double minutes; uint32_t cups; int leaf; bool milk; };
+ *     #define AT(member) offsetof(struct tea, member)
+ *     static const struct kd_row rows[] = {
+ *         { .name = "minutes", .kind = KD_KIND_REAL, .offset = AT(minutes), .initial = 3, .least = 0, .most = 10,
+ *           .unit = "min", .help = "how long it draws" },
+ *         { .name = "cups", .kind = KD_KIND_INT, .offset = AT(cups), .initial = 1, .least = 1, .most = 8, .help = "how
+ * many" }, { .name = "leaf", .kind = KD_KIND_WORD, .offset = AT(leaf), .words = "green|black", .help = "kind of leaf"
+ * }, { .object = "with", .name = "milk", .kind = KD_KIND_BOOL, .offset = AT(milk), .help = "with milk or not" },
+ *     };
+ *     static const struct kd_document document = { rows, sizeof rows / sizeof *rows };
+ *
+ *     struct tea tea;
+ *     kd_document_defaults(&document, &tea);
+ *     kd_tree_parse(text, length, 4096, 64, &tree, error);             {"cups": 9, "with": {"milk": true}}
+ *     kd_document_read(&document, &tea, tree, "", NULL, error);        cups is 9; it must be a whole number from 1 to 8
+ *     kd_document_set(&document, &tea, "milk", "true", NULL, error);   as on a command line
+ *     kd_document_write(&json, &document, &tea);                       {"minutes":3,"cups":1,...}
+ *
+ * An error is KD_EINVAL with the field's pointer. Its message names the field as the request does, its value, and what
+ * it must be. For an unknown name it offers the nearest one, and lists those that are known. */
+#ifndef KD_DOCUMENT_DOCUMENT_H
+#define KD_DOCUMENT_DOCUMENT_H
+
+#include "base/error.h"
+#include "base/json.h"
+#include "document/value.h"
+
+#include <cjson/cJSON.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum kd_kind {
+    KD_KIND_REAL,   /* double; with `words`, a number or that one word */
+    KD_KIND_INT,    /* uint32_t */
+    KD_KIND_BOOL,   /* bool */
+    KD_KIND_WORD,   /* int or an enumeration: one of `words`, as its index plus `first` */
+    KD_KIND_WORDS,  /* uint32_t: a set of at least `least` of `words`, as bits */
+    KD_KIND_LIST,   /* struct kd_number_list: an array of `fewest` (0: one) to `room` numbers in the range */
+    KD_KIND_VECTOR, /* double[room]: an array of `room` numbers in the range */
+    KD_KIND_TEXT,   /* char[room]: a string shorter than that */
+};
+enum kd_open { KD_CLOSED, KD_OPEN, KD_OPEN_ABOVE, KD_OPEN_BELOW }; /* ends that a range excludes */
+
+struct kd_number_list {
+    double *at; /* malloc'd */
+    size_t n;
+};
+
+struct kd_row {
+    const char *object, *name; /* object: the member of the document that has the field; NULL: the document itself */
+    enum kd_kind kind;
+    bool needed, fixed;          /* must be given; cannot be changed afterwards */
+    size_t offset;               /* in the struct that is filled */
+    double initial, least, most; /* of numbers; initial also of a WORD and a BOOL */
+    enum kd_open open;
+    double above_0;    /* numbers above 0 are at least this */
+    const char *words; /* "a|b|c" */
+    double stands;     /* what the word of a REAL stands for: INFINITY or NAN */
+    int first;
+    size_t room, fewest;
+    unsigned of;             /* bit mask of the kinds of documents that have the field; 0: all */
+    const char *unit, *help; /* unit NULL, "" or "1": none */
+    /* Replace what the engine says: the allowed values in words, and the members of the JSON Schema but for the
+     * description, such as "\"type\":\"number\"". For limits that the reader cannot check by one field alone. */
+    const char *allowed, *schema;
+};
+
+struct kd_document {
+    const struct kd_row *rows;
+    size_t n;           /* 64 at most, if the caller asks which fields are given */
+    unsigned of;        /* only rows of these kinds of documents; 0: all rows */
+    const char *others; /* "a|b": further members, which the caller reads; NULL: none */
+    /* What an object's members may not be together, as JSON Schema; ends with a NULL name. May be NULL. */
+    const struct kd_document_not { const char *object, *schema; } *nots;
+};
+
+void kd_document_defaults(const struct kd_document *document, void *to);
+
+/* Finds a row of the document by "name" or "object.name"; NULL: none. */
+const struct kd_row *kd_document_find(const struct kd_document *document, const char *name);
+
+/* Reads the members that an object has; other fields keep their values. pointer: the object's own. *given: receives
+ * the bit of each row that was given; may be NULL. A member that is unknown or given twice is an error. */
+enum kd_status kd_document_read(const struct kd_document *document, void *to, const cJSON *object, const char *pointer,
+                                uint64_t *given, struct kd_error *error);
+/* Sets one field by "name" or "object.name" from typed text; lists and sets have commas between their items. */
+enum kd_status kd_document_set(const struct kd_document *document, void *to, const char *name, const char *text,
+                               uint64_t *given, struct kd_error *error);
+/* Sets one field that is no array from a value. called: its name in messages. */
+enum kd_status kd_row_put(const struct kd_row *row, void *to, const struct kd_value *value, const char *called,
+                          const char *pointer, struct kd_error *error);
+/* Whether a number is in the row's range. */
+bool kd_row_holds(const struct kd_row *row, double number);
+/* Replaces a LIST by room for n numbers. KD_EINVAL at the pointer if the row does not allow as many. */
+enum kd_status kd_row_make_room(const struct kd_row *row, void *to, size_t n, const char *pointer,
+                                struct kd_number_list **list, struct kd_error *error);
+/* "there is no parameter X; did you mean Y? Known are ...". */
+enum kd_status kd_document_unknown(const struct kd_document *document, const char *name, struct kd_error *error);
+/* Describes what a row allows: "0 to 10 M, or \"isco\"". */
+void kd_row_allowed(const struct kd_row *row, char out[KD_ALLOWED_SIZE]);
+
+/* Writes all fields but lists, as members of the object that is open. */
+void kd_document_write(struct kd_json *json, const struct kd_document *document, const void *from);
+/* Writes one row's value as a member. A list is left out. */
+void kd_row_write(struct kd_json *json, const struct kd_row *row, const void *from);
+/* Writes the schema of each field, as members of the object "properties" that is open. */
+void kd_document_properties(struct kd_json *json, const struct kd_document *document);
+/* Writes one row's schema as a member. */
+void kd_row_schema(struct kd_json *json, const char *name, const struct kd_row *row);
+/* Writes "required", if a field of the document itself, or of one of its objects, is needed. */
+void kd_document_required(struct kd_json *json, const struct kd_document *document);
+/* Writes the array `name` of {"name", "type", "default", "least", "most", "words", "fixed", "help"}, for a page's
+ * controls. Lists, vectors and texts are left out. */
+void kd_document_describe(struct kd_json *json, const char *name, const struct kd_document *document);
+
+/* Copies word i of "a|b|c"; false if there are fewer. */
+enum { KD_WORD_ROOM = 64 };
+bool kd_word_at(const char *words, int i, char out[KD_WORD_ROOM]);
+/* Index of a word, -1: none of them. */
+int kd_word_index(const char *words, const char *text);
+
+#endif

@@ -1,0 +1,24 @@
+/* Values from a document or a command line, before anything is known of what they are for. Any thread. */
+#ifndef KD_DOCUMENT_VALUE_H
+#define KD_DOCUMENT_VALUE_H
+
+enum kd_value_kind { KD_VALUE_NUMBER, KD_VALUE_STRING, KD_VALUE_BOOL, KD_VALUE_NULL, KD_VALUE_ARRAY, KD_VALUE_OBJECT };
+
+struct kd_value {
+    enum kd_value_kind kind;
+    double number;    /* value of a NUMBER; 0 or 1 for a BOOL */
+    const char *text; /* value of a STRING */
+};
+
+/* Interprets typed text like a value of a document: as a number, as true or false, otherwise as a string. */
+struct kd_value kd_value_typed(const char *text);
+
+/* What a message adds after a value if a number is required and the value is none: ", a string where a number is
+ * wanted". Otherwise "". */
+const char *kd_value_unwanted(const struct kd_value *value);
+
+/* Describes a value for messages. */
+enum { KD_VALUE_SIZE = 80, KD_ALLOWED_SIZE = 400 };
+void kd_value_describe(const struct kd_value *value, char out[KD_VALUE_SIZE]);
+
+#endif

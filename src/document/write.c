@@ -1,0 +1,278 @@
+/* Writes documents, and their JSON Schema. */
+#include "document/internal.h"
+
+#include "base/schema.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* Words of a set, or all of them. */
+static void write_words(struct kd_json *json, const char *name, const char *words, uint32_t set)
+{
+    char word[KD_WORD_ROOM];
+    kd_json_array(json, name);
+    for (int i = 0; kd_word_at(words, i, word); i++)
+        if (set & 1u << i)
+            kd_json_string(json, NULL, word);
+    kd_json_end(json);
+}
+
+static void write_word(struct kd_json *json, const struct kd_row *row, const char *name, int stored)
+{
+    char word[KD_WORD_ROOM];
+    if (kd_word_at(row->words, stored - row->first, word))
+        kd_json_string(json, name, word);
+}
+
+static void write_row(struct kd_json *json, const struct kd_row *row, const void *at)
+{
+    int word;
+    switch (row->kind) {
+    case KD_KIND_REAL: kd_json_number(json, row->name, *(const double *)at); break;
+    case KD_KIND_INT: kd_json_number(json, row->name, *(const uint32_t *)at); break;
+    case KD_KIND_BOOL: kd_json_bool(json, row->name, *(const bool *)at); break;
+    case KD_KIND_WORD:
+        memcpy(&word, at, sizeof word);
+        write_word(json, row, row->name, word);
+        break;
+    case KD_KIND_WORDS: write_words(json, row->name, row->words, *(const uint32_t *)at); break;
+    case KD_KIND_VECTOR:
+        kd_json_array(json, row->name);
+        for (size_t k = 0; k < row->room; k++)
+            kd_json_number(json, NULL, ((const double *)at)[k]);
+        kd_json_end(json);
+        break;
+    case KD_KIND_TEXT: kd_json_string(json, row->name, at); break;
+    case KD_KIND_LIST: break;
+    }
+}
+
+/* Whether a row is the first of its object. */
+static bool opens(const struct kd_document *document, const struct kd_row *row)
+{
+    for (const struct kd_row *before = document->rows; before < row; before++)
+        if (kd_row_is_of(document, before, row->object))
+            return false;
+    return true;
+}
+
+/* Calls `one` for each row of the document; begin and end before and after the rows of an object. */
+struct walk {
+    void (*begin)(struct kd_json *json, const struct kd_document *document, const char *object);
+    void (*one)(struct kd_json *json, const struct kd_row *row, const void *from);
+    void (*end)(struct kd_json *json);
+};
+
+static void walk_rows(struct kd_json *json, const struct kd_document *document, const char *object, const void *from,
+                      const struct walk *walk)
+{
+    for (size_t i = 0; i < document->n; i++) {
+        const struct kd_row *row = &document->rows[i];
+        if (kd_row_is_of(document, row, object)) {
+            walk->one(json, row, from);
+        } else if (!object && row->object && kd_row_is_of(document, row, row->object) && opens(document, row)) {
+            walk->begin(json, document, row->object);
+            walk_rows(json, document, row->object, from, walk);
+            walk->end(json);
+        }
+    }
+}
+
+static void begin_value(struct kd_json *json, const struct kd_document *document, const char *object)
+{
+    (void)document;
+    kd_json_object(json, object);
+}
+
+void kd_row_write(struct kd_json *json, const struct kd_row *row, const void *from)
+{
+    write_row(json, row, (const char *)from + row->offset);
+}
+
+void kd_document_write(struct kd_json *json, const struct kd_document *document, const void *from)
+{
+    walk_rows(json, document, NULL, from, &(const struct walk) { begin_value, kd_row_write, kd_json_end });
+}
+
+static void add_range(struct kd_json *json, const struct kd_row *row)
+{
+    const bool below = row->open == KD_OPEN || row->open == KD_OPEN_BELOW,
+               above = row->open == KD_OPEN || row->open == KD_OPEN_ABOVE;
+    kd_json_string(json, "type", row->kind == KD_KIND_INT ? "integer" : "number");
+    kd_json_number(json, below ? "exclusiveMinimum" : "minimum", row->least);
+    kd_json_number(json, above ? "exclusiveMaximum" : "maximum", row->most);
+    if (row->above_0 > 0) {
+        kd_json_object(json, "not");
+        kd_json_number(json, "exclusiveMinimum", 0);
+        kd_json_number(json, "exclusiveMaximum", row->above_0);
+        kd_json_end(json);
+    }
+}
+
+static void add_words(struct kd_json *json, const char *words)
+{
+    kd_json_string(json, "type", "string");
+    write_words(json, "enum", words, UINT32_MAX);
+}
+
+static void add_array(struct kd_json *json, const struct kd_row *row)
+{
+    const bool words = row->kind == KD_KIND_WORDS;
+    kd_json_string(json, "type", "array");
+    kd_json_number(json, "minItems",
+                   words                         ? row->least
+                   : row->kind == KD_KIND_VECTOR ? (double)row->room
+                   : row->fewest                 ? (double)row->fewest
+                                                 : 1);
+    if (words)
+        kd_json_bool(json, "uniqueItems", true);
+    else
+        kd_json_number(json, "maxItems", (double)row->room);
+    kd_json_object(json, "items");
+    if (words)
+        add_words(json, row->words);
+    else
+        add_range(json, row);
+    kd_json_end(json);
+}
+
+static void add_number_or_word(struct kd_json *json, const struct kd_row *row)
+{
+    kd_json_array(json, "anyOf");
+    kd_schema_word(json, NULL, row->words);
+    kd_json_object(json, NULL);
+    add_range(json, row);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_kind(struct kd_json *json, const struct kd_row *row)
+{
+    switch (row->kind) {
+    case KD_KIND_REAL:
+        if (row->words) {
+            add_number_or_word(json, row);
+            break;
+        }
+        /* fall through */
+    case KD_KIND_INT: add_range(json, row); break;
+    case KD_KIND_BOOL: kd_json_string(json, "type", "boolean"); break;
+    case KD_KIND_WORD: add_words(json, row->words); break;
+    case KD_KIND_WORDS:
+    case KD_KIND_LIST:
+    case KD_KIND_VECTOR: add_array(json, row); break;
+    case KD_KIND_TEXT:
+        kd_json_string(json, "type", "string");
+        kd_json_number(json, "maxLength", (double)row->room - 1);
+        break;
+    }
+}
+
+void kd_row_schema(struct kd_json *json, const char *name, const struct kd_row *row)
+{
+    const bool pure = !row->unit || !*row->unit || !strcmp(row->unit, "1");
+    char help[400];
+    snprintf(help, sizeof help, "%s%s%s%s", row->help ? row->help : "", pure ? "" : " [", pure ? "" : row->unit,
+             pure ? "" : "]");
+    kd_json_object(json, name);
+    if (row->schema)
+        kd_json_members(json, row->schema);
+    else
+        add_kind(json, row);
+    if (*help)
+        kd_json_string(json, "description", help);
+    kd_json_end(json);
+}
+
+static bool needs(const struct kd_document *document, const char *object)
+{
+    for (size_t i = 0; i < document->n; i++)
+        if (kd_row_is_of(document, &document->rows[i], object) && document->rows[i].needed)
+            return true;
+    return false;
+}
+
+static void add_required(struct kd_json *json, const struct kd_document *document, const char *object)
+{
+    const char *separator = NULL;
+    for (size_t i = 0; i < document->n; i++) {
+        const struct kd_row *row = &document->rows[i];
+        const bool own = kd_row_is_of(document, row, object) && row->needed,
+                   inner = !object && row->object && kd_row_is_of(document, row, row->object) && opens(document, row) &&
+                           needs(document, row->object);
+        if (!own && !inner)
+            continue;
+        if (!separator)
+            kd_json_array(json, separator = "required");
+        kd_json_string(json, NULL, own ? row->name : row->object);
+    }
+    if (separator)
+        kd_json_end(json);
+}
+
+void kd_document_required(struct kd_json *json, const struct kd_document *document)
+{
+    add_required(json, document, NULL);
+}
+
+static void begin_schema(struct kd_json *json, const struct kd_document *document, const char *object)
+{
+    kd_json_object(json, object);
+    kd_json_string(json, "type", "object");
+    kd_json_bool(json, "additionalProperties", false);
+    add_required(json, document, object);
+    for (const struct kd_document_not *not= document->nots; not &&not->object; not ++)
+        if (!strcmp(not->object, object))
+            kd_schema_text(json, "not", not->schema);
+    kd_json_object(json, "properties");
+}
+
+static void schema(struct kd_json *json, const struct kd_row *row, const void *from)
+{
+    (void)from;
+    kd_row_schema(json, row->name, row);
+}
+
+static void end_schema(struct kd_json *json)
+{
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+void kd_document_properties(struct kd_json *json, const struct kd_document *document)
+{
+    walk_rows(json, document, NULL, NULL, &(const struct walk) { begin_schema, schema, end_schema });
+}
+
+static void describe(struct kd_json *json, const struct kd_row *row)
+{
+    static const char *const types[] = {
+        [KD_KIND_REAL] = "number", [KD_KIND_INT] = "integer", [KD_KIND_BOOL] = "boolean", [KD_KIND_WORD] = "string"
+    };
+    kd_json_object(json, NULL);
+    kd_json_string(json, "name", row->name);
+    kd_json_string(json, "type", types[row->kind]);
+    if (row->kind == KD_KIND_BOOL) {
+        kd_json_bool(json, "default", row->initial != 0);
+    } else if (row->kind == KD_KIND_WORD) {
+        write_word(json, row, "default", (int)row->initial);
+        write_words(json, "words", row->words, UINT32_MAX);
+    } else {
+        kd_json_number(json, "default", row->initial);
+        kd_json_number(json, "least", row->least);
+        kd_json_number(json, "most", row->most);
+    }
+    if (row->fixed)
+        kd_json_bool(json, "fixed", true);
+    kd_json_string(json, "help", row->help);
+    kd_json_end(json);
+}
+
+void kd_document_describe(struct kd_json *json, const char *name, const struct kd_document *document)
+{
+    kd_json_array(json, name);
+    for (size_t i = 0; i < document->n; i++)
+        if (document->rows[i].kind <= KD_KIND_WORD)
+            describe(json, &document->rows[i]);
+    kd_json_end(json);
+}

@@ -1,0 +1,217 @@
+/* The engine of documents: readers, refusals, writer and schema of a table with a row of each kind. */
+#include "../document_example.h"
+#include "document/tree.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static enum kd_status read_kind(struct tea *tea, const char *text, unsigned of, uint64_t *given, struct kd_error *error)
+{
+    struct kd_document document = tea_document;
+    cJSON *tree = NULL;
+    document.of = of;
+    kd_document_defaults(&document, tea);
+    assert_int_equal(kd_tree_parse(text, strlen(text), 1000, 64, &tree, error), KD_OK);
+    const enum kd_status status = kd_document_read(&document, tea, tree, "", given, error);
+    kd_tree_free(tree);
+    return status;
+}
+
+static void each_kind_is_read_and_written(void **state)
+{
+    struct tea tea;
+    struct kd_error error = { 0 };
+    uint64_t given = 0;
+    (void)state;
+    const char *text = "{\"minutes\":9.5,\"sugar_g\":0.5,\"heat\":80,\"cups\":8,\"leaf\":\"black\",\"pot\":\"auto\","
+                       "\"iced\":true,\"table\":{\"milk\":true,\"with\":[\"cake\",\"fruit\"]},\"place\":[-9,0,9],"
+                       "\"name\":\"a b\"}";
+    assert_int_equal(read_kind(&tea, text, 0, &given, &error), KD_OK);
+    assert_true(tea.minutes == 9.5 && tea.sugar_g == 0.5 && tea.heat == 80 && tea.cups == 8 && tea.leaf == 2 &&
+                tea.pot == -1 && tea.iced && tea.milk && tea.with == 6 && tea.place[2] == 9);
+    assert_string_equal(tea.name, "a b");
+    assert_int_equal(given, 0xfff & ~0x200u);
+    struct kd_buffer out = { 0 };
+    struct kd_json json = kd_json_begin(&out);
+    kd_json_object(&json, NULL);
+    kd_document_write(&json, &tea_document, &tea);
+    kd_json_end(&json);
+    assert_int_equal(kd_json_finish(&json), KD_OK);
+    assert_string_equal((const char *)out.data, text);
+    kd_buffer_finish(&out);
+
+    assert_int_equal(read_kind(&tea, "{\"heat\":\"boiling\",\"times\":[0,24],\"host\":{\"x\":1}}", 0, NULL, &error),
+                     KD_OK);
+    assert_true(isinf(tea.heat) && tea.times.n == 2 && tea.times.at[1] == 24 && tea.minutes == 3 && tea.leaf == 1);
+    free(tea.times.at);
+}
+
+static void refusals_say_what_it_must_be(void **state)
+{
+    static const struct {
+        const char *text, *pointer, *message;
+    } refused[] = {
+        { "[]", "", "the document is an array; it must be an object with fields" },
+        { "{\"minutes\":10}", "/minutes", "minutes is 10; it must be 0 up to, not including, 10 min" },
+        { "{\"minutes\":\"3\"}", "/minutes",
+          "minutes is \"3\", a string where a number is needed; it must be 0 up to, not including, 10 min" },
+        { "{\"minutes\":null}", "/minutes",
+          "minutes is null where a number is needed; it must be 0 up to, not including, 10 min" },
+        { "{\"minutes\":1e999}", "/minutes",
+          "minutes is a number beyond 1e308; it must be 0 up to, not including, 10 min" },
+        { "{\"sugar_g\":0.4}", "/sugar_g", "sugar_g is 0.4; it must be 0, or 0.5 to 50 g" },
+        { "{\"heat\":50}", "/heat", "heat is 50; it must be a number above 50 and below 100, or \"boiling\"" },
+        { "{\"heat\":\"hot\"}", "/heat",
+          "heat is \"hot\"; it must be a number above 50 and below 100, or \"boiling\"" },
+        { "{\"heat\":\"60\"}", "/heat",
+          "heat is \"60\", a string where a number is needed; it must be a number above 50 and below 100, or "
+          "\"boiling\"" },
+        { "{\"cups\":9}", "/cups", "cups is 9; it must be a whole number from 1 to 8" },
+        { "{\"cups\":1.5}", "/cups", "cups is 1.5; it must be a whole number from 1 to 8" },
+        { "{\"leaf\":\"red\"}", "/leaf", "leaf is \"red\"; it must be \"none\", \"green\" or \"black\"" },
+        { "{\"iced\":1}", "/iced", "iced is 1; it must be true or false" },
+        { "{\"table\":{\"milk\":\"yes\"}}", "/table/milk", "table.milk is \"yes\"; it must be true or false" },
+        { "{\"table\":1}", "/table", "table is 1; it must be an object with fields" },
+        { "{\"table\":{\"with\":[\"cake\",\"tea\"]}}", "/table/with",
+          "table.with is \"tea\"; it must be \"bread\", \"cake\" or \"fruit\"" },
+        { "{\"table\":{\"with\":[\"cake\",\"cake\"]}}", "/table/with", "table.with has cake twice" },
+        { "{\"table\":{\"with\":[]}}", "/table/with", "table.with has no words; it must have at least one" },
+        { "{\"table\":{\"with\":\"cake\"}}", "/table/with", "table.with is \"cake\"; it must be an array of words" },
+        { "{\"times\":[]}", "/times", "times has 0 numbers; it must have 1 to 4" },
+        { "{\"times\":5}", "/times", "times is 5; it must be an array of numbers" },
+        { "{\"times\":[1,25]}", "/times/1", "times is 25; it must be 0 to 24 h" },
+        { "{\"place\":[1,2]}", "/place", "place is an array; it must be an array of 3 numbers" },
+        { "{\"place\":[1,2,\"x\"]}", "/place/2",
+          "place is \"x\", a string where a number is needed; it must be -9 to 9" },
+        { "{\"name\":\"12345678\"}", "/name", "name is \"12345678\"; it must be a string of at most 7 bytes" },
+        { "{\"cups\":1,\"cups\":2}", "/cups", "cups is given twice" },
+        { "{\"host\":1,\"host\":2}", "/host", "host is given twice" },
+        { "{\"table\":{},\"table\":{}}", "/table", "table is given twice" },
+        { "{\"table\":{\"milk\":true,\"milk\":true}}", "/table/milk", "table.milk is given twice" },
+        { "{\"cup\":1}", "/cup",
+          "there is no field cup here; did you mean cups? Known are minutes, sugar_g, heat, cups, leaf, pot, iced, "
+          "table, times, place, name, host, guests" },
+        { "{\"table\":{\"a/b\":1}}", "/table/a~1b", "there is no field table.a/b here; known are milk, with" },
+        { "{\"table.milk\":true}", "/table.milk",
+          "there is no field table.milk here; known are minutes, sugar_g, heat, cups, leaf, pot, iced, table, times, "
+          "place, name, host, guests" },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        struct tea tea;
+        struct kd_error error = { 0 };
+        assert_int_equal(read_kind(&tea, refused[i].text, 0, NULL, &error), KD_EINVAL);
+        assert_string_equal(error.message, refused[i].message);
+        assert_string_equal(error.pointer, refused[i].pointer);
+        free(tea.times.at);
+    }
+}
+
+static void a_kind_of_document_has_its_own_rows(void **state)
+{
+    struct tea tea;
+    struct kd_error error = { 0 };
+    (void)state;
+    assert_int_equal(read_kind(&tea, "{\"pot\":\"iron\",\"table\":{\"milk\":true}}", TEA_POT, NULL, &error), KD_OK);
+    assert_int_equal(tea.pot, 0);
+    assert_int_equal(read_kind(&tea, "{\"pot\":\"iron\"}", TEA_BAG, NULL, &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/pot");
+    assert_int_equal(read_kind(&tea, "{\"table\":{\"milk\":true}}", TEA_BAG, NULL, &error), KD_EINVAL);
+    assert_string_equal(error.message, "there is no field table.milk here; known are with");
+}
+
+static void typed_text_sets_one_field(void **state)
+{
+    struct tea tea;
+    struct kd_error error = { 0 };
+    uint64_t given = 0;
+    (void)state;
+    kd_document_defaults(&tea_document, &tea);
+    static const char *const set[][2] = { { "minutes", "1.5" },     { "heat", "boiling" },
+                                          { "table.milk", "true" }, { "with", "bread,fruit" },
+                                          { "times", "0,12,24" },   { "place", "1,2,3" },
+                                          { "name", "5" } };
+    for (size_t i = 0; i + 1 < sizeof set / sizeof *set; i++)
+        assert_int_equal(kd_document_set(&tea_document, &tea, set[i][0], set[i][1], &given, &error), KD_OK);
+    assert_true(tea.minutes == 1.5 && isinf(tea.heat) && tea.milk && tea.with == 5 && tea.times.n == 3 &&
+                tea.place[2] == 3 && given == (1 | 4 | 0x80 | 0x100 | 0x200 | 0x400));
+    static const char *const refused[][4] = {
+        { "milk", "1", "/table/milk", "milk is 1; it must be true or false" },
+        { "with", "", "/table/with", "with has no words; it must have at least one" },
+        { "times", "1,x", "/times/1", "times is \"x\", a string where a number is needed; it must be 0 to 24 h" },
+        { "times", "1,2,3,4,5", "/times", "times has 5 numbers; it must have 1 to 4" },
+        { "place", "1,2", "/place", "place is \"1,2\"; it must be an array of 3 numbers" },
+        { "tables.milk", "true", "/tables.milk",
+          "there is no parameter tables.milk; known are minutes, sugar_g, heat, cups, leaf, pot, iced, milk, with, "
+          "times, place, name" },
+        { "leav", "x", "/leav",
+          "there is no parameter leav; did you mean leaf? Known are minutes, sugar_g, heat, cups, leaf, pot, iced, "
+          "milk, with, times, place, name" },
+    };
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        assert_int_equal(kd_document_set(&tea_document, &tea, refused[i][0], refused[i][1], NULL, &error), KD_EINVAL);
+        assert_string_equal(error.message, refused[i][3]);
+        assert_string_equal(error.pointer, refused[i][2]);
+    }
+    free(tea.times.at);
+}
+
+static void the_schema_says_the_same(void **state)
+{
+    struct kd_buffer out = { 0 };
+    struct kd_json json = kd_json_begin(&out);
+    struct kd_document document = tea_document;
+    (void)state;
+    kd_json_object(&json, NULL);
+    kd_document_required(&json, &document);
+    kd_json_object(&json, "properties");
+    kd_document_properties(&json, &document);
+    kd_json_end(&json);
+    kd_document_describe(&json, "told", &(const struct kd_document) { .rows = tea_rows + 3, .n = 2 });
+    kd_json_end(&json);
+    assert_int_equal(kd_json_finish(&json), KD_OK);
+    assert_string_equal(
+        (const char *)out.data,
+        "{\"required\":[\"cups\",\"table\"],\"properties\":{"
+        "\"minutes\":{\"type\":\"number\",\"minimum\":0,\"exclusiveMaximum\":10,"
+        "\"description\":\"how long it draws [min]\"},"
+        "\"sugar_g\":{\"type\":\"number\",\"minimum\":0,\"maximum\":50,\"not\":{\"exclusiveMinimum\":0,"
+        "\"exclusiveMaximum\":0.5},\"description\":\"sugar [g]\"},"
+        "\"heat\":{\"anyOf\":[{\"type\":\"string\",\"enum\":[\"boiling\"]},{\"type\":\"number\",\"exclusiveMinimum\":"
+        "50,"
+        "\"exclusiveMaximum\":100}],\"description\":\"temperature\"},"
+        "\"cups\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":8,\"description\":\"number of cups\"},"
+        "\"leaf\":{\"type\":\"string\",\"enum\":[\"none\",\"green\",\"black\"],\"description\":\"kind of leaf\"},"
+        "\"pot\":{\"type\":\"string\",\"enum\":[\"auto\",\"iron\",\"clay\"],\"description\":\"kind of pot\"},"
+        "\"iced\":{\"type\":\"boolean\",\"description\":\"with ice or not\"},"
+        "\"table\":{\"type\":\"object\",\"additionalProperties\":false,\"required\":[\"milk\"],\"properties\":{"
+        "\"milk\":{\"type\":\"boolean\",\"description\":\"with milk or not\"},"
+        "\"with\":{\"type\":\"array\",\"minItems\":1,\"uniqueItems\":true,\"items\":{\"type\":\"string\",\"enum\":["
+        "\"bread\",\"cake\",\"fruit\"]},\"description\":\"what is eaten\"}}},"
+        "\"times\":{\"type\":\"array\",\"minItems\":1,\"maxItems\":4,\"items\":{\"type\":\"number\",\"minimum\":0,"
+        "\"maximum\":24},\"description\":\"times of the day [h]\"},"
+        "\"place\":{\"type\":\"array\",\"minItems\":3,\"maxItems\":3,\"items\":{\"type\":\"number\",\"minimum\":-9,"
+        "\"maximum\":9},\"description\":\"x, y, z\"},"
+        "\"name\":{\"type\":\"string\",\"maxLength\":7,\"description\":\"whose it is\"}},"
+        "\"told\":[{\"name\":\"cups\",\"type\":\"integer\",\"default\":1,\"least\":1,\"most\":8,"
+        "\"help\":\"number of cups\"},{\"name\":\"leaf\",\"type\":\"string\",\"default\":\"green\",\"words\":["
+        "\"none\",\"green\",\"black\"],\"fixed\":true,\"help\":\"kind of leaf\"}]}");
+    kd_buffer_finish(&out);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_kind_is_read_and_written),
+        cmocka_unit_test(refusals_say_what_it_must_be),
+        cmocka_unit_test(a_kind_of_document_has_its_own_rows),
+        cmocka_unit_test(typed_text_sets_one_field),
+        cmocka_unit_test(the_schema_says_the_same),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
