@@ -199,8 +199,7 @@ static enum kd_status answer_text(struct arguments *arguments, struct kd_buffer 
     enum kd_status status;
     kd_integral_request_init(&request, arguments->what);
     KD_TRY(load(arguments, &request, error));
-    if (format_of(arguments) == KD_INTEGRAL_UVFITS && !request.file)
-        KD_TRY(kd_error_field(error, "/observation", KD_INTEGRAL_NO_UVFITS));
+    KD_TRY(kd_integral_check_format(&request, format_of(arguments), error));
     KD_TRY(kd_integral_run_begin(&work.run, &request, error));
     if (work.run.pictures)
         KD_TRY(make_pictures(&work, arguments, &request, error));

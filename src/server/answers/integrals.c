@@ -84,8 +84,7 @@ static enum kd_status begin(struct job *job, struct kd_error *error)
     kd_task_drop_body(task->request);
     if (status)
         return status;
-    if (job->format == KD_INTEGRAL_UVFITS && !job->request.file)
-        return kd_error_field(error, "/observation", KD_INTEGRAL_NO_UVFITS);
+    KD_TRY(kd_integral_check_format(&job->request, job->format, error));
     KD_TRY(plan_pictures(job, &bytes, error));
     KD_TRY(kd_task_hold(task->request->server, task->scheduled.client, bytes, &task->held, &task->quota, error));
     /* An integral without pictures is computed in one slice: mostly in some hundredths of a second, and in 0.3 s for
