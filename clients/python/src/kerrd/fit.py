@@ -31,7 +31,7 @@ from .document import SceneLike
 
 Product = Literal["amplitude", "closure_phase", "log_closure_amplitude", "visibility"]
 Progress = Callable[[int, int, float], None]
-SETS = 1024  # in a request
+SETS = 256  # in a request, so that none takes too long
 
 
 def _needs(package: str, what: str) -> Any:
