@@ -168,6 +168,7 @@ static enum kd_status make_picture(struct work *w, const struct kd_integral_requ
     KD_TRY(kd_integral_run_take(&w->run, &file, &scene, &plan, error));
     kd_integral_run_step(&w->run, INFINITY);
 done:
+    kd_integral_name_set(request, w->run.picture, status, error);
     kd_frame_finish(&frame);
     kd_buffer_finish(&file);
     return status;
