@@ -172,6 +172,7 @@ static enum kd_status make_picture(struct work *w, const struct kd_integral_requ
     KD_TRY(kd_integral_run_take(&w->run, &file, &scene, &plan, error));
     kd_integral_run_step(&w->run, INFINITY);
 done:
+    kd_integral_name_set(request, w->run.picture, status, error);
     kd_frame_finish(&frame);
     kd_buffer_finish(&file);
     return status;
@@ -203,8 +204,7 @@ static enum kd_status answer_text(struct arguments *arguments, struct kd_buffer 
     enum kd_status status;
     kd_integral_request_init(&request, arguments->what);
     KD_TRY(load(arguments, &request, error));
-    if (format_of(arguments) == KD_INTEGRAL_UVFITS && !request.file)
-        KD_TRY(kd_error_field(error, "/observation", KD_INTEGRAL_NO_UVFITS));
+    KD_TRY(kd_integral_check_format(&request, format_of(arguments), error));
     KD_TRY(kd_integral_run_begin(&work.run, &request, error));
     if (work.run.pictures)
         KD_TRY(make_pictures(&work, arguments, &request, error));

@@ -7,6 +7,7 @@
 #include "render/view/camera.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #define RADIANS_PER_UAS (M_PI / 180 / 3.6e9)
 
@@ -51,6 +52,18 @@ struct kd_scene kd_integral_scene(const struct kd_integral_request *r, unsigned 
         scene.volume.frequency_ghz = r->frequencies_hz.at[picture / (r->unchecked ? 1 : 2)] * 1e-9;
     }
     return scene;
+}
+
+void kd_integral_name_set(const struct kd_integral_request *r, unsigned picture, enum kd_status status,
+                          struct kd_error *error)
+{
+    if (r->what != KD_INTEGRAL_SETS || status != KD_EINVAL || !error || picture >= r->sets->pictures)
+        return;
+    const struct kd_error inner = *error;
+    const unsigned row = r->sets->at[r->sets->first[picture]].row;
+    char pointer[40];
+    snprintf(pointer, sizeof pointer, "/sets/%u", row);
+    kd_error_field(error, pointer, "set %u: %.400s", row, inner.message);
 }
 
 double kd_integral_pixel(const struct kd_scene *scene)

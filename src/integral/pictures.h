@@ -29,6 +29,10 @@ const struct kd_format *kd_integral_picture_format(enum kd_integral what);
 enum kd_status kd_integral_plan(const struct kd_integral_request *request, struct kd_scene *scene,
                                 const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
 
+/* Names the first set of a picture in an error about it, KD_EINVAL. Does nothing for other requests and errors. */
+void kd_integral_name_set(const struct kd_integral_request *request, unsigned picture, enum kd_status status,
+                          struct kd_error *error);
+
 /* Replaces the request's scene by the default one. A spectrum becomes that of a volume. */
 enum kd_status kd_integral_make_scene(struct kd_integral_request *request, struct kd_error *error);
 

@@ -24,8 +24,6 @@
 #define KD_INTEGRAL_MOST_HZ 1e21  /* highest, as for volume.frequency_ghz */
 #define KD_INTEGRAL_FACE_ON \
     0.1 /* degrees from the axis within which no ring has a transfer function; INCLINATION of fields.c says so too */
-#define KD_INTEGRAL_NO_UVFITS \
-    "observation is a CSV, which has no places of stations; for uvfits it must be a uvfits file"
 #define KD_INTEGRAL_ORDERS 8u /* image orders that are distinguished */
 
 void kd_integral_request_init(struct kd_integral_request *request, enum kd_integral what);

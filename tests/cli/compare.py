@@ -135,6 +135,20 @@ class Compare(Case):
         chi2 = sum(columns["residual"][i] ** 2 for i in rows) / len(rows)
         self.assertAlmostEqual(chi2 / found["chi2"]["visibility"], 1, delta=1e-9)
 
+    def test_a_set_that_cannot_be_rendered(self):
+        """What only a picture shows names its set too: this torus has no such flux at any density."""
+        request = {"preset": "torus", "pixels": 32, "average_s": 600, "sets": [{}, {"volume.normalise_to_jy": 1e6}]}
+        with open(self.path("sets.json"), "w", encoding="utf-8") as file:
+            json.dump(request, file)
+        self.bad(
+            2,
+            "set 1: volume.normalise_to_jy is 1000000 Jy, but",
+            "compare",
+            self.path("sets.json"),
+            "--observation",
+            compared.CSV,
+        )
+
     def test_scattering(self):
         """The kernel multiplies each amplitude of the model, and longer baselines more. It leaves closure phases."""
         options = ["--observation", compared.UVFITS, "-p", "m87", "--pixels", "64", "--average-s", "600"]

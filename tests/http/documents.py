@@ -169,7 +169,7 @@ class Documents(unittest.TestCase):
         )
 
     def test_comparing(self):
-        self.made("docs/comparing.md", 2, "chi2.json")
+        self.made("docs/comparing.md", 3, "chi2.json")
 
     def test_importing(self):
         self.made("docs/importing.md", 1, "scene.json", "disk.png")

@@ -5,6 +5,7 @@ that are damaged or beyond each limit.
     REPEATS=200 refusals.py SERVER  the long run"""
 
 import io
+import json
 import os
 import pathlib
 import re
@@ -244,6 +245,37 @@ class Refusals(daemon.Case):
 
     def test_routes(self):
         self.hold(routes(self.daemon.get("/openapi.json").json()), 200)
+
+    def test_comparisons(self):
+        """Parameter sets of which the last is refused have taken a scene each; a simulation has a copy of its file."""
+        folder = pathlib.Path(__file__).resolve().parents[2] / "data/eht"
+        seen = {}
+        for end, kind in (("uvfits", "application/x-uvfits"), ("csv", "text/csv")):
+            data = (folder / f"m87-2017-04-05-lo.{end}").read_bytes()
+            seen[end] = self.daemon.request("PUT", assets.ASSETS, data, {"Content-Type": kind}).json()["sha256"]
+
+        def ask(path, end, kind="application/json", **more):
+            document = {"preset": "m87", "pixels": 16, "observation": seen[end], **more}
+            return "POST", path, json.dumps(document).encode(), {"Content-Type": "application/json", "Accept": kind}
+
+        good = [{"spacetime.spin": i / 400} for i in range(300)]
+        kinds = (
+            ("a bad set behind good ones", ask("/v1/compare", "uvfits", sets=[*good, {"spacetime.spin": 2}])),
+            ("a set with a bad rule", ask("/v1/compare", "uvfits", sets=[*good, {"disk.outer": 2}])),
+            ("a set that is a number", ask("/v1/compare", "csv", sets=[*good, 1])),
+            ("sets and check", ask("/v1/compare", "csv", sets=good, check="finer")),
+            ("sets and size", ask("/v1/compare", "csv", sets=[*good, {"size": 1}], solve=["size"])),
+            ("too many sets", ask("/v1/compare", "csv", sets=[{}] * 5000)),
+            ("a shift without visibilities", ask("/v1/compare", "uvfits", solve=["shift"])),
+            (
+                "a search that takes too long",
+                ask("/v1/compare", "uvfits", solve=["size", "position_angle"], pixels=2048),
+            ),
+            ("light without a flux", ask("/v1/observe", "uvfits")),
+            ("uvfits from a CSV", ask("/v1/observe", "csv", "application/x-uvfits", flux_jy=1)),
+            ("a bad seed", ask("/v1/observe", "uvfits", seed=-1)),
+        )
+        self.hold(kinds, len(kinds), OFTEN)
 
     def test_small_leaks(self):
         """A few kinds of each reader that takes memory, often."""

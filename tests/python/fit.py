@@ -119,6 +119,9 @@ class Fits(unittest.TestCase):
         truth = [TRUTH[name] for name in fit.names]
         self.assertLessEqual(best.chi2, fit.chi2([truth])[0])
         self.assertLess(best.chi2 / best.data, 1.6)
+        self.assertEqual((best.converged, best.at_bounds), (True, ()))
+        bounded = Fit(self.hole, self.night, {"size": (0.7, 1.0)}, SCENE, **SETTINGS).maximum(seed=1, generations=5)
+        self.assertEqual(bounded.at_bounds, ("size",))
         posterior = fit.posterior(steps=100, walkers=16, seed=5, start=best)
         self.assertEqual(posterior.chain.shape, (100, 16, 3))
         self.assertGreater(posterior.acceptance, 0.2)

@@ -236,6 +236,33 @@ static void test_size_angle_and_position_are_found(void **state)
     free(room);
 }
 
+static void dark(void *user, double size, double angle_deg, double (*out)[2])
+{
+    (void)size, (void)angle_deg;
+    memset(out, 0, ((const struct sources *)user)->c->n * sizeof *out);
+}
+
+/* A model without light has no finite chi^2 of log closure amplitudes, and no search of it converges. */
+static void test_a_search_without_light(void **state)
+{
+    (void)state;
+    struct kd_observation o = read_observation("m87-2017-04-05-lo.csv");
+    struct kd_comparison c;
+    struct kd_error error = { 0 };
+    struct kd_alignment found = KD_ALIGNMENT_NONE;
+    assert_int_equal(kd_comparison_make(&o, &(struct kd_comparison_params) { .products = 4 }, &c, &error), KD_OK);
+    double (*model)[2] = malloc(c.n * sizeof *model);
+    struct kd_align_room *room = malloc(sizeof *room);
+    struct sources sources = { &c };
+    kd_align(&c, &(struct kd_align_params) { KD_ALIGN_SIZE | KD_ALIGN_ANGLE, 1e-9, dark, &sources }, room, model,
+             &found);
+    assert_false(found.converged[1] || found.converged[2]);
+    free(room);
+    free(model);
+    kd_comparison_finish(&c);
+    kd_observation_finish(&o);
+}
+
 /* ehtim 1.3.2: exp(-Dphi_exact/2) of ScatteringModel(), at b/(1 + Mag()), with k_zeta minimised to 1e-12. */
 static void test_scattering_is_that_of_ehtim(void **state)
 {
@@ -557,6 +584,7 @@ int main(void)
         cmocka_unit_test(test_chi2_of_visibilities_is_that_of_ehtim),
         cmocka_unit_test(test_size_angle_and_position_are_found),
         cmocka_unit_test(test_scattering_is_that_of_ehtim),
+        cmocka_unit_test(test_a_search_without_light),
         cmocka_unit_test(test_simulated_file),
         cmocka_unit_test(test_scattering_has_the_published_widths),
         cmocka_unit_test(test_chi2_is_that_of_ehtim),

@@ -38,7 +38,7 @@ const struct kd_example kd_examples[] = {
     { "transfer-function", "kerrd transfer-function --spin 0.9 --inclination-deg 60 -o transfer.csv",
       "The transfer function of a disk:" },
     { "spectrum", "kerrd spectrum --spin 0.9 --inclination-deg 60 --format csv", "The spectrum of a thin disk:" },
-    { "observe", "kerrd observe --observation m87.uvfits --preset riaf --pixels 64 --seed 1 -o night.uvfits",
+    { "observe", "kerrd observe --observation m87.csv --preset riaf --pixels 64 --seed 1 -o night.csv",
       "What the array of an observation would have measured of a scene:" },
     { "compare", "kerrd compare --observation m87.csv --preset m87 --average-s 600 --pixels 64",
       "A scene compared with an observation of M87*:" },

@@ -57,8 +57,10 @@ static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_er
         struct kd_scene scene = kd_integral_scene(&job->request, i);
         struct kd_plan plan;
         enum kd_status status = kd_integral_plan(&job->request, &scene, &capacity, &plan, error);
-        if (status)
+        if (status) {
+            kd_integral_name_set(&job->request, i, status, error);
             return status;
+        }
         ms += plan.estimate_ms * n / sizes +
               (double)plan.n_layers * plan.width * plan.height * (double)job->request.u.n * NS_A_PRODUCT * 1e-6 *
                   (i ? 1 : kd_integral_evaluations(&job->request)) *
@@ -84,8 +86,7 @@ static enum kd_status begin(struct job *job, struct kd_error *error)
     kd_task_drop_body(task->request);
     if (status)
         return status;
-    if (job->format == KD_INTEGRAL_UVFITS && !job->request.file)
-        return kd_error_field(error, "/observation", KD_INTEGRAL_NO_UVFITS);
+    KD_TRY(kd_integral_check_format(&job->request, job->format, error));
     KD_TRY(plan_pictures(job, &bytes, error));
     KD_TRY(kd_task_hold(task->request->server, task->scheduled.client, bytes, &task->held, &task->quota, error));
     /* An integral without pictures is computed in one slice: mostly in some hundredths of a second, and in 0.3 s for
@@ -98,6 +99,7 @@ done:
 static void rendered(struct kd_render_job *picture)
 {
     struct job *job = picture->user;
+    kd_integral_name_set(&job->request, job->run.picture, picture->status, &picture->error);
     kd_task_fail(&job->task, picture->status, &picture->error);
     kd_scheduler_wake(job->task.queue, &job->task.scheduled);
 }
@@ -128,6 +130,7 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
     KD_TRY(kd_integral_plan(&job->request, &job->picture.scene, &capacity, &job->picture.plan, error));
     kd_render_queue_push(renders, &job->picture);
 done:
+    kd_integral_name_set(&job->request, job->run.picture, status, error);
     return status;
 }
 

@@ -31,7 +31,7 @@ from .document import SceneLike
 
 Product = Literal["amplitude", "closure_phase", "log_closure_amplitude", "visibility"]
 Progress = Callable[[int, int, float], None]
-SETS = 1024  # in a request
+SETS = 256  # in a request, so that none takes too long
 
 
 def _needs(package: str, what: str) -> Any:
@@ -58,13 +58,16 @@ def _teller(progress: bool | Progress) -> Progress:
 
 @dataclass(frozen=True)
 class Maximum:
-    """The best parameters: values by name, chi^2 of all data, their number, and whether the search converged."""
+    """The best parameters: values by name, chi^2 of all data, their number, whether the search's steps became
+    small, and the names of parameters within a thousandth of their ranges from a bound, beyond which the best point
+    may be."""
 
     values: dict[str, float]
     chi2: float
     data: int
     converged: bool
     evaluations: int
+    at_bounds: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -229,9 +232,11 @@ class Fit:
             options={"initial_simplex": start, "fatol": tolerance, "xatol": np.inf, "maxfev": 200 * len(self.names)},
         )
         best = fine if fine.fun <= coarse.fun else coarse
-        return Maximum(
-            dict(zip(self.names, map(float, best.x))), float(best.fun), self.data, bool(fine.success), seen[0]
-        )
+        values = dict(zip(self.names, map(float, best.x)))
+        near = 1e-3 * scale
+        beside = (best.x - self._bounds()[:, 0] < near) | (self._bounds()[:, 1] - best.x < near)
+        at_bounds = tuple(name for name, is_near in zip(self.names, beside) if is_near)
+        return Maximum(values, float(best.fun), self.data, bool(fine.success), seen[0], at_bounds)
 
     def _described(self, walkers: int, seed: int | None) -> str:
         """What a chain depends on, so that a file is not resumed by another fit."""
