@@ -14,7 +14,9 @@ const has_disk = scene => scene.get('disk.model') !== 'none',
     scene.emitters.some(({ name }) => name !== 'sky');
 const only_with = {
   'disk.flare': scene => has_disk(scene) && scene.get('disk.height') > 0,
-  'disk.atmosphere': scene => has_disk(scene) && scene.get('disk.height') === 0,
+  // a refused atmosphere of a thick disk can be taken back
+  'disk.atmosphere': scene =>
+    has_disk(scene) && (scene.get('disk.height') === 0 || scene.get('disk.atmosphere') !== 'isotropic'),
   'style.ringdown_time': scene => scene.get('style.ringdown') > 0,
   // layers and rings show crossings of the plane within this radius
   'disk.outer': scene => has_disk(scene) || is_map(scene) || scene.get('camera.projection') === 'ring',

@@ -98,8 +98,8 @@ class Table(support.Case):
 
     def test_axes(self):
         """An inner edge over the ISCO, a fixed inclination, and an axis of ranges."""
-        self.good("table", "-x", "inner_isco=1,2:4/3", "-x", "spin=0,0.9", "-s", "inclination_deg=40", "-s", "index=2.5",
-                  "-o", self.path("a.fits"))  # fmt: skip
+        axes = "-x", "inner_isco=1,2:4/3", "-x", "spin=0,0.9"
+        self.good("table", *axes, "-s", "inclination_deg=40", "-s", "index=2.5", "-o", self.path("a.fits"))
         file = self.opened("a.fits")
         self.assertEqual([r["NAME"] for r in file["PARAMETERS"].data], ["spin", "inner_isco"])
         self.assertEqual(list(file["PARAMETERS"].data[1]["VALUE"]), [1, 2, 3, 4])

@@ -37,8 +37,8 @@ asked = json.loads(sys.argv[2])
 found = [list(numpy.cumsum(at([*values, 0], edges))) for values in asked]
 shifted = at([*asked[0], 0.5], edges / 1.5)
 wide = at([*asked[0], 0.25], numpy.linspace(0.05, 20, 4001))
-print(json.dumps({"nodes": nodes, "found": found, "shifted": float(abs(1.5 * shifted - at([*asked[0], 0], edges)).max()),
-                  "wide": float(wide.sum()), "inside": found[0][-1]}))
+off = float(abs(1.5 * shifted - at([*asked[0], 0], edges)).max())
+print(json.dumps({"nodes": nodes, "found": found, "shifted": off, "wide": float(wide.sum()), "inside": found[0][-1]}))
 """
 
 if not PYTHON.exists():

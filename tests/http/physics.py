@@ -496,7 +496,7 @@ class Integrals(daemon.Case):
         a face radiates, whatever its colours."""
         document = {"inner": 1e5, "outer": 1e6, "inclination_deg": 10, "frequencies": 1000, "distance_pc": 1000}
         totals = []
-        for more in ({}, {"colour_correction": 1}, {"limb": "laor"}):
+        for more in ({}, {"colour_correction": 1}, {"limb": "laor"}, {"limb": "scattering"}):
             columns = self.post("spectrum", {**document, **more}).json()["columns"]
             f, flux = columns["frequency_hz"], columns["flux_w_m2_hz"]
             totals.append(sum((a + b) / 2 * (y - x) for x, y, a, b in zip(f, f[1:], flux, flux[1:])))
@@ -511,7 +511,9 @@ class Integrals(daemon.Case):
         want = math.cos(math.radians(10)) * face / (math.pi * (1000 * 3.0856775814913673e16) ** 2)
         self.assertAlmostEqual(totals[0] / want, 1, delta=0.01)
         self.assertAlmostEqual(totals[1] / totals[0], 1, delta=1e-3)
-        self.assertGreater(totals[2] / totals[0], 1.2)
+        # at cos(10 degrees) = 0.9848: (1 + 2.06 mu)/(1 + 4.12/3), and between 0.95 and 1 of Chandrasekhar's table XXIV
+        self.assertAlmostEqual(totals[2] / totals[0], 1.2761, delta=2e-3)
+        self.assertAlmostEqual(totals[3] / totals[0], 1.2573, delta=2e-3)
 
     def test_an_image_that_is_kept_changes_nothing(self):
         document = {"spin": 0.31, "inclination_deg": 33, "bins": 20}
