@@ -91,8 +91,8 @@ static void plunge(void **state)
         if (hole.root < 0.1)
             continue;
         const double r0 = kd_kerr_isco(&hole);
-        near(kd_disk_redshift_plunging(&hole, r0, 0.5, 9, true), kd_disk_redshift(&hole, r0, 0.5), 1e-7, "g at the ISCO",
-             e->a, e->q, r0);
+        near(kd_disk_redshift_plunging(&hole, r0, 0.5, 9, true), kd_disk_redshift(&hole, r0, 0.5), 1e-7,
+             "g at the ISCO", e->a, e->q, r0);
         /* The principal photon, lambda = a and eta = 0, measures W = E (1 + a^2 w^2) - a L w^2 and w' = -u^r alone. */
         for (int k = 1; k < 8; k++) {
             const double r = hole.outer + (r0 - hole.outer) * k / 8, w = 1 / r;
@@ -229,20 +229,19 @@ static void curve(void **state)
 static void circles(void **state)
 {
     (void)state;
-    static const struct {
-        double q, b;
-    } known[] = { { 0.5, 4.96791433 }, { 0.6, 4.85869419 }, { 1 - 1e-12, 4 } };
+    static const struct { double q, b; } known[] = { { 0.5, 4.96791433 }, { 0.6, 4.85869419 }, { 1 - 1e-12, 4 } };
     for (size_t i = 0; i < COUNT(known); i++)
         for (int k = 0; k < 16; k++) {
-            const struct kd_critical_observer o = { .hole = kd_hole_charged(0, known[i].q), .radius = INFINITY,
+            const struct kd_critical_observer o = { .hole = kd_hole_charged(0, known[i].q),
+                                                    .radius = INFINITY,
                                                     .cos_theta = 0.1 * (k % 10) };
             const struct kd_critical c = kd_critical_of(&o);
             const struct kd_critical_point p = kd_critical_at(&c, 0.4 * k);
             const double q = known[i].q, r = (3 + sqrt(9 - 8 * q * q)) / 2;
             near(p.rho, known[i].b, 1e-8, "b", 0, q, p.angle);
             near(p.rho, r * r / sqrt(r * r - 2 * r + q * q), 4e-15 * p.rho, "b", 0, q, p.angle);
-            near(kd_shell_exponents(&p.orbit).gamma,
-                 M_PI * sqrt(6 * (r * r - 2 * r + q * q) / (r * r) - 1), 1e-12, "gamma", 0, q, p.angle);
+            near(kd_shell_exponents(&p.orbit).gamma, M_PI * sqrt(6 * (r * r - 2 * r + q * q) / (r * r) - 1), 1e-12,
+                 "gamma", 0, q, p.angle);
         }
 }
 
@@ -257,13 +256,14 @@ static void shell(void **state)
             continue;
         const struct kd_shell s = kd_shell_of(&hole);
         for (int k = 0; k <= 40; k++) {
-            const struct kd_shell_orbit o =
-                kd_shell_orbit_at(&s, s.prograde + (s.retrograde - s.prograde) * k / 40);
+            const struct kd_shell_orbit o = kd_shell_orbit_at(&s, s.prograde + (s.retrograde - s.prograde) * k / 40);
             const long double a = e->a, q = e->q, y = o.y, n = 1 - a * a - q * q, r = 1 + y, delta = y * y - n,
-                              l = a + r / a * (r - 2 * delta / y), big = 4 * r * r * delta / (y * y) - (l - a) * (l - a);
+                              l = a + r / a * (r - 2 * delta / y),
+                              big = 4 * r * r * delta / (y * y) - (l - a) * (l - a);
             const double size = (double)(fabsl(r * r / a / y) + fabsl(4 * r * r / (y * y))), loss = 1e-18 / fabs(e->a);
             near(o.lambda, (double)l, (1e-14 + loss) * size + 1e-14 * fabs((double)l), "lambda", e->a, e->q, o.r);
-            near(o.eta, (double)big, (4e-14 + loss / fabs(e->a)) * size * (1 + fabs((double)l)), "eta", e->a, e->q, o.r);
+            near(o.eta, (double)big, (4e-14 + loss / fabs(e->a)) * size * (1 + fabs((double)l)), "eta", e->a, e->q,
+                 o.r);
         }
         near(kd_shell_orbit_at(&s, s.prograde).eta, 0, 1e-12 / fabs(e->a), "eta of the prograde orbit", e->a, e->q, 0);
         near(kd_shell_orbit_at(&s, s.retrograde).eta, 0, 1e-12, "eta of the retrograde orbit", e->a, e->q, 0);
@@ -273,8 +273,8 @@ static void shell(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(places),  cmocka_unit_test(orbits), cmocka_unit_test(small_charges), cmocka_unit_test(plunge),
-        cmocka_unit_test(frames),  cmocka_unit_test(at_rest), cmocka_unit_test(rain),         cmocka_unit_test(curve),
+        cmocka_unit_test(places),  cmocka_unit_test(orbits),  cmocka_unit_test(small_charges), cmocka_unit_test(plunge),
+        cmocka_unit_test(frames),  cmocka_unit_test(at_rest), cmocka_unit_test(rain),          cmocka_unit_test(curve),
         cmocka_unit_test(circles), cmocka_unit_test(shell),
     };
     return cmocka_run_group_tests_name("matter and observers about charged holes", tests, NULL, NULL);
