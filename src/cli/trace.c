@@ -16,7 +16,7 @@ enum kd_status kd_trace_explain(const struct kd_rays_steps *steps, bool points, 
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
     *out = (struct kd_described_steps) { .steps = steps, .points = points };
     const struct kd_null_ray ray = {
-        .hole = kd_hole_of(steps->params.spin),
+        .hole = kd_rays_hole(&steps->params),
         .radius = steps->params.r,
         .cos_theta = kd_cos_deg(steps->params.inclination_deg),
         .sin_theta = kd_sin_deg(steps->params.inclination_deg),

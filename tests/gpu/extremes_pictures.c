@@ -98,7 +98,8 @@ static const struct picture pictures[] = {
       "\"sky\":{\"model\":\"grid\"}," SMALL "}",
       false, 0 },
     { "charge 0.9, falling between the horizons",
-      "{\"spacetime\":{\"spin\":0.1,\"charge\":0.9},\"camera\":{\"r\":0.8,\"observer\":\"infall\"},\"sky\":{\"model\":"
+      "{\"spacetime\":{\"spin\":0.1,\"charge\":0.9},\"camera\":{\"r\":0.8,\"observer\":\"infall\",\"projection\":"
+      "\"equirectangular\"},\"sky\":{\"model\":"
       "\"grid\"}," SMALL "}",
       true, 0 },
     { "a 0, next to the horizon",

@@ -1,5 +1,6 @@
 /* Light about charged holes: the closed form compared with an integration by steps, with the first-order equations as
  * Carter wrote them, and with spherical photon orbits from R = R' = 0. */
+#include "physics/null/null_bend.h"
 #include "physics/null/null_course.h"
 #include "physics/null/null_radial.h"
 #include "physics/orbit/timelike.h"
@@ -192,6 +193,35 @@ static void extremes(void **state)
     }
 }
 
+/* The direction of escape by the bend, whose azimuth is a sum of other terms than the closed form's. */
+static void bends(void **state)
+{
+    (void)state;
+    uint64_t seed = 11;
+    int seen = 0;
+    for (int i = 0; i < 1000; i++) {
+        const double size = sqrt(random_unit(&seed)), turn = 0.5 * M_PI * random_unit(&seed);
+        const struct kd_null_ray ray = { .hole = kd_hole_charged(size * cos(turn), size * sin(turn)),
+                                         .radius = i % 2 ? INFINITY : 30,
+                                         .cos_theta = 1.8 * random_unit(&seed) - 0.9,
+                                         .alpha = 24 * random_unit(&seed) - 12,
+                                         .beta = 24 * random_unit(&seed) - 12 };
+        const struct kd_null_path path = kd_null_trace(&ray);
+        struct kd_null_bend bend;
+        double n[3];
+        if (path.status != KD_NULL_OK || path.fate != KD_NULL_ESCAPED || path.sky_error > 1e-12 ||
+            hypot(ray.alpha, ray.beta) < 7 || !kd_null_bend_of(&ray, &bend))
+            continue;
+        kd_null_bend_sky(&bend, ray.cos_theta, sqrt(1 - ray.cos_theta * ray.cos_theta), n);
+        const double off = remainder(atan2(n[1], n[0]) - path.sky_phi, 2 * M_PI) * hypot(n[0], n[1]);
+        if (!(fabs(n[2] - path.sky_u) < 1e-8 && fabs(off) < 1e-8))
+            fail_msg("a = %.17g, q = %.17g, (%.17g, %.17g): off by %g, %g", ray.hole.a, ray.hole.q, ray.alpha, ray.beta,
+                     n[2] - path.sky_u, off);
+        seen++;
+    }
+    assert_true(seen > 300);
+}
+
 /* Orbits have no charge: a charged hole is refused by name. */
 static void orbits_refuse(void **state)
 {
@@ -207,6 +237,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(critical_impact), cmocka_unit_test(edge_of_the_shadow),
                                         cmocka_unit_test(rates),           cmocka_unit_test(crossings),
-                                        cmocka_unit_test(extremes),        cmocka_unit_test(orbits_refuse) };
+                                        cmocka_unit_test(extremes),        cmocka_unit_test(bends),
+                                        cmocka_unit_test(orbits_refuse) };
     return cmocka_run_group_tests_name("light about charged holes", tests, NULL, NULL);
 }

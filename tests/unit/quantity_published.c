@@ -57,6 +57,13 @@ static void figures(void **state)
               4.30e6, 1.1e4);
     published("GRAVITY 2021, arXiv:2101.12098: 8275 +- 9 pc to it", ASK("scale", "distance", "hole=sgra"), 8275, 9);
     published("radius of the horizon of one solar mass", ASK("scale", "horizon_km", "mass_msun=1"), 2.95325, 5e-6);
+    published("Eiroa, Romero & Torres 2002, Phys. Rev. D 66, 024010: photon orbit at Q = 0.5",
+              ASK("shadow", "orbit_r", "spin=0", "charge=0.5", "angle_deg=0"), 2.82288, 5e-6);
+    published("the shadow's radius there, r^2/sqrt(Delta)", ASK("shadow", "mean_radius", "spin=0", "charge=0.5"),
+              4.96791433, 5e-9);
+    published("rain, from the horizon of Q = 0.8 to the inner one, (x^3)/6 + x q^2/2 with x^2 = 2r - q^2",
+              ASK("infall", "proper_time_to_end", "spin=0", "charge=0.8", "r=1.6"),
+              (pow(2.56, 1.5) - pow(0.16, 1.5)) / 6 + 0.32 * (1.6 - 0.4), 1e-12);
     published("Thorne 1974, ApJ 191, 507: efficiency at a = 0.998", ASK("kerr", "efficiency", "spin=0.998"), 0.321,
               5e-4);
     published("Thorne 1974: ISCO at a = 0.998", ASK("kerr", "isco", "spin=0.998"), 1.237, 5e-4);

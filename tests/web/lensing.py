@@ -260,6 +260,17 @@ class Lensing(Browser):
         self.assertEqual(shown(), ["raw", "aces", 0, True, True])
         self.assertEqual(sent()["style"]["tone_map"], "aces")
 
+    def test_a_charged_hole_has_its_own_lines(self):
+        """The edge of the shadow is that of the charge; lines that are known without charge only are refused."""
+        page = self.open("lang=en&preset=reissner-nordstrom&over=shadow,isco", FINE)
+        page.wait_for_selector("#overlay .over-shadow path", state="attached")
+        page.wait_for_function("() => document.querySelector('#over-isco-words').textContent")
+        wide = value(page.text_content("#over-shadow-words").split(" M wide")[0])
+        self.assertAlmostEqual(wide, 8.008, delta=0.01)
+        self.assertEqual(page.text_content("#over-isco-words"), "known for an uncharged hole only")
+        self.assertEqual(page.locator("#overlay .over-isco path").count(), 0)
+        self.assertEqual(page.title(), "See: spin 0, charge 0.999, inclination 80° – kerrd")
+
     def test_a_measured_ring_lies_over_the_picture(self):
         """M87* and Sgr A* open as the telescope showed them, with the measured ring and its error drawn to scale. A
         slider removes ring and beam."""

@@ -13,7 +13,7 @@ enum { COLUMNS = 12, ROWS = 8 };
 static struct kd_null_path path_of(const struct kd_camera_exact *c, double r, const struct kd_camera_label *label,
                                    double rounding)
 {
-    return kd_null_trace_fast(&(struct kd_null_ray) { .hole = kd_hole_of(c->spin),
+    return kd_null_trace_fast(&(struct kd_null_ray) { .hole = kd_hole_charged(c->spin, sqrt(c->charge2)),
                                                       .radius = r,
                                                       .cos_theta = c->u,
                                                       .sin_theta = c->s,
