@@ -349,11 +349,13 @@ class Playground(Browser):
         self.assertGreater(len(texts), 30)
 
     def test_what_one_sees_is_said(self):
-        """Each preset has texts in both languages. Without a link both pictures are shown if there is room, and time
+        """Each preset has texts in both languages. The planets are shown in both pictures if there is room, and time
         runs at once."""
         for lang in ("en", "it"):
             page = self.open(
-                "view=playground&lang=" + lang, "#play-plane[data-bodies]", viewport={"width": 1440, "height": 900}
+                "view=playground&play.preset=system&lang=" + lang,
+                "#play-plane[data-bodies]",
+                viewport={"width": 1440, "height": 900},
             )
             page.wait_for_selector("#play-lensed img[src]")
             self.assertEqual(page.get_attribute("#play-show-both", "aria-pressed"), "true")
