@@ -1806,10 +1806,10 @@ export interface ComparisonOfSets {
 export interface ObserveRequest {
   /** preset to which the scene is merged. */
   preset?:
-    | 'smooth' | 'schwarzschild' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on' | 'face-on' | 'photon-rings'
-    | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk' | 'star-behind' | 'companions'
-    | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4'
-    | 'gold-5' | 'riaf' | 'torus';
+    | 'smooth' | 'schwarzschild' | 'reissner-nordstrom' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on'
+    | 'face-on' | 'photon-rings' | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk'
+    | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1'
+    | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
   scene?: Scene;
   /** SHA-256 of an asset of the server: uvfits, or the EHT's CSV. */
   observation: string;
