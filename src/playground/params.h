@@ -52,7 +52,7 @@ struct kd_playground_params {
 #undef KD_WORD_
 };
 
-extern const struct kd_document kd_playground_settings; /* of struct kd_playground_params */
+extern const struct kd_document kd_playground_settings;    /* of struct kd_playground_params */
 extern const struct kd_document kd_playground_body_fields; /* numbers of struct kd_playground_body */
 
 struct kd_playground_params kd_playground_defaults(void);
