@@ -800,8 +800,6 @@ export type FieldPath =
 export interface RaysRequest {
   /** spin of the hole, a/M; -1 to 1. */
   spin?: number;
-  /** number of equatorial crossings in the answer; 1 to 16. */
-  orders?: number;
   observer?: {
     /** radius of the observer, M; outside the horizon; 1 to 10000000. */
     r?: 'infinity' | number;
@@ -825,6 +823,8 @@ export interface RaysRequest {
     /** as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
     infall_momentum?: number;
   };
+  /** number of equatorial crossings in the answer; 1 to 16. */
+  orders?: number;
   accuracy?: {
     /** as accuracy.profile of a scene; without profile and engine, the closed form is used. */
     profile?: 'draft' | 'interactive' | 'balanced' | 'high' | 'reference';

@@ -461,19 +461,23 @@
          "rate of the observer's proper time: the observer falls, to the last possible position, or orbits; " \
          "coordinate time follows")
 
+/* Words that requests for rays share. */
+#define KD_PROFILE_WORDS "draft|interactive|balanced|high|reference"
+#define KD_ENGINE_WORDS "auto|closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6"
+#define KD_PRECISION_WORDS "auto|f32|f64"
 #define KD_ACCURACY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(accuracy, profile, PHYSICS, FRONT, KD_PROFILE_BALANCED, \
          "accuracy with which rays are traced, from coarse to fine; reference: double precision", \
-         "draft|interactive|balanced|high|reference") \
+         KD_PROFILE_WORDS) \
     WORD(accuracy, tolerance, PHYSICS, REST, INFINITY, 1e-18, 0.1, "1", \
          "largest relative error of the crossing radii, by the accuracy table of the device; profile: the error of " \
          "accuracy.profile", \
          "profile") \
     ENUM(accuracy, engine, PHYSICS, REST, KD_ENGINE_WORD_AUTO, \
          "method that traces the rays; auto: the closed form outside the photon orbits, otherwise mino-rkn6", \
-         "auto|closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6") \
+         KD_ENGINE_WORDS) \
     ENUM(accuracy, precision, PHYSICS, REST, KD_PRECISION_WORD_AUTO, \
-         "precision of the arithmetic; auto: chosen by accuracy.profile", "auto|f32|f64") \
+         "precision of the arithmetic; auto: chosen by accuracy.profile", KD_PRECISION_WORDS) \
     INT(accuracy, steps, PHYSICS, REST, 0, 0, 2048, "1", \
         "integrator steps for a half turn, a multiple of 4; 0: chosen by accuracy.profile") \
     INT(accuracy, orders, PHYSICS, REST, 3, 1, 8, "1", \

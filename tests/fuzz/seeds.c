@@ -158,9 +158,7 @@ static void write_other_dictionaries(void)
 
     dict = open_file("rays", "");
     json_words(dict);
-    for (size_t i = 0; i < KD_RAYS_FIELDS; i++)
-        WORDS(dict, kd_rays_fields[i].name, kd_rays_fields[i].section,
-              kd_rays_fields[i].word ? kd_rays_fields[i].word : "f64");
+    row_words(dict, &kd_rays_document);
     WORDS(dict, "rays", "closed", "high", "auto", "'descr': '<f8'", "'fortran_order': False", "'shape': (1, 2)");
     fclose(dict);
 

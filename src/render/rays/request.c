@@ -4,12 +4,12 @@
 #include "render/rays/check.h"
 #include "render/rays/fields.h"
 #include "render/rays/list.h"
+#include "document/members.h"
 #include "document/number.h"
 #include "document/scan.h"
 #include "scene/table.h"
 #include "document/text.h"
 #include "document/tree.h"
-#include "scene/value.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -37,75 +37,11 @@ void kd_rays_request_finish(struct kd_rays_request *request)
     *request = (struct kd_rays_request) { 0 };
 }
 
-static bool store_word(int *at, const struct kd_rays_field *field, const struct kd_value *value)
-{
-    int index = value->kind == KD_VALUE_STRING ? kd_field_word_index(kd_rays_field_words(field), value->text) : -1;
-    if (index < 0)
-        return false;
-    *at = field->kind == KD_RAYS_PROFILE        ? index
-          : field->kind == KD_RAYS_WORD_OR_NONE ? index + 1
-                                                : index - 1; /* "auto" is the first word */
-    return true;
-}
-
-static bool store(struct kd_rays_request *request, const struct kd_rays_field *field, const struct kd_value *value)
-{
-    void *at = (char *)request + field->offset;
-    bool number = value->kind == KD_VALUE_NUMBER && isfinite(value->number);
-    switch (field->kind) {
-    case KD_RAYS_REAL_OR_WORD:
-        if (value->kind == KD_VALUE_STRING && !strcmp(value->text, field->word)) {
-            *(double *)at = INFINITY;
-            return true;
-        }
-        /* fall through */
-    case KD_RAYS_REAL:
-        if (number)
-            *(double *)at = value->number;
-        return number;
-    case KD_RAYS_INT:
-        if (!number || value->number != floor(value->number) || value->number < 0 || value->number > 1e9)
-            return false;
-        *(uint32_t *)at = (uint32_t)value->number;
-        return true;
-    case KD_RAYS_PROFILE:
-    case KD_RAYS_WORD_OR_NONE:
-    case KD_RAYS_WORD_OR_AUTO: return store_word(at, field, value);
-    }
-    return false;
-}
-
-static enum kd_status put(struct kd_rays_request *request, const struct kd_rays_field *field,
-                          const struct kd_value *value, struct kd_error *error)
-{
-    char given[KD_VALUE_SIZE], words[KD_ALLOWED_SIZE];
-    if (store(request, field, value))
-        return KD_OK;
-    kd_value_describe(value, given);
-    if (!field->allowed)
-        kd_value_allowed(kd_rays_field_words(field), words);
-    return kd_error_field(error, field->pointer, "%s is %s%s; it must be %s", field->name, given,
-                          field->kind == KD_RAYS_REAL || field->kind == KD_RAYS_INT ? kd_value_unwanted(value) : "",
-                          field->allowed ? field->allowed : words);
-}
-
 enum kd_status kd_rays_request_set(struct kd_rays_request *request, const char *name, const char *text,
                                    struct kd_error *error)
 {
-    struct kd_value value = kd_value_typed(text);
-    const struct kd_rays_field *field = kd_rays_field_find(name);
-    if (field)
-        return put(request, field, &value, error);
-    char pointer[sizeof error->pointer] = "", shown[60], known[320] = "";
-    for (size_t i = 0; i < KD_RAYS_FIELDS; i++)
-        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s",
-                 !i                       ? ""
-                 : i + 1 < KD_RAYS_FIELDS ? ", "
-                                          : " and ",
-                 kd_rays_fields[i].name);
-    kd_text_pointer(pointer, sizeof pointer, name);
-    kd_text_clip(shown, sizeof shown, name);
-    return kd_error_field(error, pointer, "there is no parameter %s; known are %s", shown, known);
+    return strchr(name, '.') ? kd_document_unknown(&kd_rays_document, name, error) /* names are without their object */
+                             : kd_document_set(&kd_rays_document, request, name, text, NULL, error);
 }
 
 enum kd_status kd_rays_request_add(struct kd_rays_request *request, double alpha, double beta, struct kd_error *error)
@@ -119,96 +55,23 @@ enum kd_status kd_rays_request_add(struct kd_rays_request *request, double alpha
 
 struct document {
     struct kd_rays_request *request;
-    unsigned seen; /* what was seen so far, as bits: one a field, then one a section, and one for the rays */
     struct kd_error *error;
 };
 
-/* Rejects a field that is given twice: the second would silently win. */
-static enum kd_status once(struct document *d, size_t bit, const char *pointer)
-{
-    if (d->seen & 1u << bit)
-        return kd_error_field(d->error, pointer, "%s is given twice", pointer + 1);
-    d->seen |= 1u << bit;
-    return KD_OK;
-}
-
-static enum kd_status unknown(struct document *d, const char *section, const char *name)
-{
-    char pointer[sizeof d->error->pointer] = "", shown[60], known[320] = "";
-    if (*section)
-        kd_text_pointer(pointer, sizeof pointer, section);
-    kd_text_pointer(pointer, sizeof pointer, name);
-    kd_text_clip(shown, sizeof shown, name);
-    for (size_t i = 0; i < KD_RAYS_FIELDS; i++)
-        if (!strcmp(kd_rays_fields[i].section, section))
-            snprintf(known + strlen(known), sizeof known - strlen(known), "%s, ", kd_rays_fields[i].name);
-    if (*section)
-        known[strlen(known) - 2] = 0;
-    return kd_error_field(d->error, pointer, "there is no field %s here; known are %s%s", shown, known,
-                          *section ? "" : "observer, accuracy and rays");
-}
-
-static enum kd_status read_member(struct document *d, const char *section, const cJSON *item)
-{
-    for (size_t i = 0; i < KD_RAYS_FIELDS; i++) {
-        if (strcmp(kd_rays_fields[i].section, section) || strcmp(kd_rays_fields[i].name, item->string))
-            continue;
-        struct kd_value value = kd_tree_value(item);
-        enum kd_status status = once(d, i, kd_rays_fields[i].pointer);
-        return status ? status : put(d->request, &kd_rays_fields[i], &value, d->error);
-    }
-    return unknown(d, section, item->string);
-}
-
-static enum kd_status wrong_type(struct document *d, const cJSON *item, const char *pointer, const char *allowed)
-{
-    char given[KD_VALUE_SIZE];
-    struct kd_value value = kd_tree_value(item);
-    kd_value_describe(&value, given);
-    return kd_error_field(d->error, pointer, "%s is %s; it must be %s", *pointer ? pointer + 1 : "the document", given,
-                          allowed);
-}
-
-/* Reads the outermost object. The rays have been read already and are replaced by an empty array in this document. */
-static enum kd_status read_outermost(struct document *d, const cJSON *item)
-{
-    static const char *const sections[] = { "/observer", "/accuracy" };
-    enum kd_status status;
-    if (!strcmp(item->string, "rays")) {
-        status = once(d, KD_RAYS_FIELDS + 2, "/rays");
-        if (!status && !cJSON_IsArray(item))
-            status = wrong_type(d, item, "/rays", "an array of pairs of numbers [alpha, beta]");
-        if (!status && item->child)
-            status =
-                kd_error_field(d->error, "/rays", "the name of the array must be written as \"rays\", without escapes");
-        return status;
-    }
-    for (size_t i = 0; i < 2; i++) {
-        if (strcmp(item->string, sections[i] + 1))
-            continue;
-        status = once(d, KD_RAYS_FIELDS + i, sections[i]);
-        if (!status && !cJSON_IsObject(item))
-            status = wrong_type(d, item, sections[i], "an object with fields");
-        for (const cJSON *one = item->child; one && !status; one = one->next)
-            status = read_member(d, item->string, one);
-        return status;
-    }
-    return read_member(d, "", item);
-}
-
+/* The rays have been read already and are replaced by an empty array in this document. */
 static enum kd_status read_tree(struct document *d, const cJSON *root)
 {
-    enum kd_status status = KD_OK;
-    if (!cJSON_IsObject(root)) {
-        wrong_type(d, root, "", "an object");
-        return KD_EINVAL;
-    }
-    for (const cJSON *item = root->child; item; item = item->next)
-        KD_TRY(read_outermost(d, item));
-    if (!(d->seen & 1u << (KD_RAYS_FIELDS + 2)))
-        KD_TRY(kd_error_field(d->error, "/rays", "rays is missing: an array of pairs of numbers [alpha, beta]"));
-done:
-    return status;
+    const cJSON *rays = cJSON_GetObjectItemCaseSensitive(root, "rays");
+    enum kd_status status = kd_document_read(&kd_rays_document, d->request, root, "", NULL, d->error);
+    if (status)
+        return status;
+    if (!rays)
+        return kd_error_field(d->error, "/rays", "rays is missing: an array of pairs of numbers [alpha, beta]");
+    if (!cJSON_IsArray(rays))
+        return kd_member_refuse(rays, "/rays", "an array of pairs of numbers [alpha, beta]", d->error);
+    return !rays->child ? KD_OK
+                        : kd_error_field(d->error, "/rays",
+                                         "the name of the array must be written as \"rays\", without escapes");
 }
 
 /* rest: the document `text` with `cut` bytes at `where` removed; NUL-terminated. */
@@ -366,11 +229,13 @@ static enum kd_status check_belongings(const struct kd_rays_params *p, struct kd
         { "infall_momentum", p->fall_momentum, 0, KD_OBSERVER_INFALL },
     };
     for (size_t i = 0; i < sizeof belongs / sizeof *belongs; i++) {
-        const struct kd_rays_field *f = kd_rays_field_find(belongs[i].name);
+        const struct kd_row *f = kd_document_find(&kd_rays_document, belongs[i].name);
+        char pointer[64];
+        snprintf(pointer, sizeof pointer, "/observer/%s", f->name);
         if (belongs[i].value == belongs[i].idle)
             continue;
         if (p->observer != 1 + (int)belongs[i].of)
-            return kd_error_field(error, f->pointer, "%s is %.9g; it can be used only with motion \"%s\"", f->name,
+            return kd_error_field(error, pointer, "%s is %.9g; it can be used only with motion \"%s\"", f->name,
                                   belongs[i].value, kd_observers[belongs[i].of].word);
         enum kd_status status = kd_rays_field_check(f->name, belongs[i].value, error);
         if (status)

@@ -6,46 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static void add_words(struct kd_json *json, const struct kd_field *words)
-{
-    kd_json_array(json, "enum");
-    for (int i = 0; i < kd_field_word_count(words); i++) {
-        char text[40];
-        const struct kd_word word = kd_field_word(words, i);
-        snprintf(text, sizeof text, "%.*s", word.length, word.text);
-        kd_json_string(json, NULL, text);
-    }
-    kd_json_end(json);
-}
-
-static void add_range(struct kd_json *json, const struct kd_rays_field *f)
-{
-    kd_json_string(json, "type", f->kind == KD_RAYS_INT ? "integer" : "number");
-    kd_json_number(json, f->open ? "exclusiveMinimum" : "minimum", f->least);
-    kd_json_number(json, f->open == KD_RAYS_OPEN ? "exclusiveMaximum" : "maximum", f->most);
-    if (f->multiple)
-        kd_json_number(json, "multipleOf", f->multiple);
-}
-
-static void add_field(struct kd_json *json, const char *name, const struct kd_rays_field *f)
-{
-    kd_json_object(json, name);
-    if (!f->allowed) {
-        add_words(json, kd_rays_field_words(f));
-    } else if (!f->word) {
-        add_range(json, f);
-    } else {
-        kd_json_array(json, "anyOf");
-        kd_schema_word(json, NULL, f->word);
-        kd_json_object(json, NULL);
-        add_range(json, f);
-        kd_json_end(json);
-        kd_json_end(json);
-    }
-    kd_json_string(json, "description", f->help);
-    kd_json_end(json);
-}
-
 static void begin_strict(struct kd_json *json, const char *name)
 {
     kd_json_object(json, name);
@@ -53,20 +13,12 @@ static void begin_strict(struct kd_json *json, const char *name)
     kd_json_bool(json, "additionalProperties", false);
 }
 
-static void add_members(struct kd_json *json, const char *section)
+/* The fields of one object. */
+static void add_members(struct kd_json *json, const char *object)
 {
     for (size_t i = 0; i < KD_RAYS_FIELDS; i++)
-        if (!strcmp(kd_rays_fields[i].section, section))
-            add_field(json, kd_rays_fields[i].name, &kd_rays_fields[i]);
-}
-
-static void add_section(struct kd_json *json, const char *section)
-{
-    begin_strict(json, section);
-    kd_json_object(json, "properties");
-    add_members(json, section);
-    kd_json_end(json);
-    kd_json_end(json);
+        if (kd_rays_fields[i].object && !strcmp(kd_rays_fields[i].object, object))
+            kd_row_schema(json, kd_rays_fields[i].name, &kd_rays_fields[i]);
 }
 
 static void add_rays(struct kd_json *json)
@@ -94,9 +46,7 @@ void kd_rays_request_schema(struct kd_json *json, const char *name)
     begin_strict(json, name);
     kd_schema_text(json, "required", "[\"rays\"]");
     kd_json_object(json, "properties");
-    add_members(json, "");
-    add_section(json, "observer");
-    add_section(json, "accuracy");
+    kd_document_properties(json, &kd_rays_document);
     add_rays(json);
     kd_json_end(json);
     kd_json_end(json);
@@ -110,7 +60,7 @@ const char *kd_rays_field_name(size_t index, const char **help)
     return kd_rays_fields[index].name;
 }
 
-void kd_rays_field_schema(struct kd_json *json, size_t index) { add_field(json, "schema", &kd_rays_fields[index]); }
+void kd_rays_field_schema(struct kd_json *json, size_t index) { kd_row_schema(json, "schema", &kd_rays_fields[index]); }
 
 static const char *engine(size_t i) { return i < KD_ENGINE_COUNT ? kd_engine_name((enum kd_engine)i) : NULL; }
 static const char *precision(size_t i)
