@@ -121,15 +121,13 @@ static void add_body_state(struct kd_json *json)
                                              { "name", KD_SCHEMA_TEXT, false },
                                              { "position", KD_SCHEMA_VECTOR, false },
                                              { "velocity", KD_SCHEMA_VECTOR, false } };
-    kd_schema_told(json, "PlaygroundBodyState", UNITS, members,
-                   add_members(members, 4, &kd_playground_body_fields));
+    kd_schema_told(json, "PlaygroundBodyState", UNITS, members, add_members(members, 4, &kd_playground_body_fields));
 }
 
 static void add_settings_state(struct kd_json *json)
 {
     struct kd_openapi_member members[40];
-    kd_openapi_strict(json, "PlaygroundSettings", members,
-                      add_members(members, 0, &kd_playground_settings));
+    kd_openapi_strict(json, "PlaygroundSettings", members, add_members(members, 0, &kd_playground_settings));
 }
 
 static void add_state(struct kd_json *json)

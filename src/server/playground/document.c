@@ -13,7 +13,11 @@
 
 #define AT(name) offsetof(struct kd_playground_session_pace, name)
 static const struct kd_row pace_rows[] = {
-    { .name = "rate", .kind = KD_KIND_REAL, .offset = AT(rate), .initial = USUAL_RATE, .most = KD_PLAY_RATE_MAX,
+    { .name = "rate",
+      .kind = KD_KIND_REAL,
+      .offset = AT(rate),
+      .initial = USUAL_RATE,
+      .most = KD_PLAY_RATE_MAX,
       .help = "pace in M per second of real time" },
     { .name = "paused", .kind = KD_KIND_BOOL, .offset = AT(paused), .help = "whether the simulation is paused" },
 };
