@@ -467,8 +467,7 @@
 #define KD_PRECISION_WORDS "auto|f32|f64"
 #define KD_ACCURACY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(accuracy, profile, PHYSICS, FRONT, KD_PROFILE_BALANCED, \
-         "accuracy with which rays are traced, from coarse to fine; reference: double precision", \
-         KD_PROFILE_WORDS) \
+         "accuracy with which rays are traced, from coarse to fine; reference: double precision", KD_PROFILE_WORDS) \
     WORD(accuracy, tolerance, PHYSICS, REST, INFINITY, 1e-18, 0.1, "1", \
          "largest relative error of the crossing radii, by the accuracy table of the device; profile: the error of " \
          "accuracy.profile", \
