@@ -17,6 +17,12 @@ const ready = [
     right: { 'spacetime.spin': 0.998 },
   },
   {
+    name: t('Charge: none | nearly the most, without spin', 'Carica: nessuna | quasi il massimo, senza spin'),
+    left: { 'spacetime.spin': 0, 'spacetime.charge': 0 },
+    right: { 'spacetime.spin': 0, 'spacetime.charge': 0.95 },
+    words: [t('uncharged', 'scarico'), t('charge 0.95 M', 'carica 0,95 M')],
+  },
+  {
     name: t('Disk: turbulent gas | smooth', 'Disco: gas turbolento | liscio'),
     left: Object.fromEntries(Object.keys(smooth).map(path => [path, null])),
     right: smooth,

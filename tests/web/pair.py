@@ -71,6 +71,18 @@ class Pair(Browser):
         self.assertEqual(other.inner_text("#link-fault"), "")
         self.assertTrue(daemon.eventually(lambda: self.right(other) == self.right(page)))
 
+    def test_a_charged_hole_beside_an_uncharged_one(self):
+        page = self.begin("lang=en&preset=smooth&pause=1")
+        page.select_option("#pair-what", label="Charge: none | nearly the most, without spin")
+        self.both(page)
+        self.assertEqual(self.sides(page), ["uncharged", "charge 0.95 M"])
+        self.linked(page, "pair.spacetime.charge=0.95")
+        self.assertTrue(
+            daemon.eventually(lambda: "charge 0.95" in page.get_attribute("#pair-stage canvas", "aria-label"))
+        )
+        self.both(page)
+        self.shot(page, "pair-charge")
+
     def test_any_field_in_italian(self):
         page = self.begin("lang=it&preset=smooth&pause=1")
         page.select_option("#pair-what", "disk.outer")
