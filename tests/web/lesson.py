@@ -1,7 +1,9 @@
 """Tests of a lesson: the teacher's panel, the page of a pupil, and the pupil's own copy: lesson.py KERRD FOLDER
 (browser.py)."""
 
+import pathlib
 import re
+import tempfile
 
 from browser import AT_REST, Browser, main
 
@@ -202,6 +204,40 @@ class Lesson(Browser):
         self.assertTrue(pupil.evaluate("document.documentElement.scrollWidth <= innerWidth"))
         for button in pupil.locator("#choices button").all():
             self.assertGreaterEqual(button.bounding_box()["height"], 40)
+
+
+class Tokens(Browser):
+    """On a server with access tokens."""
+
+    PUPIL, TEACHER = "pupil-0123456789abcdef", "teacher-0123456789abcdef"
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        file = pathlib.Path(folder.name) / "tokens"
+        file.write_text(f"pupil view {cls.PUPIL}\nteacher render {cls.TEACHER}\n")
+        file.chmod(0o600)
+        super().setUpClass("--token-file", file)
+
+    def enter(self, link, token):
+        page = self.page(self.context(locale="en-US"))
+        page.goto(link)
+        page.get_by_label("Access token").fill(token)
+        page.keyboard.press("Enter")
+        page.wait_for_url(link)
+        return page
+
+    def test_pupils_sign_in_and_stay_in_their_lesson(self):
+        self.expected = "401"
+        teacher = self.enter(self.base + "#lang=en&preset=smooth&pause=1", self.TEACHER)
+        teacher.wait_for_selector(AT_REST)
+        teacher.click("#send")
+        teacher.get_by_role("button", name="Show it to a class").click()
+        teacher.wait_for_selector("#lesson-invite input")
+        pupil = self.enter(teacher.input_value("#lesson-invite input"), self.PUPIL)
+        pupil.wait_for_selector("#stage:has(> #told[hidden]) > #picture[src]")
+        self.there(teacher, "1 pupil follows.", "#lesson-count")
 
 
 if __name__ == "__main__":
