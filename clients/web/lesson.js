@@ -39,8 +39,8 @@ const tooNear = () => /^(localhost|127\.|\[::1\])/.test(location.hostname);
 
 let section = null;
 
-// session(): the address of the session that shows the scene, or null. begins: a lesson is begun, also in a pupil's copy;
-// else the lesson before a reload goes on, or a copy gets the way back.
+// session(): the address of the session that shows the scene, or null. begins: a lesson is begun, also in a pupil's
+// copy; else the lesson before a reload goes on, or a copy gets the way back.
 export function teach(scene, session, begins) {
   document.head.querySelector('[href$="lesson.css"]') ??
     document.head.append(el('link', { rel: 'stylesheet', href: new URL('lesson.css', import.meta.url) }));
