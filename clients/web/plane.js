@@ -106,21 +106,23 @@ export class Plane {
     this.redraw();
   }
 
-  // Shows all bodies and nine tenths of the debris, at a reach that changes slowly.
+  // Shows all bodies and nine tenths of the debris, at a reach that changes slowly. The middle is the hole, or what is
+  // followed.
   accompany() {
     if (!this.accompanies) return;
     const { least, most } = this.accompanies,
-      far = this.all().map(({ x }) => Math.hypot(...x)),
+      [x0, y0] = this.follows ? [this.cx, this.cy] : [0, 0],
+      far = this.all().map(({ x: [x, y, z] }) => Math.hypot(x - x0, y - y0, z)),
       { n = 0, words, f } = this.debris ?? {};
     const some = Array.from({ length: Math.min(n, sample) }, (_, i) => {
       const at = Math.floor((i * n) / Math.min(n, sample)) * words;
-      return Math.hypot(f[at], f[at + 1]);
+      return Math.hypot(f[at] - x0, f[at + 1] - y0);
     }).sort((a, b) => a - b);
     if (some.length) far.push(some[Math.floor(0.9 * some.length)]);
     if (!far.length) return;
     const reach = Math.min(Math.max(1.25 * Math.max(...far), least), most),
       now = Math.max(Math.min(...this.size), 50) / 2 / this.scale;
-    this.fit([0, 0], now * (reach / now) ** ease);
+    this.fit([x0, y0], now * (reach / now) ** ease);
   }
 
   zoom(factor, px = this.size[0] / 2, py = this.size[1] / 2) {
@@ -132,8 +134,9 @@ export class Plane {
     this.#tell();
   }
 
-  // The distance from the middle to the nearer edge, in M.
+  // The middle, and the distance from it to the nearer edge, in M.
   #tell() {
+    this.#canvas.dataset.middle = `${this.cx.toPrecision(4)} ${this.cy.toPrecision(4)}`;
     this.#canvas.dataset.reach = (Math.max(Math.min(...this.size), 50) / 2 / this.scale).toPrecision(4);
   }
 

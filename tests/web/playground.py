@@ -383,6 +383,18 @@ class Playground(Browser):
         page.wait_for_timeout(1500)
         self.assertEqual(reach(), by_hand)
 
+    def test_the_middle_goes_with_the_star(self):
+        page = self.open_play("lang=en")
+        middle = lambda: [float(part) for part in page.get_attribute("#play-plane", "data-middle").split()]
+        self.assertEqual(middle(), [0, 0])
+        self.open_groups(page)
+        page.select_option("#play-middle", "all")
+        self.assertTrue(daemon.eventually(lambda: max(map(abs, middle())) > 1))
+        reach = page.get_attribute("#play-plane", "data-reach")
+        self.assertTrue(daemon.eventually(lambda: page.get_attribute("#play-plane", "data-reach") != reach))
+        page.select_option("#play-middle", "")
+        self.assertTrue(daemon.eventually(lambda: middle() == [0, 0]))
+
     def test_the_view_stays_where_motion_is_reduced(self):
         page = self.open_play("lang=en", reduced_motion="reduce")
         before = page.get_attribute("#play-plane", "data-reach")
