@@ -1,15 +1,16 @@
 // The control of a field that names an asset, a picture or a grid of matter: a file is uploaded to the server, and the
 // field is set to the hash of its bytes.
-import { el } from './dom.js';
+import { el, latest } from './dom.js';
 import { t, tell } from './i18n.js';
 import { ask, module } from './server.js';
 
 export function assetRow(field, scene, id, hint) {
+  let taken = null; // { chosen, hash }: the file that was chosen last, and the value of the field after it
   const name = el('output', { class: 'asset' }),
     fault = el('p', { class: 'fault', hidden: true }),
     none = el(
       'button',
-      { type: 'button', onclick: () => scene.change({ [field.path]: null }) },
+      { type: 'button', onclick: () => ((taken = null), scene.change({ [field.path]: null })) },
       t('Leave it out', 'Togli'),
     );
   const grid = field.path === 'volume.grid',
@@ -19,11 +20,11 @@ export function assetRow(field, scene, id, hint) {
     accept: grid ? '.npz' : 'image/png,image/jpeg',
     id,
     'aria-describedby': hint,
-    onchange: take,
+    onchange: choose,
   });
 
   // For a picture of the sky: its coordinates, and where to get one.
-  const turned = el('input', { type: 'checkbox', id: id + '-equatorial' }),
+  const turned = el('input', { type: 'checkbox', id: id + '-equatorial', onchange: again }),
     about = el(
       'p',
       { class: 'help' },
@@ -43,9 +44,17 @@ export function assetRow(field, scene, id, hint) {
           about,
         ];
 
-  async function take() {
+  function choose() {
     const [chosen] = file.files;
-    if (!chosen) return;
+    if (chosen) take(chosen);
+    file.value = ''; // so that choosing the same file again is an event
+  }
+  // The box may be changed after the file was chosen.
+  function again() {
+    if (taken && taken.hash === scene.get(field.path)) take(taken.chosen);
+  }
+
+  const take = latest(async chosen => {
     fault.hidden = true;
     try {
       const body =
@@ -58,8 +67,8 @@ export function assetRow(field, scene, id, hint) {
       tell(fault, error.message);
       fault.hidden = false;
     }
-    file.value = ''; // so that choosing the same file again is an event
-  }
+    taken = { chosen, hash: scene.get(field.path) };
+  });
 
   return {
     nodes: [file, ...more, el('div', { class: 'pair' }, name, none), fault],

@@ -69,6 +69,12 @@ class Panorama(Browser):
         self.assertTrue(daemon.eventually(lambda: "SHA-256" in row.inner_text()))
         page.wait_for_selector(AT_REST)
         self.assertEqual(page.inner_text("#preset-fault"), "")
+        turned = row.locator("output").inner_text()
+        row.get_by_label("in equatorial coordinates (RA, Dec)").uncheck()
+        self.assertTrue(daemon.eventually(lambda: row.locator("output").inner_text() != turned), "the box counts")
+        row.get_by_label("in equatorial coordinates (RA, Dec)").check()
+        self.assertTrue(daemon.eventually(lambda: row.locator("output").inner_text() == turned))
+        page.wait_for_selector(AT_REST)
         row.scroll_into_view_if_needed()
         self.shot(page, "panorama")
 
