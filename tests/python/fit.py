@@ -168,7 +168,7 @@ class Fits(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, words):
                 Fit(self.hole, self.night, parameters, SCENE, **more)
         with self.assertRaisesRegex(TypeError, "must be a kerrd.Client"):
-            Fit(kerrd.AsyncClient(), self.night, BOUNDS)
+            Fit(kerrd.AsyncClient("http://127.0.0.1:1"), self.night, BOUNDS)
         with self.assertRaisesRegex(ValueError, "form is 'fits'; it must be 'uvfits' or 'csv'"):
             self.hole.observe_file(NIGHT, SCENE, form="fits")
         fit, damaged = self.fit(), pathlib.Path(self.folder.name) / "damaged.npz"
