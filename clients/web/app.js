@@ -208,11 +208,11 @@ async function watch(scene) {
   byId('pair-begin').addEventListener('click', compare);
 
   // A lesson is begun by the card "Share". It goes on after a reload; a pupil's copy has the way back to it.
-  const teach = () =>
+  const teach = begins =>
     load(import('./lesson.js'))
-      .then(({ teach }) => teach(scene, () => source.address()))
+      .then(({ teach }) => teach(scene, () => source.address(), begins))
       .catch(error => sayWrong(error.message));
-  document.addEventListener('lesson', teach);
+  document.addEventListener('lesson', () => teach(true));
 
   // The card of a pixel is loaded when it is first opened.
   let pixel = null;
@@ -255,7 +255,7 @@ async function watch(scene) {
   for (const gone of ['visibilitychange', 'viewchange']) document.addEventListener(gone, followLight);
   nameStars();
   if (link.entries('pair.').length) compare();
-  if (link.get('lesson') || goesOn('lesson')) teach();
+  if (link.get('lesson') || goesOn('lesson')) teach(false);
   scene.addEventListener('change', () => {
     source.refresh();
     nameStars();

@@ -2,7 +2,7 @@
 // field is set to the hash of its bytes.
 import { el } from './dom.js';
 import { t, tell } from './i18n.js';
-import { ask } from './server.js';
+import { ask, module } from './server.js';
 
 export function assetRow(field, scene, id, hint) {
   const name = el('output', { class: 'asset' }),
@@ -51,7 +51,7 @@ export function assetRow(field, scene, id, hint) {
       const body =
         grid || (chosen.type === type && !turned.checked)
           ? chosen
-          : await (await import('./panorama.js')).panorama(chosen, turned.checked);
+          : await (await module(import('./panorama.js'))).panorama(chosen, turned.checked);
       const answer = await ask('v1/assets', { method: 'PUT', headers: { 'Content-Type': type }, body });
       scene.change({ [field.path]: (await answer.json()).sha256 });
     } catch (error) {

@@ -5,10 +5,11 @@ import { byId, el } from './dom.js';
 import { number, t, tell } from './i18n.js';
 import * as link from './link.js';
 import { linkedTime } from './scene.js';
-import { ask, passes } from './server.js';
+import { ask, module } from './server.js';
 
 const beat_ms = 1000; // between two requests for the answers
-const own = ['lang', 'full', 'lesson', 'view', 'pace']; // of this page, and not of the copies
+const choice_most = 60; // characters of an answer
+const own = ['lang', 'full', 'lesson', 'view', 'pace']; // of this page, and not of the copies; nor pair.FIELD
 
 // The browser may block the storage; then the lesson ends with the page.
 const memory = {
@@ -29,7 +30,7 @@ const memory = {
 // What follows # in the address of a copy.
 function linkOf(scene) {
   const time = linkedTime(scene.get('time')),
-    query = new URLSearchParams(link.entries('').filter(([key]) => !own.includes(key)));
+    query = new URLSearchParams(link.entries('').filter(([key]) => !own.includes(key) && !key.startsWith('pair.')));
   time ? query.set('time', time) : query.delete('time');
   return String(query);
 }
@@ -38,12 +39,14 @@ const tooNear = () => /^(localhost|127\.|\[::1\])/.test(location.hostname);
 
 let section = null;
 
-// session(): the address of the session that shows the scene, or null.
-export function teach(scene, session) {
+// session(): the address of the session that shows the scene, or null. begins: a lesson is begun, also in a pupil's
+// copy; else the lesson before a reload goes on, or a copy gets the way back.
+export function teach(scene, session, begins) {
   document.head.querySelector('[href$="lesson.css"]') ??
     document.head.append(el('link', { rel: 'stylesheet', href: new URL('lesson.css', import.meta.url) }));
   const from = link.get('lesson');
-  if (from && !memory.get()) return wayBack(from);
+  if (begins) link.set('lesson', null);
+  else if (from && !memory.get()) return wayBack(from);
   section ? section.querySelector('h2').focus() : (section = panel(scene, session));
 }
 
@@ -62,13 +65,16 @@ function wayBack(id) {
 
 function panel(scene, session) {
   let lesson = memory.get(),
-    sent = {}, // what the server has of the session, the link and the words
+    sent = {}, // what this page has sent of the session, the link and the words
+    turn = Promise.resolve(), // the request before
     timer = 0,
     ended = false,
     drawn = ''; // the state of the question that is shown
   const title = el('h2', { tabindex: -1 }, t('Your class', 'La tua classe')),
     count = el('p', { id: 'lesson-count', role: 'status' }, '…'),
     fault = el('p', { class: 'fault', role: 'status' }),
+    renewed = el('p', { role: 'status' }),
+    wrong = el('p', { class: 'fault', id: 'lesson-wrong', role: 'status' }),
     invite = el('div', { id: 'lesson-invite' }),
     asking = el('div', { id: 'lesson-asking' });
   const box = el(
@@ -78,8 +84,10 @@ function panel(scene, session) {
     el('button', { type: 'button', class: 'close', onclick: end }, t('End', 'Termina')),
     count,
     fault,
+    renewed,
     invite,
     asking,
+    wrong,
   );
   byId('panel').prepend(box);
   title.focus({ preventScroll: true });
@@ -103,25 +111,45 @@ function panel(scene, session) {
     about: describe(scene).slice(0, 300), // at most 900 bytes
   });
 
-  // What the server does not have yet.
-  function news() {
-    const now = present();
-    return Object.fromEntries(Object.entries(now).filter(([name, value]) => value != null && sent[name] !== value));
-  }
+  const deleteLesson = () => ask('v1/lessons/' + lesson.id, { method: 'DELETE', headers: headers() }).catch(() => {});
 
-  async function change(more) {
-    const fresh = { ...news(), ...more };
+  async function exchange(more) {
+    if (ended) return;
+    const now = present(),
+      // Only what has changed on this page: the same lesson may be open in another tab, which shows another session.
+      news = Object.entries(now).filter(([name, value]) => value != null && sent[name] !== value),
+      fresh = { ...Object.fromEntries(news), ...more };
     const state =
       Object.keys(fresh).length || !lesson ? await send(lesson ? 'PATCH' : 'POST', fresh) : await send('GET');
-    if (!lesson) {
-      lesson = { id: state.id, token: state.token };
+    const opened = !lesson;
+    if (opened) lesson = { id: state.id, token: state.token };
+    if (ended) return void (opened && deleteLesson());
+    if (opened) {
       memory.set(lesson);
       showInvitation();
     }
-    const { session, link, about } = state;
-    sent = { session, link, about };
+    Object.assign(sent, Object.fromEntries(news));
     fault.textContent = '';
-    if (!ended) show(state);
+    show(state);
+  }
+  // One request at a time, so that a lesson is not opened twice.
+  function change(more) {
+    turn = turn.catch(() => {}).then(() => exchange(more));
+    return turn;
+  }
+
+  // The server was restarted, or the lesson was idle for too long. The next beat opens another one.
+  function lose() {
+    lesson = null;
+    sent = {};
+    memory.set(null);
+    if (drawn && JSON.parse(drawn)[0]) drawn = ''; // the question is lost too
+    invite.replaceChildren();
+    byId('lesson-large')?.close();
+    renewed.textContent = t(
+      'The lesson ended. Pupils must open the new link.',
+      'La lezione è finita. Gli alunni devono aprire il nuovo collegamento.',
+    );
   }
 
   // Problems of one beat are mended by the next.
@@ -130,21 +158,22 @@ function panel(scene, session) {
     try {
       if (lesson || session()) await change({});
     } catch (error) {
-      if (error.status === 404 && lesson) {
-        lesson = null; // the server was restarted, or the lesson was idle for too long
-        sent = {};
-        memory.set(null);
-      } else if (error.pointer !== '/session' || !lesson) tell(fault, error.message); // a session that has just ended
-      if (!lesson && error.status !== 404 && !passes(error)) return;
+      if (error.status === 404 && lesson) lose();
+      else if (error.pointer !== '/session') {
+        tell(fault, error.message);
+        if (!lesson && [403, 422].includes(error.status)) return; // another try would be refused as well
+      } // else the session has just ended, and the page opens another one
     }
     if (!ended) timer = setTimeout(beat, beat_ms);
   }
 
   async function act(more) {
+    wrong.textContent = '';
     try {
       await change(more);
     } catch (error) {
-      tell(fault, error.message);
+      if (error.status === 404 && lesson) lose();
+      else tell(wrong, error.message);
     }
   }
 
@@ -152,7 +181,8 @@ function panel(scene, session) {
     ended = true;
     clearTimeout(timer);
     memory.set(null);
-    if (lesson) ask('v1/lessons/' + lesson.id, { method: 'DELETE', headers: headers() }).catch(() => {});
+    if (lesson) deleteLesson();
+    byId('lesson-large')?.close();
     box.remove();
     section = null;
     byId('stage').focus();
@@ -174,8 +204,8 @@ function panel(scene, session) {
           'p',
           { class: 'help' },
           t(
-            'This address is this computer’s own. For pupils on other devices, open this page by an address of the computer; “kerrd serve --listen 0.0.0.0” prints them.',
-            'Questo indirizzo vale solo su questo computer. Per alunni con altri dispositivi, apri questa pagina con un indirizzo del computer; “kerrd serve --listen 0.0.0.0” li scrive.',
+            'Only this computer can open this address. For pupils with other devices, start the server with “kerrd serve --listen 0.0.0.0 --token-file FILE”, or with “--insecure” on a network that you trust. The server prints its addresses.',
+            'Solo questo computer può aprire questo indirizzo. Per alunni con altri dispositivi, avvia il server con “kerrd serve --listen 0.0.0.0 --token-file FILE”, o con “--insecure” in una rete di cui ti fidi. Il server scrive i suoi indirizzi.',
           ),
         ),
     );
@@ -193,7 +223,7 @@ function panel(scene, session) {
     document.body.append(card);
     card.showModal();
     card.prepend(
-      await import('./code.js')
+      await module(import('./code.js'))
         .then(({ drawCode }) => drawCode(url))
         .catch(({ message }) => el('p', { role: 'status' }, message)),
     );
@@ -214,6 +244,29 @@ function panel(scene, session) {
     showHands(question, hands);
   }
 
+  // The question of one's own in these inputs; null, with the reason, if it is none.
+  function written(text, choices) {
+    const plain = words => words.replace(/[\s\p{Cc}]+/gu, ' ').trim(),
+      refuse = (input, words) => ((wrong.textContent = words), input.focus(), null),
+      words = plain(text.value),
+      lines = choices.value
+        .split('\n')
+        .map(plain)
+        .map(line => ({ right: line.startsWith('*'), choice: line.replace(/^\*\s*/, '') }))
+        .filter(({ choice }) => choice),
+      right = lines.findIndex(({ right }) => right);
+    if (!words) return refuse(text, t('A question needs a text.', 'Una domanda ha bisogno di un testo.'));
+    if (lines.length < 2 || lines.length > 6 || lines.some(({ choice }) => [...choice].length > choice_most))
+      return refuse(
+        choices,
+        t(
+          'A question needs two to six answers of at most 60 characters each.',
+          'Una domanda ha bisogno di due a sei risposte, ognuna di al massimo 60 caratteri.',
+        ),
+      );
+    return { text: words, choices: lines.map(({ choice }) => choice), right: right < 0 ? null : right };
+  }
+
   const ready = import('./questions.js').then(({ questions }) => questions);
 
   // The form that asks: a ready question, or one of one's own.
@@ -226,7 +279,7 @@ function panel(scene, session) {
         el('option', { value: '' }, t('your own question', 'una domanda tua')),
       ),
       text = el('textarea', { id: 'lesson-text', rows: 2, maxlength: 200 }),
-      choices = el('textarea', { id: 'lesson-choices', rows: 3, maxlength: 300 }),
+      choices = el('textarea', { id: 'lesson-choices', rows: 3, maxlength: 400 }),
       mine = el(
         'div',
         { hidden: list.length > 0 },
@@ -254,20 +307,12 @@ function panel(scene, session) {
     select.addEventListener('change', () => (mine.hidden = select.value !== ''));
     form.addEventListener('submit', event => {
       event.preventDefault();
-      const lines = choices.value
-          .split('\n')
-          .map(line => line.trim())
-          .filter(Boolean),
-        marked = lines.findIndex(line => line.startsWith('*'));
+      wrong.textContent = '';
       const question =
         select.value !== ''
           ? (({ text, choices, right }) => ({ text, choices, right }))(list[select.value])
-          : {
-              text: text.value.trim().replaceAll('\n', ' '),
-              choices: lines.map(line => line.replace(/^\*\s*/, '')),
-              right: marked < 0 ? null : marked,
-            };
-      act({ question });
+          : written(text, choices);
+      if (question) act({ question });
     });
     asking.replaceChildren(form);
   }

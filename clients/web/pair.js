@@ -1,7 +1,7 @@
 // Two holes side by side under one camera: the scene, and the scene with other values of some fields. A drag on either
 // moves both. The link keeps the other values as pair.FIELD.
 import { describe } from './describe.js';
-import { byId, el, paced } from './dom.js';
+import { byId, el, paced, typing } from './dom.js';
 import { named, number, t, tell, unit, word } from './i18n.js';
 import * as link from './link.js';
 import { openSource } from './source.js';
@@ -200,6 +200,8 @@ function build(stage, scene) {
   }
 
   // The controls: what differs, and its values.
+  let drawn = null, // the path of the field whose values are shown
+    values = []; // the inputs of both sides
   const fields = [...scene.fields.values()].filter(comparable),
     select = el(
       'select',
@@ -223,24 +225,39 @@ function build(stage, scene) {
         : field.type === 'switch'
           ? el('select', {}, ...[true, false].map(yes => el('option', { value: yes }, value(path, yes))))
           : el('input', { type: 'number', min: field.minimum, max: field.maximum, step: 'any' });
-    node.value = held;
+    const typed = typing(node);
     node.setAttribute('aria-label', `${named(path).label}, ${label}`);
     node.addEventListener('change', () => {
       if (!node.reportValidity() || node.value === '') return;
       give(field.type === 'switch' ? node.value === 'true' : field.type === 'choice' ? node.value : Number(node.value));
     });
-    return node;
+    return { node, show: () => typed.typed || node.value === String(held()) || (node.value = held()) };
   }
+  // An input that has the focus stays, and so does what is being typed.
   function inputs() {
-    const [path, more] = Object.keys(other.over);
-    sides.replaceChildren(
-      ...(path && !more
+    const [path, more] = Object.keys(other.over),
+      alone = path && !more ? path : null;
+    if (alone !== drawn) {
+      drawn = alone;
+      values = alone
         ? [
-            input(path, scene.get(path), own => scene.change({ [path]: own }), t('left', 'a sinistra')),
-            input(path, other.over[path], own => differ({ [path]: own }), t('right', 'a destra')),
+            input(
+              path,
+              () => scene.get(path),
+              own => scene.change({ [path]: own }),
+              t('left', 'a sinistra'),
+            ),
+            input(
+              path,
+              () => other.over[path],
+              own => differ({ [path]: own }),
+              t('right', 'a destra'),
+            ),
           ]
-        : []),
-    );
+        : [];
+      sides.replaceChildren(...values.map(({ node }) => node));
+    }
+    for (const { show } of values) show();
     const at = ready.findIndex(
       ({ right }) => Object.keys(right).join() === Object.keys(other.over).join() && same(right, other.get),
     );
@@ -266,6 +283,7 @@ function build(stage, scene) {
   }
   function end() {
     for (const event of ['change', 'move', 'drift']) scene.removeEventListener(event, follow);
+    scene.removeEventListener('change', inputs);
     sized.disconnect();
     source.close();
     other.over = {};
@@ -287,7 +305,7 @@ function build(stage, scene) {
       el('p', { class: 'row' }, el('button', { type: 'button', onclick: swap }, t('Swap the sides', 'Scambia i lati'))),
     );
   byId('panel').prepend(panel);
-  scene.addEventListener('change', () => panel.isConnected && inputs());
+  scene.addEventListener('change', inputs);
   if (Object.keys(other.over).length) follow(), inputs();
   else differ(ready[0].right, ready[0].left), title.focus({ preventScroll: true });
   return { end };

@@ -3,7 +3,7 @@ import { byId, el } from './dom.js';
 import { describe } from './describe.js';
 import { t, tell } from './i18n.js';
 import { linkedTime } from './scene.js';
-import { postJson } from './server.js';
+import { module, postJson } from './server.js';
 
 const asked = 'v1/share'; // addresses in its answers are relative to it
 const preview = { width: 600, height: 315 };
@@ -71,11 +71,10 @@ function codeOf(url) {
   box.addEventListener(
     'toggle',
     async () => {
-      const code = import('./code.js').catch(() => {
-        throw new Error(t('The server does not answer', 'Il server non risponde'));
-      });
       box.append(
-        await code.then(({ drawCode }) => drawCode(url)).catch(({ message }) => el('p', { role: 'status' }, message)),
+        await module(import('./code.js'))
+          .then(({ drawCode }) => drawCode(url))
+          .catch(({ message }) => el('p', { role: 'status' }, message)),
       );
     },
     { once: true },

@@ -24,6 +24,12 @@ export async function ask(url, options) {
   return answer;
 }
 
+// A module that is being imported, with a sentence of our own if it cannot be fetched.
+export const module = loading =>
+  loading.catch(() => {
+    throw new Error(t('The server does not answer', 'Il server non risponde'));
+  });
+
 // Downloads an address as a file.
 export async function take(address, name, type) {
   const url = URL.createObjectURL(await (await ask(address, type ? { headers: { Accept: type } } : {})).blob());

@@ -43,6 +43,8 @@ export function openSource(scene, size, shown, failed, rests) {
     laden = '', // load() of the scene that this share was found for
     polls = new AbortController(),
     recent = [];
+  const closing = new AbortController(), // ends all listeners
+    { signal: closed } = closing;
 
   let adopt = adopter(scene);
 
@@ -117,10 +119,13 @@ export function openSource(scene, size, shown, failed, rests) {
   // size.
   async function send() {
     await seen('lensing');
+    if (closed.aborted) return;
     if (!session) scene.land();
     session ??= (await adopt?.()) ?? null;
     adopt = null;
-    const keeps = kept(),
+    if (closed.aborted) return leave();
+    const from = session,
+      keeps = kept(),
       same = session?.keeps === keeps,
       naps = dozes,
       now_asked = asked,
@@ -155,6 +160,11 @@ export function openSource(scene, size, shown, failed, rests) {
       });
       line.answered(performance.now() - begun);
       const { id, token, revision, scene: now, order: known, ...seen_of_it } = await answer.json();
+      if (closed.aborted) {
+        if (!from) session = fresh({ id, token });
+        return leave();
+      }
+      if (from && session !== from) return; // it was left meanwhile; the next call opens another one
       if (!session) last &&= { final: false }; // a new session counts its revisions from the start
       session ??= fresh({ id, token });
       session.cameras.set(revision, document.camera ?? {});
@@ -175,6 +185,7 @@ export function openSource(scene, size, shown, failed, rests) {
       settle();
       if (!pulling) pull();
     } catch (error) {
+      if (closed.aborted) return;
       if (error.status === 404 && session) return ((session = null), send());
       if (error.type === too_large && part > least_part) {
         part /= 2;
@@ -248,6 +259,7 @@ export function openSource(scene, size, shown, failed, rests) {
     recent = scene.goesOn() ? [...recent.filter((time, i) => time > now - 2000 || i >= recent.length - 2), now] : [];
     const [picture, left] = await Promise.all([answer.blob(), approximations(from, get)]);
     line.read(quality.lossy, performance.now() - now);
+    if (closed.aborted) return;
     await shown({
       picture,
       ...quality,
@@ -275,6 +287,7 @@ export function openSource(scene, size, shown, failed, rests) {
     while (session) {
       const from = session;
       await seen('lensing');
+      if (session !== from) continue;
       try {
         await next(from);
       } catch (error) {
@@ -299,7 +312,7 @@ export function openSource(scene, size, shown, failed, rests) {
     );
     put();
   }
-  for (const gone of ['visibilitychange', 'viewchange']) document.addEventListener(gone, doze);
+  for (const gone of ['visibilitychange', 'viewchange']) document.addEventListener(gone, doze, { signal: closed });
 
   function leave() {
     const left = session,
@@ -309,15 +322,14 @@ export function openSource(scene, size, shown, failed, rests) {
     polls = new AbortController();
     if (left) fetch(left.url, { method: 'DELETE', headers: owner, keepalive: true });
   }
-  addEventListener('pagehide', leave);
-  addEventListener('pageshow', event => {
-    if (event.persisted) put();
-  });
+  addEventListener('pagehide', leave, { signal: closed });
+  addEventListener('pageshow', event => event.persisted && put(), { signal: closed });
 
   return {
     // Ends the session, for good.
     close() {
       clearTimeout(timer);
+      closing.abort();
       leave();
     },
     refresh() {

@@ -1,7 +1,10 @@
 """Tests of a lesson: the teacher's panel, the page of a pupil, and the pupil's own copy: lesson.py KERRD FOLDER
 (browser.py)."""
 
+import json
+import pathlib
 import re
+import tempfile
 
 from browser import AT_REST, Browser, main
 
@@ -105,13 +108,91 @@ class Lesson(Browser):
         self.shot(teacher, "lesson-it")
 
     def test_a_question_that_is_refused(self):
-        self.expected = "422"
         teacher = self.teach()
         teacher.select_option("#lesson-ready", "")
-        teacher.fill("#lesson-text", "One answer?")
-        teacher.fill("#lesson-choices", "yes")
+        answers = "A question needs two to six answers of at most 60 characters each."
+        for text, choices, said in (
+            ("  ", "yes\nno", "A question needs a text."),
+            ("One answer?", "yes\n * ", answers),
+            ("Seven?", "\n".join("1234567"), answers),
+            ("A long one?", "no\n" + 61 * "x", answers),
+        ):
+            teacher.fill("#lesson-text", text)
+            teacher.fill("#lesson-choices", choices)
+            teacher.get_by_role("button", name="Ask the class").click()
+            self.there(teacher, said, "#lesson-wrong")
+        teacher.fill("#lesson-text", "Two\tlines,\nand a tabulator?")
+        teacher.fill("#lesson-choices", 60 * "è" + "\n*\tno\t")
         teacher.get_by_role("button", name="Ask the class").click()
-        self.there(teacher, "it must be a list of 2 to 6 choices", "#lesson .fault")
+        self.there(teacher, "Two lines, and a tabulator?", "#lesson h3")
+        self.assertEqual(teacher.locator("#lesson-tally span").all_inner_texts(), [60 * "è", "no"])
+        self.assertEqual(teacher.inner_text("#lesson-wrong"), "")
+
+    def own(self, teacher):
+        """The teacher's lesson as the page remembers it."""
+        return json.loads(teacher.evaluate("sessionStorage.getItem('lesson')"))
+
+    def end_at_server(self, teacher):
+        one = self.own(teacher)
+        owner = {"Authorization": "Bearer " + one["token"]}
+        self.assertEqual(self.daemon.request("DELETE", "/v1/lessons/" + one["id"], headers=owner).status, 204)
+
+    def test_a_lesson_that_the_server_has_lost(self):
+        """After a restart of the server the page's session has ended too, until the page has opened another one."""
+        teacher = self.teach()
+        link, refused = self.link(teacher), []
+        teacher.get_by_role("button", name="Ask the class").click()
+        teacher.wait_for_selector("#lesson-tally")
+        teacher.get_by_role("button", name="QR code, large").click()
+        teacher.wait_for_selector("#lesson-large svg")
+
+        def refuse(route):
+            if len(refused) == 2:
+                return route.continue_()
+            refused.append(route.request.post_data)
+            problem = {"detail": "session is missing", "pointer": "/session", "status": 422}
+            route.fulfill(status=422, content_type="application/problem+json", body=json.dumps(problem))
+
+        self.expected = "4"  # 404, 422
+        teacher.route("**/v1/lessons", refuse)
+        self.end_at_server(teacher)
+        self.there(teacher, "The lesson ended. Pupils must open the new link.", "#lesson")
+        teacher.wait_for_selector("#lesson-large", state="detached")
+        teacher.wait_for_selector("#lesson-invite input")
+        self.assertEqual(len(refused), 2)
+        self.assertNotEqual(self.link(teacher), link)
+        teacher.wait_for_selector("#lesson-ready")
+        self.there(teacher, "0 pupils follow.", "#lesson-count")
+        self.assertNotIn("session", teacher.inner_text("#lesson"))
+
+    def test_the_end_while_the_lesson_begins(self):
+        page = self.open("lang=en&preset=smooth&pause=1")
+        held, ended = [], []
+        page.route("**/v1/lessons", lambda route: held.append(route))
+        page.on("request", lambda request: request.method == "DELETE" and ended.append(request.url))
+        page.click("#send")
+        page.get_by_role("button", name="Show it to a class").click()
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or held))
+        page.get_by_role("button", name="End", exact=True).click()
+        held[0].continue_()
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or any("v1/lessons/" in url for url in ended)))
+        self.assertIsNone(page.evaluate("sessionStorage.getItem('lesson')"))
+
+    def test_two_tabs_of_one_teacher(self):
+        """A duplicated tab has the lesson too. Neither takes the class from the other by itself."""
+        teacher = self.teach()
+        other = self.page(teacher.context)
+        other.goto(self.base + "web/icon.svg")
+        other.evaluate("one => sessionStorage.setItem('lesson', one)", json.dumps(self.own(teacher)))
+        other.goto(self.base + "#lang=en&preset=smooth&pause=1")
+        other.wait_for_selector("#lesson-invite input")
+        self.there(other, "0 pupils follow.", "#lesson-count")
+        other.wait_for_timeout(2500)
+        changes = []
+        for page in teacher, other:
+            page.on("request", lambda r: r.method == "PATCH" and "v1/lessons/" in r.url and changes.append(r.post_data))
+        other.wait_for_timeout(3500)
+        self.assertEqual(changes, [])
 
     def test_a_copy_and_the_way_back(self):
         teacher = self.teach("lang=en&preset=gargantua&pause=1&spacetime.spin=0.5")
@@ -124,6 +205,12 @@ class Lesson(Browser):
         self.shot(pupil, "lesson-copy")
         self.drag(pupil, 100, 0)
         self.assertIn("spacetime.spin=0.5", teacher.url, "the teacher's picture stays")
+        pupil.click("#send")
+        pupil.get_by_role("button", name="Show it to a class").click()
+        pupil.wait_for_selector("#lesson-invite input")
+        self.assertNotEqual(self.link(pupil), link, "a copy can be shown to a class of its own")
+        self.assertEqual(pupil.locator("#lesson-back").count(), 1)
+        pupil.get_by_role("button", name="End", exact=True).click()
         pupil.get_by_role("link", name="← Back to the class").click()
         pupil.wait_for_url(link)
         pupil.wait_for_selector("#copy:visible")
@@ -158,7 +245,11 @@ class Lesson(Browser):
         self.assertIn(self.link(teacher), teacher.inner_text("#lesson-large"))
         teacher.keyboard.press("Escape")
         teacher.wait_for_selector("#lesson-large", state="detached")
-        self.there(teacher, "This address is this computer’s own.", "#lesson-invite")
+        self.there(
+            teacher,
+            "Only this computer can open this address. For pupils with other devices, start the server",
+            "#lesson-invite",
+        )
 
     def test_a_pupils_page_is_small(self):
         teacher = self.teach()
@@ -202,6 +293,40 @@ class Lesson(Browser):
         self.assertTrue(pupil.evaluate("document.documentElement.scrollWidth <= innerWidth"))
         for button in pupil.locator("#choices button").all():
             self.assertGreaterEqual(button.bounding_box()["height"], 40)
+
+
+class Tokens(Browser):
+    """On a server with access tokens."""
+
+    PUPIL, TEACHER = "pupil-0123456789abcdef", "teacher-0123456789abcdef"
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        file = pathlib.Path(folder.name) / "tokens"
+        file.write_text(f"pupil view {cls.PUPIL}\nteacher render {cls.TEACHER}\n")
+        file.chmod(0o600)
+        super().setUpClass("--token-file", file)
+
+    def enter(self, link, token):
+        page = self.page(self.context(locale="en-US"))
+        page.goto(link)
+        page.get_by_label("Access token").fill(token)
+        page.keyboard.press("Enter")
+        page.wait_for_url(link)
+        return page
+
+    def test_pupils_sign_in_and_stay_in_their_lesson(self):
+        self.expected = "401"
+        teacher = self.enter(self.base + "#lang=en&preset=smooth&pause=1", self.TEACHER)
+        teacher.wait_for_selector(AT_REST)
+        teacher.click("#send")
+        teacher.get_by_role("button", name="Show it to a class").click()
+        teacher.wait_for_selector("#lesson-invite input")
+        pupil = self.enter(teacher.input_value("#lesson-invite input"), self.PUPIL)
+        pupil.wait_for_selector("#stage:has(> #told[hidden]) > #picture[src]")
+        self.there(teacher, "1 pupil follows.", "#lesson-count")
 
 
 if __name__ == "__main__":

@@ -108,6 +108,40 @@ class Pair(Browser):
         page.click("#pair-begin")
         self.both(page)
 
+    def test_the_end_before_its_session_has_begun(self):
+        page = self.open("lang=en&preset=smooth&pause=1")
+        held, ended, opened = [], [], []
+        page.route("**/v1/sessions*", lambda route: held.append(route))
+        page.click("#pair-begin")
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or held))
+        page.locator("#pair").get_by_role("button", name="End").click()
+        page.on("request", lambda request: request.method == "DELETE" and ended.append(request.url))
+        held[0].continue_()
+        page.unroute("**/v1/sessions*")
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or len(ended) == 1), "its session ends")
+        page.on("request", lambda request: opened.append((request.method, request.url)))
+        page.evaluate("dispatchEvent(new PageTransitionEvent('pageshow', { persisted: true }))")
+        page.wait_for_timeout(1500)
+        self.assertEqual([one for one in opened if one[0] == "POST" or ended[0] in one[1]], [])
+
+    def test_the_focus_stays(self):
+        page = self.begin()
+        page.select_option("#pair-what", "disk.outer")
+        right, left = page.get_by_label("Outer edge, right"), page.get_by_label("Outer edge, left")
+        right.fill("12")
+        page.keyboard.press("Enter")
+        self.assertTrue(daemon.eventually(lambda: self.sides(page)[1] == "Outer edge 12 M"))
+        self.assertTrue(right.evaluate("node => node === document.activeElement"))
+        left.press_sequentially("1")
+        typed = left.input_value()
+        page.evaluate("document.querySelector('#pair-stage').dispatchEvent(new WheelEvent('wheel', { deltaY: 300 }))")
+        self.both(page)
+        self.assertEqual(left.input_value(), typed)
+        self.assertTrue(left.evaluate("node => node === document.activeElement"))
+        page.keyboard.press("Enter")
+        page.get_by_role("button", name="Swap the sides").click()
+        self.assertTrue(daemon.eventually(lambda: left.input_value() == "12" and right.input_value() == typed))
+
     def test_a_link_with_an_unknown_field(self):
         page = self.open("lang=en&preset=smooth&pause=1&pair.disk.nothing=3&pair.spacetime.spin=0.3")
         self.both(page)

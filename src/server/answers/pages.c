@@ -36,16 +36,18 @@ static enum MHD_Result moved(struct kd_request *request)
     return kd_reply_send(request, MHD_HTTP_PERMANENT_REDIRECT, response);
 }
 
-/* Turns a token in the page's address into a cookie and redirects to the address without the token. The cookie has no
- * Path, so browsers use the folder of the address. Behind a proxy only the browser knows that folder. */
+/* Turns a token in a page's address into a cookie and redirects to the address without the token; the browser keeps the
+ * fragment. The cookie has no Path, so browsers use the folder of the address. Behind a proxy only the browser knows
+ * that folder. All pages lie in the same one. */
 static enum MHD_Result signed_in(struct kd_request *request, const char *token)
 {
     char cookie[KD_ACCESS_TOKEN_MAX + 80];
+    const char *name = strrchr(request->route->path, '/') + 1;
     snprintf(cookie, sizeof cookie, "%s=%s; HttpOnly; SameSite=Strict", KD_ACCESS_COOKIE, token);
     struct MHD_Response *response = kd_reply_static("", 0, NULL);
     if (response) {
         MHD_add_response_header(response, "Set-Cookie", cookie);
-        MHD_add_response_header(response, "Location", ".");
+        MHD_add_response_header(response, "Location", *name ? name : ".");
         MHD_add_response_header(response, "Referrer-Policy", "no-referrer");
     }
     return kd_reply_send(request, MHD_HTTP_SEE_OTHER, response);

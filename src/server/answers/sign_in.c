@@ -1,5 +1,6 @@
 /* Sign-in page for browsers without a valid access token. It works without scripts: its form passes the token in the
- * page's address. In Italian or English, by Accept-Language. */
+ * page's address. The form has no action, because only then the browser keeps the fragment of the address, which names
+ * a lesson or a scene. In Italian or English, by Accept-Language. */
 #include "server/http/reply.h"
 
 #include <string.h>
@@ -38,16 +39,14 @@ bool kd_sign_in_wanted(struct kd_request *request, const struct kd_problem *prob
 {
     static const char *const types[] = { "application/problem+json", "text/html" };
     return (problem->type == KD_PROBLEM_UNAUTHORIZED || problem->type == KD_PROBLEM_WRONG_TOKENS) && request->matched &&
-           !strcmp(request->matched->path, "/") && !request->body_announced &&
+           request->matched->page && !request->body_announced &&
            kd_reply_accepted(request, 2, kd_accept_string, types) == 1;
 }
 
 static enum kd_status write_page(struct kd_request *request, const struct kd_problem *problem, struct kd_buffer *page)
 {
     const size_t i = language(request);
-    const char *base = strrchr(request->server->base.path,
-                               '/'); /* base path without a slash at its end: the form leads to the path with one */
-    const bool bare = base && !*request->target.path, tried = kd_target_value(&request->target, KD_ACCESS_QUERY);
+    const bool tried = kd_target_value(&request->target, KD_ACCESS_QUERY);
     const char *says = problem->type == KD_PROBLEM_WRONG_TOKENS ? words[i].later : tried ? words[i].wrong : "";
     return kd_buffer_printf(
         page,
@@ -57,13 +56,12 @@ static enum kd_status write_page(struct kd_request *request, const struct kd_pro
         "auto 0;padding:0 1rem}"
         "label,input,button{display:block;box-sizing:border-box;width:100%%;margin:.4rem "
         "0}input,button{font:inherit;padding:.5rem}</style>\n"
-        "<main>\n<h1>kerrd</h1>\n<p id=\"why\">%s</p>\n<p role=\"alert\">%s</p>\n<form action=\"%s%s\">\n<label "
+        "<main>\n<h1>kerrd</h1>\n<p id=\"why\">%s</p>\n<p role=\"alert\">%s</p>\n<form>\n<label "
         "for=\"access\">%s</label>\n"
         "<input id=\"access\" name=\"" KD_ACCESS_QUERY
         "\" type=\"password\" autocomplete=\"current-password\" aria-describedby=\"why\" required autofocus>\n"
         "<button>%s</button>\n</form>\n</main>\n</html>\n",
-        words[i].tag, words[i].title, words[i].asks, says, bare ? base + 1 : ".", bare ? "/" : "", words[i].label,
-        words[i].button);
+        words[i].tag, words[i].title, words[i].asks, says, words[i].label, words[i].button);
 }
 
 enum MHD_Result kd_sign_in_page(struct kd_request *request, const struct kd_problem *problem)

@@ -236,7 +236,7 @@ static unsigned guesses_wait_s(const struct kd_request *request, const struct br
 
 const char *kd_access_query(const struct kd_request *request)
 {
-    if (!request->server->access || !request->route || strcmp(request->route->path, "/"))
+    if (!request->server->access || !request->route || !request->route->page)
         return NULL;
     for (size_t i = 0; i < request->target.n_pairs; i++)
         if (!strcmp(request->target.pairs[i].name, KD_ACCESS_QUERY))

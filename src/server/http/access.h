@@ -8,7 +8,7 @@
 
 #define KD_ACCESS_HEADER "Kerrd-Access"
 #define KD_ACCESS_COOKIE "kerrd_access"
-#define KD_ACCESS_QUERY "access" /* query parameter of the page alone, which answers by setting the cookie */
+#define KD_ACCESS_QUERY "access" /* query parameter of pages (route.h), which answer by setting the cookie */
 #define KD_ACCESS_TOKEN_MIN 16   /* characters */
 #define KD_ACCESS_TOKEN_MAX 256
 #define KD_ACCESS_NAME_MAX 32
@@ -38,7 +38,7 @@ void kd_access_free(struct kd_access *access); /* accepts NULL */
  * whichever entry matches. Any thread. */
 const struct kd_visitor *kd_access_find(const struct kd_access *access, const char *token);
 
-/* The token in the page's address, ?access=TOKEN. NULL if there is none, or if the server has no token file. */
+/* The token in a page's address, ?access=TOKEN. NULL if there is none, or if the server has no token file. */
 const char *kd_access_query(const struct kd_request *request);
 /* Authorises a request whose target has been parsed. request->route is its route, or NULL if no route has its path.
  * Sets request->visitor and ->spent. Returns false with *problem filled (401, 403, 429). HTTP threads. */

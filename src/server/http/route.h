@@ -61,6 +61,7 @@ struct kd_route {
     const char *also;   /* further media types of answers, "a/b c/d"; NULL: none */
     bool question;      /* POST creates nothing on the server, so that the role view may send it (access.h) */
     bool open;          /* needs no access token */
+    bool page;          /* a page of a browser: takes the access token in its address, and asks for it (access.h) */
     bool once;          /* POST takes Idempotency-Key (once.h) */
     bool parts;         /* GET may answer with a range, 206 (representation.h) */
     unsigned status[2]; /* success statuses; { 0 }: 200; DELETE answers 204 */

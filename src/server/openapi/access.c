@@ -15,7 +15,7 @@ void kd_openapi_access_schemes(struct kd_json *json)
                    "one\"},\"accessHeader\":{\"type\":\"apiKey\",\"in\":\"header\",\"name\":\"" KD_ACCESS_HEADER
                    "\",\"description\":\"the same, if Authorization has another "
                    "token\"},\"accessCookie\":{\"type\":\"apiKey\",\"in\":\"cookie\",\"name\":\"" KD_ACCESS_COOKIE
-                   "\",\"description\":\"the same, for a browser that opened the page with ?access=TOKEN\"}}");
+                   "\",\"description\":\"the same, for a browser that opened a page with ?access=TOKEN\"}}");
 }
 
 /* The ways to authenticate for a role. OpenAPI permits names of roles where scopes stand. */

@@ -84,6 +84,9 @@ static const struct {
     const char *names;
 } told[] = {
     { "/", 0, 303, "Location Set-Cookie" },
+    { "/story", 0, 303, "Location Set-Cookie" },
+    { "/storia", 0, 303, "Location Set-Cookie" },
+    { "/lesson", 0, 303, "Location Set-Cookie" },
     { "/v1/render", 0, 200, PICTURE " Kerrd-Accuracy Kerrd-Flux Server-Timing" },
     { "/v1/render", 0, 304, SAME },
     { "/v1/pixel", 0, 200, PICTURE " Kerrd-Accuracy Kerrd-Flux Server-Timing" },

@@ -74,10 +74,10 @@ static void add_answer(struct kd_json *json, const struct kd_route *route, unsig
     kd_json_end(json);
 }
 
-/* Writes the redirect of the page: from an address with an access token to the address without the token. */
+/* Writes the redirect of a page: from an address with an access token to the address without the token. */
 static void add_led_on(struct kd_json *json, const struct kd_route *route, unsigned method)
 {
-    if (strcmp(route->path, "/"))
+    if (!route->page)
         return;
     begin_response(json, route, method, 303, "If the address had an access token");
     kd_json_end(json);
