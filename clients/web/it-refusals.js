@@ -31,8 +31,8 @@ const refusals = [
   ],
   ['{} is {}{?}; it must be a whole number from {} to {}', '{} è {}{?}; deve essere un intero da {} a {}'],
   [
-    '{} is {}; it must be a text of {} to {} bytes without control characters',
-    '{} è {}; deve essere un testo da {} a {} byte senza caratteri di controllo',
+    '{} is {}; it must be a text of {} to {} characters without control characters',
+    '{} è {}; deve essere un testo da {} a {} caratteri, senza caratteri di controllo',
   ],
   ['{} is {}; it must be a list of {} to {} choices', '{} è {}; deve essere un elenco da {} a {} risposte'],
   ['{} is {}; it must be the id of an open session', '{} è {}; deve essere il nome di una sessione aperta'],

@@ -224,7 +224,7 @@ export function buildPicture(root, hand) {
     ),
   );
   return {
-    // radii: { horizon, photon_prograde, photon_retrograde, isco_prograde } of the hole.
+    // radii: { horizon, photon_prograde, photon_retrograde, isco } of the hole.
     show(points, radii, a, words) {
       picture.setAttribute('aria-label', words);
       path = points;

@@ -33,21 +33,42 @@ at('name').value = remember('pupil-name', () => '');
 
 let session = null, // the session that the teacher shows
   question = null,
+  refused = '', // why the pupil's last choice was not taken
   ended = false;
 
-function tell(words) {
-  if (at('told').textContent !== words) at('told').textContent = words;
-  at('told').hidden = !words;
+// What is wrong with the lesson, and with its pictures. The first of them is shown.
+const wrong = { lesson: '', pictures: '…' };
+function tell(of, words) {
+  wrong[of] = words;
+  const first = wrong.lesson || wrong.pictures;
+  if (at('told').textContent !== first) at('told').textContent = first;
+  at('told').hidden = !first;
+}
+
+// The server's own sentences are for programmers, and in English.
+function sentence(status, pointer) {
+  if (pointer === '/pupil') return t('The lesson is full.', 'La lezione è al completo.');
+  if (pointer === '/question') return t('This question is closed.', 'Questa domanda è chiusa.');
+  if (status === 401)
+    return t('This server needs an access token: reload this page.', 'Serve un token d’accesso: ricarica la pagina.');
+  if (status === 429 || status >= 500)
+    return t('The server is busy. This page tries again.', 'Il server è occupato. Questa pagina riprova.');
+  return t(`The server has refused this (HTTP ${status}).`, `Il server l’ha rifiutato (HTTP ${status}).`);
 }
 
 async function ask(body = {}) {
+  const name = at('name')
+    .value.replace(/\p{Cc}+/gu, ' ')
+    .trim();
   const answer = await fetch(`v1/lessons/${id}/hands`, {
     method: 'POST',
     headers: { 'Content-Type': 'application/json' },
-    body: JSON.stringify({ pupil, name: at('name').value.trim(), ...body }),
+    body: JSON.stringify({ pupil, name, ...body }),
+  }).catch(() => {
+    throw new Error(t('The server does not answer.', 'Il server non risponde.'));
   });
   if (answer.status === 404) ended = true;
-  if (!answer.ok) throw new Error((await answer.json().catch(() => ({}))).detail);
+  if (!answer.ok) throw new Error(sentence(answer.status, (await answer.json().catch(() => ({}))).pointer));
   return answer.json();
 }
 
@@ -56,6 +77,7 @@ function show(state) {
   if (at('about').textContent !== state.about) at('about').textContent = at('picture').alt = state.about;
   at('copy').href = `.#${state.link}${state.link && '&'}lesson=${id}`;
   at('copy').hidden = false;
+  tell('lesson', '');
   if (state.question?.number !== question?.number) draw(state.question);
   question = state.question;
   at('question').hidden = !question;
@@ -63,6 +85,7 @@ function show(state) {
 }
 
 function draw(asked) {
+  refused = '';
   if (!asked) return;
   at('asked').textContent = asked.text;
   at('choices').replaceChildren(
@@ -77,29 +100,34 @@ function draw(asked) {
     }),
   );
   at('question').hidden = false;
+  // who is writing goes on, and hears of it
   if (document.activeElement !== at('name')) at('asked').focus();
+  else at('heard').textContent = asked.text;
 }
 
 function mark({ choices, open, right, tally }, chosen) {
   [...at('choices').children].forEach((item, i) => {
     const [button, votes] = item.children;
-    button.disabled = !open;
+    button.setAttribute('aria-disabled', !open); // a disabled button would lose the focus
     button.setAttribute('aria-pressed', i === chosen);
     item.toggleAttribute('data-right', !open && i === right);
-    votes.textContent = tally ? ` ${tally[i]}` : '';
+    votes.textContent = tally ? (tally[i] === 1 ? t('1 vote', '1 voto') : `${tally[i]} ${t('votes', 'voti')}`) : '';
   });
   const mine = chosen == null ? '' : t(`You predicted: ${choices[chosen]}.`, `Hai previsto: ${choices[chosen]}.`);
-  const words = open
-    ? mine && `${mine} ${t('You can change it.', 'Puoi cambiarlo.')}`
-    : [mine, right == null ? '' : t(`Right is: ${choices[right]}.`, `È giusto: ${choices[right]}.`)].join(' ').trim();
+  const more = open
+    ? mine && t('You can change it.', 'Puoi cambiarlo.')
+    : right != null && t(`The right answer is: ${choices[right]}.`, `La risposta giusta è: ${choices[right]}.`);
+  const words = [refused, mine, more].filter(Boolean).join(' ');
   if (at('answer').textContent !== words) at('answer').textContent = words;
 }
 
 async function choose(number, choice) {
+  if (!question?.open) return;
+  refused = '';
   try {
     show(await ask({ question: number, choice }));
   } catch (error) {
-    at('answer').textContent = error.message;
+    at('answer').textContent = refused = error.message;
   }
 }
 
@@ -112,11 +140,11 @@ async function follow() {
     try {
       show(await ask());
     } catch (error) {
-      if (!ended) tell(error.message || t('The server does not answer', 'Il server non risponde'));
+      if (!ended) tell('lesson', error.message);
     }
     await pause(beat_ms);
   }
-  tell(t('The class has ended.', 'La lezione è finita.'));
+  tell('lesson', t('The lesson has ended.', 'La lezione è finita.'));
 }
 
 // Shows the pictures one after the other, each newer than the one before.
@@ -141,10 +169,11 @@ async function watch() {
           .catch(() => {});
         if (shown) URL.revokeObjectURL(shown);
         shown = next;
-        tell('');
       }
+      tell('pictures', '');
     } catch {
-      if (from && !ended) tell(t('Waiting for your teacher’s picture …', 'In attesa dell’immagine dell’insegnante …'));
+      if (from && !ended)
+        tell('pictures', t('Waiting for your teacher’s picture …', 'In attesa dell’immagine dell’insegnante …'));
       await pause(from ? again_ms : beat_ms / 4);
     }
   }
@@ -158,4 +187,4 @@ at('name').addEventListener('change', () => {
 });
 
 if (id) follow(), watch();
-else tell(t('This link names no class.', 'Questo collegamento non nomina nessuna classe.'));
+else tell('lesson', t('This link leads to no lesson.', 'Questo collegamento non porta a nessuna lezione.'));

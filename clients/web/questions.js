@@ -5,11 +5,11 @@ import { t } from './i18n.js';
 export const questions = [
   {
     text: t(
-      'The hole is made to spin almost as fast as it can. What does its black disk do?',
-      'Il buco viene fatto ruotare quasi al massimo. Che cosa fa il suo disco nero?',
+      'The hole is made to spin almost as fast as it can. What does the dark shadow of the hole do?',
+      'Il buco viene fatto ruotare quasi al massimo. Che cosa fa l’ombra del buco?',
     ),
     choices: [
-      t('It grows to twice its width', 'Diventa largo il doppio'),
+      t('It grows to twice its width', 'Diventa larga il doppio'),
       t('It stays almost as wide, and one side flattens', 'Resta quasi uguale, e un lato si appiattisce'),
       t('Nothing at all', 'Non cambia affatto'),
     ],
@@ -23,7 +23,7 @@ export const questions = [
     ),
     choices: [
       t('Nothing: the hole hides it', 'Niente: il buco lo nasconde'),
-      t('An arc above the black disk', 'Un arco sopra il disco nero'),
+      t('An arc above the dark shadow of the hole', 'Un arco sopra l’ombra del buco'),
       t('Two spots beside it', 'Due macchie ai lati'),
     ],
     right: 1,
@@ -31,8 +31,8 @@ export const questions = [
   },
   {
     text: t(
-      'How wide is the black disk that we see, compared with the horizon of the hole?',
-      'Quanto è largo il disco nero che vediamo, rispetto all’orizzonte del buco?',
+      'How wide is the dark shadow of the hole that we see, compared with its horizon?',
+      'Quanto è larga l’ombra del buco che vediamo, rispetto al suo orizzonte?',
     ),
     choices: [
       t('Just as wide', 'Uguale'),

@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/log.h"
 #include "server/job/jobs.h"
+#include "server/lesson/lesson.h"
 #include "server/playground/sessions.h"
 #include "server/render/queue.h"
 #include "server/render/thumbnails.h"
@@ -129,6 +130,7 @@ void *kd_reaper_main(void *user)
         kd_sessions_sweep(server->sessions);
         kd_playground_sessions_sweep(server->playgrounds);
         kd_jobs_sweep(server->jobs);
+        kd_lessons_sweep(server->lessons);
     } while (!step_down(server, &since));
     if (!hangs(server)) { /* no connection is suspended, because the queues are empty and closed */
         stop_listening(server);

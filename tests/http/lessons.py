@@ -132,16 +132,22 @@ class Lessons(daemon.Case):
         for body, pointer, words in (
             ({"session": "0" * 16}, "/session", "session is 0000000000000000; it must be the id of an open session"),
             ({"session": 4}, "/session", "session is 4; it must be 16 hexadecimal digits"),
-            ({"link": "x" * 8001}, "/link", "it must be a text of 0 to 8000 bytes without control characters"),
+            ({"link": "x" * 8001}, "/link", "it must be a text of 0 to 8000 characters without control characters"),
             ({"about": "a\nb"}, "/about", "without control characters"),
             ({"open": 1}, "/open", "open is 1; it must be true or false"),
             ({"open": True, "opened": 1}, "/opened", "there is no field opened here; known are session"),
             ({"question": 3}, "/question", "it must be an object with text and choices, or null"),
-            ({"question": {"text": "x"}}, "/question", "question lacks choices"),
+            ({"question": {"choices": ["a", "b"]}}, "/question", "question.text is missing; it must be a text"),
+            ({"question": {**QUESTION, "text": 601 * "è"}}, "/question/text", "a text of 1 to 600 characters"),
+            ({"question": {"text": "x"}}, "/question", "question.choices is missing; it must be a list"),
             ({"question": {**QUESTION, "choices": ["a"]}}, "/question/choices", "a list of 2 to 6 choices"),
             ({"question": {**QUESTION, "choices": many}}, "/question/choices", "a list of 2 to 6 choices"),
-            ({"question": {**QUESTION, "choices": ["a", ""]}}, "/question/choices/1", "1 to 200 bytes"),
-            ({"question": {**QUESTION, "right": 2}}, "/question/right", "right is 2; it must be 0 to 1"),
+            (
+                {"question": {**QUESTION, "choices": ["a", ""]}},
+                "/question/choices/1",
+                'question.choices.1 is ""; it must be a text of 1 to 200',
+            ),
+            ({"question": {**QUESTION, "right": 2}}, "/question/right", "question.right is 2; it must be 0 to 1"),
             ({"question": {**QUESTION, "right": 0.5}}, "/question/right", "a whole number from 0 to 5"),
         ):
             with self.subTest(body=body):
@@ -167,6 +173,15 @@ class Lessons(daemon.Case):
         self.assertProblem(self.daemon.post("/v1/lessons", "[]"), 400, "malformed-json")
         twice = f'{{"session": "{self.session["id"]}", "open": true, "open": true}}'
         self.assertEqual(self.assertProblem(self.daemon.post("/v1/lessons", twice), 422)["pointer"], "/open")
+
+    def test_texts_are_counted_in_characters(self):
+        one = self.begin(link=8000 * "è", about=1000 * "€")
+        question = {"text": 600 * "è", "choices": [200 * "𝄞", "b"]}
+        self.assertEqual(self.change(one, {"question": question}).status, 200)
+        self.assertEqual(self.hand(one, name=80 * "𝄞").status, 200)
+        told = self.seen(one, **self.owner(one))
+        self.assertEqual((told["question"]["text"], told["question"]["choices"][0]), (600 * "è", 200 * "𝄞"))
+        self.assertEqual((told["link"], told["about"], told["hands"][0]["name"]), (8000 * "è", 1000 * "€", 80 * "𝄞"))
 
     def test_limits(self):
         """The limit of one client is three quarters of 16; a lesson has 64 pupils."""

@@ -21,6 +21,16 @@ class Lesson(Browser):
         page.wait_for_selector("#lesson-invite input")
         return page
 
+    def tearDown(self):
+        """Ends the lessons, because their number is limited."""
+        pages = [page for context in self.contexts for page in context.pages]
+        kept = [page.evaluate("sessionStorage.getItem('lesson')") for page in pages]
+        super().tearDown()
+        for one in map(json.loads, filter(None, kept)):
+            self.daemon.request(
+                "DELETE", "/v1/lessons/" + one["id"], headers={"Authorization": "Bearer " + one["token"]}
+            )
+
     def link(self, page):
         return page.input_value("#lesson-invite input")
 
@@ -74,8 +84,11 @@ class Lesson(Browser):
         self.shot(teacher, "lesson-open")
         self.shot(pupils[0], "lesson-asked")
         teacher.get_by_role("button", name="Close, and show the tally").click()
-        self.there(pupils[0], "Right is: It stays almost as wide, and one side flattens.", "#answer")
-        self.assertTrue(pupils[0].locator("#choices button").first.is_disabled())
+        self.there(pupils[0], "The right answer is: It stays almost as wide, and one side flattens.", "#answer")
+        chosen = pupils[0].locator("#choices button").first
+        self.assertEqual(chosen.get_attribute("aria-disabled"), "true")
+        self.assertTrue(chosen.evaluate("node => node === document.activeElement"), "the focus stays")
+        self.assertEqual(pupils[0].locator("#choices b").all_inner_texts(), ["1 vote", "1 vote", "0 votes"])
         self.shot(pupils[0], "lesson-closed")
         teacher.get_by_role("button", name="Show it in the picture").click()
         self.assertTrue(daemon.eventually(lambda: "spin 0.998" in pupils[0].inner_text("#about")))
@@ -104,7 +117,7 @@ class Lesson(Browser):
         self.there(teacher, "Hanno risposto 1 su 1.", "#lesson-answered")
         teacher.get_by_role("button", name="Chiudi, e mostra i voti").click()
         self.there(teacher, "1 – giusta", "#lesson-tally")
-        self.there(pupil, "È giusto: quattro.", "#answer")
+        self.there(pupil, "La risposta giusta è: quattro.", "#answer")
         self.shot(teacher, "lesson-it")
 
     def test_a_question_that_is_refused(self):
@@ -229,7 +242,7 @@ class Lesson(Browser):
         self.assertTrue(daemon.eventually(lambda: self.picture(pupil) != before))
         self.expected = "404"  # the session before, and the lesson that has ended
         teacher.get_by_role("button", name="End", exact=True).click()
-        self.there(pupil, "The class has ended.", "#told")
+        self.there(pupil, "The lesson has ended.", "#told")
         self.assertEqual(teacher.locator("#lesson").count(), 0)
         teacher.reload()
         teacher.wait_for_selector(AT_REST)
@@ -262,10 +275,55 @@ class Lesson(Browser):
         self.expected = "404"
         page = self.page(self.context(locale="en-US"))
         page.goto(self.base + "lesson")
-        self.there(page, "This link names no class.", "#told")
+        self.there(page, "This link leads to no lesson.", "#told")
         page.goto(self.base + "lesson#0123456789abcdef")
         page.reload()
-        self.there(page, "The class has ended.", "#told")
+        self.there(page, "The lesson has ended.", "#told")
+
+    def test_a_message_goes_with_its_cause(self):
+        """The picture at rest does not change, so that no new one comes that could take a message away."""
+        self.expected = "Failed to load resource"
+        teacher = self.teach()
+        pupil = self.follow(self.link(teacher))
+        pupil.wait_for_timeout(500)
+
+        def answering(answer):
+            return lambda route: route.fulfill(**answer) if answer else route.abort()
+
+        full = {"detail": "this lesson is full (limit 64 pupils)", "pointer": "/pupil", "status": 409}
+        for answer, said in (
+            (None, "The server does not answer."),
+            ({"status": 409, "body": json.dumps(full)}, "The lesson is full."),
+            ({"status": 503, "body": "<p>a proxy</p>"}, "The server is busy. This page tries again."),
+            ({"status": 400, "body": "{}"}, "The server has refused this (HTTP 400)."),
+        ):
+            pupil.route("**/hands", answering(answer))
+            self.there(pupil, said, "#told")
+            pupil.unroute("**/hands")
+            pupil.wait_for_selector("#told", state="hidden")
+
+    def test_who_writes_a_name_hears_of_a_question(self):
+        teacher = self.teach()
+        pupil = self.follow(self.link(teacher))
+        pupil.focus("#name")
+        pupil.keyboard.type("Ada")
+        teacher.get_by_role("button", name="Ask the class").click()
+        self.there(pupil, "What does the dark shadow of the hole do?", "#heard", text=True)
+        self.assertEqual(pupil.evaluate("document.activeElement.id"), "name")
+        closed = {"detail": "this question is not open any more", "pointer": "/question", "status": 409}
+        self.expected = "409"
+        pupil.route(
+            "**/hands",
+            lambda route: (
+                route.fulfill(status=409, body=json.dumps(closed))
+                if "choice" in route.request.post_data
+                else route.continue_()
+            ),
+        )
+        pupil.locator("#choices button").first.click()
+        self.there(pupil, "This question is closed.", "#answer")
+        pupil.wait_for_timeout(2500)
+        self.there(pupil, "This question is closed.", "#answer")
 
     def test_axe(self):
         try:

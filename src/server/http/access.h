@@ -17,7 +17,7 @@ struct kd_access;
 struct kd_request;
 struct kd_route;
 
-/* Roles. view: requests that create nothing on the server. render: all requests. */
+/* Roles. view: requests that store nothing on the server but a pupil's answer. render: all requests. */
 enum kd_role { KD_ROLE_VIEW = 1, KD_ROLE_RENDER };
 
 /* Whether the role may send this method to the route. */

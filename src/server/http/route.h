@@ -59,7 +59,8 @@ struct kd_route {
     enum kd_takes takes;
     enum kd_gives gives;
     const char *also;   /* further media types of answers, "a/b c/d"; NULL: none */
-    bool question;      /* POST creates nothing on the server, so that the role view may send it (access.h) */
+    bool question;      /* the role view may send this POST: it renders nothing that stays, and stores nothing but
+                         * a pupil's answer (access.h) */
     bool open;          /* needs no access token */
     bool page;          /* a page of a browser: takes the access token in its address, and asks for it (access.h) */
     bool once;          /* POST takes Idempotency-Key (once.h) */

@@ -82,7 +82,7 @@ struct kd_server {
     struct kd_scheduler *scheduler; /* scheduler of orbits, long quantities, paths of sessions, checks of jobs */
     struct kd_quota (*quota)(const struct kd_server *server, const char *client); /* NULL: no limit of device time */
     struct kd_sessions *sessions;
-    struct kd_lessons *lessons; /* HTTP thread only */
+    struct kd_lessons *lessons;
     struct kd_playground_sessions *playgrounds;
     struct kd_jobs *jobs;
     struct kd_job_whole *cubes; /* cubes being downloaded (job/archive.c); HTTP thread only */

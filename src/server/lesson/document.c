@@ -19,26 +19,37 @@ struct member {
     reader *read;
 };
 
+/* The name of a field in a sentence, such as question.choices.1 for /question/choices/1. */
+static void field_name(char *name, size_t size, const char *pointer)
+{
+    snprintf(name, size, "%s", pointer + 1);
+    for (char *at = name; (at = strchr(at, '/'));)
+        *at++ = '.';
+}
+
 static enum kd_status refuse(const cJSON *item, const char *pointer, const char *must, struct kd_error *error)
 {
     char given[KD_VALUE_SIZE];
     const struct kd_value value = kd_tree_value(item);
     kd_value_describe(&value, given);
-    return kd_error_field(error, pointer, "%s is %s; it must be %s", pointer + 1, given, must);
+    char name[sizeof error->pointer];
+    field_name(name, sizeof name, pointer);
+    return kd_error_field(error, pointer, "%s is %s; it must be %s", name, given, must);
 }
 
-/* Reads a text of 1 to `most` bytes without control characters, or of none if `empty`. */
+/* Reads a text of 1 to `most` characters without control characters, or of none if `empty`. */
 static enum kd_status read_text(const cJSON *item, const char *pointer, size_t most, bool empty, const char **out,
                                 struct kd_error *error)
 {
     const char *text = cJSON_IsString(item) ? item->valuestring : NULL;
     const size_t length = text ? strlen(text) : 0;
     char must[80];
-    snprintf(must, sizeof must, "a text of %d to %zu bytes without control characters", !empty, most);
-    bool good = text && length <= most && (length || empty) && kd_utf8_valid(text);
+    snprintf(must, sizeof must, "a text of %d to %zu characters without control characters", !empty, most);
+    bool good = text && (length || empty) && kd_utf8_valid(text);
+    size_t characters = 0;
     for (size_t i = 0, n; good && i < length; i += n) {
         n = kd_utf8_sequence(text + i, length - i);
-        good = n && !kd_utf8_is_control(text + i, n);
+        good = n && !kd_utf8_is_control(text + i, n) && ++characters <= most;
     }
     *out = text;
     return good ? KD_OK : refuse(item, pointer, must, error);
@@ -47,7 +58,7 @@ static enum kd_status read_text(const cJSON *item, const char *pointer, size_t m
 static enum kd_status copy_text(const cJSON *item, const char *pointer, size_t size, char *out, struct kd_error *error)
 {
     const char *text;
-    const enum kd_status status = read_text(item, pointer, size - 1, false, &text, error);
+    const enum kd_status status = read_text(item, pointer, (size - 1) / 4, false, &text, error);
     if (!status)
         snprintf(out, size, "%s", text);
     return status;
@@ -178,9 +189,12 @@ static enum kd_status read_question(struct target *to, const cJSON *item, const 
     change->question = (struct kd_question) { .right = -1 };
     KD_TRY(read_members(item, pointer, members, sizeof members / sizeof *members, to, error));
     if ((to->given & 3) != 3)
-        KD_TRY(kd_error_field(error, pointer, "question lacks %s", to->given & 1 ? "choices" : "text"));
+        KD_TRY(to->given & 1
+                   ? kd_error_field(error, pointer, "question.choices is missing; it must be a list of 2 to 6 choices")
+                   : kd_error_field(error, pointer, "question.text is missing; it must be a text"));
     if (change->question.right >= (int)change->question.n_choices)
-        KD_TRY(kd_error_field(error, "/question/right", "right is %d; it must be 0 to %u, the number of a choice",
+        KD_TRY(kd_error_field(error, "/question/right",
+                              "question.right is %d; it must be 0 to %u, the number of a choice",
                               change->question.right, change->question.n_choices - 1));
     to->given = given;
 done:

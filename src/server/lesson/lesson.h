@@ -1,6 +1,7 @@
-/* a lesson: pupils follow the session of a teacher, answer the teacher's questions, and are counted. a lesson holds the
+/* A lesson: pupils follow the session of a teacher, answer the teacher's questions, and are counted. A lesson holds the
  * id of the session, and not the session itself, so that it continues when the teacher opens another session. It is
- * kept in memory only, and ends with the teacher's request or after a while without one. HTTP thread only. */
+ * kept in memory only, and ends with the teacher's request or after a while without one. A caller holds the lock of the
+ * table as long as it uses a lesson; kd_lessons_sweep takes it by itself. */
 #ifndef KD_SERVER_LESSON_LESSON_H
 #define KD_SERVER_LESSON_LESSON_H
 
@@ -13,26 +14,27 @@
 #define KD_LESSON_PUPILS 64u    /* limit of pupils of one lesson */
 #define KD_LESSON_PRESENT_S 20u /* a pupil counts as present for this time after a request */
 #define KD_LESSON_CHOICES 6u    /* most choices of a question; it has at least two */
-/* Limits of texts, in bytes of UTF-8. */
+/* Limits of texts, in characters. */
 #define KD_LESSON_LINK 8000u
 #define KD_LESSON_ABOUT 1000u
 #define KD_LESSON_TEXT 600u
 #define KD_LESSON_CHOICE 200u
 #define KD_LESSON_NAME 80u
+#define KD_LESSON_SIZE(characters) (4 * (characters) + 1) /* bytes of UTF-8, and NUL */
 
 struct kd_question {
     unsigned number; /* counts the questions of this lesson; 0: nothing has been asked */
     bool shown;      /* false: the question was withdrawn */
     bool open;       /* answers are accepted; when it closes, pupils see the tally and the right choice */
-    char text[KD_LESSON_TEXT + 1];
+    char text[KD_LESSON_SIZE(KD_LESSON_TEXT)];
     unsigned n_choices;
-    char choices[KD_LESSON_CHOICES][KD_LESSON_CHOICE + 1];
+    char choices[KD_LESSON_CHOICES][KD_LESSON_SIZE(KD_LESSON_CHOICE)];
     int right; /* index of the right choice; -1: none is marked */
 };
 
 struct kd_pupil {
     char key[KD_SECRET_ID]; /* made by the pupil's page; "": the place is free */
-    char name[KD_LESSON_NAME + 1];
+    char name[KD_LESSON_SIZE(KD_LESSON_NAME)];
     double seen_ms;
     unsigned answered; /* number of the question that `choice` answers; 0: none */
     unsigned choice;
@@ -42,8 +44,8 @@ struct kd_lesson {
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN], client[KD_CLIENT];
     double used_ms; /* time of the teacher's last request */
     char session[KD_SECRET_ID];
-    char link[KD_LESSON_LINK + 1];   /* what follows # in the teacher's address */
-    char about[KD_LESSON_ABOUT + 1]; /* description of the picture */
+    char link[KD_LESSON_SIZE(KD_LESSON_LINK)];   /* what follows # in the teacher's address */
+    char about[KD_LESSON_SIZE(KD_LESSON_ABOUT)]; /* description of the picture */
     struct kd_question question;
     struct kd_pupil pupils[KD_LESSON_PUPILS];
 };
@@ -53,6 +55,10 @@ struct kd_lessons;
 /* client_limit: limit of the lessons of one client. Returns NULL when out of memory. */
 struct kd_lessons *kd_lessons_create(unsigned client_limit);
 void kd_lessons_destroy(struct kd_lessons *all); /* accepts NULL */
+void kd_lessons_lock(struct kd_lessons *all);
+void kd_lessons_unlock(struct kd_lessons *all);
+/* Ends the lessons that are idle. Called by the reaper, so that names of pupils are erased when their time is over. */
+void kd_lessons_sweep(struct kd_lessons *all);
 
 /* Opens a lesson. Returns KD_EBUSY at a limit; *quota is true if that is the limit of one client. The lesson belongs to
  * `all`; the pointer is valid until the next call of a function here. */
@@ -62,8 +68,9 @@ enum kd_status kd_lesson_open(struct kd_lessons *all, const char *client, bool *
 struct kd_lesson *kd_lesson_find(struct kd_lessons *all, const char *id);
 void kd_lesson_end(struct kd_lessons *all, struct kd_lesson *one);
 
-/* Finds or adds the pupil of this key, and marks it as present. If all places are taken, the pupil that has been away
- * for longest is replaced. Returns NULL if all are present. */
+/* Finds or adds the pupil of this key, and marks it as present. If all places are taken, one that is away is
+ * replaced: first those without an answer to the present question, and of these the one that is away for longest.
+ * Returns NULL if all are present. */
 struct kd_pupil *kd_lesson_pupil(struct kd_lesson *one, const char *key);
 
 /* Writes the lesson as JSON. teacher: with who chose what, and with the tally while the question is open. pupil: the
@@ -89,7 +96,6 @@ struct kd_hand {
 };
 struct cJSON;
 enum kd_status kd_lesson_read_change(const struct cJSON *tree, struct kd_lesson_change *out, struct kd_error *error);
-/* Returns KD_EBUSY if the question is not open any more, or is another one. */
 enum kd_status kd_lesson_read_hand(const struct cJSON *tree, struct kd_hand *out, struct kd_error *error);
 void kd_lesson_apply(struct kd_lesson *one, const struct kd_lesson_change *change);
 

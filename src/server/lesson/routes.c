@@ -10,7 +10,7 @@
 #include <string.h>
 
 #define JSON_TYPE "application/json"
-#define BODY_MOST ((size_t)32 << 10) /* bytes; a link and a question fit */
+#define BODY_MOST ((size_t)64 << 10) /* bytes; a link and a question fit */
 #define BODY_VALUES 32               /* JSON values in a body */
 
 static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error)
@@ -65,7 +65,7 @@ static enum MHD_Result answer_created(struct kd_request *request, struct kd_less
     return kd_reply_send(request, MHD_HTTP_CREATED, response);
 }
 
-enum MHD_Result kd_handle_lessons(struct kd_request *request)
+static enum MHD_Result open_lesson(struct kd_request *request)
 {
     struct kd_lesson_change change;
     struct kd_error error = { 0 };
@@ -126,7 +126,7 @@ static struct kd_lesson *lesson_of(struct kd_request *request, enum MHD_Result *
     return one;
 }
 
-enum MHD_Result kd_handle_lesson(struct kd_request *request)
+static enum MHD_Result serve_lesson(struct kd_request *request)
 {
     enum MHD_Result result;
     if (!kd_reply_only(request, (const char *const[]) { "token", NULL }, &result))
@@ -177,7 +177,7 @@ static enum MHD_Result raise_hand(struct kd_request *request, struct kd_lesson *
     return answer(request, one, &(struct kd_lesson_view) { .pupil = pupil });
 }
 
-enum MHD_Result kd_handle_lesson_hands(struct kd_request *request)
+static enum MHD_Result serve_hand(struct kd_request *request)
 {
     struct kd_error error = { 0 };
     struct kd_hand hand;
@@ -201,3 +201,16 @@ done:
     cJSON_Delete(tree);
     return result;
 }
+
+/* Runs a handler while the reaper ends no lesson. */
+static enum MHD_Result locked(struct kd_request *request, enum MHD_Result (*handle)(struct kd_request *))
+{
+    kd_lessons_lock(request->server->lessons);
+    const enum MHD_Result result = handle(request);
+    kd_lessons_unlock(request->server->lessons);
+    return result;
+}
+
+enum MHD_Result kd_handle_lessons(struct kd_request *request) { return locked(request, open_lesson); }
+enum MHD_Result kd_handle_lesson(struct kd_request *request) { return locked(request, serve_lesson); }
+enum MHD_Result kd_handle_lesson_hands(struct kd_request *request) { return locked(request, serve_hand); }

@@ -2,29 +2,47 @@
 #include "base/clock.h"
 #include "server/lesson/lesson.h"
 
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct kd_lessons {
+    pthread_mutex_t lock;
     unsigned client_limit;
     struct kd_lesson *list[KD_LESSONS]; /* NULL: the place is free */
 };
 
+/* Names of pupils must not stay in freed memory. Accepts NULL. */
+static void erase(struct kd_lesson *one)
+{
+    if (one)
+        explicit_bzero(one, sizeof *one);
+    free(one);
+}
+
 struct kd_lessons *kd_lessons_create(unsigned client_limit)
 {
     struct kd_lessons *all = calloc(1, sizeof *all);
-    if (all)
-        all->client_limit = client_limit;
+    if (!all)
+        return NULL;
+    all->client_limit = client_limit;
+    pthread_mutex_init(&all->lock, NULL);
     return all;
 }
 
 void kd_lessons_destroy(struct kd_lessons *all)
 {
-    for (size_t i = 0; all && i < KD_LESSONS; i++)
-        free(all->list[i]);
+    if (!all)
+        return;
+    for (size_t i = 0; i < KD_LESSONS; i++)
+        erase(all->list[i]);
+    pthread_mutex_destroy(&all->lock);
     free(all);
 }
+
+void kd_lessons_lock(struct kd_lessons *all) { pthread_mutex_lock(&all->lock); }
+void kd_lessons_unlock(struct kd_lessons *all) { pthread_mutex_unlock(&all->lock); }
 
 static void end_idle(struct kd_lessons *all)
 {
@@ -32,6 +50,13 @@ static void end_idle(struct kd_lessons *all)
     for (size_t i = 0; i < KD_LESSONS; i++)
         if (all->list[i] && now - all->list[i]->used_ms > 1e3 * KD_LESSON_IDLE_S)
             kd_lesson_end(all, all->list[i]);
+}
+
+void kd_lessons_sweep(struct kd_lessons *all)
+{
+    kd_lessons_lock(all);
+    end_idle(all);
+    kd_lessons_unlock(all);
 }
 
 enum kd_status kd_lesson_open(struct kd_lessons *all, const char *client, bool *quota, struct kd_lesson **out,
@@ -76,7 +101,7 @@ void kd_lesson_end(struct kd_lessons *all, struct kd_lesson *one)
     for (size_t i = 0; i < KD_LESSONS; i++)
         if (all->list[i] == one)
             all->list[i] = NULL;
-    free(one);
+    erase(one);
 }
 
 static bool is_present(const struct kd_pupil *pupil, double now)
@@ -84,29 +109,36 @@ static bool is_present(const struct kd_pupil *pupil, double now)
     return *pupil->key && now - pupil->seen_ms <= 1e3 * KD_LESSON_PRESENT_S;
 }
 
+static bool has_answered(const struct kd_lesson *one, const struct kd_pupil *pupil)
+{
+    return *pupil->key && pupil->answered && pupil->answered == one->question.number;
+}
+
+/* Whether the place of a is given away before that of b. Both are free or absent. */
+static bool goes_before(const struct kd_lesson *one, const struct kd_pupil *a, const struct kd_pupil *b)
+{
+    const bool a_counts = has_answered(one, a), b_counts = has_answered(one, b);
+    return a_counts == b_counts ? a->seen_ms < b->seen_ms /* 0 for a free place */ : b_counts;
+}
+
 struct kd_pupil *kd_lesson_pupil(struct kd_lesson *one, const char *key)
 {
     const double now = kd_clock_ms();
-    struct kd_pupil *at = &one->pupils[0];
+    struct kd_pupil *at = NULL;
     for (size_t i = 0; i < KD_LESSON_PUPILS; i++) {
         struct kd_pupil *pupil = &one->pupils[i];
         if (!strcmp(pupil->key, key)) {
             pupil->seen_ms = now;
             return pupil;
         }
-        if (pupil->seen_ms < at->seen_ms) /* 0 for a free place */
+        if (!is_present(pupil, now) && (!at || goes_before(one, pupil, at)))
             at = pupil;
     }
-    if (is_present(at, now))
+    if (!at)
         return NULL;
     *at = (struct kd_pupil) { .seen_ms = now };
     snprintf(at->key, sizeof at->key, "%s", key);
     return at;
-}
-
-static bool has_answered(const struct kd_lesson *one, const struct kd_pupil *pupil)
-{
-    return *pupil->key && pupil->answered && pupil->answered == one->question.number;
 }
 
 static void add_question(struct kd_json *json, const struct kd_lesson *one, bool teacher)
