@@ -9,7 +9,10 @@
 #define ID "{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{16}$\"}"
 #define CHOICE "{\"type\":\"integer\",\"minimum\":0,\"maximum\":5}"
 #define CHOICE_OR_NULL "{\"type\":[\"integer\",\"null\"],\"minimum\":0,\"maximum\":5}"
-#define TEXT(least, most) "{\"type\":\"string\",\"minLength\":" #least ",\"maxLength\":" #most "}"
+/* without control characters, as kd_utf8_is_control has them */
+#define TEXT(least, most) \
+    "{\"type\":\"string\",\"minLength\":" #least ",\"maxLength\":" #most \
+    ",\"pattern\":\"^[^\\u0000-\\u001f\\u007f-\\u009f]*$\"}"
 
 _Static_assert(KD_LESSON_CHOICES == 6 && KD_LESSON_TEXT == 600 && KD_LESSON_CHOICE == 200 && KD_LESSON_LINK == 8000 &&
                    KD_LESSON_ABOUT == 1000 && KD_LESSON_NAME == 80,
