@@ -2990,6 +2990,36 @@ export interface Lesson {
   hands?: LessonHand[];
 }
 
+export interface NewLesson {
+  session: string;
+  link?: string;
+  about?: string;
+  /** whether the question accepts answers. */
+  open?: boolean;
+  question?: {
+    text: string;
+    /** up to 6. */
+    choices: string[];
+    /** 0 to 5. */
+    right?: number | null;
+  } | null;
+}
+
+export interface LessonChange {
+  session?: string;
+  link?: string;
+  about?: string;
+  /** whether the question accepts answers. */
+  open?: boolean;
+  question?: {
+    text: string;
+    /** up to 6. */
+    choices: string[];
+    /** 0 to 5. */
+    right?: number | null;
+  } | null;
+}
+
 export type SweepAxes = Record<string, (number | string | boolean | string[])[] | string>;
 
 /** created and ended are seconds since 1970. */
@@ -5722,7 +5752,9 @@ export interface Operations {
         values: {
           /** proper time from r to the outer horizon; null inside it. */
           proper_time_to_horizon: number | null | (number | null)[];
-          /** proper time from r to the end of the model: the inner horizon, or without spin the singularity. */
+          /**
+           * proper time from r to the end of the model: the inner horizon, or without spin and charge the singularity.
+           */
           proper_time_to_end: number | null | (number | null)[];
           /** the same in seconds. */
           proper_time_to_horizon_s: number | null | (number | null)[];
@@ -6646,20 +6678,7 @@ export interface Operations {
   /** Opens a lesson, whose pupils follow a session; the answer has its id and the token of the teacher. */
   'POST /v1/lessons': {
     takes: {
-      body: {
-        session: string;
-        link?: string;
-        about?: string;
-        /** whether the question accepts answers. */
-        open?: boolean;
-        question?: {
-          text: string;
-          /** up to 6. */
-          choices: string[];
-          /** 0 to 5. */
-          right?: number | null;
-        } | null;
-      };
+      body: NewLesson;
       type?: 'application/json';
     };
     gives: {
@@ -6689,27 +6708,8 @@ export interface Operations {
       path: {
         id: string;
       };
-      body: Patch<{
-        session?: string;
-        link?: string;
-        about?: string;
-        /** whether the question accepts answers. */
-        open?: boolean;
-        question?: {
-          text: string;
-          /** up to 6. */
-          choices: string[];
-          /** 0 to 5. */
-          right?: number | null;
-        } | null;
-      }>;
-      type?: 'application/json';
-    } | {
-      path: {
-        id: string;
-      };
-      body: Patch<Record<string, unknown>>;
-      type: 'application/merge-patch+json';
+      body: Patch<LessonChange>;
+      type?: 'application/json' | 'application/merge-patch+json';
     };
     gives: {
       'application/json': Lesson;

@@ -59,8 +59,8 @@ export const sentences = {
   'bodies: opaque spheres in their own frames; space near a body is taken as flat, and light there as straight; no tides, no gravity of the body, no shadows':
     'corpi: sfere opache nel proprio riferimento; lo spazio è piatto, e la luce dritta, alla scala di ognuno: niente maree, gravità propria, né ombre',
   'bodies: no light of the disk falls on them': 'corpi: su di loro non cade luce del disco',
-  'bodies: they scatter light of the disk isotropically; this light comes along straight lines from 16 rings of 24 points of an unobscured smooth disk, reduced to three moments of its direction':
-    'corpi: rimandano la luce di un disco liscio che nulla nasconde, dritta da 16 anelli di 24 luoghi, ugualmente da ogni lato; della sua direzione si tengono tre momenti',
+  'bodies: they scatter light of the disk isotropically; this light comes along straight lines from 16 rings of 24 points of an unobscured smooth disk without limb darkening, reduced to three moments of its direction':
+    'corpi: rimandano la luce di un disco liscio che nulla nasconde, senza oscuramento al bordo, dritta da 16 anelli di 24 luoghi, ugualmente da ogni lato; della sua direzione si tengono tre momenti',
   'bodies: a body whose radius exceeds a tenth of its distance from the hole is drawn in the flat space of its centre, so that its shape is wrong':
     'corpi: uno il cui raggio è più di un decimo della distanza dal buco è disegnato nello spazio piatto del suo centro, dove un corpo ha un’altra forma',
   'bodies: each shines as a black body of one temperature, with a chosen linear law of limb darkening':

@@ -36,7 +36,7 @@ KD_SPEC_STARS(KD_SPEC_U_, KD_SPEC_B_)
 #define KD_STAR_HALF 0.65
 #define KD_STAR_BEND 0.5
 
-/* Half the difference of the second differences along both diagonals; there: whether the four rays escape. */
+/* The mixed derivative, from the four rays at the corners; there: whether these rays escape. */
 vec3 twist(uint at, uint x, uint y, out bool there)
 {
     vec3 sum = vec3(0.0);

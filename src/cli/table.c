@@ -30,20 +30,26 @@ struct arguments {
 
 static const struct argp_option options[] = {
     { "axis", 'x', "FIELD=VALUES", 0,
-      "a parameter: numbers and ranges START:STOP/COUNT with commas, interpolated linearly; with log: before the "
-      "values, "
-      "in the logarithm. Fields are spin, inclination_deg, inner, inner_isco (over the ISCO), outer, index, "
-      "outer_index, "
-      "break_r, height, photon_index. May be repeated",
+      "makes FIELD a parameter of the table. VALUES are numbers and ranges START:STOP/COUNT, separated by commas. A "
+      "reader interpolates linearly between them; if log: precedes VALUES, it interpolates in their logarithm. Fields "
+      "are spin, inclination_deg, inner, inner_isco (over the ISCO), outer, index, outer_index, break_r, height, "
+      "photon_index. May be repeated",
       0 },
     { "set", 's', "FIELD=VALUE", 0, "a field of kerrd line that has one value; may be repeated", 0 },
     { "output", 'o', "FILE", 0, "file to write, .fits (required); unfinished work is FILE.part", 0 },
-    { "name", 'n', "NAME", 0, "name of the model, at most 12 characters (default: kerrdline)", 0 },
+    { "name", 'n', "NAME", 0, "name of the model, at most 12 ASCII characters (default: kerrdline)", 0 },
     { "plan", 'p', NULL, 0, "print the axes, the number of nodes and the size as JSON, and compute nothing", 0 },
     { "stats", 't', NULL, 0,
       "print nodes, time and the largest error of a profile as one line of JSON on standard error", 0 },
     { 0 },
 };
+
+static bool is_printed(const char *text)
+{
+    while (*text >= ' ' && *text <= '~')
+        text++;
+    return !*text;
+}
 
 static error_t parse(int key, char *text, struct argp_state *state)
 {
@@ -60,8 +66,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case 'o': a->output = text; return 0;
     case 'n':
-        if (!*text || strlen(text) > KD_TABLE_NAME)
-            argp_error(state, "--name is %s; it must have 1 to %d characters", text, KD_TABLE_NAME);
+        if (!*text || strlen(text) > KD_TABLE_NAME || !is_printed(text))
+            argp_error(state, "--name is %s; it must have 1 to %d ASCII characters", text, KD_TABLE_NAME);
         a->name = text;
         return 0;
     case 'p': a->plan = true; return 0;
@@ -73,7 +79,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case ARGP_KEY_END:
         if (a->n_axes > KD_TABLE_AXES)
-            argp_error(state, "there are %zu axes; a table may have %d", a->n_axes, KD_TABLE_AXES);
+            argp_error(state, "there are %zu axes; there must be at most %d", a->n_axes, KD_TABLE_AXES);
         else if (a->plan)
             return 0;
         else if (!a->output || !strcmp(a->output, "-"))
@@ -146,26 +152,45 @@ static enum kd_status read_at(const struct part *part, void *bytes, size_t size,
     return KD_OK;
 }
 
-/* Checks that the file begins with this table's head, and sums the rows that it has. */
+/* Whether the file begins with the head for a sum of rows. bytes: as much room as a head has. */
+static enum kd_status begins_with(const struct part *part, const struct kd_table *table, uint32_t sum, uint8_t *bytes,
+                                  bool *does, struct kd_error *error)
+{
+    struct kd_buffer head = { 0 };
+    enum kd_status status;
+    KD_TRY(kd_table_head(table, sum, &head, error));
+    KD_TRY(read_at(part, bytes, head.size, 0, error));
+    *does = !memcmp(bytes, head.data, head.size);
+done:
+    kd_buffer_finish(&head);
+    return status;
+}
+
+/* Sums the rows that the file has, and checks that the file begins with this table's head: for no rows, or for all of
+ * them if only the file's name was missing. */
 static enum kd_status resume(struct part *part, const struct kd_table *table, uint64_t size, struct kd_error *error)
 {
     const size_t row = kd_table_row_bytes(table), room = part->head.size > row ? part->head.size : row;
+    bool is_ours = false;
     enum kd_status status = KD_OK;
     uint8_t *bytes = malloc(room);
     if (!bytes)
         return kd_error_set(error, KD_ENOMEM, "out of memory for a row");
-    if (size >= part->head.size)
-        KD_TRY(read_at(part, bytes, part->head.size, 0, error));
-    if (size < part->head.size || memcmp(bytes, part->head.data, part->head.size))
+    if (size >= part->head.size) {
+        part->rows = (size_t)((size - part->head.size) / row);
+        part->rows = part->rows < table->nodes ? part->rows : table->nodes;
+        for (size_t i = 0; i < part->rows; i++) {
+            KD_TRY(read_at(part, bytes, row, part->head.size + (uint64_t)i * row, error));
+            part->sum = kd_fits_sum(part->sum, bytes, row);
+        }
+        KD_TRY(begins_with(part, table, 0, bytes, &is_ours, error));
+        if (!is_ours && part->rows == table->nodes)
+            KD_TRY(begins_with(part, table, part->sum, bytes, &is_ours, error));
+    }
+    if (!is_ours)
         KD_TRY(kd_error_set(error, KD_EINVAL,
                             "%s belongs to another table or version; remove it, or write to another file", part->path));
-    part->rows = (size_t)((size - part->head.size) / row);
-    part->rows = part->rows < table->nodes ? part->rows : table->nodes;
     part->resumed = part->rows;
-    for (size_t i = 0; i < part->rows; i++) {
-        KD_TRY(read_at(part, bytes, row, part->head.size + (uint64_t)i * row, error));
-        part->sum = kd_fits_sum(part->sum, bytes, row);
-    }
 done:
     free(bytes);
     return status;
@@ -174,7 +199,7 @@ done:
 static enum kd_status open_part(struct part *part, const char *path, const struct kd_table *table,
                                 struct kd_error *error)
 {
-    struct stat info;
+    struct stat info, named;
     enum kd_status status;
     if (asprintf(&part->path, "%s.part", path) < 0) {
         part->path = NULL;
@@ -182,9 +207,12 @@ static enum kd_status open_part(struct part *part, const char *path, const struc
     }
     KD_TRY(kd_table_head(table, 0, &part->head, error));
     part->file = open(part->path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (part->file < 0 || fstat(part->file, &info))
+    if (part->file < 0)
         KD_TRY(kd_error_set(error, KD_EIO, "cannot open %s: %s", part->path, strerror(errno)));
     if (flock(part->file, LOCK_EX | LOCK_NB))
+        KD_TRY(kd_error_set(error, KD_EINVAL, "%s is in use by another process", part->path));
+    /* another process may have finished the table since the file was opened */
+    if (fstat(part->file, &info) || !info.st_nlink || stat(part->path, &named) || named.st_ino != info.st_ino)
         KD_TRY(kd_error_set(error, KD_EINVAL, "%s is in use by another process", part->path));
     if (info.st_size > 0)
         KD_TRY(resume(part, table, (uint64_t)info.st_size, error));

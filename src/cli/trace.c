@@ -112,13 +112,14 @@ enum kd_status kd_trace_text(const struct kd_described_steps *trace, struct kd_b
 {
     const struct kd_rays_steps *steps = trace->steps;
     const struct kd_rays_params *p = &steps->params;
-    const double numbers[] = { steps->alpha, steps->beta, p->spin, p->inclination_deg, p->r };
+    const double numbers[] = { steps->alpha, steps->beta, p->spin, p->inclination_deg, p->r, p->charge };
     char given[sizeof numbers / sizeof *numbers][KD_DECIMAL_SIZE];
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         kd_decimal_print(given[i], numbers[i]);
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "alpha %s, beta %s; spin %s, inclination %s, r %s; ", given[0], given[1], given[2],
-                            given[3], isinf(p->r) ? "infinity" : given[4]));
+    KD_TRY(kd_buffer_printf(out, "alpha %s, beta %s; spin %s%s%s, inclination %s, r %s; ", given[0], given[1], given[2],
+                            p->charge != 0 ? ", charge " : "", p->charge != 0 ? given[5] : "", given[3],
+                            isinf(p->r) ? "infinity" : given[4]));
     KD_TRY(kd_buffer_printf(out, "%s %s, %u steps a half period\n", kd_engine_name(p->engine),
                             kd_precision_name(p->precision), p->steps));
     KD_TRY(kd_ray_motion_text(&trace->motion, out));
@@ -161,6 +162,7 @@ enum kd_status kd_trace_json(const struct kd_described_steps *trace, struct kd_b
         { "steps_a_half_period", p->steps },
         { "orders", p->orders },
         { "spin", p->spin },
+        { "charge", p->charge },
         { "inclination_deg", p->inclination_deg },
         { "r", p->r }, /* not finite if the ray comes from infinity */
         { "alpha", steps->alpha },

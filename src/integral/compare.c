@@ -256,9 +256,10 @@ void kd_integral_sets_judge(struct kd_integral_answer *answer, double (*model)[2
     }
     columns[TOTAL][row] = total;
     columns[FLUX_JY][row] = found * (isfinite(answer->map_jy) ? answer->map_jy : 1);
-    columns[SIZE_OF][row] = solved->size * answer->set->size;
-    columns[ANGLE_OF][row] = solved->angle_deg + answer->set->angle_deg;
-    columns[EAST_OF][row] = solved->east * UAS_PER_RADIAN, columns[NORTH_OF][row] = solved->north * UAS_PER_RADIAN;
+    columns[SIZE_OF][row] = model ? solved->size * answer->set->size : NAN;
+    columns[ANGLE_OF][row] = model ? solved->angle_deg + answer->set->angle_deg : NAN;
+    columns[EAST_OF][row] = model ? solved->east * UAS_PER_RADIAN : NAN;
+    columns[NORTH_OF][row] = model ? solved->north * UAS_PER_RADIAN : NAN;
     columns[CONVERGED][row] = model && solved->converged[1] && solved->converged[2] && solved->converged[3];
 }
 

@@ -45,12 +45,10 @@ enum kd_status kd_integral_make_room(struct kd_integral_request *request, const 
     return kd_row_make_room(f, request, n, pointer, list, error);
 }
 
-enum kd_status kd_integral_request_read(struct kd_integral_request *request, const char *text, size_t length,
-                                        struct kd_error *error)
+/* Reads the members that are no fields. */
+static enum kd_status read_others(struct kd_integral_request *request, cJSON *root, struct kd_error *error)
 {
-    cJSON *root = NULL;
-    enum kd_status status;
-    KD_TRY(kd_tree_parse(text, length, KD_INTEGRAL_BODY_MAX, 4 * KD_INTEGRAL_LIST, &root, error));
+    enum kd_status status = KD_OK;
     if (request->what == KD_INTEGRAL_SPECTRUM && cJSON_HasObjectItem(root, "volume"))
         KD_TRY(kd_error_field(error, "/volume",
                               "volume cannot be a member here; it belongs to a scene, as in \"scene\": {\"volume\": "
@@ -58,6 +56,18 @@ enum kd_status kd_integral_request_read(struct kd_integral_request *request, con
     KD_TRY(kd_integral_read_scene(request, root, error));
     KD_TRY(kd_integral_read_observation(request, root, error));
     KD_TRY(kd_integral_read_sets(request, root, error));
+done:
+    return status;
+}
+
+enum kd_status kd_integral_request_read(struct kd_integral_request *request, const char *text, size_t length,
+                                        struct kd_error *error)
+{
+    cJSON *root = NULL;
+    enum kd_status status;
+    KD_TRY(kd_tree_parse(text, length, KD_INTEGRAL_BODY_MAX, 4 * KD_INTEGRAL_LIST, &root, error));
+    if (cJSON_IsObject(root))
+        KD_TRY(read_others(request, root, error));
     const struct kd_document document = kd_integral_document(request->what);
     KD_TRY(kd_document_read(&document, request, root, "", &request->seen, error));
 done:

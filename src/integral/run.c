@@ -136,8 +136,10 @@ static void tell_sets(struct kd_integral_run *run, const struct kd_scene *scene,
 {
     double *values = run->answer.values;
     const double before = values[BORDER], all = values[UNDEFINED];
-    if (run->is_dark)
+    if (run->is_dark) {
+        values[UNDEFINED] += undefined;
         return;
+    }
     tell_map(run, scene, sum, undefined);
     values[PICTURES] = run->answer.request->sets->pictures;
     values[BORDER] = fmax(values[BORDER], before), values[UNDEFINED] += all;
@@ -203,14 +205,20 @@ static enum kd_status take_flux(struct kd_integral_run *run, struct kd_buffer *f
     return KD_OK;
 }
 
+static void tell_once(struct kd_integral_answer *answer, const char *text)
+{
+    for (size_t i = 0; i < answer->n_told; i++)
+        if (!strcmp(answer->told[i], text))
+            return;
+    if (answer->n_told < sizeof answer->told / sizeof *answer->told)
+        answer->told[answer->n_told++] = text;
+}
+
 enum kd_status kd_integral_run_take(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene,
                                     const struct kd_plan *plan, struct kd_error *error)
 {
-    if (!run->picture) {
-        run->answer.n_told = plan->n_approximations;
-        for (size_t i = 0; i < plan->n_approximations; i++)
-            run->answer.told[i] = plan->approximations[i].text;
-    }
+    for (size_t i = 0; i < plan->n_approximations; i++) /* pictures of sets may have different ones */
+        tell_once(&run->answer, plan->approximations[i].text);
     return run->answer.request->what == KD_INTEGRAL_VOLUME ? take_flux(run, file, scene, error)
                                                            : begin_map(run, file, scene, error);
 }
@@ -277,6 +285,8 @@ static bool step_sets(struct kd_integral_run *run, double until_ms)
     const struct kd_integral_sets *sets = r->sets;
     for (; run->set < sets->first[run->picture + 1]; run->set++, run->baseline = 0) {
         run->answer.set = &sets->at[run->set];
+        if (!run->baseline)
+            run->answer.solved = KD_ALIGNMENT_NONE;
         if (kd_clock_ms() > until_ms)
             return true;
         if (kd_integral_is_searched(r) && !run->is_dark)

@@ -175,17 +175,24 @@ static enum kd_status check_orders(const struct kd_integral_request *r, struct k
     return KD_OK;
 }
 
+enum kd_status kd_integral_check_flat(const struct kd_scene *scene, struct kd_error *error)
+{
+    if (kd_wcs_of(scene).far)
+        return KD_OK;
+    return kd_error_field(error, "/scene/camera",
+                          "visibilities need a flat map seen from infinity: camera.r must be \"infinity\", and "
+                          "camera.projection auto or plane");
+}
+
 enum kd_status kd_integral_check_map(struct kd_integral_request *r, struct kd_error *error)
 {
-    enum kd_status status = r->scene ? KD_OK : kd_integral_make_scene(r, error);
-    if (status)
-        return status;
-    if (!kd_wcs_of(r->scene).far)
-        return kd_error_field(error, "/scene/camera",
-                              "visibilities need a flat map seen from infinity: camera.r must be \"infinity\", and "
-                              "camera.projection auto or plane");
+    enum kd_status status = KD_OK;
+    if (!r->scene)
+        KD_TRY(kd_integral_make_scene(r, error));
+    KD_TRY(kd_integral_check_flat(r->scene, error));
     r->pixels = r->pixels ? r->pixels : 256;
-    return KD_OK;
+done:
+    return status;
 }
 
 enum kd_status kd_integral_check_visibility(struct kd_integral_request *r, struct kd_error *error)

@@ -115,6 +115,9 @@ static enum kd_status make_set(const struct kd_integral_request *r, const cJSON 
         return kd_member_refuse(given, "", "an object", error);
     for (const cJSON *item = given->child; item; item = item->next) {
         bool is_own;
+        for (const cJSON *before = given->child; before != item; before = before->next)
+            if (!strcmp(before->string, item->string) || kd_scene_same_path(before->string, item->string))
+                KD_TRY(kd_error_field(error, "", "%.40s is given twice", item->string));
         KD_TRY(check_solved(r, item, error));
         KD_TRY(read_own(set, item, &is_own, error));
         if (!is_own)
@@ -123,6 +126,7 @@ static enum kd_status make_set(const struct kd_integral_request *r, const cJSON 
     if (r->assets)
         KD_TRY(kd_scene_resolve(&set->scene, r->assets, error));
     KD_TRY(kd_scene_validate(&set->scene, error));
+    KD_TRY(kd_integral_check_flat(&set->scene, error));
     if (isnan(set->flux_jy))
         set->flux_jy = r->flux_jy;
     KD_TRY(kd_plan_lens_group(&set->scene, &set->group));

@@ -129,6 +129,8 @@ static enum kd_status read_values(struct kd_table_axis *axis, const char *text, 
             KD_TRY(kd_error_field(error, pointer,
                                   "the axis %s has \"%.60s\"; a range must be START:STOP/COUNT with a COUNT of 2 to %d",
                                   name, text, KD_TABLE_VALUES));
+        if (axis->log && !(last > 0))
+            KD_TRY(add_value(axis, last, error));
         for (int i = 1; i < (int)count; i++) {
             const double part = i / (count - 1);
             KD_TRY(add_value(axis,
@@ -232,10 +234,12 @@ static enum kd_status node_of(const struct kd_table *table, size_t node, struct 
     return kd_integral_request_check(out, error);
 }
 
+/* Fields that make bins of equal widths, instead of edges. */
+static const char *const even[] = { "energy_min", "energy_max", "bins" };
+
 /* The default energies are keV about the line of iron, from an energy above 0. */
 static enum kd_status set_energies(struct kd_table *table, struct kd_error *error)
 {
-    static const char *const even[] = { "energy_min", "energy_max", "bins" };
     struct kd_integral_request *base = &table->base;
     if (base->energy)
         return kd_error_field(error, "/counts", "counts is energy; it must be photons, which an additive table has");
@@ -249,7 +253,7 @@ static enum kd_status set_energies(struct kd_table *table, struct kd_error *erro
     if (status)
         return status;
     base->bins = first.bins;
-    for (size_t i = 0; i < 3; i++)
+    for (size_t i = 0; i < sizeof even / sizeof *even; i++)
         base->seen &= ~bit_of(kd_integral_field_named(base, even[i]));
     for (size_t i = 0; i <= base->bins; i++)
         base->edges.at[i] = (double)(float)base->edges.at[i];
@@ -373,20 +377,35 @@ void kd_table_axes_json(const struct kd_table *table, struct kd_json *json, cons
     kd_json_end(json);
 }
 
-/* The request of the table as JSON: the fields with one value, and the axes. */
+/* The request of the table as JSON: the fields that were given one value, the energies, and the axes. The others have
+ * the defaults of kerrd line, which accepts this document without the axes. */
 static enum kd_status put_request(const struct kd_table *table, struct kd_buffer *cards)
 {
     struct kd_buffer text = { 0 };
     struct kd_json json = kd_json_begin(&text);
+    const bool edges = kd_integral_given(&table->base, "edges"); /* instead of even bins */
     kd_json_object(&json, NULL);
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_row *f = &kd_integral_fields[i];
-        bool varies = !(f->of & 1u << KD_INTEGRAL_LINE) || f->kind == KD_KIND_LIST;
+        bool is_even = !strcmp(f->name, "rest_energy"); /* a table has its own default */
+        for (size_t k = 0; !edges && k < sizeof even / sizeof *even; k++)
+            is_even = is_even || !strcmp(f->name, even[k]);
+        bool varies =
+            !(f->of & 1u << KD_INTEGRAL_LINE) || f->kind == KD_KIND_LIST || !(is_even || table->base.seen & bit_of(f));
         for (size_t k = 0; k < table->n_axes; k++)
             varies = varies || table->axes[k].field == f;
-        if (!varies)
+        if (!varies && f->kind == KD_KIND_REAL && f->words &&
+            isnan(*(const double *)(const void *)((const char *)&table->base + f->offset)))
+            kd_json_string(&json, f->name, f->words);
+        else if (!varies)
             kd_row_write(&json, f, &table->base);
     }
+    if (edges)
+        kd_json_array(&json, "edges");
+    for (size_t i = 0; edges && i < table->base.edges.n; i++)
+        kd_json_number(&json, NULL, table->base.edges.at[i]);
+    if (edges)
+        kd_json_end(&json);
     kd_table_axes_json(table, &json, "axes");
     kd_json_end(&json);
     enum kd_status status = kd_json_finish(&json);

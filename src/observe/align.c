@@ -161,11 +161,12 @@ static bool refine(struct search *s, const struct kd_align_vertex *from, const i
                    const double step[2])
 {
     struct kd_align_vertex v[3] = { *from, *from, *from };
+    const unsigned end = s->best.evaluations + 2 * SIMPLEX_STEPS;
     for (int i = 1; i <= n; i++) {
         v[i].at[dimension[i - 1]] += step[dimension[i - 1]] / 2;
         v[i].value = try_at(s, v[i].at);
     }
-    for (int i = 0; i < SIMPLEX_STEPS; i++) {
+    while (s->best.evaluations + 2 + (unsigned)n <= end) { /* a step has at most 2 + n evaluations */
         qsort(v, (size_t)n + 1, sizeof *v, by_value);
         if (v[n].value - v[0].value <= SPREAD * (1 + fabs(v[0].value)) && fabs(v[n].at[0] - v[0].at[0]) < 1e-5 &&
             fabs(v[n].at[1] - v[0].at[1]) < 1e-3)

@@ -167,7 +167,7 @@ double kd_comparison_scale(const struct kd_comparison *c, const double (*model)[
         const double m = model_of(row, model), weight = 1 / (row->error * row->error);
         of_data += row->data * m * weight, of_model += m * m * weight;
     }
-    return of_model > 0 ? of_data / of_model : NAN;
+    return of_model > 0 && of_data > 0 ? of_data / of_model : NAN;
 }
 
 double kd_comparison_residual(const struct kd_comparison_row *row)

@@ -22,7 +22,8 @@
 #define OUTPUTS(O) \
     O(proper_time_to_horizon, .unit = "M", .help = "proper time from r to the outer horizon; null inside it") \
     O(proper_time_to_end, .unit = "M", \
-      .help = "proper time from r to the end of the model: the inner horizon, or without spin the singularity") \
+      .help = \
+          "proper time from r to the end of the model: the inner horizon, or without spin and charge the singularity") \
     O(proper_time_to_horizon_s, .unit = "s", .help = "the same in seconds") \
     O(proper_time_to_end_s, .unit = "s", .help = "the same in seconds") \
     O(velocity, .unit = "1", \

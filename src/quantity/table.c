@@ -62,7 +62,7 @@ enum kd_status kd_quantity_hole_exists(double spin, double charge, struct kd_err
     const struct kd_hole hole = kd_hole_charged(spin, charge);
     if (kd_hole_exists(&hole))
         return KD_OK;
-    return kd_quantity_outside(error, "charge", charge, "too much for this spin; it must be below %.9g M",
+    return kd_quantity_outside(error, "charge", charge, "too much for this spin; its magnitude must be below %.9g M",
                                sqrt((1 - spin) * (1 + spin)));
 }
 

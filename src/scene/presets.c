@@ -39,8 +39,9 @@ const struct kd_preset kd_presets[] = {
       "\"camera\":{\"inclination_deg\":80},"
       "\"image\":{\"samples\":2}}" },
     { "reissner-nordstrom", "A charged hole",
-      "A hole without spin that is charged almost to the limit: the shadow is a fifth smaller than without charge, and "
-      "light circles at 2 M instead of 3 M",
+      "A hole without spin that is charged almost to the limit: the shadow is nearly a quarter narrower than without "
+      "charge, "
+      "and light circles at 2 M instead of 3 M",
       true,
       "{\"spacetime\":{\"spin\":0,\"charge\":0.999},"
       "\"camera\":{\"inclination_deg\":80,\"field_m\":36},"

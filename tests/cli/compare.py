@@ -149,6 +149,16 @@ class Compare(Case):
             compared.CSV,
         )
 
+    def test_a_dark_set(self):
+        """A set without light has no numbers, not those of the set before it."""
+        sets = [{"spacetime.spin": 0.5}, {"disk.model": "none"}, {"spacetime.spin": 0.7}]
+        request = {"preset": "m87", "pixels": 32, "average_s": 600, "solve": ["size"], "sets": sets}
+        with open(self.path("dark.json"), "w", encoding="utf-8") as file:
+            json.dump(request, file)
+        columns = json.loads(self.good("compare", self.path("dark.json"), "--observation", compared.CSV))["columns"]
+        for name in "total", "size", "position_angle_deg", "shift_east_uas", "flux_jy":
+            self.assertEqual([number is None for number in columns[name]], [False, True, False], name)
+
     def test_scattering(self):
         """The kernel multiplies each amplitude of the model, and longer baselines more. It leaves closure phases."""
         options = ["--observation", compared.UVFITS, "-p", "m87", "--pixels", "64", "--average-s", "600"]

@@ -154,7 +154,7 @@ class Integrals(Case):
             (["--height", "9"], "belongs to emissivity lamppost"),
             (["absent.json"], "No such file"),
             (["a.json", "b.json"], "one file at a time"),
-            (["-f", "png"], "json, csv or npy"),
+            (["-f", "png"], "json, csv, npy or npz"),
         ):
             self.bad(2, words, "line", *args)
         self.bad(2, "standard input: ", "line", "-", stdin=b"{")

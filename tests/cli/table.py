@@ -136,6 +136,23 @@ class Table(support.Case):
         self.assertEqual(self.read("a.fits"), self.read("whole.fits"))
         self.opened("a.fits")
 
+    def test_complete_but_for_its_name(self):
+        """A table whose last step failed gets its name by the same command."""
+        self.good("table", *SMALL, "-o", self.path("a.fits"))
+        whole = self.read("a.fits")
+        os.rename(self.path("a.fits"), self.path("b.fits.part"))
+        self.good("table", *SMALL, "-o", self.path("b.fits"))
+        self.assertEqual(self.read("b.fits"), whole)
+
+    def test_the_request_can_be_asked(self):
+        """KDTABLE is a request of kerrd line but for its axes, with edges or without."""
+        for extra in [], ["-s", "edges=1,2,4,8"]:
+            self.good("table", *SMALL, *extra, "-o", self.path("a.fits"))
+            asked = json.loads(self.opened("a.fits")[0].header["KDTABLE"])
+            del asked["axes"]
+            line = self.good("line", "-", stdin=json.dumps(asked).encode())
+            self.assertEqual(len(json.loads(line)["columns"]["share"]), 3 if extra else 500)
+
     def test_of_another_table(self):
         self.write("a.fits.part", "SIMPLE")
         self.bad(2, "belongs to another table or version", "table", *SMALL, "-o", self.path("a.fits"))

@@ -430,6 +430,14 @@ TOGETHER = [
         ),
     ),
     (
+        "POST /v1/lessons|PATCH /v1/lessons/{id}",
+        (
+            "session is %s; it must be the id of an open session",
+            "question.right is %d; it must be 0 to %u, the number of a choice",
+        ),
+    ),
+    ("POST /v1/lessons/{id}/hands", ("choice is %u; it must be 0 to %u",)),
+    (
         "POST /v1/sessions/{id}/ringdown",
         (
             "motion.time_rate is %s; for a strike it must be more than 0 M per second, because the ringing evolves in coordinate time",

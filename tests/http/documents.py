@@ -47,6 +47,9 @@ if not (ROOT / "venv-ehtim/bin/python").exists():
     LEFT_OUT["venv-ehtim/bin/python "] = "ehtim is not installed; scripts/matrix ehtim runs it"
 # Commands that take minutes. They are started, which tests their arguments, and ended after some seconds.
 BEGUN = {
+    "kerrd table -o": "14 309 lines; tests/cli/table.py has small tables",
+    "kerrd table -x index": "300 000 of them",
+    "kerrd table -s": "lines of a lamp",
     "kerrd playground --preset disruption --time 3200": "161 pictures of a torn star",
     "kerrd playground torn.json --set h_max=10000": "two million M",
     "kerrd bench accuracy": "every engine is measured; tests/cli/bench.py does",
@@ -170,6 +173,9 @@ class Documents(unittest.TestCase):
 
     def test_comparing(self):
         self.made("docs/comparing.md", 3, "chi2.json")
+
+    def test_xspec(self):
+        self.run_all("docs/xspec.md", 1)
 
     def test_importing(self):
         self.made("docs/importing.md", 1, "scene.json", "disk.png")

@@ -705,6 +705,11 @@ class Integrals(daemon.Case):
         self.assertEqual(len(many["columns"]["total"]), 3)
         self.assertEqual((many["values"]["pictures"], many["columns"]["size"]), (2, [1, 1, 1.5]))
         self.assertNotIn("chi2", many)
+        many = self.post("compare", {**sets, "sets": [{}, {"spacetime.charge": 0.3}]}).json()
+        self.assertTrue(any(text.startswith("hole: charged") for text in many["approximations"]))
+        twice = json.dumps({**sets, "sets": []})[:-2] + '{"spacetime.spin": 0, "spacetime.spin": 0.5}]}'
+        problem = self.post("compare", twice).json()
+        self.assertIn("spacetime.spin is given twice", problem["detail"])
         for change, pointer, words in (
             ({"sets": []}, "/sets", "it must have 1 to 4096"),
             ({"sets": [{}] * 4097}, "/sets", "it must have 1 to 4096"),
@@ -717,6 +722,12 @@ class Integrals(daemon.Case):
             ({"sets": [{"size": 0}]}, "/sets/0", "0.001 to 1000"),
             ({"sets": [{"size": 1}], "solve": ["size"]}, "/sets/0", "which would replace it"),
             ({"sets": [{}], "check": "finer"}, "/check", "with sets it must be none"),
+            ({"sets": [{"camera.r": 50}]}, "/sets/0", "a flat map seen from infinity"),
+            (
+                {"sets": [{"camera.projection": "ring", "style.beam_uas": 0}]},
+                "/sets/0",
+                "a flat map seen from infinity",
+            ),
         ):
             with self.subTest(change):
                 problem = self.post("compare", {**sets, **change}).json()

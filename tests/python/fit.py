@@ -23,7 +23,7 @@ except ImportError as missing:
     print(f"skipped: {missing}; scripts/setup --browser installs it")
     sys.exit(77)
 import kerrd
-from kerrd.fit import Fit, Maximum
+from kerrd.fit import Fit, Maximum, Posterior
 
 if subprocess.run([KERRD, "doctor"], capture_output=True, timeout=60).returncode:
     print("skipped: there is no Vulkan device")
@@ -156,13 +156,34 @@ class Fits(unittest.TestCase):
     def test_refused(self):
         for parameters, more, words in (
             ({}, {}, "at least one name"),
-            ({"size": (2, 1)}, {}, "two growing numbers"),
-            ({"size": (1, np.inf)}, {}, "two growing numbers"),
+            ({"size": (2, 1)}, {}, "the first below the second"),
+            ({"size": (1, np.inf)}, {}, "two finite numbers"),
+            ({"size": 1}, {}, "bounds of size are 1; they must be two finite numbers"),
+            ({"size": ("a", "b")}, {}, "two finite numbers"),
+            ({"size": (1, 2)}, {"products": "amplitude"}, "products is 'amplitude'; it must be a list"),
+            ({"size": (1, 2)}, {"solve": "flux"}, "solve is 'flux'; it must be a list"),
             ({"size": (1, 2)}, {"products": ["amplitude", "log_closure_amplitude"]}, "same data twice"),
             ({"size": (1, 2)}, {"products": ["amplitude", "visibility"]}, "same data twice"),
         ):
             with self.assertRaisesRegex(ValueError, words):
                 Fit(self.hole, self.night, parameters, SCENE, **more)
+        with self.assertRaisesRegex(TypeError, "must be a kerrd.Client"):
+            Fit(kerrd.AsyncClient("http://127.0.0.1:1"), self.night, BOUNDS)
+        with self.assertRaisesRegex(ValueError, "form is 'fits'; it must be 'uvfits' or 'csv'"):
+            self.hole.observe_file(NIGHT, SCENE, form="fits")
+        fit, damaged = self.fit(), pathlib.Path(self.folder.name) / "damaged.npz"
+        damaged.write_bytes(b"PK\x03\x04 and no more")
+        for asked, words in (
+            ({"steps": 0}, "steps is 0; it must be a whole number of at least 1"),
+            ({"steps": 1, "every": 0}, "every is 0; it must be"),
+            ({"steps": 1, "walkers": 5}, "walkers is 5; it must be a whole number of at least 6"),
+            ({"steps": 1, "start": {"size": 1.0}}, "start lacks camera.inclination_deg, position_angle_deg"),
+            ({"steps": 1, "file": damaged}, "damaged.npz is not a chain of kerrd.fit, or is damaged"),
+        ):
+            with self.assertRaisesRegex(ValueError, words):
+                fit.posterior(**asked)
+        with self.assertRaisesRegex(ValueError, "no parameter spin; there are size"):
+            Posterior(("size",), np.zeros((2, 2, 1)), np.zeros((2, 2)), 0).interval("spin")
         fit = Fit(self.hole, self.night, {"spacetime.spinn": (0, 1)}, SCENE, **SETTINGS)
         with self.assertRaisesRegex(kerrd.Problem, "set 0: .*spinn"):
             fit.chi2([[0.5]])

@@ -509,7 +509,6 @@ static void test_files_that_are_cut(void **state)
     }
 }
 
-/* Bytes changed at random. */
 /* Replaces all visibilities of a file by 0.1 + 0.2 i, and compares what is told of them with the file. */
 static void simulate(const struct kd_observation *o, uint8_t *file, size_t size, uint64_t seed, bool exact)
 {

@@ -271,7 +271,7 @@ static const struct kd_sentence sentences[] = {
     { "bodies.unlit", "bodies: no light of the disk falls on them", dark },
     { "bodies.lit",
       "bodies: they scatter light of the disk isotropically; this light comes along straight lines from 16 rings of 24 "
-      "points of an unobscured smooth disk, reduced to three moments of its direction",
+      "points of an unobscured smooth disk without limb darkening, reduced to three moments of its direction",
       lit_ones },
     { "bodies.large",
       "bodies: a body whose radius exceeds a tenth of its distance from the hole is drawn in the flat space of its "

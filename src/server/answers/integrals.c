@@ -32,6 +32,7 @@ struct job {
     struct kd_integral_run run;
     struct kd_render_job picture; /* it is in the render queue in the stage RENDERS */
     struct kd_buffer text;
+    double planned_ms; /* of the pictures up to the present one */
 };
 
 static void finish(struct kd_task *task)
@@ -128,6 +129,14 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
     };
     memcpy(job->picture.claim.client, request->client, sizeof job->picture.claim.client);
     KD_TRY(kd_integral_plan(&job->request, &job->picture.scene, &capacity, &job->picture.plan, error));
+    job->planned_ms += job->picture.plan.estimate_ms;
+    /* begin() estimated all sets by their first picture, but a set may change what a picture costs. */
+    if (job->request.what == KD_INTEGRAL_SETS && job->planned_ms > request->server->longest_s * 1e3)
+        KD_TRY(
+            kd_error_set(error, KD_ETOOBIG,
+                         "the pictures up to this one would take about %.0f s; it must be at most %u s: reduce pixels, "
+                         "the number of sets, or the accuracy",
+                         job->planned_ms * 1e-3, request->server->longest_s));
     kd_render_queue_push(renders, &job->picture);
 done:
     kd_integral_name_set(&job->request, job->run.picture, status, error);

@@ -1,5 +1,6 @@
 #include "server/openapi/lessons.h"
 
+#include "base/schema.h"
 #include "server/lesson/lesson.h"
 #include "server/http/request.h"
 #include "server/openapi/media.h"
@@ -8,7 +9,10 @@
 #define ID "{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{16}$\"}"
 #define CHOICE "{\"type\":\"integer\",\"minimum\":0,\"maximum\":5}"
 #define CHOICE_OR_NULL "{\"type\":[\"integer\",\"null\"],\"minimum\":0,\"maximum\":5}"
-#define TEXT(least, most) "{\"type\":\"string\",\"minLength\":" #least ",\"maxLength\":" #most "}"
+/* without control characters, as kd_utf8_is_control has them */
+#define TEXT(least, most) \
+    "{\"type\":\"string\",\"minLength\":" #least ",\"maxLength\":" #most \
+    ",\"pattern\":\"^[^\\u0000-\\u001f\\u007f-\\u009f]*$\"}"
 
 _Static_assert(KD_LESSON_CHOICES == 6 && KD_LESSON_TEXT == 600 && KD_LESSON_CHOICE == 200 && KD_LESSON_LINK == 8000 &&
                    KD_LESSON_ABOUT == 1000 && KD_LESSON_NAME == 80,
@@ -17,6 +21,12 @@ _Static_assert(KD_LESSON_CHOICES == 6 && KD_LESSON_TEXT == 600 && KD_LESSON_CHOI
 #define QUESTION_MEMBERS \
     "\"text\":" TEXT(1, 600) ",\"choices\":{\"type\":\"array\",\"minItems\":2,\"maxItems\":6,\"items\":" TEXT( \
         1, 200) "},\"right\":" CHOICE_OR_NULL
+
+#define MEMBERS \
+    "\"additionalProperties\":false,\"properties\":{\"session\":" ID ",\"link\":" TEXT(0, 8000) ",\"about\":" TEXT( \
+        0, 1000) ",\"open\":{\"type\":\"boolean\",\"description\":\"whether the question accepts answers\"}," \
+                 "\"question\":{\"type\":[\"object\",\"null\"],\"additionalProperties\":false,\"required\":[\"text\"," \
+                 "\"choices\"],\"properties\":{" QUESTION_MEMBERS "}}}"
 
 void kd_openapi_lesson_schema(struct kd_json *json)
 {
@@ -45,22 +55,18 @@ void kd_openapi_lesson_schema(struct kd_json *json)
     KD_OPENAPI_STRICT(json, "LessonQuestion", question);
     KD_OPENAPI_STRICT(json, "LessonHand", hand);
     KD_OPENAPI_STRICT(json, "Lesson", lesson);
+    kd_schema_text(json, "NewLesson", "{\"type\":\"object\",\"required\":[\"session\"]," MEMBERS "}");
+    kd_schema_text(json, "LessonChange", "{\"type\":\"object\"," MEMBERS "}");
 }
-
-#define MEMBERS \
-    "\"additionalProperties\":false,\"properties\":{\"session\":" ID ",\"link\":" TEXT(0, 8000) ",\"about\":" TEXT( \
-        0, 1000) ",\"open\":{\"type\":\"boolean\",\"description\":\"whether the question accepts answers\"}," \
-                 "\"question\":{\"type\":[\"object\",\"null\"],\"additionalProperties\":false,\"required\":[\"text\"," \
-                 "\"choices\"],\"properties\":{" QUESTION_MEMBERS "}}}"
 
 void kd_openapi_lesson_body(struct kd_json *json, bool patch)
 {
-    static const char made[] = "{\"type\":\"object\",\"required\":[\"session\"]," MEMBERS "}";
-    static const char changed[] = "{\"type\":\"object\"," MEMBERS "}";
+    static const char made[] = KD_SCHEMA_REF("NewLesson"), changed[] = KD_SCHEMA_REF("LessonChange");
+    kd_openapi_body_begin(json);
+    kd_openapi_media(json, "application/json", patch ? changed : made, patch ? sizeof changed - 1 : sizeof made - 1);
     if (patch)
-        kd_openapi_body(json, changed, sizeof changed - 1, KD_PATCH_TYPE);
-    else
-        kd_openapi_body(json, made, sizeof made - 1, NULL);
+        kd_openapi_media(json, KD_PATCH_TYPE, changed, sizeof changed - 1);
+    kd_openapi_body_end(json);
 }
 
 void kd_openapi_hand_body(struct kd_json *json)

@@ -1,10 +1,10 @@
 /* /v1/lessons in openapi.json. */
-#ifndef KD_SERVER_OPENAPI_CLASSES_H
-#define KD_SERVER_OPENAPI_CLASSES_H
+#ifndef KD_SERVER_OPENAPI_LESSONS_H
+#define KD_SERVER_OPENAPI_LESSONS_H
 
 #include "base/json.h"
 
-/* Writes Class and its parts, members of components.schemas. */
+/* Writes Lesson and its parts, members of components.schemas. */
 void kd_openapi_lesson_schema(struct kd_json *json);
 void kd_openapi_lesson_body(struct kd_json *json, bool patch);
 void kd_openapi_hand_body(struct kd_json *json);

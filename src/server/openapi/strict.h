@@ -4,7 +4,7 @@
 
 #include "base/schema.h"
 
-/* Pattern of a decimal number (scene/number.h). */
+/* Pattern of a decimal number (document/number.h). */
 #define KD_OPENAPI_DECIMAL "-?((0|[1-9][0-9]*)([.][0-9]*)?|[.][0-9]+)([eE][-+]?[0-9]+)?"
 
 #define kd_openapi_member kd_schema_member

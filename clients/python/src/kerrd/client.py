@@ -355,6 +355,8 @@ class Client:
         **settings: Any,
     ) -> bytes:
         """The same as the bytes of a file: uvfits, for which the observation must be uvfits too, or the EHT's CSV."""
+        if form not in ("uvfits", "csv"):
+            raise ValueError(f"form is {form!r}; it must be 'uvfits' or 'csv'")
         document = self._observed(observation, scene, settings)
         kind = "application/x-uvfits" if form == "uvfits" else "text/csv"
         return self._run(calls.observe_file(document, kind))

@@ -18,6 +18,7 @@ import json
 import os
 import pathlib
 import sys
+import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -58,9 +59,9 @@ def _teller(progress: bool | Progress) -> Progress:
 
 @dataclass(frozen=True)
 class Maximum:
-    """The best parameters: values by name, chi^2 of all data, their number, whether the search's steps became
-    small, and the names of parameters within a thousandth of their ranges from a bound, beyond which the best point
-    may be."""
+    """The best parameters. values: by name. chi2: of all data; data: their number. converged: whether the search's
+    steps became small. at_bounds: parameters closer to a bound than a thousandth of their range. For these the least
+    chi^2 may lie beyond the bound."""
 
     values: dict[str, float]
     chi2: float
@@ -85,12 +86,15 @@ class Posterior:
 
     def interval(self, name: str, share: float = 0.95, burn: float = 0.5) -> tuple[float, float, float]:
         """Lower end, median and upper end of the central interval that holds this share of the samples."""
+        if name not in self.names:
+            raise ValueError(f"there is no parameter {name}; there are {', '.join(self.names)}")
         column = self.samples(burn)[:, self.names.index(name)]
         low, middle, high = np.quantile(column, [(1 - share) / 2, 0.5, (1 + share) / 2])
         return float(low), float(middle), float(high)
 
     def holds(self, log_probability: float, share: float = 0.95, burn: float = 0.5) -> bool:
-        """Whether a point of this log probability is in the region of highest density that has this share."""
+        """Whether the region of highest density with this share of the samples contains a point of this log
+        probability."""
         seen = self.log_probability[round(burn * len(self.chain)) :]
         return bool(log_probability >= np.quantile(seen, 1 - share))
 
@@ -98,6 +102,39 @@ class Posterior:
         """Autocorrelation time of each parameter, in steps. A chain should have at least 50 times as many steps."""
         times = _needs("emcee.autocorr", "steps_apart").integrated_time(self.chain, quiet=True)
         return np.asarray(times, dtype=np.float64)
+
+
+def _bounds_of(name: str, given: object) -> tuple[float, float]:
+    """The bounds of a parameter, checked."""
+    try:
+        low, high = (float(bound) for bound in given)  # type: ignore[attr-defined]
+    except (TypeError, ValueError):
+        low = high = np.nan
+    if not (np.isfinite(low) and np.isfinite(high) and low < high):
+        raise ValueError(
+            f"the bounds of {name} are {given!r}; they must be two finite numbers, the first below the second"
+        )
+    return low, high
+
+
+def _kept(path: pathlib.Path) -> dict[str, NDArray[Any]]:
+    """What a chain's file has."""
+    try:
+        with np.load(path) as file:
+            return {name: file[name] for name in ("fit", "chain", "log_probability", "accepted", "random")}
+    except (KeyError, EOFError, OSError, ValueError, zipfile.BadZipFile) as fault:
+        raise ValueError(f"{path} is not a chain of kerrd.fit, or is damaged: {fault}") from fault
+
+
+def _words(name: str, given: Sequence[str]) -> tuple[str, ...]:
+    if isinstance(given, str):
+        raise ValueError(f"{name} is {given!r}; it must be a list of words, such as [{given!r}]")
+    return tuple(given)
+
+
+def _at_least(name: str, given: object, least: int) -> None:
+    if not isinstance(given, int) or isinstance(given, bool) or given < least:
+        raise ValueError(f"{name} is {given!r}; it must be a whole number of at least {least}")
 
 
 class Fit:
@@ -125,8 +162,11 @@ class Fit:
         solve: Sequence[str] | None = None,
         **settings: Any,
     ) -> None:
-        self.client, self.parameters, self.scene, self.preset = client, dict(parameters), scene, preset
-        self.products, self.settings = tuple(products), settings
+        if not isinstance(client, Client):
+            raise TypeError(f"client is {client!r}; it must be a kerrd.Client")
+        self.client, self.scene, self.preset = client, scene, preset
+        self.parameters = {name: _bounds_of(name, bounds) for name, bounds in parameters.items()}
+        self.products, self.settings = _words("products", products), settings
         twice = {"amplitude", "log_closure_amplitude"} <= set(products) or (
             "visibility" in products and len(products) > 1
         )
@@ -134,11 +174,8 @@ class Fit:
             raise ValueError(f"products are {', '.join(products)}; they must not contain the same data twice")
         if not parameters:
             raise ValueError("parameters is empty; it must have at least one name with its bounds")
-        for name, (low, high) in self.parameters.items():
-            if not (np.isfinite(low) and np.isfinite(high) and low < high):
-                raise ValueError(f"the bounds of {name} are {low} and {high}; they must be two growing numbers")
         free = {"amplitude", "visibility"} & set(products) and not {"flux_jy"} & (set(parameters) | set(settings))
-        self.solve = tuple(solve) if solve is not None else (("flux",) if free else ())
+        self.solve = _words("solve", solve) if solve is not None else (("flux",) if free else ())
         if isinstance(observation, str) and calls.is_hash(observation):
             self.observation = observation
         else:
@@ -259,6 +296,9 @@ class Fit:
         if start is None:
             return random.uniform(low, high, (walkers, len(self.names)))
         values = start.values if isinstance(start, Maximum) else start
+        lacking = [name for name in self.names if name not in values]
+        if lacking:
+            raise ValueError(f"start lacks {', '.join(lacking)}; it must have each parameter of the fit")
         centre = np.array([values[name] for name in self.names])
         return np.clip(
             centre + 0.02 * (high - low) * random.standard_normal((walkers, len(low))),
@@ -285,21 +325,24 @@ class Fit:
         progress: as for maximum(). ImportError without emcee.
         """
         emcee = _needs("emcee", "Fit.posterior")
-        walkers = walkers or max(16, 4 * len(self.names))
+        walkers = max(16, 4 * len(self.names)) if walkers is None else walkers
+        _at_least("steps", steps, 1)
+        _at_least("every", every, 1)
+        _at_least("walkers", walkers, 2 * len(self.names))
         path, described = pathlib.Path(file) if file is not None else None, self._described(walkers, seed)
         chain: list[NDArray[np.float64]] = []
         logs: list[NDArray[np.float64]] = []
         accepted, state = 0, None
         tell = _teller(progress)
         if path is not None and path.exists():
-            with np.load(path) as kept:
-                if str(kept["fit"]) != described:
-                    raise ValueError(f"{path} is of another fit; it must be removed, or file be another one")
-                chain, logs, accepted = list(kept["chain"]), list(kept["log_probability"]), int(kept["accepted"])
-                name, keys, *numbers = json.loads(str(kept["random"]))
-                state = emcee.State(
-                    kept["chain"][-1], log_prob=kept["log_probability"][-1], random_state=(name, keys, *numbers)
-                )
+            kept = _kept(path)
+            if str(kept["fit"]) != described:
+                raise ValueError(f"{path} is of another fit; it must be removed, or file be another one")
+            chain, logs, accepted = list(kept["chain"]), list(kept["log_probability"]), int(kept["accepted"])
+            name, keys, *numbers = json.loads(str(kept["random"]))
+            state = emcee.State(
+                kept["chain"][-1], log_prob=kept["log_probability"][-1], random_state=(name, keys, *numbers)
+            )
         sampler = emcee.EnsembleSampler(walkers, len(self.names), self.log_probability, vectorize=True)
         if state is None:
             first = np.random.RandomState(seed).get_state()
