@@ -36,6 +36,10 @@ const refusals = [
   ],
   ['{} is {}; it must be a list of {} to {} choices', '{} è {}; deve essere un elenco da {} a {} risposte'],
   ['{} is {}; it must be the id of an open session', '{} è {}; deve essere il nome di una sessione aperta'],
+  [
+    'a request that changes or stores something needs a token with the role render; yours has the role view',
+    'una richiesta che cambia o conserva qualcosa vuole un token con il ruolo render; il tuo ha il ruolo view',
+  ],
   ['too many open lessons (limit {})', 'troppe lezioni aperte (limite {})'],
   ['you have too many open lessons (limit {} for one client)', 'hai troppe lezioni aperte (limite {} per un cliente)'],
   ['{} is {}; it must be 0 or a multiple of 4 up to {}', '{} è {}; deve essere 0 o un multiplo di 4 fino a {}'],

@@ -264,6 +264,13 @@ class Lesson(Browser):
             "#lesson-invite",
         )
 
+    def test_a_code_that_cannot_be_loaded(self):
+        self.expected = "Failed to load resource"
+        teacher = self.teach()
+        teacher.route("**/web/code.js", lambda route: route.abort())
+        teacher.get_by_role("button", name="QR code, large").click()
+        self.there(teacher, "The server does not answer", "#lesson-large [role=status]")
+
     def test_a_pupils_page_is_small(self):
         teacher = self.teach()
         self.requests.clear()
@@ -367,10 +374,10 @@ class Tokens(Browser):
         file.chmod(0o600)
         super().setUpClass("--token-file", file)
 
-    def enter(self, link, token):
-        page = self.page(self.context(locale="en-US"))
+    def enter(self, link, token, locale="en-US", label="Access token"):
+        page = self.page(self.context(locale=locale))
         page.goto(link)
-        page.get_by_label("Access token").fill(token)
+        page.get_by_label(label).fill(token)
         page.keyboard.press("Enter")
         page.wait_for_url(link)
         return page
@@ -385,6 +392,14 @@ class Tokens(Browser):
         pupil = self.enter(teacher.input_value("#lesson-invite input"), self.PUPIL)
         pupil.wait_for_selector("#stage:has(> #told[hidden]) > #picture[src]")
         self.there(teacher, "1 pupil follows.", "#lesson-count")
+        self.expected = "40"  # 401, and 403 for the copy, because it needs the role render
+        pupil.click("#copy")
+        self.there(pupil, "needs a token with the role render; yours has the role view", "#status")
+        pupil.get_by_role("link", name="← Back to the class").click()
+        pupil.wait_for_selector("#stage:has(> #told[hidden]) > #picture[src]")
+        other = self.enter(teacher.input_value("#lesson-invite input"), self.PUPIL, "it-IT", "Token d’accesso")
+        other.click("#copy")
+        self.there(other, "vuole un token con il ruolo render; il tuo ha il ruolo view", "#status")
 
 
 if __name__ == "__main__":
