@@ -72,6 +72,7 @@ export function share(scene, size) {
     }
   });
   form.addEventListener('change', show);
+  byId('save-size').addEventListener('change', show); // save.js, which has the other sizes, may not be loaded yet
   scene.addEventListener('change', paced(show));
   scene.addEventListener('settle', show);
 
