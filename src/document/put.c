@@ -141,7 +141,7 @@ void kd_document_defaults(const struct kd_document *document, void *to)
     for (size_t i = 0; i < document->n; i++) {
         const struct kd_row *row = &document->rows[i];
         void *at = (char *)to + row->offset;
-        const int word = (int)row->initial;
+        const int word = row->kind == KD_KIND_WORD ? (int)row->initial : 0;
         switch (row->kind) {
         case KD_KIND_REAL: *(double *)at = row->initial; break;
         case KD_KIND_INT:
