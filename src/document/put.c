@@ -1,6 +1,7 @@
 /* Checks values against rows, stores them, and says what a row allows. */
 #include "document/internal.h"
 
+#include "base/utf8.h"
 #include "document/number.h"
 #include "document/text.h"
 
@@ -86,7 +87,7 @@ static bool store(const struct kd_row *row, void *at, const struct kd_value *val
         return i >= 0;
     }
     case KD_KIND_TEXT:
-        if (!string || strlen(value->text) >= row->room)
+        if (!string || strlen(value->text) >= row->room || !kd_utf8_valid(value->text))
             return false;
         memset(at, 0, row->room);
         memcpy(at, value->text, strlen(value->text));

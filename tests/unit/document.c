@@ -153,6 +153,11 @@ static void typed_text_sets_one_field(void **state)
           "there is no parameter leav; did you mean leaf? Known are minutes, sugar_g, heat, cups, leaf, pot, iced, "
           "milk, with, times, place, name" },
     };
+    assert_int_equal(kd_document_set(&tea_document, &tea, "name",
+                                     "\xff"
+                                     "e",
+                                     NULL, &error),
+                     KD_EINVAL); /* no UTF-8 */
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
         assert_int_equal(kd_document_set(&tea_document, &tea, refused[i][0], refused[i][1], NULL, &error), KD_EINVAL);
         assert_string_equal(error.message, refused[i][3]);
