@@ -13,8 +13,6 @@
 enum { PRODUCT, HOUR, STATION, U = STATION + 4, V, DATA, ERROR, MODEL, RESIDUAL }; /* columns */
 enum { FLUX, WORST = 7, SIZE, ANGLE, EAST, NORTH };                                /* values */
 
-#define UAS_PER_RADIAN (180 * 3.6e9 / M_PI)
-
 enum kd_status kd_integral_set_observation(struct kd_integral_request *r, const void *data, size_t size,
                                            struct kd_error *error)
 {
@@ -200,8 +198,8 @@ void kd_integral_compare_judge(struct kd_integral_answer *answer, double (*model
         return;
     answer->values[FLUX] = found * (isfinite(answer->map_jy) ? answer->map_jy : 1);
     answer->values[SIZE] = answer->solved.size, answer->values[ANGLE] = answer->solved.angle_deg;
-    answer->values[EAST] = answer->solved.east * UAS_PER_RADIAN;
-    answer->values[NORTH] = answer->solved.north * UAS_PER_RADIAN;
+    answer->values[EAST] = answer->solved.east * KD_UAS_PER_RADIAN;
+    answer->values[NORTH] = answer->solved.north * KD_UAS_PER_RADIAN;
 }
 
 /* Lists what was solved for. The flux counts as such if nothing else gives it. */
@@ -258,8 +256,8 @@ void kd_integral_sets_judge(struct kd_integral_answer *answer, double (*model)[2
     columns[FLUX_JY][row] = found * (isfinite(answer->map_jy) ? answer->map_jy : 1);
     columns[SIZE_OF][row] = model ? solved->size * answer->set->size : NAN;
     columns[ANGLE_OF][row] = model ? solved->angle_deg + answer->set->angle_deg : NAN;
-    columns[EAST_OF][row] = model ? solved->east * UAS_PER_RADIAN : NAN;
-    columns[NORTH_OF][row] = model ? solved->north * UAS_PER_RADIAN : NAN;
+    columns[EAST_OF][row] = model ? solved->east * KD_UAS_PER_RADIAN : NAN;
+    columns[NORTH_OF][row] = model ? solved->north * KD_UAS_PER_RADIAN : NAN;
     columns[CONVERGED][row] = model && solved->converged[1] && solved->converged[2] && solved->converged[3];
 }
 

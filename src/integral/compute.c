@@ -97,6 +97,17 @@ static const char *const volume_approximations[] = {
     NULL,
 };
 
+/* Values that describe a map of light. */
+#define MAP_VALUES \
+    { "pixel_uas", "uas", "distance from one pixel to the next", false }, { "width_uas", "uas", "of the map", false }, \
+        { "height_uas", "uas", "of the map", false }, \
+        { "nyquist_gl", "Gl", "longest baseline that the width of the pixels resolves", false }, \
+        { "edge_share", "1", \
+          "flux of a sky as bright as the map's border over the whole map, as a share of the map's flux", false }, \
+    { \
+        "undefined", "pixels", "number of pixels whose light is not a number; they count as dark", false \
+    }
+
 static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
     [KD_INTEGRAL_LINE] = { "relativistic line profile of a thin disk",
                            { { "isco", "M", "innermost stable circular orbit" },
@@ -181,16 +192,7 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
     [KD_INTEGRAL_COMPARE] = { "a scene compared with an interferometer's observation",
                               { { "flux_jy", "Jy", "flux of the whole compared map; null if nothing determines it",
                                   false },
-                                { "pixel_uas", "uas", "distance from one pixel to the next", false },
-                                { "width_uas", "uas", "of the map", false },
-                                { "height_uas", "uas", "of the map", false },
-                                { "nyquist_gl", "Gl", "longest baseline that the width of the pixels resolves", false },
-                                { "edge_share", "1",
-                                  "flux of a sky as bright as the map's border over the whole map, as a share of the "
-                                  "map's flux",
-                                  false },
-                                { "undefined", "pixels",
-                                  "number of pixels whose light is not a number; they count as dark", false },
+                                MAP_VALUES,
                                 { "model_error", "Jy",
                                   "largest estimated error of the model's amplitudes, from a map 1.5 times as fine",
                                   false },
@@ -252,16 +254,7 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                            compare_approximations },
     [KD_INTEGRAL_OBSERVE] = { "observation of a scene by the array of another observation",
                               { { "flux_jy", "Jy", "flux of the whole map", false },
-                                { "pixel_uas", "uas", "distance from one pixel to the next", false },
-                                { "width_uas", "uas", "of the map", false },
-                                { "height_uas", "uas", "of the map", false },
-                                { "nyquist_gl", "Gl", "longest baseline that the width of the pixels resolves", false },
-                                { "edge_share", "1",
-                                  "flux of a sky as bright as the map's border over the whole map, as a share of the "
-                                  "map's flux",
-                                  false },
-                                { "undefined", "pixels",
-                                  "number of pixels whose light is not a number; they count as dark", false },
+                                MAP_VALUES,
                                 { "model_error", "Jy",
                                   "largest estimated error of the model, from a map 1.5 times as fine", false } },
                               { { "hour", "h", "UTC, hours since the start of the observation's mjd", false },

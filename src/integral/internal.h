@@ -7,6 +7,8 @@
 
 #include <cjson/cJSON.h>
 
+#define KD_UAS_PER_RADIAN (180 * 3.6e9 / M_PI)
+
 /* request.c */
 const struct kd_row *kd_integral_field_named(const struct kd_integral_request *request,
                                              const char *name); /* NULL: no field of this name */

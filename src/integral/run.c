@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/pause.h"
 #include "integral/compare.h"
+#include "integral/internal.h"
 #include "observe/scattering.h"
 #include "observe/simulate.h"
 #include "physics/math/angle.h"
@@ -13,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define UAS_PER_RADIAN (180 * 3.6e9 / M_PI)
 #define EDGE 1 /* width of the border, in pixels; its brightness indicates light beyond the map */
 
 enum { U, V, LENGTH, ORDER, RE, IM, AMPLITUDE, PHASE, ERROR };          /* columns of a visibility */
@@ -121,9 +121,9 @@ static void tell_map(struct kd_integral_run *run, const struct kd_scene *scene, 
 {
     const double pixel = run->grid.pixel, jy = kd_scene_is_radio_alone(scene) ? sum * pixel * pixel : NAN;
     const double told[] = { [FLUX] = jy,
-                            [PIXEL] = pixel * UAS_PER_RADIAN,
-                            [WIDTH] = pixel * UAS_PER_RADIAN * run->grid.width,
-                            [HEIGHT] = pixel * UAS_PER_RADIAN * run->grid.height,
+                            [PIXEL] = pixel * KD_UAS_PER_RADIAN,
+                            [WIDTH] = pixel * KD_UAS_PER_RADIAN * run->grid.width,
+                            [HEIGHT] = pixel * KD_UAS_PER_RADIAN * run->grid.height,
                             [LONGEST] = kd_integral_nyquist_gl(scene),
                             [BORDER] = border_share(run->map[0], run->grid.width, run->grid.height, sum),
                             [UNDEFINED] = undefined,
