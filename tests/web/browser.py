@@ -229,8 +229,9 @@ class Browser(unittest.TestCase):
             daemon.eventually(lambda: page.evaluate("0") or all(part in page.url for part in parts)), page.url
         )
 
-    def quiet(self, page, ms=500):
-        """Waits until a page has requested nothing for that long."""
+    def quiet(self, page, ms=1500):
+        """Waits until a page has requested nothing for that long. By default this is longer than the 600 ms for which
+        a picture's request waits that was sent while something moved (flight.js): its end is a request more."""
 
         def still():
             before = len(self.requests)

@@ -201,7 +201,7 @@ class Living(Browser):
         page.click("#set-spots-0-brightness")
         page.wait_for_selector("#light", state="hidden")
         page.wait_for_selector(FINE)
-        self.quiet(page, 800)
+        self.quiet(page)
 
     def test_the_loop_of_a_polarised_spot(self):
         page = self.open(

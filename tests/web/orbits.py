@@ -171,7 +171,7 @@ class Orbits(Browser):
             for x, y in way:
                 page.mouse.move(middle[0] + x * unit, middle[1] + y * unit, steps=5)
             page.mouse.up()
-            self.quiet(page)
+            self.quiet(page, 500)
             self.assertEqual(
                 (page.inner_text("#orbit-fault"), page.get_attribute("#orbits", "data-kept")), ("", "false"), way
             )
@@ -189,12 +189,12 @@ class Orbits(Browser):
         fates = set()
         page.fill("#in-orbit-v_r", "0")
         page.keyboard.press("Tab")
-        self.quiet(page)
+        self.quiet(page, 500)
         for v in ("0.9", "0.3", "0.05"):
             page.fill("#in-orbit-r", "9")
             page.fill("#in-orbit-v_phi", v)
             page.keyboard.press("Tab")
-            self.quiet(page)
+            self.quiet(page, 500)
             fates.add(self.facts(page)["Fate"])
         self.assertEqual(len(fates), 3, fates)
         page.select_option("#in-orbit-orbit", "shape")
