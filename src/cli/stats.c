@@ -81,7 +81,7 @@ enum kd_status kd_stats_json(const struct kd_stats *stats, struct kd_buffer *out
     add_accuracy(json, stats);
     kd_json_array(json, "approximations");
     struct kd_approximation one;
-    for (size_t i = 0; kd_picture_approximation(stats->plan, &stats->frame->accuracy, i, &one); i++)
+    for (size_t i = 0; kd_picture_approximation(&stats->plan->report, &stats->frame->accuracy, i, &one); i++)
         kd_json_string(json, NULL, one.text);
     kd_json_end(json);
     kd_json_end(json);

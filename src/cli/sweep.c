@@ -124,7 +124,7 @@ static enum kd_status check(struct work *w, struct kd_error *error)
         uint64_t group;
         status = plan_of(w, i, &scene, &plan, error);
         if (!status && w->kind->frame == &kd_format_cubed)
-            status = kd_cube_compare(&shape, i, &scene, &plan, error);
+            status = kd_cube_compare(&shape, i, &scene, &plan.picture, error);
         if (!status && (kd_plan_lens_group(&scene, &group) || kd_sweep_order_add(&w->order, group, 0)))
             status = kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u scenes", w->sweep->scenes);
     }

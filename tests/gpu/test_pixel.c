@@ -406,7 +406,7 @@ static void negative_energies(void **state)
     OK(kd_plan_make(&scene, &c, &plan, &error));
     for (uint32_t i = 0; i < WIDTH * HEIGHT && compared < 4; i += 7) {
         struct kd_camera_label label;
-        kd_lens_label(&scene, &plan, i % WIDTH, i / WIDTH, &label);
+        kd_lens_label(&scene, &plan.lens, i % WIDTH, i / WIDTH, &label);
         if (!(label.energy < -0.05) || ++below % 5)
             continue;
         struct kd_plan told;

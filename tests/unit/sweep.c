@@ -273,17 +273,17 @@ static void a_cube_has_one_shape(void **state)
     kd_scene_defaults(&scene);
     other = scene;
     assert_int_equal(kd_scene_set(&other, "image.layers", "rgb,r", &error), KD_OK);
-    assert_int_equal(kd_cube_compare(&shape, 0, &scene, &plan, &error), KD_OK);
-    assert_int_equal(kd_cube_compare(&shape, 1, &scene, &plan, &error), KD_OK);
-    assert_int_equal(kd_cube_compare(&shape, 2, &scene, &wide, &error), KD_EINVAL);
+    assert_int_equal(kd_cube_compare(&shape, 0, &scene, &plan.picture, &error), KD_OK);
+    assert_int_equal(kd_cube_compare(&shape, 1, &scene, &plan.picture, &error), KD_OK);
+    assert_int_equal(kd_cube_compare(&shape, 2, &scene, &wide.picture, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/axes");
     assert_non_null(strstr(error.message, "scene 2 has 65 x 36 pixels and scene 0 has 64 x 36"));
-    assert_int_equal(kd_cube_compare(&shape, 3, &scene, &pair, &error), KD_EINVAL);
+    assert_int_equal(kd_cube_compare(&shape, 3, &scene, &pair.picture, &error), KD_EINVAL);
     assert_non_null(strstr(error.message, "scene 3 has 128 x 36 pixels"));
-    assert_int_equal(kd_cube_compare(&shape, 4, &other, &plan, &error), KD_EINVAL);
+    assert_int_equal(kd_cube_compare(&shape, 4, &other, &plan.picture, &error), KD_EINVAL);
     assert_non_null(strstr(error.message, "scene 4 has other layers"));
-    assert_int_equal(kd_cube_compare(&shape, 0, &other, &plan, &error), KD_OK); /* another sweep */
-    assert_int_equal(kd_cube_compare(&shape, 1, &scene, &plan, &error), KD_EINVAL);
+    assert_int_equal(kd_cube_compare(&shape, 0, &other, &plan.picture, &error), KD_OK); /* another sweep */
+    assert_int_equal(kd_cube_compare(&shape, 1, &scene, &plan.picture, &error), KD_EINVAL);
 }
 
 int main(void)

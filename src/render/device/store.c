@@ -67,7 +67,7 @@ static void map_finish(struct kd_lens_map *map, struct kd_vk *vk)
 }
 
 /* Evicts cached maps, oldest first, until the plan fits beside the others and the others are within their limit. */
-static void make_room(struct kd_store *store, const struct kd_plan *plan, const struct kd_lens_map *spare)
+static void make_room(struct kd_store *store, const struct kd_plan_cost *cost, const struct kd_lens_map *spare)
 {
     for (;;) {
         uint64_t kept = 0;
@@ -80,7 +80,7 @@ static void make_room(struct kd_store *store, const struct kd_plan *plan, const 
             if (!oldest || m->used < oldest->used)
                 oldest = m;
         }
-        if (!oldest || (kept <= KD_KEPT_MAPS_BYTES && plan->cost.device_bytes + kept <= store->memory_bytes))
+        if (!oldest || (kept <= KD_KEPT_MAPS_BYTES && cost->device_bytes + kept <= store->memory_bytes))
             return;
         map_finish(oldest, store->vk);
     }
@@ -140,13 +140,13 @@ static enum kd_status find_or_make(struct kd_store *store, const struct kd_plan 
             m->used = ++store->clock;
             *out = m;
             *reused = true;
-            make_room(store, plan, m);
+            make_room(store, &plan->cost, m);
             return make_star_light(store, plan, m, error);
         }
         if (m->used < oldest->used)
             oldest = m;
     }
-    make_room(store, plan, oldest);
+    make_room(store, &plan->cost, oldest);
     oldest->key[0] = 0;
     kd_critical_pixels_finish(&oldest->pixels);
     forget_stars(oldest);
@@ -178,11 +178,11 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
     return status ? status : find_or_make(store, plan, out, reused, error);
 }
 
-void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan *plan)
+void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan_lens *lens)
 {
     (void)store;
-    if (plan->lens.cacheable)
-        memcpy(map->key, plan->lens.key, sizeof map->key);
+    if (lens->cacheable)
+        memcpy(map->key, lens->key, sizeof map->key);
 }
 
 void kd_store_hand_over(struct kd_store *from, struct kd_store *to, const struct kd_plan *plan)
@@ -224,17 +224,17 @@ done:
 }
 
 /* Makes a beam's buffers. They are freed when no longer needed, because they are as large as the picture. */
-static enum kd_status make_beam(struct kd_store *store, const struct kd_plan *plan, struct kd_error *error)
+static enum kd_status make_beam(struct kd_store *store, const struct kd_plan_picture *picture, struct kd_error *error)
 {
-    const struct kd_beam_grid *beam = &plan->picture.beam;
+    const struct kd_beam_grid *beam = &picture->beam;
     enum kd_status status;
     if (!beam->cell) {
         bands_finish(&store->beamed, store->vk);
         return KD_OK;
     }
-    KD_TRY(bands_init(&store->beamed, store->vk, plan->picture.bands,
-                      kd_post_radiance_bytes((uint64_t)plan->picture.width * plan->picture.band_rows),
-                      "light by the beam", error));
+    KD_TRY(bands_init(&store->beamed, store->vk, picture->bands,
+                      kd_post_radiance_bytes((uint64_t)picture->width * picture->band_rows), "light by the beam",
+                      error));
     KD_TRY(kd_store_at_least(store->vk, &store->beam_lines, kd_beam_lines_bytes(beam), KD_VK_DEVICE, "rows of cells",
                              error));
     KD_TRY(kd_store_at_least(store->vk, &store->beam_grids, kd_beam_grids_bytes(beam), KD_VK_DEVICE, "cells", error));
@@ -263,7 +263,7 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
                           plan->picture.n_layers * kd_plan_layer_bytes(&plan->picture), "layers", error));
     if (plan->picture.bloom.levels)
         KD_TRY(kd_store_at_least(vk, &store->bloom, plan->picture.bloom.bytes, KD_VK_DEVICE, "spread light", error));
-    KD_TRY(make_beam(store, plan, error));
+    KD_TRY(make_beam(store, &plan->picture, error));
     if (plan->lens.listed_bytes)
         KD_TRY(kd_store_at_least(vk, &store->listed, plan->lens.listed_bytes, KD_VK_DEVICE, "lens map of listed pixels",
                                  error));

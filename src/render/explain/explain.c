@@ -118,7 +118,7 @@ static void find_label(const struct kd_picture *picture, struct kd_explained *x)
 {
     const uint32_t steps = x->told->steps_a_pixel;
     const struct kd_scene counted = steps == picture->plan->lens.side ? x->scene : kd_critical_camera(&x->scene, steps);
-    kd_lens_label(&counted, picture->plan, x->told->x, x->told->y, &x->label);
+    kd_lens_label(&counted, &picture->plan->lens, x->told->x, x->told->y, &x->label);
 }
 
 /* Computes everything except the path. */

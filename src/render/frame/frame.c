@@ -22,7 +22,8 @@ static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacit
     KD_TRY(kd_store_lens_map(j->store, j->plan, &j->lens, reused, j->error));
     KD_TRY(kd_store_frame(j->store, j->plan, j->plan->lens.adaptive ? 16 : kd_frame_bit_depth(j->frame), j->error));
     kd_emit_update(r->emit, j->scene, j->plan->picture.width * j->plan->picture.band_rows);
-    KD_TRY(kd_prepare_tell(r, j->scene, j->plan, &r->emit->data.emission, j->frame->credit, KD_CREDIT, j->error));
+    KD_TRY(
+        kd_prepare_tell(r, j->scene, &j->plan->light, &r->emit->data.emission, j->frame->credit, KD_CREDIT, j->error));
     KD_TRY(kd_store_send(j->store, &r->emit->data, j->error));
     if (j->plan->light.points) {
         kd_frame_begin_stars(j);
@@ -47,25 +48,25 @@ done:
 }
 
 /* The lattices of rays that a picture uses: on the grid, at the critical curve, and those of refinement. */
-static size_t lattices_of(const struct kd_plan *p, struct kd_critical_lattice out[5])
+static size_t lattices_of(const struct kd_plan_lens *lens, struct kd_critical_lattice out[5])
 {
     size_t n = 0;
     out[n++] = (struct kd_critical_lattice) { 0 };
-    if (p->lens.critical)
-        out[n++] = kd_critical_lattice(p->lens.critical);
-    if (!p->lens.adaptive)
+    if (lens->critical)
+        out[n++] = kd_critical_lattice(lens->critical);
+    if (!lens->adaptive)
         return n;
     out[n++] = kd_critical_grid(KD_PLAN_ADAPTIVE_SIDE);
     out[n++] = kd_critical_grid(KD_PLAN_TRUTH_SIDE);
-    if (p->lens.critical_dense)
-        out[n++] = kd_critical_lattice(p->lens.critical_dense);
+    if (lens->critical_dense)
+        out[n++] = kd_critical_lattice(lens->critical_dense);
     return n;
 }
 
 enum kd_status kd_frame_ask_kernels(struct kd_frame_job *j)
 {
     struct kd_critical_lattice lattices[5];
-    const size_t n = lattices_of(j->plan, lattices), kept = j->plan->lens.critical ? 2 : 1;
+    const size_t n = lattices_of(&j->plan->lens, lattices), kept = j->plan->lens.critical ? 2 : 1;
     const struct kd_vk_pipeline *later;
     const bool there = kd_store_has(j->store, j->plan);
     enum kd_status status = KD_OK;
@@ -116,7 +117,7 @@ static enum kd_status judge_map(struct kd_frame_job *j)
     j->lens->accuracy.undecided = j->undecided;
     j->lens->accuracy.traced = j->traced;
     j->lens->accuracy.interpolated = j->interpolated;
-    kd_store_commit(j->store, j->lens, j->plan);
+    kd_store_commit(j->store, j->lens, &j->plan->lens);
 done:
     return status;
 }
@@ -135,19 +136,20 @@ static void report_accuracy(struct kd_frame_job *j)
     j->frame->accuracy.volume_error_worst = own.volume_error_worst;
 }
 
-static const struct kd_plan_pass *pass_of(const struct kd_plan *plan, enum kd_pass_id id)
+static const struct kd_plan_pass *pass_of(const struct kd_plan_cost *cost, enum kd_pass_id id)
 {
-    for (size_t i = 0; i < plan->cost.n_passes; i++)
-        if (!strcmp(plan->cost.passes[i].name, kd_passes[id].name))
-            return &plan->cost.passes[i];
+    for (size_t i = 0; i < cost->n_passes; i++)
+        if (!strcmp(cost->passes[i].name, kd_passes[id].name))
+            return &cost->passes[i];
     return NULL;
 }
 
 /* The number of rows traced and lit in the time that refinement is estimated to take. */
 static double rows_of_refining(const struct kd_frame_job *j, double rows)
 {
-    const struct kd_plan_pass *refine = pass_of(j->plan, KD_PASS_REFINE), *trace = pass_of(j->plan, KD_PASS_TRACE);
-    const struct kd_plan_pass *light = pass_of(j->plan, kd_plan_light_pass(&j->plan->light));
+    const struct kd_plan_pass *refine = pass_of(&j->plan->cost, KD_PASS_REFINE),
+                              *trace = pass_of(&j->plan->cost, KD_PASS_TRACE);
+    const struct kd_plan_pass *light = pass_of(&j->plan->cost, kd_plan_light_pass(&j->plan->light));
     const double ms = (trace ? trace->estimate_ms : 0) + (light ? light->estimate_ms : 0);
     return refine && ms > 0 ? rows * refine->estimate_ms / ms : 0;
 }
@@ -155,7 +157,7 @@ static double rows_of_refining(const struct kd_frame_job *j, double rows)
 /* Refines the picture. Pixels are chosen at the exposure that the picture would have now. */
 static enum kd_status refine(struct kd_frame_job *j)
 {
-    const struct kd_plan_pass *pass = pass_of(j->plan, KD_PASS_REFINE);
+    const struct kd_plan_pass *pass = pass_of(&j->plan->cost, KD_PASS_REFINE);
     enum kd_status status;
     KD_TRY(kd_frame_beam(j));
     KD_TRY(kd_frame_expose(j));
@@ -184,13 +186,13 @@ static enum kd_status run(struct kd_frame_job *j)
     bool reused = false;
     enum kd_status status;
     kd_renderer_capacity(j->r, &c);
-    kd_prepare_begin(j->r, j->scene, j->plan);
+    kd_prepare_begin(j->r, j->scene, &j->plan->light);
     KD_TRY(make_kernels(j));
     KD_TRY(make_ready(j, &c, &reused));
     j->frame->lens_reused = reused;
     j->refine_rows = j->plan->lens.adaptive ? rows_of_refining(j, j->plan->picture.height * (!reused + 1.0)) : 0;
     j->weight = (double)j->plan->picture.height * (!reused + 1 + !j->plan->picture.no_image) + j->refine_rows;
-    KD_TRY(kd_prepare(j->r, j->prepared, j->scene, j->plan, &c, j->error));
+    KD_TRY(kd_prepare(j->r, j->prepared, j->scene, &j->plan->light, &c, j->error));
     KD_TRY(forget_lost(j));
     KD_TRY(kd_frame_light(j, reused));
     if (j->plan->lens.adaptive)
@@ -221,7 +223,7 @@ static enum kd_status add_layers(const struct kd_frame_job *job, struct kd_frame
     enum kd_status status;
     if (!job->plan->picture.no_image)
         KD_TRY(kd_frame_add_layer(frame, "rgb", 3, type, job->error));
-    KD_TRY(kd_frame_add_layers(frame, job->plan, job->error));
+    KD_TRY(kd_frame_add_layers(frame, &job->plan->picture, job->error));
 done:
     return status;
 }

@@ -190,7 +190,8 @@ enum kd_status kd_frame_post_kernel(struct kd_frame_job *job, const struct kd_vk
 enum kd_status kd_frame_show(struct kd_frame_job *job);
 /* kd_frame_add_layers allocates the layers of a plan after the picture; the other copies them to the host as far as
  * light is complete. A single requested layer replaces the picture, in false colour. */
-enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan *plan, struct kd_error *error);
+enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan_picture *picture,
+                                   struct kd_error *error);
 enum kd_status kd_frame_layers(struct kd_frame_job *job);
 
 #endif

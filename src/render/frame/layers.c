@@ -8,14 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan *plan, struct kd_error *error)
+enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan_picture *picture,
+                                   struct kd_error *error)
 {
     enum kd_status status = KD_OK;
-    if (plan->picture.radiance)
+    if (picture->radiance)
         status = kd_frame_add_layer(frame, "radiance", 3, KD_LAYER_F32, error);
-    for (size_t i = 0; i < plan->picture.n_layers && !status; i++) {
+    for (size_t i = 0; i < picture->n_layers && !status; i++) {
         char name[KD_LAYER_NAME];
-        kd_layer_name(plan->picture.layers[i], name);
+        kd_layer_name(picture->layers[i], name);
         status = kd_frame_add_layer(frame, name, 1, KD_LAYER_F32, error);
     }
     return status;

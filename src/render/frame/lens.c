@@ -78,9 +78,9 @@ enum kd_status kd_frame_trace_kernel(struct kd_frame_job *j, const struct kd_cri
                           j->error);
 }
 
-static bool is_layer_of(const struct kd_plan *p, int makes, enum kd_layer_of of)
+static bool is_layer_of(const struct kd_plan_picture *picture, int makes, enum kd_layer_of of)
 {
-    return makes >= 0 && kd_layer_kinds[p->picture.layers[makes].kind].of == of;
+    return makes >= 0 && kd_layer_kinds[picture->layers[makes].kind].of == of;
 }
 
 /* Whether the march makes this light or layer. Layers of a crossing need the march because a body may hide the
@@ -88,8 +88,8 @@ static bool is_layer_of(const struct kd_plan *p, int makes, enum kd_layer_of of)
 static bool marches(const struct kd_plan *p, int makes)
 {
     return p->light.march.steps && makes != KD_MAKES_RAYS &&
-           (makes < 0 || is_layer_of(p, makes, KD_OF_LIGHT) ||
-            (p->light.meets && is_layer_of(p, makes, KD_OF_CROSSING)));
+           (makes < 0 || is_layer_of(&p->picture, makes, KD_OF_LIGHT) ||
+            (p->light.meets && is_layer_of(&p->picture, makes, KD_OF_CROSSING)));
 }
 
 uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes)
@@ -257,7 +257,7 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
         NULL,
         { 0 },
     };
-    kd_prepared_buffers(j->prepared, j->plan, own);
+    kd_prepared_buffers(j->prepared, &j->plan->light, own);
     own[KD_OWN_point_light] =
         j->plan->light.points ? j->lens->star_light.buffers[band] : NULL; /* made by stars.c, band by band */
     for (int i = 0; i < KD_OWN_COUNT; i++)                                /* unused bindings need some buffer */

@@ -140,13 +140,13 @@ done:
 }
 
 /* The scene reduced to what the flux depends on. */
-static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan *plan)
+static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan_light *light)
 {
     struct kd_scene bare = kd_scene_whole(scene), plain;
     kd_scene_defaults(&plain);
     bare.image = plain.image;
-    bare.image.width = plan->light.shape.width ? (int32_t)plan->light.shape.width : scene->image.width;
-    bare.image.height = plan->light.shape.height ? (int32_t)plan->light.shape.height : scene->image.height;
+    bare.image.width = light->shape.width ? (int32_t)light->shape.width : scene->image.width;
+    bare.image.height = light->shape.height ? (int32_t)light->shape.height : scene->image.height;
     bare.image.samples = bare.image.critical_factor = 1;
     bare.style = plain.style;
     bare.style.bloom = bare.style.beam_uas = 0;
@@ -199,7 +199,7 @@ static struct search search_of(struct kd_renderer *renderer, const struct kd_sce
                                struct kd_error *error)
 {
     return (struct search) { .r = renderer,
-                             .scene = bare(scene, plan),
+                             .scene = bare(scene, &plan->light),
                              .target = scene->volume.normalise_to_jy,
                              .slope = THIN,
                              .error = error };

@@ -288,7 +288,7 @@ static enum kd_status say_no_steps(struct kd_probed_pixel *told, const char *why
     return KD_OK;
 }
 
-static struct kd_rays_params params_of_steps(const struct kd_scene *scene, const struct kd_plan *plan)
+static struct kd_rays_params params_of_steps(const struct kd_scene *scene, const struct kd_plan_lens *lens)
 {
     return (struct kd_rays_params) {
         .spin = scene->spacetime.spin,
@@ -296,15 +296,15 @@ static struct kd_rays_params params_of_steps(const struct kd_scene *scene, const
         .r = scene->camera.r,
         .inclination_deg = scene->camera.inclination_deg,
         .orders = (uint32_t)scene->accuracy.orders,
-        .engine = plan->lens.setting.engine,
-        .precision = plan->lens.setting.precision,
-        .steps = plan->lens.setting.steps,
+        .engine = lens->setting.engine,
+        .precision = lens->setting.precision,
+        .steps = lens->setting.steps,
     };
 }
 
 enum kd_status kd_frame_probe_ask(struct kd_frame_job *j)
 {
-    const struct kd_rays_params params = params_of_steps(j->scene, j->plan);
+    const struct kd_rays_params params = params_of_steps(j->scene, &j->plan->lens);
     return j->plan->report.probe.steps ? kd_rays_steps_ask(j->r, &params) : KD_OK;
 }
 
@@ -316,7 +316,7 @@ static enum kd_status tell_steps(struct kd_frame_job *j)
     const struct kd_scene *scene = j->scene, counted = told->middle.steps_a_pixel == j->plan->lens.side
                                                            ? *scene
                                                            : kd_critical_camera(scene, told->middle.steps_a_pixel);
-    const struct kd_rays_params params = params_of_steps(scene, j->plan);
+    const struct kd_rays_params params = params_of_steps(scene, &j->plan->lens);
     struct kd_camera_label label;
     struct kd_error error = { 0 };
     if (by->engine == KD_ENGINE_CLOSED)
@@ -325,7 +325,7 @@ static enum kd_status tell_steps(struct kd_frame_job *j)
     if (scene->camera.r <= kd_scene_hole(scene)->outer)
         return say_no_steps(told, "the observer is inside the horizon, where rays have no alpha and beta: use the "
                                   "path, which has its own steps");
-    kd_lens_label(&counted, j->plan, told->middle.x, told->middle.y, &label);
+    kd_lens_label(&counted, &j->plan->lens, told->middle.x, told->middle.y, &label);
     const double alpha_beta[] = { label.alpha, label.beta };
     const bool outward = label.outward && isfinite(scene->camera.r);
     if (!(told->steps = calloc(1, sizeof *told->steps)))

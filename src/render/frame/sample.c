@@ -24,9 +24,9 @@ static enum kd_status fill_kernel(struct kd_frame_job *j, bool of_sky, const str
 }
 
 /* Whether smooth cells are filled with crossings, or with the ends of rays. */
-static bool fills(const struct kd_plan *plan, bool of_sky)
+static bool fills(const struct kd_plan_lens *lens, bool of_sky)
 {
-    return of_sky ? kd_plan_holds(&plan->lens, KD_LENS_SKY) : plan->lens.orders > 0;
+    return of_sky ? kd_plan_holds(lens, KD_LENS_SKY) : lens->orders > 0;
 }
 
 enum kd_status kd_frame_sample_kernels(struct kd_frame_job *j)
@@ -34,7 +34,7 @@ enum kd_status kd_frame_sample_kernels(struct kd_frame_job *j)
     const struct kd_vk_pipeline *later;
     enum kd_status status = cells_kernel(j, &later);
     for (int of_sky = 0; of_sky < 2 && !status; of_sky++)
-        if (fills(j->plan, of_sky))
+        if (fills(&j->plan->lens, of_sky))
             status = fill_kernel(j, of_sky, &later);
     return status;
 }
@@ -204,7 +204,7 @@ enum kd_status kd_frame_sample(struct kd_frame_job *j, uint32_t band, uint32_t f
             KD_TRY(submit_new(j));
     }
     for (int of_sky = 0; of_sky < 2; of_sky++)
-        if (fills(p, of_sky)) {
+        if (fills(&p->lens, of_sky)) {
             KD_TRY(submit_new(j));
             KD_TRY(fill(&run, of_sky));
         }

@@ -61,16 +61,16 @@ static bool other_fate(float fate, const struct kd_ray_end *end)
 
 /* Compares the map's radii and fates with those of the list. The planes hold w of `orders` crossings at intervals of
  * `width`. */
-static void compare(const struct kd_plan *plan, const struct sample *s, const uint32_t *place, uint32_t n, double inner,
-                    struct kd_accuracy_report *out)
+static void compare(const struct kd_plan_lens *lens, const struct sample *s, const uint32_t *place, uint32_t n,
+                    double inner, struct kd_accuracy_report *out)
 {
     const float *rows = kd_vk_buffer_map(s->host);
     uint32_t count = 0;
     for (uint32_t i = 0; i < n; i++) {
         const float *w = rows + place[i];
-        for (uint32_t k = 0; k < plan->lens.orders; k++, w += s->width) {
+        for (uint32_t k = 0; k < lens->orders; k++, w += s->width) {
             bool has = k < s->ends[i].n_crossings;
-            double r = has ? s->crossings[i * plan->lens.orders + k].r : 1 / *w;
+            double r = has ? s->crossings[i * lens->orders + k].r : 1 / *w;
             if (!(r > inner && r < 1e3))
                 continue;
             if (has && *w > 0)
@@ -78,7 +78,7 @@ static void compare(const struct kd_plan *plan, const struct sample *s, const ui
             else
                 out->differ++;
         }
-        out->differ += s->planes > plan->lens.orders && other_fate(*w, &s->ends[i]);
+        out->differ += s->planes > lens->orders && other_fate(*w, &s->ends[i]);
     }
     qsort(s->errors, count, sizeof *s->errors, by_value);
     out->sampled = n;
@@ -97,7 +97,7 @@ static enum kd_status run(struct kd_renderer *r, const struct kd_scene *scene, c
         for (uint32_t i = 0; i < s->columns; i++, n++) {
             uint32_t x = spread(i, s->columns, s->width), y = spread(j, s->rows, s->height);
             struct kd_camera_label label;
-            kd_lens_label(scene, plan, x, y, &label);
+            kd_lens_label(scene, &plan->lens, x, y, &label);
             s->rays[2 * n] = label.alpha;
             s->rays[2 * n + 1] = label.beta;
             s->outward[n] = label.outward;
@@ -107,7 +107,7 @@ static enum kd_status run(struct kd_renderer *r, const struct kd_scene *scene, c
     enum kd_status status;
     KD_TRY(read_rows(r, plan, map, s, error));
     KD_TRY(kd_lens_trace(r, scene, plan, &closed, &labels, s->crossings, s->ends, error));
-    compare(plan, s, place, n, kd_kerr_isco(kd_scene_hole(scene)), out);
+    compare(&plan->lens, s, place, n, kd_kerr_isco(kd_scene_hole(scene)), out);
 done:
     return status;
 }

@@ -51,7 +51,7 @@ static enum kd_status init(struct work *w, const struct kd_scene *scene, const s
     return kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays", n);
 }
 
-static struct kd_rays_params params_of(const struct kd_scene *scene, const struct kd_plan *plan,
+static struct kd_rays_params params_of(const struct kd_scene *scene, const struct kd_plan_lens *lens,
                                        const struct kd_setting *by)
 {
     return (struct kd_rays_params) {
@@ -59,7 +59,7 @@ static struct kd_rays_params params_of(const struct kd_scene *scene, const struc
         .charge = scene->spacetime.charge,
         .r = scene->camera.r,
         .inclination_deg = scene->camera.inclination_deg,
-        .orders = plan->lens.orders ? plan->lens.orders : 1,
+        .orders = lens->orders ? lens->orders : 1,
         .engine = by->engine,
         .precision = by->precision,
         .steps = by->steps,
@@ -70,7 +70,7 @@ enum kd_status kd_lens_trace(struct kd_renderer *renderer, const struct kd_scene
                              const struct kd_setting *by, const struct kd_ray_labels *rays,
                              struct kd_ray_crossing *crossings, struct kd_ray_end *ends, struct kd_error *error)
 {
-    const struct kd_rays_params params = params_of(scene, plan, by);
+    const struct kd_rays_params params = params_of(scene, &plan->lens, by);
     if (by->engine == KD_ENGINE_CLOSED)
         return kd_rays_closed(&params, rays, false, crossings, ends, NULL, NULL, error);
     return kd_rays_device(renderer, &params, rays, crossings, ends, NULL, NULL, error);
@@ -106,7 +106,7 @@ static void fill_delays(const struct work *w, uint32_t order, float *to)
 /* Fills a plane with slopes, which the light of falling gas and emission angles depend on. */
 static void fill_slopes(const struct work *w, const struct kd_scene *scene, uint32_t order, float *to)
 {
-    const struct kd_rays_params params = params_of(scene, w->plan, &w->plan->lens.setting);
+    const struct kd_rays_params params = params_of(scene, &w->plan->lens, &w->plan->lens.setting);
     for (size_t i = 0; i < w->n; i++) {
         const struct kd_ray_end *end = &w->ends[i];
         double r = w->crossings[i * w->plan->lens.orders + order].r;

@@ -15,13 +15,14 @@ static double trace_ms(const struct kd_plan *plan)
 }
 
 /* Bytes of the numbers of the frame's layers, 4 each. */
-static double file_bytes(const struct kd_series *series, const struct kd_scene *scene, const struct kd_plan *plan)
+static double file_bytes(const struct kd_series *series, const struct kd_scene *scene,
+                         const struct kd_plan_picture *picture)
 {
     const struct kd_words *layers = &scene->image.layers;
     double numbers = 0;
     for (int i = 0; i < layers->count && series && series->frame->carries & KD_CARRIES_LAYERS; i++)
-        numbers += (layers->at[i].word == KD_LAYER_rgb ? 3. : 1.) * kd_plan_shown_width(&plan->picture) *
-                   kd_plan_shown_height(&plan->picture);
+        numbers += (layers->at[i].word == KD_LAYER_rgb ? 3. : 1.) * kd_plan_shown_width(picture) *
+                   kd_plan_shown_height(picture);
     return 4 * numbers;
 }
 
@@ -30,10 +31,10 @@ enum kd_status kd_cost_add(struct kd_cost *cost, const struct kd_series *series,
 {
     const uint64_t host = plan->cost.host_bytes + plan->cost.making_bytes;
     uint64_t group;
-    if (series && series->swept && kd_cube_compare(&cost->shape, cost->frames, scene, plan, error))
+    if (series && series->swept && kd_cube_compare(&cost->shape, cost->frames, scene, &plan->picture, error))
         return error->status;
     cost->frames++;
-    cost->file_bytes += file_bytes(series, scene, plan);
+    cost->file_bytes += file_bytes(series, scene, &plan->picture);
     cost->device_bytes = plan->cost.device_bytes > cost->device_bytes ? plan->cost.device_bytes : cost->device_bytes;
     cost->host_bytes = host > cost->host_bytes ? host : cost->host_bytes;
     cost->rays += kd_plan_rays(&plan->lens);

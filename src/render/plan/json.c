@@ -6,11 +6,11 @@
 
 #include <math.h>
 
-static void add_passes(struct kd_json *json, const struct kd_plan *plan)
+static void add_passes(struct kd_json *json, const struct kd_plan_cost *cost)
 {
     kd_json_array(json, "passes");
-    for (size_t i = 0; i < plan->cost.n_passes; i++) {
-        const struct kd_plan_pass *pass = &plan->cost.passes[i];
+    for (size_t i = 0; i < cost->n_passes; i++) {
+        const struct kd_plan_pass *pass = &cost->passes[i];
         kd_json_object(json, NULL);
         kd_json_string(json, "name", pass->name);
         if (*pass->kernel)
@@ -22,15 +22,15 @@ static void add_passes(struct kd_json *json, const struct kd_plan *plan)
     kd_json_end(json);
 }
 
-static void add_constants(struct kd_json *json, const struct kd_plan *plan)
+static void add_constants(struct kd_json *json, const struct kd_plan_lens *lens)
 {
     kd_json_object(json, "specialisation");
-    kd_json_number(json, "orders", plan->lens.orders);
-    kd_json_number(json, "steps", plan->lens.setting.steps);
-    kd_json_number(json, "samples", plan->lens.side);
-    kd_json_bool(json, "radius_only", kd_plan_is_radii(&plan->lens));
-    kd_json_bool(json, "phi", kd_plan_holds(&plan->lens, KD_LENS_PHI));
-    kd_json_bool(json, "sky", kd_plan_holds(&plan->lens, KD_LENS_SKY));
+    kd_json_number(json, "orders", lens->orders);
+    kd_json_number(json, "steps", lens->setting.steps);
+    kd_json_number(json, "samples", lens->side);
+    kd_json_bool(json, "radius_only", kd_plan_is_radii(lens));
+    kd_json_bool(json, "phi", kd_plan_holds(lens, KD_LENS_PHI));
+    kd_json_bool(json, "sky", kd_plan_holds(lens, KD_LENS_SKY));
     kd_json_end(json);
 }
 
@@ -47,12 +47,12 @@ static void add_accuracy(struct kd_json *json, const struct kd_plan *plan)
     kd_json_end(json);
 }
 
-static void add_bytes(struct kd_json *json, const struct kd_plan *plan)
+static void add_bytes(struct kd_json *json, const struct kd_plan_cost *cost)
 {
     kd_json_object(json, "bytes");
-    kd_json_number(json, "lens_map", (double)plan->cost.lens_bytes);
-    kd_json_number(json, "device", (double)plan->cost.device_bytes);
-    kd_json_number(json, "host", (double)(plan->cost.host_bytes + plan->cost.making_bytes));
+    kd_json_number(json, "lens_map", (double)cost->lens_bytes);
+    kd_json_number(json, "device", (double)cost->device_bytes);
+    kd_json_number(json, "host", (double)(cost->host_bytes + cost->making_bytes));
     kd_json_end(json);
 }
 
@@ -69,10 +69,10 @@ enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out
     kd_json_number(json, "height", kd_plan_shown_height(&plan->picture));
     if (plan->picture.strips)
         kd_json_number(json, "strips", plan->picture.strips);
-    add_passes(json, plan);
-    add_constants(json, plan);
+    add_passes(json, &plan->cost);
+    add_constants(json, &plan->lens);
     add_accuracy(json, plan);
-    add_bytes(json, plan);
+    add_bytes(json, &plan->cost);
     kd_json_number(json, "bands", plan->picture.bands);
     kd_json_bool(json, "lens_map_cacheable", plan->lens.cacheable);
     kd_json_string(json, "lens_map_key", plan->lens.key);

@@ -12,15 +12,15 @@ uint32_t kd_light_groups(uint32_t pixels)
     return (pixels + each - 1) / each;
 }
 
-uint32_t kd_light_sums(const struct kd_plan *plan)
+uint32_t kd_light_sums(const struct kd_plan_light *light)
 {
-    return plan->light.stokes_words ? KD_LIGHT_SUMS_STOKES : KD_LIGHT_SUMS;
+    return light->stokes_words ? KD_LIGHT_SUMS_STOKES : KD_LIGHT_SUMS;
 }
 
 uint64_t kd_light_bytes(const struct kd_plan *plan)
 {
-    return 4ull * kd_light_sums(plan) * KD_GROUP_SIZE * kd_light_groups(plan->picture.width * plan->picture.band_rows) *
-           plan->picture.bands;
+    return 4ull * kd_light_sums(&plan->light) * KD_GROUP_SIZE *
+           kd_light_groups(plan->picture.width * plan->picture.band_rows) * plan->picture.bands;
 }
 
 struct sums {
@@ -78,7 +78,7 @@ double kd_light_evpa(const struct kd_light *light)
 
 struct kd_light_report kd_light_of(const struct kd_scene *scene, const struct kd_plan *plan, const float *sums)
 {
-    const uint32_t each = kd_light_sums(plan);
+    const uint32_t each = kd_light_sums(&plan->light);
     const size_t n = kd_light_bytes(plan) / (4 * each);
     const bool plane = plan->light.traits[KD_EMITTER_polarization] & KD_TRAIT_PRESENT,
                volume = plan->light.traits[KD_EMITTER_stokes] & KD_TRAIT_PRESENT;

@@ -21,6 +21,7 @@
 #include <stdint.h>
 
 struct kd_plan;
+struct kd_plan_light;
 
 struct kd_light {
     double flux;
@@ -42,7 +43,7 @@ double kd_light_evpa(const struct kd_light *light);
 /* kd_light_groups: workgroups of photometry.comp for the pixels of a band. kd_light_sums: sums of one invocation.
  * kd_light_bytes: bytes of all sums (every band has as many as the first). */
 uint32_t kd_light_groups(uint32_t pixels);
-uint32_t kd_light_sums(const struct kd_plan *plan);
+uint32_t kd_light_sums(const struct kd_plan_light *light);
 uint64_t kd_light_bytes(const struct kd_plan *plan);
 
 /* Flux, centroid and polarisation from the sums of photometry.comp, which have kd_light_bytes bytes. Pure. */

@@ -408,7 +408,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
         return kd_error_field(error, "/camera/projection",
                               "camera.projection is \"ring\"; with volumes or bodies it must be another");
     KD_TRY(kd_layers_check(scene, error));
-    KD_TRY(kd_plan_beam_fits(&plan, capacity, error));
+    KD_TRY(kd_plan_beam_fits(&plan.picture, capacity, error));
     KD_TRY(choose(&plan, scene, capacity, error));
     if (kd_emit_along(scene) && scene->accuracy.tolerance < KD_MARCH_HOLDS)
         KD_TRY(kd_error_field(

@@ -63,19 +63,20 @@ static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_ba
 }
 
 /* Bytes of a beam: its rows of cells and its grids. */
-static uint64_t beam_bytes(const struct kd_plan *plan)
+static uint64_t beam_bytes(const struct kd_plan_picture *picture)
 {
-    if (!plan->picture.beam.cell)
+    if (!picture->beam.cell)
         return 0;
-    return 12ull * plan->picture.width * plan->picture.height + kd_beam_lines_bytes(&plan->picture.beam) +
-           kd_beam_grids_bytes(&plan->picture.beam);
+    return 12ull * picture->width * picture->height + kd_beam_lines_bytes(&picture->beam) +
+           kd_beam_grids_bytes(&picture->beam);
 }
 
-enum kd_status kd_plan_beam_fits(const struct kd_plan *plan, const struct kd_capacity *c, struct kd_error *error)
+enum kd_status kd_plan_beam_fits(const struct kd_plan_picture *picture, const struct kd_capacity *c,
+                                 struct kd_error *error)
 {
-    const uint64_t lines = kd_beam_lines_bytes(&plan->picture.beam), grids = kd_beam_grids_bytes(&plan->picture.beam),
+    const uint64_t lines = kd_beam_lines_bytes(&picture->beam), grids = kd_beam_grids_bytes(&picture->beam),
                    bytes = lines > grids ? lines : grids;
-    if (!plan->picture.beam.cell || bytes <= buffer_bytes(c))
+    if (!picture->beam.cell || bytes <= buffer_bytes(c))
         return KD_OK;
     return kd_error_set(error, KD_ETOOBIG,
                         "at this picture size style.beam_uas needs a buffer of %llu bytes; on this device it must be "
@@ -121,8 +122,9 @@ enum kd_status kd_plan_bands(struct kd_plan *plan, const struct kd_scene *scene,
     uint64_t fixed =
         plan->lens.listed_bytes + kd_sample_bytes(plan) + 8 * (1 + kd_plan_open_most(plan)) +
         kd_emit_device_bytes(scene) + row_light * plan->picture.height + going_on * plan->picture.bands +
-        2 * (row_shown * plan->picture.band_rows + 64) + (1 << 20) + plan->picture.bloom.bytes + beam_bytes(plan) +
-        (plan->light.photometry ? 2 * kd_light_bytes(plan) : 0) + row_points * plan->picture.height +
+        2 * (row_shown * plan->picture.band_rows + 64) + (1 << 20) + plan->picture.bloom.bytes +
+        beam_bytes(&plan->picture) + (plan->light.photometry ? 2 * kd_light_bytes(plan) : 0) +
+        row_points * plan->picture.height +
         (plan->light.points ? kd_plan_pair_bytes() + kd_plan_star_ray_bytes(plan) + kd_rim_bytes_most() : 0) +
         plan->picture.n_layers * kd_plan_layer_bytes(&plan->picture) * plan->picture.bands +
         kd_plan_readback_bytes(&plan->picture);

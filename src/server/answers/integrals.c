@@ -151,7 +151,8 @@ static enum kd_status piece(struct job *job, double until_ms, enum kd_slice_resu
     if (job->stage == NEW)
         KD_TRY(begin(job, error));
     else if (job->stage == RENDERS)
-        KD_TRY(kd_integral_run_take(&job->run, &job->picture.file, &job->picture.scene, &job->picture.plan, error));
+        KD_TRY(
+            kd_integral_run_take(&job->run, &job->picture.file, &job->picture.scene, &job->picture.plan.report, error));
     if (job->stage != NEW && kd_integral_run_step(&job->run, until_ms)) {
         job->stage = SUMS;
         return KD_OK;

@@ -174,13 +174,13 @@ static void share_device(struct kd_session *s, double now)
     kd_governor_share(&s->governor, kd_budget_share(&s->all->budget, &s->demand, now));
 }
 
-void kd_session_expect(struct kd_session *s, const struct kd_plan *plan)
+void kd_session_expect(struct kd_session *s, const struct kd_plan_cost *cost)
 {
     share_device(s, kd_clock_ms());
-    struct kd_frame_cost traced = { .total_ms = plan->cost.estimate_ms },
-                         reused = { .total_ms = plan->cost.estimate_ms, .lens_reused = true };
-    for (size_t i = 0; i < plan->cost.n_passes; i++) {
-        const struct kd_plan_pass *pass = &plan->cost.passes[i];
+    struct kd_frame_cost traced = { .total_ms = cost->estimate_ms },
+                         reused = { .total_ms = cost->estimate_ms, .lens_reused = true };
+    for (size_t i = 0; i < cost->n_passes; i++) {
+        const struct kd_plan_pass *pass = &cost->passes[i];
         add_cost(&traced, pass->name, pass->estimate_ms);
         if (kd_pass_find(pass->name)->when == KD_EACH_MAP)
             reused.total_ms -= pass->estimate_ms;

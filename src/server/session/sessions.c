@@ -151,7 +151,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
     all->first = s;
     all->count++;
     kd_budget_enter(&all->budget, &s->demand);
-    kd_session_expect(s, plan);
+    kd_session_expect(s, &plan->cost);
     kd_session_pump(s);
     pthread_mutex_unlock(&all->lock);
     *out = s;
@@ -242,7 +242,7 @@ static void change(struct kd_session *s, double now, const struct kd_scene *scen
     s->patched_ms = now;
     s->failed = KD_OK;
     kd_governor_changed(&s->governor, now, scene, strcmp(s->lens_key, plan->lens.key) != 0);
-    kd_session_expect(s, plan);
+    kd_session_expect(s, &plan->cost);
     memcpy(s->lens_key, plan->lens.key, sizeof s->lens_key);
     kd_session_drop_refinement(s);
     kd_session_pump(s);
