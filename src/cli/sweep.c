@@ -148,7 +148,7 @@ static enum kd_status render(struct work *w, unsigned number, struct kd_error *e
     enum kd_status status;
     KD_TRY(plan_of(w, number, &scene, &plan, error));
     KD_TRY(kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
-    w->traced += !frame.lens_reused && plan.planes;
+    w->traced += !frame.lens_reused && plan.lens.planes;
     w->fluxes[number] = kd_flux_jy(&scene, &frame);
     const struct kd_picture picture = { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), number };
     KD_TRY(kd_encode(w->kind->frame, &picture, KD_EFFORT_KEEP, &w->encoder, &file, error));

@@ -73,7 +73,7 @@ static void what_a_report_counts_is_said(void **state)
     static struct kd_plan plan;
     struct kd_accuracy_report report = { .sampled = 768 };
     struct kd_approximation one;
-    plan.approximations[plan.n_approximations++] = kd_plan_sentence(0);
+    plan.report.approximations[plan.report.n_approximations++] = kd_plan_sentence(0);
     assert_true(kd_picture_approximation(&plan, &report, 0, &one));
     assert_string_equal(one.name, kd_plan_sentence(0).name);
     assert_false(kd_picture_approximation(&plan, &report, 1, &one));

@@ -249,7 +249,7 @@ static void groups_are_those_of_lens_maps(void **state)
             kd_plan_make(&scene, &capacity, &plan, &error))
             fail_msg("%s: %s", changes[i][0], error.message);
         assert_int_equal(kd_plan_lens_group(&scene, &other), KD_OK);
-        const bool key = !strcmp(plan.lens_key, first.lens_key);
+        const bool key = !strcmp(plan.lens.key, first.lens.key);
         same += key;
         if (one == other && !key)
             fail_msg("%s = %s changes the lens map, and not the group", changes[i][0], changes[i][1]);
@@ -266,9 +266,9 @@ static void a_cube_has_one_shape(void **state)
     struct kd_cube_shape shape;
     struct kd_error error = { 0 };
     struct kd_scene scene, other;
-    struct kd_plan plan = { .width = 64, .height = 36 }, pair = plan, wide = plan;
-    pair.eyes = 2;
-    wide.width = 65;
+    struct kd_plan plan = { .picture.width = 64, .picture.height = 36 }, pair = plan, wide = plan;
+    pair.picture.eyes = 2;
+    wide.picture.width = 65;
     (void)state;
     kd_scene_defaults(&scene);
     other = scene;

@@ -40,7 +40,7 @@ enum kd_status kd_prepare_asked(struct kd_renderer *r, enum kd_emitter_number nu
 void kd_prepare_begin(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_plan *plan)
 {
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        if (kd_emitters[i]->own && kd_emitters[i]->own->begin && plan->traits[i])
+        if (kd_emitters[i]->own && kd_emitters[i]->own->begin && plan->light.traits[i])
             kd_emitters[i]->own->begin(r, scene);
 }
 
@@ -49,7 +49,7 @@ enum kd_status kd_prepare_tell(struct kd_renderer *r, const struct kd_scene *sce
 {
     enum kd_status status = KD_OK;
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        if (kd_emitters[i]->own && kd_emitters[i]->own->tell && plan->traits[i])
+        if (kd_emitters[i]->own && kd_emitters[i]->own->tell && plan->light.traits[i])
             KD_TRY(kd_emitters[i]->own->tell(r, scene, out, credit, size, error));
 done:
     return status;
@@ -61,7 +61,7 @@ enum kd_status kd_prepare(struct kd_renderer *r, struct kd_prepared *prepared, c
     struct kd_emitter_buffers_work work;
     enum kd_status status = KD_OK;
     for (int i = 0; i < KD_EMITTER_COUNT; i++) {
-        if (!kd_emitters[i]->own || !plan->traits[i])
+        if (!kd_emitters[i]->own || !plan->light.traits[i])
             continue;
         KD_TRY(work_of(r, prepared, i, c, &work, error));
         KD_TRY(kd_emitters[i]->own->prepare(&work, scene, error));
@@ -76,7 +76,7 @@ void kd_prepared_buffers(const struct kd_prepared *prepared, const struct kd_pla
     for (int i = 0; i < KD_OWN_COUNT; i++)
         out[i] = NULL;
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        if (prepared->own[i] && plan->traits[i])
+        if (prepared->own[i] && plan->light.traits[i])
             kd_emitters[i]->own->buffers(prepared->own[i], out);
 }
 

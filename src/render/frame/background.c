@@ -97,7 +97,7 @@ static struct kd_background_render *enter_background_render(struct kd_renderer *
         return NULL;
     a->busy = true;
     a->used = ++r->backgrounds_used;
-    make_room_in_background(r, plan->device_bytes);
+    make_room_in_background(r, plan->cost.device_bytes);
     if (!kd_store_has(&a->store, plan))
         kd_store_hand_over(&r->store, &a->store, plan);
     return a;

@@ -19,7 +19,7 @@ struct kd_parted {
  * left eye's picture is on the left, and both pictures have its exposure. */
 static inline bool kd_plan_is_parted(const struct kd_plan *plan)
 {
-    return plan->eyes == 2 || plan->cut.width || plan->strips;
+    return plan->picture.eyes == 2 || plan->picture.cut.width || plan->picture.strips;
 }
 enum kd_status kd_frame_parted(const struct kd_parted *parted, struct kd_frame *out, struct kd_error *error);
 

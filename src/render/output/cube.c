@@ -46,7 +46,7 @@ enum kd_status kd_cube_compare(struct kd_cube_shape *shape, unsigned number, con
                                const struct kd_plan *plan, struct kd_error *error)
 {
     const struct kd_words *layers = &scene->image.layers;
-    const unsigned width = kd_plan_shown_width(plan), height = kd_plan_shown_height(plan);
+    const unsigned width = kd_plan_shown_width(&plan->picture), height = kd_plan_shown_height(&plan->picture);
     if (!number)
         *shape = (struct kd_cube_shape) { width, height, *layers };
     if (shape->width != width || shape->height != height)

@@ -10,11 +10,12 @@
 
 void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT])
 {
-    int n = snprintf(
-        out, KD_ACCURACY_TEXT, "rays=%llu engine=%s precision=%s steps=%u critical_rays=%llu undecided=%llu sampled=%u",
-        (unsigned long long)plan->rays, kd_engine_name(plan->setting.engine),
-        kd_precision_name(plan->setting.precision), plan->setting.steps,
-        (unsigned long long)(kd_plan_rays(plan) - plan->rays), (unsigned long long)report->undecided, report->sampled);
+    int n = snprintf(out, KD_ACCURACY_TEXT,
+                     "rays=%llu engine=%s precision=%s steps=%u critical_rays=%llu undecided=%llu sampled=%u",
+                     (unsigned long long)plan->lens.rays, kd_engine_name(plan->lens.setting.engine),
+                     kd_precision_name(plan->lens.setting.precision), plan->lens.setting.steps,
+                     (unsigned long long)(kd_plan_rays(&plan->lens) - plan->lens.rays),
+                     (unsigned long long)report->undecided, report->sampled);
     if (report->interpolated)
         n += snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " interpolated=%llu",
                       (unsigned long long)report->interpolated);
@@ -100,9 +101,9 @@ bool kd_measured_approximation(const struct kd_accuracy_report *report, size_t i
 bool kd_picture_approximation(const struct kd_plan *plan, const struct kd_accuracy_report *report, size_t index,
                               struct kd_approximation *out)
 {
-    if (index >= plan->n_approximations)
-        return kd_measured_approximation(report, index - plan->n_approximations, out);
-    *out = plan->approximations[index];
+    if (index >= plan->report.n_approximations)
+        return kd_measured_approximation(report, index - plan->report.n_approximations, out);
+    *out = plan->report.approximations[index];
     return true;
 }
 
@@ -142,9 +143,9 @@ enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *ou
     kd_accuracy_text(&picture->frame->accuracy, picture->plan, out->accuracy);
     kd_fall_clock_text(picture->scene, out->clock);
     kd_flux_text(picture->scene, picture->frame, out->flux);
-    if (picture->plan->blur.samples)
-        snprintf(out->blur, sizeof out->blur, "samples=%u shutter=%.9g", picture->plan->blur.samples,
-                 picture->plan->blur.shutter);
+    if (picture->plan->picture.blur.samples)
+        snprintf(out->blur, sizeof out->blur, "samples=%u shutter=%.9g", picture->plan->picture.blur.samples,
+                 picture->plan->picture.blur.shutter);
     enum kd_status status;
     KD_TRY(put_scene(picture, out));
     KD_TRY(join_approximations(picture, &out->approximations));

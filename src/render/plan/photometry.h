@@ -29,7 +29,7 @@ struct kd_light {
 };
 
 struct kd_light_report {
-    bool measured;              /* whether the plan requested it (kd_plan.light) */
+    bool measured;              /* whether the plan requested it (kd_plan_light.photometry) */
     bool polarized, circular;   /* whether there are Q and U; whether there is V */
     struct kd_light all, spots; /* for the whole picture; for the contribution of its hot spots */
 };

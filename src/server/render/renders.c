@@ -253,9 +253,9 @@ static bool admitted(struct kd_request *request, const struct kd_plan *plan, str
 {
     struct kd_server *server = request->server;
 
-    if (plan->estimate_ms > server->longest_s * 1e3) {
+    if (plan->cost.estimate_ms > server->longest_s * 1e3) {
         kd_error_set(error, KD_ETOOBIG, "this picture would take about %.0f s; it must be at most %u s",
-                     plan->estimate_ms * 1e-3, server->longest_s);
+                     plan->cost.estimate_ms * 1e-3, server->longest_s);
         *problem = kd_problem_from(error);
         return false;
     }
@@ -269,7 +269,7 @@ static bool admitted(struct kd_request *request, const struct kd_plan *plan, str
     enum kd_status status;
     KD_TRY(kd_render_queue_admit(server->renders, request->client, &quota, error));
     /* The size is known only after encoding; it is smaller than that of the pixels. */
-    if (kd_bytes_take(server->replies, request->client, 0, plan->host_bytes, &quota))
+    if (kd_bytes_take(server->replies, request->client, 0, plan->cost.host_bytes, &quota))
         KD_TRY(kd_error_set(error, KD_EBUSY,
                             quota ? "too many bytes of your pictures are waiting to be read (limit for one client)"
                                   : "too many bytes of pictures are waiting to be read"));
@@ -314,8 +314,9 @@ static enum kd_status tag(struct kd_request *request, struct kd_planned *planned
     char at[36] = "";
     if (request->format->lossy)
         snprintf(at, sizeof at, "-%u", request->quality);
-    if (plan->told.on)
-        snprintf(at, sizeof at, "-%u-%u%s", plan->told.x, plan->told.y, plan->told.steps ? "-steps" : "");
+    if (plan->report.probe.on)
+        snprintf(at, sizeof at, "-%u-%u%s", plan->report.probe.x, plan->report.probe.y,
+                 plan->report.probe.steps ? "-steps" : "");
     const char *name = request->format == kd_formats[0] ? "" : request->format->name;
     enum kd_status status = kd_scene_hash(&planned->scene, planned->hash);
     if (!status)
