@@ -22,7 +22,9 @@ struct arguments {
 
 static const struct argp_option table[] = {
     { "output", 'o', "FILE", 0,
-      "file to write; its ending chooses PNG, JPEG, WebP, FITS, EXR, NPZ or NPY; - for standard output, a PNG (required)", 0 },
+      "file to write; its ending chooses PNG, JPEG, WebP, FITS, EXR, NPZ or NPY; - for standard output, a PNG "
+      "(required)",
+      0 },
     { "quality", 'q', "1..100", 0, "quality of a JPEG or WebP (90)", 0 },
     KD_CLI_MEMORY,
     { "stats", 't', NULL, 0, "print times and accuracy as one line of JSON on standard error", 0 },
@@ -68,8 +70,9 @@ static enum kd_status save(struct work *work, const struct kd_scene *scene, cons
                            struct kd_error *error)
 {
     double started = kd_progress_clock();
-    const struct kd_picture picture = { &work->frame, scene, &work->plan, kd_renderer_device_name(work->renderer), 0,
-                                        arguments->quality };
+    const struct kd_picture picture = {
+        &work->frame, scene, &work->plan, kd_renderer_device_name(work->renderer), 0, arguments->quality
+    };
     enum kd_status status = kd_encode(arguments->format, &picture, KD_EFFORT_KEEP, NULL, &work->file, error);
     work->encode_ms = 1e3 * (kd_progress_clock() - started);
     return status ? status : kd_file_write(arguments->output, &work->file, error);

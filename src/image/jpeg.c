@@ -205,10 +205,11 @@ enum kd_status kd_jpeg_add_xmp(const struct kd_buffer *file, const void *xmp, si
                                struct kd_error *error)
 {
     if (size > KD_JPEG_XMP_MAX)
-        return kd_error_set(error, KD_ETOOBIG,
-                            "the scene and its notes take %zu bytes; in a JPEG they must take at most %d; a webp or png "
-                            "holds more",
-                            size, KD_JPEG_XMP_MAX);
+        return kd_error_set(
+            error, KD_ETOOBIG,
+            "the scene and its notes take %zu bytes; in a JPEG they must take at most %d; a webp or png "
+            "holds more",
+            size, KD_JPEG_XMP_MAX);
     const size_t length = 2 + sizeof namespace + size, before = out->size;
     const uint8_t *data = file->data, head[4] = { 0xff, APP1, (uint8_t)(length >> 8), (uint8_t)length };
     /* libjpeg writes the segment JFIF first, and readers expect it there */

@@ -8,7 +8,7 @@
 #include "base/buffer.h"
 #include "render/frame/frame.h"
 
-#define KD_QUALITY 90      /* of lossy formats, unless another is asked for */
+#define KD_QUALITY 90 /* of lossy formats, unless another is asked for */
 #define KD_QUALITY_MAX 100
 
 /* A frame and how it was made. */
@@ -55,7 +55,8 @@ struct kd_format {
     enum kd_status (*scene)(const void *data, size_t size, struct kd_scene *out, struct kd_error *error);
 };
 
-#define KD_FORMATS(FORMAT) FORMAT(png) FORMAT(jpg) FORMAT(webp) FORMAT(npy) FORMAT(npz) FORMAT(fits) FORMAT(exr) FORMAT(stars)
+#define KD_FORMATS(FORMAT) \
+    FORMAT(png) FORMAT(jpg) FORMAT(webp) FORMAT(npy) FORMAT(npz) FORMAT(fits) FORMAT(exr) FORMAT(stars)
 #define KD_FORMAT_DECLARE(name) extern const struct kd_format kd_format_##name;
 KD_FORMATS(KD_FORMAT_DECLARE)
 #undef KD_FORMAT_DECLARE

@@ -63,9 +63,10 @@ static enum kd_status check(const struct kd_scene *scene, const char *format, ui
                               "image.bit_depth is %d; for a file of the format %s it must be 8; png takes 16",
                               scene->image.bit_depth, format);
     if (width > side_max || window.height > side_max)
-        return kd_error_field(error, width > side_max ? "/image/width" : "/image/height",
-                              "the picture has %u x %u pixels; for a file of the format %s each side must be at most %u",
-                              width, window.height, format, side_max);
+        return kd_error_field(
+            error, width > side_max ? "/image/width" : "/image/height",
+            "the picture has %u x %u pixels; for a file of the format %s each side must be at most %u", width,
+            window.height, format, side_max);
     return KD_OK;
 }
 

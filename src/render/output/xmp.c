@@ -54,9 +54,10 @@ enum kd_status kd_xmp_put(const struct kd_picture *picture, const struct kd_note
     if (panorama)
         KD_TRY(put_panorama(picture->scene, out));
     if (n_notes)
-        KD_TRY(kd_buffer_printf(out, "<rdf:Description rdf:about=\"\" xmlns:xmp=\"http://ns.adobe.com/xap/1.0/\" "
-                                     "xmlns:dc=\"http://purl.org/dc/elements/1.1/\" xmlns:kerrd=\"urn:x-kerrd:notes#\">\n"
-                                     "<xmp:CreatorTool>kerrd " KD_VERSION "</xmp:CreatorTool>\n"));
+        KD_TRY(kd_buffer_printf(out,
+                                "<rdf:Description rdf:about=\"\" xmlns:xmp=\"http://ns.adobe.com/xap/1.0/\" "
+                                "xmlns:dc=\"http://purl.org/dc/elements/1.1/\" xmlns:kerrd=\"urn:x-kerrd:notes#\">\n"
+                                "<xmp:CreatorTool>kerrd " KD_VERSION "</xmp:CreatorTool>\n"));
     if (n_notes && *picture->frame->credit) {
         KD_TRY(kd_buffer_printf(out, "<dc:rights><rdf:Alt><rdf:li xml:lang=\"x-default\">"));
         KD_TRY(put_text(out, picture->frame->credit));

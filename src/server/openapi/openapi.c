@@ -170,8 +170,7 @@ static const struct {
       "position X,Y of the pixel, in pixels from the upper left corner", 0, true },
     { "/v1/pixel", "trace", "{\"const\":\"steps\"}", "steps: the answer has the engine's steps along the middle ray" },
     { "/v1/render", "format", NULL, "format of the picture, instead of Accept" },
-    { "/v1/render", "quality",
-      "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" KD_SCHEMA_DIGITS(KD_QUALITY_MAX) "}",
+    { "/v1/render", "quality", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" KD_SCHEMA_DIGITS(KD_QUALITY_MAX) "}",
       "quality of a jpg or webp; without format the answer is then one of these two; default 90" },
     { "/v1/render", "v", "{\"type\":\"string\",\"minLength\":1,\"maxLength\":" KD_SCHEMA_DIGITS(KD_VERSION_LETTERS) "}",
       "version for which the address was made: if it is this server's, and the scene names no asset, caches may keep "

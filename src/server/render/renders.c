@@ -59,7 +59,7 @@ static const struct kd_format *named(const char *name, struct kd_error *error)
     const struct kd_format *format = kd_format_named(name);
     for (size_t i = 0; i < kd_n_formats; i++)
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s",
-                 !i                    ? ""
+                 !i                     ? ""
                  : i + 1 < kd_n_formats ? ", "
                                         : " or ",
                  kd_formats[i]->name);
@@ -80,8 +80,9 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
         kd_error_field(&error, "/quality", "quality is \"%.40s\"; it must be a whole number, 1 to %d", text,
                        KD_QUALITY_MAX);
     else if (v && (!*v || strlen(v) > KD_VERSION_LETTERS))
-        kd_error_field(&error, "/v", "v is \"%.60s\"; it must be a version, such as \"" KD_VERSION "\", of 1 to %d letters",
-                       v, KD_VERSION_LETTERS);
+        kd_error_field(&error, "/v",
+                       "v is \"%.60s\"; it must be a version, such as \"" KD_VERSION "\", of 1 to %d letters", v,
+                       KD_VERSION_LETTERS);
     else if (!format) {
         const struct offer offer = offer_of(text);
         const size_t best = kd_reply_accepted(request, offer.n, type_of, offer.formats);
@@ -94,7 +95,8 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
         request->quality = (unsigned)quality;
         if (!text || request->format->lossy)
             return true;
-        kd_error_field(&error, "/quality", "quality is %s; it must be absent with format %s, which is exact", text, format);
+        kd_error_field(&error, "/quality", "quality is %s; it must be absent with format %s, which is exact", text,
+                       format);
         request->format = NULL;
     }
     *result = kd_reply_error(request, &error);
@@ -129,7 +131,8 @@ static const char *caching(const struct kd_request *request, const struct kd_sce
 {
     struct kd_error ignored;
     const char *v = kd_target_value(&request->target, "v");
-    if (v && request->route->gives == KD_GIVES_PICTURE && !strcmp(v, KD_VERSION) && !kd_scene_link_check(scene, &ignored))
+    if (v && request->route->gives == KD_GIVES_PICTURE && !strcmp(v, KD_VERSION) &&
+        !kd_scene_link_check(scene, &ignored))
         return request->server->access ? "private, max-age=31536000, immutable" : "public, max-age=31536000, immutable";
     const bool shared = request->route->takes == KD_TAKES_LINK && !request->server->access;
     return shared ? "public, max-age=86400" : "private, no-cache";
