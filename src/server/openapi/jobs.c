@@ -39,7 +39,7 @@ static const char axes[] =
                      "\"minItems\":1,"
                      "\"maxItems\":100000,\"items\":{\"anyOf\":[{\"type\":\"number\"},{\"type\":\"string\"},{\"type\":"
                      "\"boolean\"},{\"type\":\"array\",\"items\":{\"type\":\"string\"}}]}},{\"type\":\"string\","
-                     "\"pattern\":\"^" KD_OPENAPI_DECIMAL ":" KD_OPENAPI_DECIMAL "(:" KD_OPENAPI_DECIMAL
+                     "\"pattern\":\"^" KD_SCHEMA_DECIMAL ":" KD_SCHEMA_DECIMAL "(:" KD_SCHEMA_DECIMAL
                      "|/([1-9][0-9]{0,5}))$\",\"description\":\"START:STOP:STEP or START:STOP/HOW MANY\"}]}}";
 
 /* Variants of a request for a job. Each is a format string; its arguments are the list of the outputs that are not

@@ -165,7 +165,7 @@ static const struct {
       "largest number of pieces; of more, the answer has every k-th; default 20000" },
     { "/v1/playground/{id}/events", "since", INT,
       "number of the event after which the stream begins, like Last-Event-ID; default: all stored events" },
-    { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^" KD_OPENAPI_DECIMAL "," KD_OPENAPI_DECIMAL "$\"}",
+    { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^" KD_SCHEMA_DECIMAL "," KD_SCHEMA_DECIMAL "$\"}",
       "position X,Y of the pixel, in pixels from the upper left corner", 0, true },
     { "/v1/pixel", "trace", "{\"const\":\"steps\"}", "steps: the answer has the engine's steps along the middle ray" },
     { "/v1/share/{code}/picture.png", "width", ROOM(64, 1200),
