@@ -75,6 +75,14 @@ static bool refuse(struct kd_problem *problem, const char *detail)
     return false;
 }
 
+bool kd_route_has_query(const struct kd_route *route, const char *name)
+{
+    for (const struct kd_query *query = route ? route->queries : NULL; query && query->name; query++)
+        if (!strcmp(query->name, name))
+            return true;
+    return false;
+}
+
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem)
 {
     const struct kd_base_path *base = &request->server->base;

@@ -119,8 +119,9 @@ static void end_body(struct kd_json *json)
     kd_openapi_body_end(json);
 }
 
-void kd_openapi_jobs_body(struct kd_json *json)
+void kd_openapi_jobs_body(struct kd_json *json, const struct kd_route *route)
 {
+    (void)route;
     begin_body(json);
     add_way(json, sequence, of_any_job);
     add_way(json, sweep, any);
@@ -129,8 +130,9 @@ void kd_openapi_jobs_body(struct kd_json *json)
     end_body(json);
 }
 
-void kd_openapi_plan_body(struct kd_json *json)
+void kd_openapi_plan_body(struct kd_json *json, const struct kd_route *route)
 {
+    (void)route;
     begin_body(json);
     kd_schema_text(json, NULL, KD_OPENAPI_SCENE);
     add_way(json, sweep, any);
