@@ -6401,8 +6401,12 @@ export interface Operations {
         /**
          * smallest width of a frame while the scene changes, as a fraction of image.width; default 0.25; 0.25 to 1.
          */
+        min_scale?: number;
+        /** former name of min_scale; 0.25 to 1. */
         least?: number;
-        /** limit of a frame's time in ms: frames that take longer are made narrower than least; 10 to 60000. */
+        /** limit of a frame's time in ms: frames that take longer are made narrower than min_scale; 10 to 60000. */
+        max_frame_ms?: number;
+        /** former name of max_frame_ms; 10 to 60000. */
         patience_ms?: number;
         preset?: PresetName;
       };
@@ -6440,8 +6444,12 @@ export interface Operations {
         /**
          * smallest width of a frame while the scene changes, as a fraction of image.width; default 0.25; 0.25 to 1.
          */
+        min_scale?: number;
+        /** former name of min_scale; 0.25 to 1. */
         least?: number;
-        /** limit of a frame's time in ms: frames that take longer are made narrower than least; 10 to 60000. */
+        /** limit of a frame's time in ms: frames that take longer are made narrower than min_scale; 10 to 60000. */
+        max_frame_ms?: number;
+        /** former name of max_frame_ms; 10 to 60000. */
         patience_ms?: number;
         /**
          * order of concurrent patches: the highest number counts, and a patch that arrives after a higher one has no

@@ -9,18 +9,18 @@
     (const struct kd_query[]) { __VA_ARGS__, { 0 } }
 
 #define NATURAL "{\"type\":\"integer\",\"minimum\":0,\"maximum\":999999999999999999}" /* range of kd_target_number */
-#define PART "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_LEAST_MIN) ",\"maximum\":1}"
+#define PART "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_MIN_SCALE_MIN) ",\"maximum\":1}"
 #define PACE_MS \
-    "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_PATIENCE_MS_MIN) ",\"maximum\":" KD_SCHEMA_DIGITS( \
-        KD_PATIENCE_MS_MAX) "}"
+    "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_MAX_FRAME_MS_MIN) ",\"maximum\":" KD_SCHEMA_DIGITS( \
+        KD_MAX_FRAME_MS_MAX) "}"
 #define ORDER \
     "order", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" KD_SCHEMA_DIGITS(KD_ORDER_MAX) "}", \
         "order of concurrent patches: the highest number counts, and a patch that arrives after a higher one has no " \
         "effect"
-#define LEAST \
-    "least", PART, "smallest width of a frame while the scene changes, as a fraction of image.width; default 0.25"
-#define PATIENCE \
-    "patience_ms", PACE_MS, "limit of a frame's time in ms: frames that take longer are made narrower than least"
+#define MIN_SCALE \
+    "min_scale", PART, "smallest width of a frame while the scene changes, as a fraction of image.width; default 0.25"
+#define MAX_FRAME_MS \
+    "max_frame_ms", PACE_MS, "limit of a frame's time in ms: frames that take longer are made narrower than min_scale"
 #define MOMENT "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_WAIT_MS_MAX) "}"
 
 #define ROOM(least, most) \

@@ -73,6 +73,7 @@ struct kd_query {                     /* a parameter of the query that is no fie
     const char *name, *schema, *help; /* schema: JSON Schema as text; NULL: the names of the formats of jobs */
     unsigned methods;
     bool required;
+    const char *was; /* its former name, which is deprecated; NULL: none */
 };
 struct kd_route {
     const char *path; /* at most one segment is in braces; it matches any text, which becomes request->rest */
@@ -111,8 +112,15 @@ extern const size_t kd_n_routes;
 
 /* Whether an entry of a route that is for these methods is for this one. */
 static inline bool kd_route_for(unsigned methods, unsigned method) { return !methods || methods & method; }
-/* Whether the query parameter is one of the route's own; route may be NULL. */
+/* Whether the query parameter is one of the route's own, also by its former name; route may be NULL. */
 bool kd_route_has_query(const struct kd_route *route, const char *name);
+
+/* Value of the route's own query parameter, or NULL: it is not given, or the route has no such parameter. *given: the
+ * name that the query has, which may be the former one. KD_EINVAL if it has both. */
+enum kd_status kd_route_query(const struct kd_request *request, const char *name, const char **given,
+                              const char **value, struct kd_error *error);
+/* Whether the query has a former name of a parameter. */
+bool kd_route_is_dated(const struct kd_request *request);
 
 /* Finds the route of the request's path. Sets request->route, ->matched and ->rest. `rest` points into the target's
  * path, from which the base path is removed. The base path alone, without a slash, leads to the page. Returns false

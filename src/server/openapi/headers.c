@@ -2,6 +2,7 @@
 
 #include "base/schema.h"
 #include "server/http/once.h"
+#include "server/http/query.h"
 #include "server/http/request_id.h"
 
 #include <stdio.h>
@@ -55,6 +56,9 @@ static const struct {
     { "RateLimit", TEXT,
       "\"device-seconds\";r=LEFT;t=SECONDS: remaining device time, and the seconds until all of it is available again",
       false },
+    { "Deprecation", "{\"const\":\"" KD_DEPRECATION "\"}",
+      "if the query has a former name of a parameter: since when it is one (RFC 9745)", false },
+    { "Link", TEXT, "with Deprecation: where the present names are", false },
     { "Retry-After", COUNT, "seconds to wait before another attempt", false },
     { "WWW-Authenticate", "{\"const\":\"Bearer\"}", "scheme of authentication", true },
     { "Allow", TEXT, "methods of this address", true },
@@ -151,6 +155,14 @@ static const char *names_of(const struct kd_route *route, unsigned method, unsig
     return NULL;
 }
 
+static bool has_former_names(const struct kd_route *route, unsigned method)
+{
+    for (const struct kd_query *query = route->queries; query && query->name; query++)
+        if (query->was && kd_route_for(query->methods, method))
+            return true;
+    return false;
+}
+
 void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsigned method, unsigned status)
 {
     const char *names = names_of(route, method, status);
@@ -176,6 +188,8 @@ void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsi
         refer_all(json, "Content-Digest");
     if (names)
         refer_all(json, names);
+    if (has_former_names(route, method))
+        refer_all(json, "Deprecation Link");
     kd_json_end(json);
 }
 

@@ -91,21 +91,31 @@ static void add_format_schema(struct kd_json *json)
     kd_json_end(json);
 }
 
-static void add_query(struct kd_json *json, const struct kd_route *route, unsigned method)
+static void add_query(struct kd_json *json, const struct kd_query *query, bool was)
 {
-    for (const struct kd_query *query = route->queries; query && query->name; query++) {
-        if (!kd_route_for(query->methods, method))
-            continue;
-        begin_parameter(json, "query", query->name);
-        kd_json_string(json, "description", query->help);
-        if (query->required)
-            kd_json_bool(json, "required", true);
-        if (query->schema)
-            kd_json_raw(json, "schema", query->schema, strlen(query->schema));
-        else
-            add_format_schema(json);
-        kd_json_end(json);
-    }
+    char former[60];
+    snprintf(former, sizeof former, "former name of %s", query->name);
+    begin_parameter(json, "query", was ? query->was : query->name);
+    kd_json_string(json, "description", was ? former : query->help);
+    if (was)
+        kd_json_bool(json, "deprecated", true);
+    if (query->required)
+        kd_json_bool(json, "required", true);
+    if (query->schema)
+        kd_json_raw(json, "schema", query->schema, strlen(query->schema));
+    else
+        add_format_schema(json);
+    kd_json_end(json);
+}
+
+static void add_queries(struct kd_json *json, const struct kd_route *route, unsigned method)
+{
+    for (const struct kd_query *query = route->queries; query && query->name; query++)
+        if (kd_route_for(query->methods, method)) {
+            add_query(json, query, false);
+            if (query->was)
+                add_query(json, query, true);
+        }
 }
 
 static void add_parameters(struct kd_json *json, const struct kd_route *route, unsigned method, const cJSON *schema)
@@ -118,7 +128,7 @@ static void add_parameters(struct kd_json *json, const struct kd_route *route, u
     kd_json_array(json, "parameters");
     if (in_path)
         add_path_parameter(json, route->path);
-    add_query(json, route, method);
+    add_queries(json, route, method);
     kd_openapi_asked_headers(json, route, method);
     if (taken->parameters)
         taken->parameters(json, method, schema);

@@ -86,6 +86,8 @@ static void put_taken(struct page *page, const struct kd_route *route, unsigned 
     for (const struct kd_query *query = route->queries; query && query->name; query++)
         if (kd_route_for(query->methods, method)) {
             put_type(page, query->name, strlen(query->name), gap);
+            if (query->was)
+                put_type(page, query->was, strlen(query->was), ", formerly ");
             gap = ", ";
         }
 }
