@@ -810,17 +810,17 @@ export interface RaysRequest {
      * observer's frame, [yaw, pitch] in degrees.
      */
     motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-    /** as camera.velocity_r (motion: velocity); -1 to 1. */
+    /** velocity outwards, as camera.velocity_r (motion: velocity); -1 to 1. */
     velocity_r?: number;
-    /** as camera.velocity_theta (motion: velocity); -1 to 1. */
+    /** velocity away from the north pole, as camera.velocity_theta (motion: velocity); -1 to 1. */
     velocity_theta?: number;
-    /** as camera.velocity_phi (motion: velocity); -1 to 1. */
+    /** velocity along the disk's rotation, as camera.velocity_phi (motion: velocity); -1 to 1. */
     velocity_phi?: number;
-    /** as camera.infall_from, M (motion: infall); 1 to 10000000. */
+    /** radius at which the observer was at rest, as camera.infall_from, M (motion: infall); 1 to 10000000. */
     infall_from?: 'infinity' | number;
-    /** as camera.infall_energy (motion: infall); -100 to 1000. */
+    /** energy per mass, as camera.infall_energy (motion: infall); -100 to 1000. */
     infall_energy?: 'rest' | number;
-    /** as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
+    /** angular momentum per mass, as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
     infall_momentum?: number;
   };
   /** number of equatorial crossings in the answer; 1 to 16. */
@@ -851,17 +851,17 @@ export interface RaysObserver {
    * observer's frame, [yaw, pitch] in degrees.
    */
   motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-  /** as camera.velocity_r (motion: velocity); -1 to 1. */
+  /** velocity outwards, as camera.velocity_r (motion: velocity); -1 to 1. */
   velocity_r?: number;
-  /** as camera.velocity_theta (motion: velocity); -1 to 1. */
+  /** velocity away from the north pole, as camera.velocity_theta (motion: velocity); -1 to 1. */
   velocity_theta?: number;
-  /** as camera.velocity_phi (motion: velocity); -1 to 1. */
+  /** velocity along the disk's rotation, as camera.velocity_phi (motion: velocity); -1 to 1. */
   velocity_phi?: number;
-  /** as camera.infall_from, M (motion: infall); 1 to 10000000. */
+  /** radius at which the observer was at rest, as camera.infall_from, M (motion: infall); 1 to 10000000. */
   infall_from?: 'infinity' | number;
-  /** as camera.infall_energy (motion: infall); -100 to 1000. */
+  /** energy per mass, as camera.infall_energy (motion: infall); -100 to 1000. */
   infall_energy?: 'rest' | number;
-  /** as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
+  /** angular momentum per mass, as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
   infall_momentum?: number;
 }
 
@@ -4560,17 +4560,17 @@ export interface Operations {
          * observer's frame, [yaw, pitch] in degrees.
          */
         motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-        /** as camera.velocity_r (motion: velocity); -1 to 1. */
+        /** velocity outwards, as camera.velocity_r (motion: velocity); -1 to 1. */
         velocity_r?: number;
-        /** as camera.velocity_theta (motion: velocity); -1 to 1. */
+        /** velocity away from the north pole, as camera.velocity_theta (motion: velocity); -1 to 1. */
         velocity_theta?: number;
-        /** as camera.velocity_phi (motion: velocity); -1 to 1. */
+        /** velocity along the disk's rotation, as camera.velocity_phi (motion: velocity); -1 to 1. */
         velocity_phi?: number;
-        /** as camera.infall_from, M (motion: infall); 1 to 10000000. */
+        /** radius at which the observer was at rest, as camera.infall_from, M (motion: infall); 1 to 10000000. */
         infall_from?: 'infinity' | number;
-        /** as camera.infall_energy (motion: infall); -100 to 1000. */
+        /** energy per mass, as camera.infall_energy (motion: infall); -100 to 1000. */
         infall_energy?: 'rest' | number;
-        /** as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
+        /** angular momentum per mass, as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
         infall_momentum?: number;
         /** number of equatorial crossings in the answer; 1 to 16. */
         orders?: number;
@@ -4600,17 +4600,17 @@ export interface Operations {
          * observer's frame, [yaw, pitch] in degrees.
          */
         motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-        /** as camera.velocity_r (motion: velocity); -1 to 1. */
+        /** velocity outwards, as camera.velocity_r (motion: velocity); -1 to 1. */
         velocity_r?: number;
-        /** as camera.velocity_theta (motion: velocity); -1 to 1. */
+        /** velocity away from the north pole, as camera.velocity_theta (motion: velocity); -1 to 1. */
         velocity_theta?: number;
-        /** as camera.velocity_phi (motion: velocity); -1 to 1. */
+        /** velocity along the disk's rotation, as camera.velocity_phi (motion: velocity); -1 to 1. */
         velocity_phi?: number;
-        /** as camera.infall_from, M (motion: infall); 1 to 10000000. */
+        /** radius at which the observer was at rest, as camera.infall_from, M (motion: infall); 1 to 10000000. */
         infall_from?: 'infinity' | number;
-        /** as camera.infall_energy (motion: infall); -100 to 1000. */
+        /** energy per mass, as camera.infall_energy (motion: infall); -100 to 1000. */
         infall_energy?: 'rest' | number;
-        /** as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
+        /** angular momentum per mass, as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
         infall_momentum?: number;
         /** number of equatorial crossings in the answer; 1 to 16. */
         orders?: number;
