@@ -110,7 +110,7 @@ def delays(viewer, changes):
 def lesson_of(port, preset, pupils, seconds):
     teacher, over = Line(port), threading.Event()
     size = {"image": {"width": 480, "height": 270}}
-    session = teacher.json("POST", f"/v1/sessions?preset={preset}&least=1", size)
+    session = teacher.json("POST", f"/v1/sessions?preset={preset}&min_scale=1", size)
     lesson = teacher.json("POST", "/v1/lessons", {"session": session["id"]})
     viewers = [Viewer(port, session["id"], over) for _ in range(pupils + 1)]  # the teacher's page is one
     pupils_ = [Pupil(port, lesson["id"], f"{k:016x}", over) for k in range(pupils)]

@@ -338,7 +338,7 @@ def sized_rows(server, names, sizes):
             scene["image"].update(width=width, height=height, samples=1)
             at, round_it = scene["camera"]["inclination_deg"], scene["camera"]["azimuth_deg"]
             scene["motion"].update(time_rate=0, azimuth_rate_deg=0)
-            session = Session(server.port, scene, "?least=1")
+            session = Session(server.port, scene, "?min_scale=1")
             for again in (10, 40):  # the first ones make the kernels, and the governor adapts
                 rows[f"{name}, {size}: inclination"] = steer(
                     session, [{"camera": {"inclination_deg": at - 0.1 * (again + k)}} for k in range(again)]

@@ -810,17 +810,17 @@ export interface RaysRequest {
      * observer's frame, [yaw, pitch] in degrees.
      */
     motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-    /** as camera.velocity_r (motion: velocity); -1 to 1. */
+    /** velocity outwards, as camera.velocity_r (motion: velocity); -1 to 1. */
     velocity_r?: number;
-    /** as camera.velocity_theta (motion: velocity); -1 to 1. */
+    /** velocity away from the north pole, as camera.velocity_theta (motion: velocity); -1 to 1. */
     velocity_theta?: number;
-    /** as camera.velocity_phi (motion: velocity); -1 to 1. */
+    /** velocity along the disk's rotation, as camera.velocity_phi (motion: velocity); -1 to 1. */
     velocity_phi?: number;
-    /** as camera.infall_from, M (motion: infall); 1 to 10000000. */
+    /** radius at which the observer was at rest, as camera.infall_from, M (motion: infall); 1 to 10000000. */
     infall_from?: 'infinity' | number;
-    /** as camera.infall_energy (motion: infall); -100 to 1000. */
+    /** energy per mass, as camera.infall_energy (motion: infall); -100 to 1000. */
     infall_energy?: 'rest' | number;
-    /** as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
+    /** angular momentum per mass, as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
     infall_momentum?: number;
   };
   /** number of equatorial crossings in the answer; 1 to 16. */
@@ -851,17 +851,17 @@ export interface RaysObserver {
    * observer's frame, [yaw, pitch] in degrees.
    */
   motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-  /** as camera.velocity_r (motion: velocity); -1 to 1. */
+  /** velocity outwards, as camera.velocity_r (motion: velocity); -1 to 1. */
   velocity_r?: number;
-  /** as camera.velocity_theta (motion: velocity); -1 to 1. */
+  /** velocity away from the north pole, as camera.velocity_theta (motion: velocity); -1 to 1. */
   velocity_theta?: number;
-  /** as camera.velocity_phi (motion: velocity); -1 to 1. */
+  /** velocity along the disk's rotation, as camera.velocity_phi (motion: velocity); -1 to 1. */
   velocity_phi?: number;
-  /** as camera.infall_from, M (motion: infall); 1 to 10000000. */
+  /** radius at which the observer was at rest, as camera.infall_from, M (motion: infall); 1 to 10000000. */
   infall_from?: 'infinity' | number;
-  /** as camera.infall_energy (motion: infall); -100 to 1000. */
+  /** energy per mass, as camera.infall_energy (motion: infall); -100 to 1000. */
   infall_energy?: 'rest' | number;
-  /** as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
+  /** angular momentum per mass, as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
   infall_momentum?: number;
 }
 
@@ -4569,17 +4569,17 @@ export interface Operations {
          * observer's frame, [yaw, pitch] in degrees.
          */
         motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-        /** as camera.velocity_r (motion: velocity); -1 to 1. */
+        /** velocity outwards, as camera.velocity_r (motion: velocity); -1 to 1. */
         velocity_r?: number;
-        /** as camera.velocity_theta (motion: velocity); -1 to 1. */
+        /** velocity away from the north pole, as camera.velocity_theta (motion: velocity); -1 to 1. */
         velocity_theta?: number;
-        /** as camera.velocity_phi (motion: velocity); -1 to 1. */
+        /** velocity along the disk's rotation, as camera.velocity_phi (motion: velocity); -1 to 1. */
         velocity_phi?: number;
-        /** as camera.infall_from, M (motion: infall); 1 to 10000000. */
+        /** radius at which the observer was at rest, as camera.infall_from, M (motion: infall); 1 to 10000000. */
         infall_from?: 'infinity' | number;
-        /** as camera.infall_energy (motion: infall); -100 to 1000. */
+        /** energy per mass, as camera.infall_energy (motion: infall); -100 to 1000. */
         infall_energy?: 'rest' | number;
-        /** as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
+        /** angular momentum per mass, as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
         infall_momentum?: number;
         /** number of equatorial crossings in the answer; 1 to 16. */
         orders?: number;
@@ -4609,17 +4609,17 @@ export interface Operations {
          * observer's frame, [yaw, pitch] in degrees.
          */
         motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
-        /** as camera.velocity_r (motion: velocity); -1 to 1. */
+        /** velocity outwards, as camera.velocity_r (motion: velocity); -1 to 1. */
         velocity_r?: number;
-        /** as camera.velocity_theta (motion: velocity); -1 to 1. */
+        /** velocity away from the north pole, as camera.velocity_theta (motion: velocity); -1 to 1. */
         velocity_theta?: number;
-        /** as camera.velocity_phi (motion: velocity); -1 to 1. */
+        /** velocity along the disk's rotation, as camera.velocity_phi (motion: velocity); -1 to 1. */
         velocity_phi?: number;
-        /** as camera.infall_from, M (motion: infall); 1 to 10000000. */
+        /** radius at which the observer was at rest, as camera.infall_from, M (motion: infall); 1 to 10000000. */
         infall_from?: 'infinity' | number;
-        /** as camera.infall_energy (motion: infall); -100 to 1000. */
+        /** energy per mass, as camera.infall_energy (motion: infall); -100 to 1000. */
         infall_energy?: 'rest' | number;
-        /** as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
+        /** angular momentum per mass, as camera.infall_momentum, M (motion: infall); -10000 to 10000. */
         infall_momentum?: number;
         /** number of equatorial crossings in the answer; 1 to 16. */
         orders?: number;
@@ -6410,8 +6410,12 @@ export interface Operations {
         /**
          * smallest width of a frame while the scene changes, as a fraction of image.width; default 0.25; 0.25 to 1.
          */
+        min_scale?: number;
+        /** former name of min_scale; 0.25 to 1. */
         least?: number;
-        /** limit of a frame's time in ms: frames that take longer are made narrower than least; 10 to 60000. */
+        /** limit of a frame's time in ms: frames that take longer are made narrower than min_scale; 10 to 60000. */
+        max_frame_ms?: number;
+        /** former name of max_frame_ms; 10 to 60000. */
         patience_ms?: number;
         preset?: PresetName;
       };
@@ -6449,8 +6453,12 @@ export interface Operations {
         /**
          * smallest width of a frame while the scene changes, as a fraction of image.width; default 0.25; 0.25 to 1.
          */
+        min_scale?: number;
+        /** former name of min_scale; 0.25 to 1. */
         least?: number;
-        /** limit of a frame's time in ms: frames that take longer are made narrower than least; 10 to 60000. */
+        /** limit of a frame's time in ms: frames that take longer are made narrower than min_scale; 10 to 60000. */
+        max_frame_ms?: number;
+        /** former name of max_frame_ms; 10 to 60000. */
         patience_ms?: number;
         /**
          * order of concurrent patches: the highest number counts, and a patch that arrives after a higher one has no

@@ -124,12 +124,14 @@ export class Client {
      * A live view of a scene. It ends by close(), or when nobody has asked for its frames for a minute.
      *
      * @param {Scene} [scene]
-     * @param {{ preset?: PresetName, least?: number } & Pick<Sending, 'signal' | 'patience'>} [options] least: part of the
-     *   width that frames keep while the scene changes, 0.25 to 1 (docs/live.md)
+     * @param {{ preset?: PresetName, minScale?: number, least?: number } & Pick<Sending, 'signal' | 'patience'>} [options]
+     *   minScale: part of the width that frames keep while the scene changes, 0.25 to 1 (docs/live.md); least: its former
+     *   name
      * @returns {Promise<Session>}
      */
-    session(scene?: Scene, { preset, least, ...sending }?: {
+    session(scene?: Scene, { preset, least, minScale, ...sending }?: {
         preset?: PresetName;
+        minScale?: number;
         least?: number;
     } & Pick<Sending, "signal" | "patience">): Promise<Session>;
     /**

@@ -199,12 +199,14 @@ export class Client {
    * A live view of a scene. It ends by close(), or when nobody has asked for its frames for a minute.
    *
    * @param {Scene} [scene]
-   * @param {{ preset?: PresetName, least?: number } & Pick<Sending, 'signal' | 'patience'>} [options] least: part of the
-   *   width that frames keep while the scene changes, 0.25 to 1 (docs/live.md)
+   * @param {{ preset?: PresetName, minScale?: number, least?: number } & Pick<Sending, 'signal' | 'patience'>} [options]
+   *   minScale: part of the width that frames keep while the scene changes, 0.25 to 1 (docs/live.md); least: its former
+   *   name
    * @returns {Promise<Session>}
    */
-  async session(scene = {}, { preset, least, ...sending } = {}) {
-    const { data } = await this.request('POST /v1/sessions', { ...sending, query: { preset, least }, body: scene });
+  async session(scene = {}, { preset, least, minScale = least, ...sending } = {}) {
+    const query = { preset, min_scale: minScale };
+    const { data } = await this.request('POST /v1/sessions', { ...sending, query, body: scene });
     return new Session(this, data);
   }
 

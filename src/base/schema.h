@@ -16,6 +16,8 @@
 #define KD_SCHEMA_LIST(items) "{\"type\":\"array\",\"items\":" items "}"
 #define KD_SCHEMA_MAP(values) "{\"type\":\"object\",\"additionalProperties\":" values "}"
 #define KD_SCHEMA_VECTOR "{\"type\":\"array\",\"minItems\":3,\"maxItems\":3,\"items\":{\"type\":\"number\"}}"
+/* Pattern of a decimal number (document/number.h). */
+#define KD_SCHEMA_DECIMAL "-?((0|[1-9][0-9]*)([.][0-9]*)?|[.][0-9]+)([eE][-+]?[0-9]+)?"
 #define KD_SCHEMA_REF(name) "{\"$ref\":\"#/components/schemas/" name "\"}"
 
 /* Returns entry `index` of an enumeration; NULL beyond the last. */

@@ -4,6 +4,7 @@
 #include "cli/ending.h"
 #include "cli/file.h"
 #include "cli/progress.h"
+#include "cli/row_options.h"
 #include "cli/scene_options.h"
 #include "integral/run.h"
 
@@ -12,12 +13,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_FIRST = 256, FIELDS_MAX = 64, KEY_OBSERVATION = KEY_FIRST + FIELDS_MAX };
+enum { KEY_OBSERVATION = KD_ROW_KEY + KD_ROW_OPTIONS };
 
 struct arguments {
     enum kd_integral what;
     const char *input, *output, *format;
-    const char *given[FIELDS_MAX]; /* texts of the options, in the order of the table of fields; NULL: not given */
+    const struct kd_row_options *rows;
+    struct kd_row_texts given;
     const char *observation;       /* file of observations that the scene is compared with */
     struct kd_scene_options scene; /* options of the scene, for integrals that accept one */
     const char *device;
@@ -32,10 +34,8 @@ static bool may_have_scene(enum kd_integral what)
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
-    if (key >= KEY_FIRST && key < KEY_FIRST + FIELDS_MAX) {
-        arguments->given[key - KEY_FIRST] = text;
+    if (kd_row_options_take(&arguments->given, key, text))
         return 0;
-    }
     switch (key) {
     case ARGP_KEY_INIT:
         if (may_have_scene(arguments->what))
@@ -122,6 +122,11 @@ static enum kd_status read_observation(const char *path, struct kd_integral_requ
     return status;
 }
 
+static enum kd_status set(void *request, const char *name, const char *text, struct kd_error *error)
+{
+    return kd_integral_request_set(request, name, text, error);
+}
+
 static enum kd_status load(struct arguments *arguments, struct kd_integral_request *request, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
@@ -129,13 +134,7 @@ static enum kd_status load(struct arguments *arguments, struct kd_integral_reque
         KD_TRY(read_file(arguments, request, error));
     if (may_have_scene(request->what))
         KD_TRY(load_scene(arguments, request, error));
-    for (size_t i = 0; i < kd_n_integral_fields; i++) {
-        const struct kd_row *f = &kd_integral_fields[i];
-        char name[64];
-        snprintf(name, sizeof name, "%s%s%s", f->object ? f->object : "", f->object ? "." : "", f->name);
-        if (arguments->given[i])
-            KD_TRY(kd_integral_request_set(request, name, arguments->given[i], error));
-    }
+    KD_TRY(kd_row_options_set(arguments->rows, &arguments->given, set, request, error));
     if (arguments->observation)
         KD_TRY(read_observation(arguments->observation, request, error));
     KD_TRY(kd_integral_request_check(request, error));
@@ -217,10 +216,17 @@ done:
 }
 
 /* Makes an option for each field: --inclination-deg for inclination_deg. */
-static void set_options(enum kd_integral what, struct argp_option *options, char names[FIELDS_MAX][32],
-                        char helps[FIELDS_MAX][240], char values[FIELDS_MAX][40])
+static void set_options(enum kd_integral what, struct argp_option *options, struct kd_row_options *rows)
 {
+    const struct kd_document document = {
+        .rows = kd_integral_fields,
+        .n = kd_n_integral_fields,
+        .of = 1u << what | (what == KD_INTEGRAL_SPECTRUM ? 1u << KD_INTEGRAL_VOLUME : 0),
+    };
+    struct kd_integral_request request;
     size_t n = 0;
+    kd_integral_request_init(&request, what);
+    rows->n = 0;
     options[n++] = (struct argp_option) { "output", 'o', "FILE", 0, "output file; its ending chooses the format", 2 };
     options[n++] = (struct argp_option) { "format",
                                           'f',
@@ -239,39 +245,27 @@ static void set_options(enum kd_integral what, struct argp_option *options, char
                                        : "observation whose times, baselines and errors are used: uvfits, or the EHT's "
                                          "CSV",
                                    1 };
-    for (size_t i = 0; i < kd_n_integral_fields; i++) {
-        const struct kd_row *f = &kd_integral_fields[i];
-        if (!(f->of & (1u << what | (what == KD_INTEGRAL_SPECTRUM ? 1u << KD_INTEGRAL_VOLUME : 0))))
-            continue;
-        snprintf(names[i], sizeof names[i], "%s%s%s", f->object ? f->object : "", f->object ? "-" : "", f->name);
-        for (char *c = names[i]; (c = strchr(c, '_'));)
-            *c = '-';
-        const bool word = f->kind == KD_KIND_REAL && f->words;
-        const char *unit = f->unit ? f->unit : "";
-        snprintf(helps[i], sizeof helps[i], "%s%s%s%s%s%s", f->help, *unit ? " [" : "", unit, *unit ? "]" : "",
-                 word ? "; a number or " : "", word ? f->words : "");
-        snprintf(values[i], sizeof values[i], "X|%s", word ? f->words : "");
-        const char *value = f->kind == KD_KIND_WORD    ? f->words
-                            : f->kind == KD_KIND_WORDS ? "WORD,..."
-                            : f->kind == KD_KIND_LIST  ? "X,Y,..."
-                            : word                     ? values[i]
-                                                       : "X";
-        options[n++] = (struct argp_option) { names[i], KEY_FIRST + (int)i, value, 0, helps[i], 1 };
-    }
+    kd_row_options_add(rows, options, &n, &document, &request, "", true, 1);
+    kd_integral_request_finish(&request);
+    options[n] = (struct argp_option) { 0 };
 }
 
 /* Options of one integral, and the texts that they refer to. */
 struct table {
     struct argp argp;
-    struct argp_option options[FIELDS_MAX + 4];
-    char names[FIELDS_MAX][32], helps[FIELDS_MAX][240], values[FIELDS_MAX][40], doc[400];
+    struct argp_option options[KD_ROW_OPTIONS + 4];
+    struct kd_row_options rows;
+    char doc[400];
 };
 
-static const struct argp *make_argp(enum kd_integral what, struct table *table)
+static struct table tables[KD_INTEGRALS];
+
+static const struct argp *make_argp(enum kd_integral what)
 {
+    struct table *table = &tables[what];
     static const struct argp_child children[] = { { &kd_cli_log_argp, 0, NULL, 3 }, { 0 } };
     const char *title = kd_integral_kind_of(what)->title;
-    set_options(what, table->options, table->names, table->helps, table->values);
+    set_options(what, table->options, &table->rows);
     snprintf(table->doc, sizeof table->doc,
              "%c%s.\vFILE is a request of POST /v1/%s; options override its members, or replace FILE. "
              "docs/physics/integrals.md has the formulas. %s",
@@ -288,13 +282,13 @@ static const struct argp *make_argp(enum kd_integral what, struct table *table)
     return &table->argp;
 }
 
-static int run(enum kd_integral what, const struct argp *argp, int argc, char **argv)
+static int run(enum kd_integral what, int argc, char **argv)
 {
-    struct arguments arguments = { .what = what };
+    struct arguments arguments = { .what = what, .rows = &tables[what].rows };
     struct kd_buffer out = { 0 };
     struct kd_error error = { 0 };
 
-    argp_parse(argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(make_argp(what), argc, argv, 0, NULL, &arguments);
     bool print = !arguments.output || !strcmp(arguments.output, "-");
     enum kd_status status = !print || format_of(&arguments) >= KD_INTEGRAL_NPY
                                 ? kd_file_check(print ? "-" : arguments.output, &error)
@@ -309,50 +303,20 @@ static int run(enum kd_integral what, const struct argp *argp, int argc, char **
     return code;
 }
 
-const struct argp *kd_cli_line_argp(void)
-{
-    static struct table table;
-    return make_argp(KD_INTEGRAL_LINE, &table);
-}
-int kd_cli_line(int argc, char **argv) { return run(KD_INTEGRAL_LINE, kd_cli_line_argp(), argc, argv); }
+const struct argp *kd_cli_line_argp(void) { return make_argp(KD_INTEGRAL_LINE); }
+int kd_cli_line(int argc, char **argv) { return run(KD_INTEGRAL_LINE, argc, argv); }
 
-const struct argp *kd_cli_transfer_function_argp(void)
-{
-    static struct table table;
-    return make_argp(KD_INTEGRAL_TRANSFER, &table);
-}
-int kd_cli_transfer_function(int argc, char **argv)
-{
-    return run(KD_INTEGRAL_TRANSFER, kd_cli_transfer_function_argp(), argc, argv);
-}
+const struct argp *kd_cli_transfer_function_argp(void) { return make_argp(KD_INTEGRAL_TRANSFER); }
+int kd_cli_transfer_function(int argc, char **argv) { return run(KD_INTEGRAL_TRANSFER, argc, argv); }
 
-const struct argp *kd_cli_visibility_argp(void)
-{
-    static struct table table;
-    return make_argp(KD_INTEGRAL_VISIBILITY, &table);
-}
-int kd_cli_visibility(int argc, char **argv)
-{
-    return run(KD_INTEGRAL_VISIBILITY, kd_cli_visibility_argp(), argc, argv);
-}
+const struct argp *kd_cli_visibility_argp(void) { return make_argp(KD_INTEGRAL_VISIBILITY); }
+int kd_cli_visibility(int argc, char **argv) { return run(KD_INTEGRAL_VISIBILITY, argc, argv); }
 
-const struct argp *kd_cli_compare_argp(void)
-{
-    static struct table table;
-    return make_argp(KD_INTEGRAL_COMPARE, &table);
-}
-int kd_cli_compare(int argc, char **argv) { return run(KD_INTEGRAL_COMPARE, kd_cli_compare_argp(), argc, argv); }
+const struct argp *kd_cli_compare_argp(void) { return make_argp(KD_INTEGRAL_COMPARE); }
+int kd_cli_compare(int argc, char **argv) { return run(KD_INTEGRAL_COMPARE, argc, argv); }
 
-const struct argp *kd_cli_observe_argp(void)
-{
-    static struct table table;
-    return make_argp(KD_INTEGRAL_OBSERVE, &table);
-}
-int kd_cli_observe(int argc, char **argv) { return run(KD_INTEGRAL_OBSERVE, kd_cli_observe_argp(), argc, argv); }
+const struct argp *kd_cli_observe_argp(void) { return make_argp(KD_INTEGRAL_OBSERVE); }
+int kd_cli_observe(int argc, char **argv) { return run(KD_INTEGRAL_OBSERVE, argc, argv); }
 
-const struct argp *kd_cli_spectrum_argp(void)
-{
-    static struct table table;
-    return make_argp(KD_INTEGRAL_SPECTRUM, &table);
-}
-int kd_cli_spectrum(int argc, char **argv) { return run(KD_INTEGRAL_SPECTRUM, kd_cli_spectrum_argp(), argc, argv); }
+const struct argp *kd_cli_spectrum_argp(void) { return make_argp(KD_INTEGRAL_SPECTRUM); }
+int kd_cli_spectrum(int argc, char **argv) { return run(KD_INTEGRAL_SPECTRUM, argc, argv); }

@@ -3,66 +3,27 @@
 #include "cli/ending.h"
 #include "cli/file.h"
 #include "cli/progress.h"
+#include "cli/row_options.h"
 #include "base/cores.h"
 #include "orbit/feed.h"
-#include "physics/spacetime/observer.h"
+#include "orbit/fields.h"
 
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_FIRST = 256 };
-
-/* Fields in the order of their keys. Their names are those of kd_orbit_request_set and of --help. */
-static const struct {
-    const char *name, *argument, *help;
-} fields[] = {
-    { "case", "mercury|zoom-whirl|plunge|isco|spherical", "an orbit by name" },
-    { "spin", "A", "spin of the hole, above -1 and below 1" },
-    { "p", "P", "bound orbit by its shape: semi-latus rectum; the radii are between P/(1+E) and P/(1-E)" },
-    { "e", "E", "bound orbit by its shape: eccentricity, below 1" },
-    { "inclination_deg", "I", "bound orbit by its shape: inclination; above 90 is retrograde" },
-    { "energy", "E", "orbit by its constants: energy per mass" },
-    { "angular_momentum", "L", "orbit by its constants: angular momentum about the axis, per mass" },
-    { "carter", "Q", "orbit by its constants: Carter's constant; 0 (the default): equatorial" },
-    { "theta_deg", "T", "orbit by position and velocity: polar angle" },
-    { "phi_deg", "F", "azimuth" },
-    { "frame", KD_OBSERVER_FRAME_WORDS, "observer whose frame the velocity refers to (zamo)" },
-    { "v_r", "V", "components of the velocity, in units of c" },
-    { "v_theta", "V", NULL },
-    { "v_phi", "V", NULL },
-    /* These two come after the fields on which their meaning depends. */
-    { "r", "R", "radius of the position; for an orbit by its constants, the radius where it starts" },
-    { "outward", "true|false", "for an orbit by its constants: whether it starts outwards" },
-    { "periods", "N", "duration in radial periods (10), or in revolutions if r is constant" },
-    { "or_end", "true|false", "follow an orbit that plunges or escapes to its end, because it has no periods (false)" },
-    { "time", "T", "duration in coordinate time, M" },
-    { "samples", "N", "number of samples of the path, both ends included (1000); 0 for none" },
-    { "digits", "N", "significant digits of the series as text (17: all)" },
-    { "method", "yoshida6|rkn6|closed", "method of integration (yoshida6)" },
-    { "steps", "N", "steps per radial period, instead of a tolerance" },
-    { "tolerance", "X", "largest relative error after a period; it determines the step (1e-12)" },
-    { "r_max", "R", "radius at which an escaping orbit ends (100)" },
-    { "observer_inclination_deg", "I", "observer who sees each sample: inclination" },
-    { "observer_r", "R|infinity", "observer's radius (infinity)" },
-    { "observer_azimuth_deg", "F", "observer's azimuth (0)" },
-    { "observer", KD_OBSERVER_FRAME_WORDS, "observer's motion (static)" },
-    { "mass_msun", "M", "mass of the hole; adds frequencies in Hz and the advance per century" },
-};
-#define N_FIELDS (sizeof fields / sizeof *fields)
+static struct kd_row_options rows;
 
 struct arguments {
     const char *input, *output, *format;
-    const char *given[N_FIELDS];
+    struct kd_row_texts given;
 };
 
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
-    if (key >= KEY_FIRST && key < KEY_FIRST + (int)N_FIELDS) {
-        arguments->given[key - KEY_FIRST] = text;
+    if (kd_row_options_take(&arguments->given, key, text))
         return 0;
-    }
     switch (key) {
     case 'o': arguments->output = text; return 0;
     case 'f':
@@ -106,14 +67,17 @@ done:
     return status;
 }
 
+static enum kd_status set(void *request, const char *name, const char *text, struct kd_error *error)
+{
+    return kd_orbit_request_set(request, name, text, error);
+}
+
 static enum kd_status load(const struct arguments *arguments, struct kd_orbit_request *request, struct kd_error *error)
 {
     enum kd_status status;
     if (arguments->input)
         KD_TRY(load_file(arguments->input, request, error));
-    for (size_t i = 0; i < N_FIELDS; i++)
-        if (arguments->given[i])
-            KD_TRY(kd_orbit_request_set(request, fields[i].name, arguments->given[i], error));
+    KD_TRY(kd_row_options_set(&rows, &arguments->given, set, request, error));
     KD_TRY(kd_orbit_request_check(request, error));
 done:
     return status;
@@ -210,29 +174,41 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
     return status;
 }
 
-/* Makes an option for each field: --inclination-deg for inclination_deg. */
-static void set_options(struct argp_option *options, char names[N_FIELDS][32])
+static void set_options(struct argp_option *options)
 {
-    options[0] = (struct argp_option) {
+    /* A case first, and a state last: the meaning of --r depends on the constants. */
+    static const struct {
+        enum kd_orbit_form form;
+        const char *about;
+    } forms[] = {
+        { KD_ORBIT_CASE, "" },
+        { KD_ORBIT_SHAPE, "bound orbit by its shape: " },
+        { KD_ORBIT_CONSTANTS, "orbit by its constants: " },
+        { KD_ORBIT_STATE, "orbit by position, with --r, and velocity: " },
+    };
+    struct kd_orbit_request request;
+    size_t n = 0;
+    kd_orbit_request_init(&request);
+    rows.n = 0;
+    options[n++] = (struct argp_option) {
         "output", 'o', "FILE", 0, "output file; .npy, .csv and .ndjson choose those formats", 0
     };
-    options[1] =
+    options[n++] =
         (struct argp_option) { "format", 'f', "json|ndjson|csv|npy", 0, "format of the output, independent of its name",
                                0 };
-    for (size_t i = 0; i < N_FIELDS; i++) {
-        strncpy(names[i], fields[i].name, 31);
-        for (char *c = names[i]; (c = strchr(c, '_'));)
-            *c = '-';
-        options[2 + i] =
-            (struct argp_option) { names[i], KEY_FIRST + (int)i, fields[i].argument, 0, fields[i].help, 0 };
+    kd_row_options_add(&rows, options, &n, &kd_orbit_request_document, &request.params, "", false, 0);
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
+        struct kd_document one = kd_orbit_document;
+        one.of = 1u << forms[i].form;
+        kd_row_options_add(&rows, options, &n, &one, NULL, forms[i].about, false, 0);
     }
+    options[n] = (struct argp_option) { 0 };
 }
 
 const struct argp *kd_cli_orbit_argp(void)
 {
     static const struct argp_child children[] = { { &kd_cli_log_argp, 0, NULL, 0 }, { 0 } };
-    static char names[N_FIELDS][32];
-    static struct argp_option options[N_FIELDS + 3];
+    static struct argp_option options[KD_ROW_OPTIONS + 3];
     static const struct argp argp = {
         .options = options,
         .parser = parse,
@@ -243,7 +219,7 @@ const struct argp *kd_cli_orbit_argp(void)
                "--inclination-deg 30. No device is needed.",
         .children = children,
     };
-    set_options(options, names);
+    set_options(options);
     return &argp;
 }
 

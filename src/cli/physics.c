@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_PARAMETER = 256, KEY_DIGITS = KEY_PARAMETER + KD_QUANTITY_PARAMETERS, NAME_SIZE = 40, HELP_SIZE = 400 };
+enum { KEY_PARAMETER = 256, KEY_DIGITS = KEY_PARAMETER + KD_QUANTITY_PARAMETERS, NAME_SIZE = 40, HELP_SIZE = 800 };
 
 struct arguments {
     const struct kd_quantity *quantity;
@@ -53,17 +53,17 @@ static void make_options(const struct kd_quantity *quantity, struct options *opt
 {
     size_t n = 0;
     for (; n < quantity->n_parameters; n++) {
-        const struct kd_parameter *p = &quantity->parameters[n];
+        const struct kd_row *p = &quantity->parameters[n];
         char *name = options->names[n], *help = options->helps[n], *value = options->values[n],
-             allowed[KD_ALLOWED_TEXT];
+             allowed[KD_ALLOWED_SIZE];
         snprintf(name, NAME_SIZE, "%s", p->name);
         for (char *c = name; *c; c++)
             *c = *c == '_' ? '-' : *c;
-        kd_parameter_allowed(p, allowed);
-        snprintf(value, NAME_SIZE, "VALUE%s%s", p->word ? "|" : "", p->word ? p->word : "");
-        snprintf(help, HELP_SIZE, "%s; %s (default: %s)", p->help, allowed, p->initial);
-        options->table[n] =
-            (struct argp_option) { name, KEY_PARAMETER + (int)n, p->words ? p->words : value, 0, help, 1 };
+        kd_row_allowed(p, allowed);
+        const bool word = p->kind == KD_KIND_WORD;
+        snprintf(value, NAME_SIZE, "VALUE%s%s", p->words ? "|" : "", p->words ? p->words : "");
+        snprintf(help, HELP_SIZE, "%s; %s (default: %s)", p->help, allowed, p->typed);
+        options->table[n] = (struct argp_option) { name, KEY_PARAMETER + (int)n, word ? p->words : value, 0, help, 1 };
     }
     options->table[n++] = (struct argp_option) {
         "output", 'o', "FILE", 0, "output file; .csv and .wav choose those formats (default: - for standard output)", 2

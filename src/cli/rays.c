@@ -3,8 +3,10 @@
 #include "cli/ending.h"
 #include "cli/file.h"
 #include "cli/progress.h"
+#include "cli/row_options.h"
 #include "cli/trace.h"
 #include "render/rays/answer.h"
+#include "render/rays/fields.h"
 #include "render/rays/looks.h"
 #include "render/rays/request.h"
 #include "document/number.h"
@@ -14,87 +16,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    KEY_SPIN = 256,
-    KEY_R,
-    KEY_INCLINATION,
-    KEY_MOTION,
-    KEY_VELOCITY_R,
-    KEY_VELOCITY_THETA,
-    KEY_VELOCITY_PHI,
-    KEY_INFALL_FROM,
-    KEY_INFALL_ENERGY,
-    KEY_INFALL_MOMENTUM,
-    KEY_ORDERS,
-    KEY_PROFILE,
-    KEY_TOLERANCE,
-    KEY_ENGINE,
-    KEY_PRECISION,
-    KEY_STEPS,
-    KEY_END,
-    KEY_TRACE
-};
-#define N_FIELDS (KEY_END - KEY_SPIN)
+enum { KEY_TRACE = KD_ROW_KEY + KD_ROW_OPTIONS };
 
-/* Fields in the order of their keys. Their names are those of kd_rays_request_set. */
-static const char *const names[N_FIELDS] = { "spin",
-                                             "r",
-                                             "inclination_deg",
-                                             "motion",
-                                             "velocity_r",
-                                             "velocity_theta",
-                                             "velocity_phi",
-                                             "infall_from",
-                                             "infall_energy",
-                                             "infall_momentum",
-                                             "orders",
-                                             "profile",
-                                             "tolerance",
-                                             "engine",
-                                             "precision",
-                                             "steps" };
+static struct kd_row_options rows;
 
 struct arguments {
     const char *input, *output, *device, *format;
-    const char *fields[N_FIELDS]; /* NULL: not given */
-    bool trace, points;           /* trace: the ray's steps; points: points of its path instead of the steps */
-    struct kd_rays_request more;  /* the rays that --ray gives */
+    struct kd_row_texts fields;
+    bool trace, points;          /* trace: the ray's steps; points: points of its path instead of the steps */
+    struct kd_rays_request more; /* the rays that --ray gives */
 };
 
-static const struct argp_option table[] = {
+static const struct argp_option own[] = {
     { "output", 'o', "FILE", 0, "output file; .npy and .csv choose those formats (default: - for standard output)", 0 },
     { "format", 'f', "json|npy|csv|text", 0, "format of the output, independent of its name; text needs --trace", 0 },
     { "ray", 'r', "ALPHA,BETA", 0, "another ray, in M; may be repeated", 0 },
-    { "spin", KEY_SPIN, "A", 0, "spin of the hole, above -1 and below 1", 0 },
-    { "r", KEY_R, "R|infinity", 0, "radius of the observer in M", 0 },
-    { "inclination-deg", KEY_INCLINATION, "I", 0, "polar angle of the observer", 0 },
-    { "motion", KEY_MOTION, KD_OBSERVER_WORDS, 0,
-      "motion of an observer at a finite radius, as camera.observer; a ray is then a direction in the observer's "
-      "frame, YAW,PITCH in degrees instead of ALPHA,BETA",
-      0 },
-    { "velocity-r", KEY_VELOCITY_R, "V", 0, "with --motion velocity: velocity outwards, in c", 0 },
-    { "velocity-theta", KEY_VELOCITY_THETA, "V", 0, "with --motion velocity: velocity away from the north pole, in c",
-      0 },
-    { "velocity-phi", KEY_VELOCITY_PHI, "V", 0, "with --motion velocity: velocity along the disk's rotation, in c", 0 },
-    { "infall-from", KEY_INFALL_FROM, "R|infinity", 0,
-      "with --motion infall: radius at which the observer was at rest, in M", 0 },
-    { "infall-energy", KEY_INFALL_ENERGY, "E|rest", 0, "with --motion infall: energy per mass", 0 },
-    { "infall-momentum", KEY_INFALL_MOMENTUM, "L", 0, "with --motion infall: angular momentum per mass, in M", 0 },
-    { "orders", KEY_ORDERS, "N", 0, "number of equatorial crossings, 1 to 16", 0 },
-    { "profile", KEY_PROFILE, "draft|interactive|balanced|high|reference", 0,
-      "accuracy, as accuracy.profile of a scene", 0 },
-    { "tolerance", KEY_TOLERANCE, "T", 0,
-      "largest relative error of the radii; chooses the fastest engine that meets it by this device's accuracy table",
-      0 },
-    { "engine", KEY_ENGINE, "closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6|auto", 0,
-      "method that traces the rays (default: closed)", 0 },
-    { "precision", KEY_PRECISION, "f64|f32|auto", 0, "precision of the engine (default: f64)", 0 },
-    { "steps", KEY_STEPS, "N", 0, "steps a half period, a multiple of 4; 0 for the engine's default", 0 },
     { "trace", KEY_TRACE, "steps|path", OPTION_ARG_OPTIONAL,
       "explain a single ray: its type of motion, why it ends, and the device's steps, or with --trace=path the points "
       "of its path (default engine: mino-rkn6)",
       0 },
-    { 0 },
 };
 
 static void add_ray(struct arguments *arguments, const char *text, struct argp_state *state)
@@ -124,10 +64,8 @@ static void settle_format(struct arguments *arguments, const struct argp_state *
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
-    if (key >= KEY_SPIN && key < KEY_END) {
-        arguments->fields[key - KEY_SPIN] = text;
+    if (kd_row_options_take(&arguments->fields, key, text))
         return 0;
-    }
     switch (key) {
     case ARGP_KEY_INIT: state->child_inputs[0] = &arguments->device; return 0;
     case 'o': arguments->output = text; return 0;
@@ -152,8 +90,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
         if (!arguments->input && !arguments->more.n)
             argp_error(state, "there are no rays: name a file, or give --ray ALPHA,BETA");
         settle_format(arguments, state);
-        if (arguments->trace && !arguments->input && !arguments->fields[KEY_ENGINE - KEY_SPIN])
-            arguments->fields[KEY_ENGINE - KEY_SPIN] = "mino-rkn6";
+        if (arguments->trace && !arguments->input) {
+            const char **engine = &arguments->fields.of[kd_row_options_find(&rows, "engine")];
+            *engine = *engine ? *engine : "mino-rkn6";
+        }
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -180,15 +120,18 @@ static enum kd_status load_file(const char *path, struct kd_rays_request *reques
     return status;
 }
 
+static enum kd_status set(void *request, const char *name, const char *text, struct kd_error *error)
+{
+    return kd_rays_request_set(request, name, text, error);
+}
+
 /* Loads the file, then merges each option over it. */
 static enum kd_status load(const struct arguments *arguments, struct kd_rays_request *request, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     if (arguments->input)
         KD_TRY(load_file(arguments->input, request, error));
-    for (size_t i = 0; i < N_FIELDS; i++)
-        if (arguments->fields[i])
-            KD_TRY(kd_rays_request_set(request, names[i], arguments->fields[i], error));
+    KD_TRY(kd_row_options_set(&rows, &arguments->fields, set, request, error));
     for (size_t i = 0; i < arguments->more.n; i++)
         KD_TRY(kd_rays_request_add(request, arguments->more.alpha_beta[2 * i], arguments->more.alpha_beta[2 * i + 1],
                                    error));
@@ -310,8 +253,9 @@ done:
 
 const struct argp *kd_cli_rays_argp(void)
 {
+    static struct argp_option options[sizeof own / sizeof *own + KD_ROW_OPTIONS + 1];
     static const struct argp argp = {
-        .options = table,
+        .options = options,
         .parser = parse,
         .args_doc = "[FILE.json|FILE.npy|-]",
         .doc = "Trace listed rays back from the observer: equatorial crossings with azimuth, delay and redshift, the "
@@ -320,6 +264,13 @@ const struct argp *kd_cli_rays_argp(void)
                "engine needs no device.",
         .children = kd_cli_device_children,
     };
+    struct kd_rays_request request;
+    size_t n = sizeof own / sizeof *own;
+    kd_rays_request_init(&request);
+    memcpy(options, own, sizeof own);
+    rows.n = 0;
+    kd_row_options_add(&rows, options, &n, &kd_rays_document, &request, "", false, 0);
+    options[n] = (struct argp_option) { 0 };
     return &argp;
 }
 

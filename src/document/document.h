@@ -62,6 +62,7 @@ struct kd_row {
     const char *words; /* "a|b|c" */
     double stands;     /* what the word of a REAL stands for: INFINITY or NAN */
     int first;
+    const char *typed; /* default as typed text, of a row that may be a range (kd_row_range) */
     size_t room, fewest;
     unsigned of;             /* bit mask of the kinds of documents that have the field; 0: all */
     const char *unit, *help; /* unit NULL, "" or "1": none */
@@ -99,6 +100,20 @@ bool kd_row_holds(const struct kd_row *row, double number);
 /* Replaces a LIST by room for n numbers. KD_EINVAL at the pointer if the row does not allow as many. */
 enum kd_status kd_row_make_room(const struct kd_row *row, void *to, size_t n, const char *pointer,
                                 struct kd_number_list **list, struct kd_error *error);
+/* Evenly spaced numbers, both ends included. */
+enum { KD_RANGE_MOST = 100000 };
+struct kd_range {
+    double first, last;
+    size_t count; /* 1: a single number */
+};
+double kd_range_at(const struct kd_range *range, size_t i);
+/* Reads a row of numbers from typed text: a number or the row's word, or "first:last:count". Of a WORD, the range is
+ * its index. On an error *range is unchanged. */
+enum kd_status kd_row_range(const struct kd_row *row, const char *text, const char *pointer, struct kd_range *range,
+                            struct kd_error *error);
+/* Writes the schema of what kd_row_range reads, with the default, as a member. */
+void kd_row_range_schema(struct kd_json *json, const char *name, const struct kd_row *row);
+
 /* "there is no parameter X; did you mean Y? Known are ...". */
 enum kd_status kd_document_unknown(const struct kd_document *document, const char *name, struct kd_error *error);
 /* Describes what a row allows: "0 to 10 M, or \"isco\"". */
@@ -112,6 +127,8 @@ void kd_row_write(struct kd_json *json, const struct kd_row *row, const void *fr
 void kd_document_properties(struct kd_json *json, const struct kd_document *document);
 /* Writes one row's schema as a member. */
 void kd_row_schema(struct kd_json *json, const char *name, const struct kd_row *row);
+/* The same without the row's description. */
+void kd_row_type(struct kd_json *json, const char *name, const struct kd_row *row);
 /* Writes "required", if a field of the document itself, or of one of its objects, is needed. */
 void kd_document_required(struct kd_json *json, const struct kd_document *document);
 /* Writes the array `name` of {"name", "type", "default", "least", "most", "words", "fixed", "help"}, for a page's

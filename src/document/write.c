@@ -94,7 +94,7 @@ void kd_document_write(struct kd_json *json, const struct kd_document *document,
     walk_rows(json, document, NULL, from, &(const struct walk) { begin_value, kd_row_write, kd_json_end });
 }
 
-static void add_range(struct kd_json *json, const struct kd_row *row)
+void kd_row_number_members(struct kd_json *json, const struct kd_row *row)
 {
     const bool below = row->open == KD_OPEN || row->open == KD_OPEN_BELOW,
                above = row->open == KD_OPEN || row->open == KD_OPEN_ABOVE;
@@ -132,7 +132,7 @@ static void add_array(struct kd_json *json, const struct kd_row *row)
     if (words)
         add_words(json, row->words);
     else
-        add_range(json, row);
+        kd_row_number_members(json, row);
     kd_json_end(json);
 }
 
@@ -141,12 +141,12 @@ static void add_number_or_word(struct kd_json *json, const struct kd_row *row)
     kd_json_array(json, "anyOf");
     kd_schema_word(json, NULL, row->words);
     kd_json_object(json, NULL);
-    add_range(json, row);
+    kd_row_number_members(json, row);
     kd_json_end(json);
     kd_json_end(json);
 }
 
-static void add_kind(struct kd_json *json, const struct kd_row *row)
+void kd_row_type_members(struct kd_json *json, const struct kd_row *row)
 {
     switch (row->kind) {
     case KD_KIND_REAL:
@@ -155,7 +155,7 @@ static void add_kind(struct kd_json *json, const struct kd_row *row)
             break;
         }
         /* fall through */
-    case KD_KIND_INT: add_range(json, row); break;
+    case KD_KIND_INT: kd_row_number_members(json, row); break;
     case KD_KIND_BOOL: kd_json_string(json, "type", "boolean"); break;
     case KD_KIND_WORD: add_words(json, row->words); break;
     case KD_KIND_WORDS:
@@ -168,6 +168,13 @@ static void add_kind(struct kd_json *json, const struct kd_row *row)
     }
 }
 
+void kd_row_type(struct kd_json *json, const char *name, const struct kd_row *row)
+{
+    kd_json_object(json, name);
+    kd_row_type_members(json, row);
+    kd_json_end(json);
+}
+
 void kd_row_schema(struct kd_json *json, const char *name, const struct kd_row *row)
 {
     const bool pure = !row->unit || !*row->unit || !strcmp(row->unit, "1");
@@ -178,7 +185,7 @@ void kd_row_schema(struct kd_json *json, const char *name, const struct kd_row *
     if (row->schema)
         kd_json_members(json, row->schema);
     else
-        add_kind(json, row);
+        kd_row_type_members(json, row);
     if (*help)
         kd_json_string(json, "description", help);
     kd_json_end(json);

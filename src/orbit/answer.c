@@ -3,12 +3,12 @@
 #include "base/decimal.h"
 #include "base/pause.h"
 #include "image/npy.h"
+#include "physics/math/constants.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#define SUN_S 4.925490947e-6 /* GM/c^3 of the Sun, IAU 2015 nominal */
 #define CENTURY_S (36525 * 86400.)
 
 enum {
@@ -131,7 +131,7 @@ static void frequencies(struct text *t, const struct kd_orbit_run *run)
     close(t);
     if (!isnan(run->mass_msun)) {
         open(t, "hz");
-        double cycles = 1 / (2 * M_PI * SUN_S * run->mass_msun);
+        double cycles = 1 / (2 * M_PI * KD_M_SUN_S * run->mass_msun);
         member(t, "r", f->r * cycles);
         member(t, "theta", f->theta * cycles);
         member(t, "phi", f->phi * cycles);
@@ -156,7 +156,7 @@ static void advances(struct text *t, const struct kd_orbit_run *run, double p)
     member(t, "weak_field", run->orbit.circular ? NAN : 6 * M_PI / p);
     member(t, "node", run->orbit.z > 0 ? kd_orbit_nodal_advance(&run->bound) : NAN);
     if (!isnan(run->mass_msun)) {
-        double period_s = 2 * M_PI / run->frequencies.r * SUN_S * run->mass_msun;
+        double period_s = 2 * M_PI / run->frequencies.r * KD_M_SUN_S * run->mass_msun;
         member(t, "periastron_arcsec_per_century", advance * 180 / M_PI * 3600 * CENTURY_S / period_s);
     }
     close(t);

@@ -3,8 +3,7 @@
 #include "physics/disk/colour.h"
 #include "physics/math/constants.h"
 
-#define PARAMETERS(P) \
-    P(temperature_k, .unit = "K", .initial = "5772", .minimum = 100, .maximum = 1e9, .help = "temperature")
+#define PARAMETERS(P) P(temperature_k, .unit = "K", .typed = "5772", .least = 100, .most = 1e9, .help = "temperature")
 #define OUTPUTS(O) \
     O(x, .unit = "1", .help = "CIE 1931 chromaticity x") \
     O(y, .unit = "1", .help = "CIE 1931 chromaticity y") \

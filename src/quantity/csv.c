@@ -14,12 +14,12 @@ static void write_point(struct kd_writer *w, const struct kd_quantity_answer *an
     for (size_t i = 0; i < quantity->n_parameters; i++) {
         kd_write(w, i ? "," : "");
         kd_quantity_write_value(w, &quantity->parameters[i],
-                                kd_decimal_round(kd_axis_at(&request->axes[i], at[i]), request->digits), "");
+                                kd_decimal_round(kd_range_at(&request->axes[i], at[i]), (int)request->digits), "");
     }
     for (size_t k = 0; k < quantity->n_outputs; k++) {
         kd_write(w, ",");
-        kd_quantity_write_number(w, kd_decimal_round(answer->values[point * quantity->n_outputs + k], request->digits),
-                                 "");
+        kd_quantity_write_number(
+            w, kd_decimal_round(answer->values[point * quantity->n_outputs + k], (int)request->digits), "");
     }
     kd_write(w, "\n");
 }

@@ -1,6 +1,6 @@
 /* Macros that define a quantity from its tables of parameters and outputs. Private to src/quantity.
  *
- *     #define PARAMETERS(P) P(spin, .unit = "M", .initial = "0.9", ...) P(r, ...)
+ *     #define PARAMETERS(P) P(spin, .unit = "M", .typed = "0.9", ...) P(r, ...)
  *     #define OUTPUTS(O) O(isco, .unit = "M", .fixed = true, .help = "...") ...
  *     KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
  *     static enum kd_status evaluate(const double *in, double *out, ...)
@@ -23,7 +23,7 @@
 #define KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS) \
     struct parameters { PARAMETERS(KD_DEFINE_MEMBER) }; \
     struct outputs { OUTPUTS(KD_DEFINE_MEMBER) }; \
-    static const struct kd_parameter parameter_rows[] = { PARAMETERS(KD_DEFINE_ROW) }; \
+    static const struct kd_row parameter_rows[] = { PARAMETERS(KD_DEFINE_ROW) }; \
     static const struct kd_output output_rows[] = { OUTPUTS(KD_DEFINE_ROW) }; \
     _Static_assert(sizeof(struct parameters) <= KD_QUANTITY_PARAMETERS * sizeof(double), "too many parameters"); \
     _Static_assert(sizeof(struct outputs) <= KD_QUANTITY_OUTPUTS * sizeof(double), "too many outputs");
@@ -46,29 +46,28 @@
 
 /* Parameters shared by several quantities. */
 #define KD_PARAMETER_SPIN(P) \
-    P(spin, .unit = "M", .initial = "0.9", .minimum = -1, .maximum = 1, .open = true, \
+    P(spin, .unit = "M", .typed = "0.9", .least = -1, .most = 1, .open = KD_OPEN, \
       .help = "spin parameter a; a < 0: the orbit or the disk turns against its hole")
 #define KD_PARAMETER_CHARGE(P) \
-    P(charge, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, \
+    P(charge, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, \
       .help = "charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1")
 #define KD_PARAMETER_MASS(P) \
-    P(mass_msun, .unit = "solar masses", .initial = "1e8", .minimum = 1e-3, .maximum = 1e12, .help = "mass of the hole")
+    P(mass_msun, .unit = "solar masses", .typed = "1e8", .least = 1e-3, .most = 1e12, .help = "mass of the hole")
 #define KD_PARAMETER_OBSERVER(P) \
-    P(observer_r, .unit = "M", .initial = "infinity", .minimum = 0.01, .maximum = 1e7, .word = "infinity", \
-      .help = "radius of the observer") \
-    P(observer, .initial = "static", .words = KD_OBSERVER_WORDS, \
+    P(observer_r, .unit = "M", .typed = "infinity", .least = 0.01, .most = 1e7, .words = "infinity", \
+      .stands = INFINITY, .help = "radius of the observer") \
+    P(observer, .typed = "static", .kind = KD_KIND_WORD, .words = KD_OBSERVER_WORDS, \
       .help = "state of motion at a finite radius" KD_OBSERVER_HELP) \
-    P(velocity_r, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, \
+    P(velocity_r, .unit = "c", .typed = "0", .least = -1, .most = 1, \
       .help = "velocity outwards, relative to the observer of zero angular momentum (observer velocity)") \
-    P(velocity_theta, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, \
+    P(velocity_theta, .unit = "c", .typed = "0", .least = -1, .most = 1, \
       .help = "velocity away from the north pole, likewise") \
-    P(velocity_phi, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, \
-      .help = "velocity towards +phi, likewise") \
-    P(infall_from, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity", \
+    P(velocity_phi, .unit = "c", .typed = "0", .least = -1, .most = 1, .help = "velocity towards +phi, likewise") \
+    P(infall_from, .unit = "M", .typed = "infinity", .least = 1, .most = 1e7, .words = "infinity", .stands = INFINITY, \
       .help = "radius at which the observer's fall begins, at rest except for its angular momentum (observer infall)") \
-    P(infall_energy, .unit = "1", .initial = "rest", .minimum = -100, .maximum = 1e3, .word = "rest", \
+    P(infall_energy, .unit = "1", .typed = "rest", .least = -100, .most = 1e3, .words = "rest", .stands = INFINITY, \
       .help = "energy per mass of the falling observer; rest: the energy that follows from infall_from") \
-    P(infall_momentum, .unit = "M", .initial = "0", .minimum = -1e4, .maximum = 1e4, \
+    P(infall_momentum, .unit = "M", .typed = "0", .least = -1e4, .most = 1e4, \
       .help = "angular momentum per mass of the falling observer")
 /* The motion given by KD_PARAMETER_OBSERVER. */
 #define KD_QUANTITY_MOTION(p) \

@@ -5,7 +5,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    P(b, .unit = "M", .initial = "10", .minimum = 1, .maximum = 1e12, .along = true, \
+    P(b, .unit = "M", .typed = "10", .least = 1, .most = 1e12, \
       .help = "impact parameter of light in the equatorial plane, |L|/E")
 #define OUTPUTS(O) \
     O(angle, .unit = "radians", \
@@ -72,4 +72,4 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
 }
 
 KD_QUANTITY(deflection, "deflection", "bending of light in the equatorial plane, exact and in its limits",
-            .memory_size = sizeof(struct memory), .point_us = 12, .fresh_us = 12)
+            .memory_size = sizeof(struct memory), .along = 1, .point_us = 12, .fresh_us = 12)

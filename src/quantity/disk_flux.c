@@ -7,9 +7,9 @@
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
     KD_PARAMETER_MASS(P) \
-    P(mdot_edd, .unit = "Eddington rates", .initial = "0.1", .minimum = 1e-12, .maximum = 1e3, \
+    P(mdot_edd, .unit = "Eddington rates", .typed = "0.1", .least = 1e-12, .most = 1e3, \
       .help = "accretion rate as luminosity over the Eddington luminosity, with the efficiency of this spin") \
-    P(r, .unit = "M", .initial = "20", .minimum = 1, .maximum = 1e9, .along = true, .help = "radius in the disk")
+    P(r, .unit = "M", .typed = "20", .least = 1, .most = 1e9, .help = "radius in the disk")
 #define OUTPUTS(O) \
     O(page_thorne, .unit = "1/M^2", .help = "F/Mdot of one face; zero at and inside the ISCO") \
     O(shakura_sunyaev, .unit = "1/M^2", .help = "the same in Newton's gravity, cut at the ISCO") \
@@ -74,5 +74,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(disk_flux, "disk-flux", "flux, temperature and luminosity of a thin accretion disk", .point_us = 2,
-            .fresh_us = 30)
+KD_QUANTITY(disk_flux, "disk-flux", "flux, temperature and luminosity of a thin accretion disk", .along = 1,
+            .point_us = 2, .fresh_us = 30)

@@ -3,12 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Advances to the next combination, the last parameter fastest. True if a parameter that is not `along` has changed. */
+/* Advances to the next combination, the last parameter fastest. True if a parameter that is not
+ * along a curve has changed. */
 static bool advance(const struct kd_quantity_request *request, size_t at[KD_QUANTITY_PARAMETERS])
 {
     bool fresh = false;
     for (size_t i = request->quantity->n_parameters; i-- > 0;) {
-        fresh |= !request->quantity->parameters[i].along && request->axes[i].count > 1;
+        fresh |= !kd_quantity_is_along(request->quantity, i) && request->axes[i].count > 1;
         if (++at[i] < request->axes[i].count)
             return fresh;
         at[i] = 0;
@@ -38,7 +39,7 @@ enum kd_status kd_quantity_run_next(struct kd_quantity_run *run, struct kd_error
     const struct kd_quantity *quantity = request->quantity;
     double in[KD_QUANTITY_PARAMETERS];
     for (size_t i = 0; i < quantity->n_parameters; i++)
-        in[i] = kd_axis_at(&request->axes[i], run->at[i]);
+        in[i] = kd_range_at(&request->axes[i], run->at[i]);
     enum kd_status status = quantity->evaluate(in, run->out, run->memory, run->fresh, error);
     if (status)
         return status;

@@ -5,10 +5,10 @@
 #include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
-    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \
-    P(r, .unit = "M", .initial = "2:20:73", .minimum = 1, .maximum = 1e9, .along = true, \
+    P(spin, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, .help = "spin parameter a") \
+    P(r, .unit = "M", .typed = "2:20:73", .least = 1, .most = 1e9, \
       .help = "Boyer-Lindquist radius, at or outside the horizon") \
-    P(phi_deg, .unit = "degrees", .initial = "0", .minimum = -360, .maximum = 360, .along = true, \
+    P(phi_deg, .unit = "degrees", .typed = "0", .least = -360, .most = 360, \
       .help = "azimuth; ranges of azimuth and r make a mesh")
 #define OUTPUTS(O) \
     O(x, .unit = "M", .help = "of the embedded surface: radius cos(phi)") \
@@ -49,4 +49,4 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
 }
 
 KD_QUANTITY(flamm, "flamm", "the equatorial plane embedded in flat space: Flamm's paraboloid, and Kerr's",
-            .memory_size = sizeof(struct memory), .point_us = 4)
+            .memory_size = sizeof(struct memory), .along = 2, .point_us = 4)

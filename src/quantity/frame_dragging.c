@@ -5,8 +5,8 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    P(theta_deg, .unit = "degrees", .initial = "90", .minimum = 0, .maximum = 180, .help = "polar angle") \
-    P(r, .unit = "M", .initial = "10", .minimum = 1, .maximum = 1e9, .along = true, .help = "radius")
+    P(theta_deg, .unit = "degrees", .typed = "90", .least = 0, .most = 180, .help = "polar angle") \
+    P(r, .unit = "M", .typed = "10", .least = 1, .most = 1e9, .help = "radius")
 #define OUTPUTS(O) \
     O(omega, .unit = "1/M", .help = "angular velocity of an observer of zero angular momentum, -g_tphi/g_phiphi") \
     O(far_field, .unit = "1/M", .help = "2J/r^3 with J = aM") \
@@ -46,4 +46,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(frame_dragging, "frame-dragging", "angular velocity of the dragged frame, and its far field", .point_us = 1)
+KD_QUANTITY(frame_dragging, "frame-dragging", "angular velocity of the dragged frame, and its far field", .along = 1,
+            .point_us = 1)

@@ -6,19 +6,18 @@
 #include "physics/spacetime/scale.h"
 
 #define PARAMETERS(P) \
-    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \
+    P(spin, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, .help = "spin parameter a") \
     KD_PARAMETER_CHARGE(P) \
-    P(inclination_deg, .unit = "degrees", .initial = "90", .minimum = 0, .maximum = 180, \
+    P(inclination_deg, .unit = "degrees", .typed = "90", .least = 0, .most = 180, \
       .help = "polar angle of the falling observer") \
-    P(infall_from, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity", \
+    P(infall_from, .unit = "M", .typed = "infinity", .least = 1, .most = 1e7, .words = "infinity", .stands = INFINITY, \
       .help = "radius at which the fall begins, at rest except for the angular momentum") \
-    P(infall_energy, .unit = "1", .initial = "rest", .minimum = -100, .maximum = 1e3, .word = "rest", \
+    P(infall_energy, .unit = "1", .typed = "rest", .least = -100, .most = 1e3, .words = "rest", .stands = INFINITY, \
       .help = "energy per mass of the falling observer; rest: the energy that follows from infall_from") \
-    P(infall_momentum, .unit = "M", .initial = "0", .minimum = -1e4, .maximum = 1e4, \
+    P(infall_momentum, .unit = "M", .typed = "0", .least = -1e4, .most = 1e4, \
       .help = "angular momentum per mass of the falling observer") \
     KD_PARAMETER_MASS(P) \
-    P(r, .unit = "M", .initial = "0.2:20:100", .minimum = 0.001, .maximum = 1e7, .along = true, \
-      .help = "radius of the falling observer")
+    P(r, .unit = "M", .typed = "0.2:20:100", .least = 0.001, .most = 1e7, .help = "radius of the falling observer")
 #define OUTPUTS(O) \
     O(proper_time_to_horizon, .unit = "M", .help = "proper time from r to the outer horizon; null inside it") \
     O(proper_time_to_end, .unit = "M", \
@@ -100,4 +99,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(infall, "infall", "free fall into the hole: proper time to the horizon and to the end", .point_us = 60)
+KD_QUANTITY(infall, "infall", "free fall into the hole: proper time to the horizon and to the end", .along = 1,
+            .point_us = 60)

@@ -5,17 +5,15 @@
 #include "physics/waves/inspiral.h"
 
 #define PARAMETERS(P) \
-    P(mass1_msun, .unit = "solar masses", .initial = "1.4398", .minimum = 1e-10, .maximum = 1e12, .help = "one mass") \
-    P(mass2_msun, .unit = "solar masses", .initial = "1.3886", .minimum = 1e-10, .maximum = 1e12, .help = "the other") \
-    P(period_s, .unit = "s", .initial = "27906.979587", .minimum = 1e-9, .maximum = 1e20, \
-      .help = "orbital period now") \
-    P(eccentricity, .unit = "1", .initial = "0.6171334", .minimum = 0, .maximum = 0.999999, \
-      .help = "eccentricity now") \
-    P(eccentricity_later, .unit = "1", .initial = "0", .minimum = 0, .maximum = 0.999999, .along = true, \
+    P(mass1_msun, .unit = "solar masses", .typed = "1.4398", .least = 1e-10, .most = 1e12, .help = "one mass") \
+    P(mass2_msun, .unit = "solar masses", .typed = "1.3886", .least = 1e-10, .most = 1e12, .help = "the other") \
+    P(period_s, .unit = "s", .typed = "27906.979587", .least = 1e-9, .most = 1e20, .help = "orbital period now") \
+    P(eccentricity, .unit = "1", .typed = "0.6171334", .least = 0, .most = 0.999999, .help = "eccentricity now") \
+    P(eccentricity_later, .unit = "1", .typed = "0", .least = 0, .most = 0.999999, \
       .help = "smaller eccentricity of the same orbit at a later time") \
-    P(distance_pc, .unit = "pc", .initial = "6400", .minimum = 1e-3, .maximum = 1e11, .along = true, \
+    P(distance_pc, .unit = "pc", .typed = "6400", .least = 1e-3, .most = 1e11, \
       .help = "distance (luminosity distance, with redshifted masses and times)") \
-    P(before_s, .unit = "s", .initial = "1", .minimum = 1e-9, .maximum = 1e20, .along = true, \
+    P(before_s, .unit = "s", .typed = "1", .least = 1e-9, .most = 1e20, \
       .help = "time before coalescence, for the chirp of a circular orbit of these masses")
 #define OUTPUTS(O) \
     O(chirp_mass, .unit = "solar masses", .fixed = true, .help = "(m1 m2)^(3/5)/(m1 + m2)^(1/5)") \
@@ -106,5 +104,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(inspiral, "inspiral", "decay of a binary under gravitational radiation, and its chirp", .point_us = 10,
-            .fresh_us = 10)
+KD_QUANTITY(inspiral, "inspiral", "decay of a binary under gravitational radiation, and its chirp", .along = 3,
+            .point_us = 10, .fresh_us = 10)

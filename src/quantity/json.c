@@ -4,7 +4,7 @@
 #include "base/decimal.h"
 #include "base/pause.h"
 
-static void write_axis(struct kd_writer *w, const struct kd_parameter *p, const struct kd_axis *axis, int digits)
+static void write_axis(struct kd_writer *w, const struct kd_row *p, const struct kd_range *axis, int digits)
 {
     if (axis->count == 1) {
         kd_quantity_write_value(w, p, axis->first, "\"");
@@ -12,7 +12,7 @@ static void write_axis(struct kd_writer *w, const struct kd_parameter *p, const 
     }
     for (size_t i = 0; i < axis->count; i++) {
         kd_write(w, i ? "," : "[");
-        kd_quantity_write_number(w, kd_decimal_round(kd_axis_at(axis, i), digits), "null");
+        kd_quantity_write_number(w, kd_decimal_round(kd_range_at(axis, i), digits), "null");
     }
     kd_write(w, "]");
 }
@@ -42,7 +42,7 @@ static void write_shape(struct kd_writer *w, const struct kd_quantity_request *r
 static bool varies(const struct kd_quantity_request *request, const struct kd_output *output)
 {
     for (size_t i = 0; i < request->quantity->n_parameters; i++)
-        if (request->axes[i].count > 1 && !(output->fixed && request->quantity->parameters[i].along))
+        if (request->axes[i].count > 1 && !(output->fixed && kd_quantity_is_along(request->quantity, i)))
             return true;
     return false;
 }
@@ -58,7 +58,7 @@ static void write_values(struct kd_writer *w, const struct kd_quantity_answer *a
                 w->status = kd_buffer_append(w->out, i ? "," : "[", 1);
             kd_pause_every(i, 1024);
             double value = answer->values[i * quantity->n_outputs + k];
-            kd_quantity_write_number(w, list ? kd_decimal_round(value, answer->request.digits) : value, "null");
+            kd_quantity_write_number(w, list ? kd_decimal_round(value, (int)answer->request.digits) : value, "null");
         }
         kd_write(w, list ? "]" : "");
     }
@@ -69,7 +69,7 @@ static void write_units(struct kd_writer *w, const struct kd_quantity *quantity)
 {
     const char *separator = "";
     for (size_t i = 0; i < quantity->n_parameters; i++)
-        if (!quantity->parameters[i].words) {
+        if (quantity->parameters[i].kind != KD_KIND_WORD) {
             kd_write(w, "%s\"%s\":\"%s\"", separator, quantity->parameters[i].name, quantity->parameters[i].unit);
             separator = ",";
         }
@@ -84,7 +84,7 @@ enum kd_status kd_quantity_json(const struct kd_quantity_answer *answer, struct 
     kd_write(w, "{\"quantity\":\"%s\",\"parameters\":{", quantity->name);
     for (size_t i = 0; i < quantity->n_parameters; i++) {
         kd_write(w, "%s\"%s\":", i ? "," : "", quantity->parameters[i].name);
-        write_axis(w, &quantity->parameters[i], &answer->request.axes[i], answer->request.digits);
+        write_axis(w, &quantity->parameters[i], &answer->request.axes[i], (int)answer->request.digits);
     }
     kd_write(w, "}");
     write_shape(w, &answer->request);
@@ -106,14 +106,14 @@ static void write_member(struct kd_writer *w, const char *name, const char *text
     kd_write_string(w, text);
 }
 
-static void list_parameter(struct kd_writer *w, const struct kd_parameter *p)
+static void list_parameter(struct kd_writer *w, const struct kd_row *p)
 {
     kd_write(w, "{\"name\":\"%s\"", p->name);
-    if (!p->words)
+    if (p->kind != KD_KIND_WORD)
         write_member(w, "unit", p->unit);
-    write_member(w, "default", p->initial);
-    char allowed[KD_ALLOWED_TEXT];
-    kd_parameter_allowed(p, allowed);
+    write_member(w, "default", p->typed);
+    char allowed[KD_ALLOWED_SIZE];
+    kd_row_allowed(p, allowed);
     write_member(w, "allowed", allowed);
     write_member(w, "help", p->help);
     kd_write(w, "}");

@@ -6,9 +6,9 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    P(theta_deg, .unit = "degrees", .initial = "90", .minimum = 0, .maximum = 180, \
+    P(theta_deg, .unit = "degrees", .typed = "90", .least = 0, .most = 180, \
       .help = "polar angle at which the ergosphere is given") \
-    P(r, .unit = "M", .initial = "10", .minimum = 1, .maximum = 1e9, .word = "isco", .along = true, \
+    P(r, .unit = "M", .typed = "10", .least = 1, .most = 1e9, .words = "isco", .stands = INFINITY, \
       .help = "radius of the circular orbit whose frequencies are given")
 #define OUTPUTS(O) \
     O(horizon, .unit = "M", .fixed = true, .help = "outer horizon r+") \
@@ -77,4 +77,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(kerr, "kerr", "radii, ISCO and frequencies of circular orbits of a Kerr hole", .point_us = 2, .fresh_us = 2)
+KD_QUANTITY(kerr, "kerr", "radii, ISCO and frequencies of circular orbits of a Kerr hole", .along = 1, .point_us = 2,
+            .fresh_us = 2)

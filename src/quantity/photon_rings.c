@@ -7,15 +7,15 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180, \
+    P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
       .help = "polar angle of the observer, who is at infinity; at 90 the plane is a line") \
-    P(angle_deg, .unit = "degrees", .initial = "0", .minimum = -360, .maximum = 720, \
+    P(angle_deg, .unit = "degrees", .typed = "0", .least = -360, .most = 720, \
       .help = "where on the critical curve: about its centre, from the right over the top") \
-    P(inner, .unit = "M", .initial = "horizon", .minimum = 1, .maximum = 1e9, .word = "horizon", \
+    P(inner, .unit = "M", .typed = "horizon", .least = 1, .most = 1e9, .words = "horizon", .stands = INFINITY, \
       .help = "inner radius of the light's source in the equatorial plane") \
-    P(outer, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e9, .word = "infinity", \
+    P(outer, .unit = "M", .typed = "infinity", .least = 1, .most = 1e9, .words = "infinity", .stands = INFINITY, \
       .help = "outer radius of the light's source") \
-    P(order, .unit = "1", .initial = "1:6:6", .minimum = 1, .maximum = 12, .whole = true, .along = true, \
+    P(order, .unit = "1", .typed = "1:6:6", .least = 1, .most = 12, .kind = KD_KIND_INT, \
       .help = "order of the ring: number of half turns of its light round the hole")
 #define OUTPUTS(O) \
     O(inner_edge, .unit = "1", \
@@ -91,4 +91,4 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
 }
 
 KD_QUANTITY(photon_rings, "photon-rings", "photon rings: their edges relative to the critical curve, and their widths",
-            .memory_size = sizeof(struct memory), .point_us = 60, .fresh_us = 60)
+            .memory_size = sizeof(struct memory), .along = 1, .point_us = 60, .fresh_us = 60)

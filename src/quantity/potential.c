@@ -4,10 +4,10 @@
 #include "physics/spacetime/potential.h"
 
 #define PARAMETERS(P) \
-    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \
-    P(l, .unit = "M", .initial = "4", .minimum = -1e6, .maximum = 1e6, \
+    P(spin, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, .help = "spin parameter a") \
+    P(l, .unit = "M", .typed = "4", .least = -1e6, .most = 1e6, \
       .help = "angular momentum, positive towards +phi: per unit mass for matter, and of the photon for v_light") \
-    P(r, .unit = "M", .initial = "2:30:281", .minimum = 1, .maximum = 1e9, .along = true, .help = "radius")
+    P(r, .unit = "M", .typed = "2:30:281", .least = 1, .most = 1e9, .help = "radius")
 #define OUTPUTS(O) \
     O(v_matter, .unit = "1", .help = "smallest specific energy of matter with L at r") \
     O(v_light, .unit = "1", .help = "smallest energy of light with L at r") \
@@ -57,5 +57,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
 }
 
 KD_QUANTITY(potential, "potential",
-            "effective potential of light and of matter in the equatorial plane, with its extrema", .point_us = 1,
-            .fresh_us = 5)
+            "effective potential of light and of matter in the equatorial plane, with its extrema", .along = 1,
+            .point_us = 1, .fresh_us = 5)

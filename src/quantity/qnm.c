@@ -8,22 +8,21 @@
 #include <stdlib.h>
 
 #define PARAMETERS(P) \
-    P(l, .unit = "1", .initial = "2", .minimum = KD_QNM_L_MIN, .maximum = KD_QNM_L_MAX, .whole = true, \
+    P(l, .unit = "1", .typed = "2", .least = KD_QNM_L_MIN, .most = KD_QNM_L_MAX, .kind = KD_KIND_INT, \
       .help = "multipole") \
-    P(m, .unit = "1", .initial = "2", .minimum = -KD_QNM_L_MAX, .maximum = KD_QNM_L_MAX, .whole = true, \
+    P(m, .unit = "1", .typed = "2", .least = -KD_QNM_L_MAX, .most = KD_QNM_L_MAX, .kind = KD_KIND_INT, \
       .help = "azimuthal number, -l to l; m > 0 turns with a hole of positive spin") \
-    P(n, .unit = "1", .initial = "0", .minimum = 0, .maximum = KD_QNM_N_MAX, .whole = true, \
+    P(n, .unit = "1", .typed = "0", .least = 0, .most = KD_QNM_N_MAX, .kind = KD_KIND_INT, \
       .help = "overtone, counted at spin 0; 0 decays slowest") \
-    P(spin, .unit = "M", .initial = "0.7", .minimum = -KD_QNM_SPIN_MAX, .maximum = KD_QNM_SPIN_MAX, \
+    P(spin, .unit = "M", .typed = "0.7", .least = -KD_QNM_SPIN_MAX, .most = KD_QNM_SPIN_MAX, \
       .help = "spin parameter a; closer to 1, damped and undamped modes crowd together and l, n no longer label them " \
               "uniquely") \
-    P(mass_msun, .unit = "solar masses", .initial = "60", .minimum = 1e-3, .maximum = 1e12, .along = true, \
+    P(mass_msun, .unit = "solar masses", .typed = "60", .least = 1e-3, .most = 1e12, \
       .help = "mass of the hole, with any redshift: m (1 + z)") \
-    P(t, .unit = "M", .initial = "0", .minimum = 0, .maximum = 1e6, .along = true, \
-      .help = "time of the sample `wave`") \
-    P(shift_octaves, .unit = "1", .initial = "0", .minimum = -40, .maximum = 40, .along = true, \
+    P(t, .unit = "M", .typed = "0", .least = 0, .most = 1e6, .help = "time of the sample `wave`") \
+    P(shift_octaves, .unit = "1", .typed = "0", .least = -40, .most = 40, \
       .help = "octaves by which the sound is higher than the ringing; it is faster by the same factor") \
-    P(stretch, .unit = "1", .initial = "1", .minimum = 1, .maximum = 1e6, .along = true, \
+    P(stretch, .unit = "1", .typed = "1", .least = 1, .most = 1e6, \
       .help = "factor by which the shifted sound then decays more slowly, at the same pitch")
 #define OUTPUTS(O) \
     O(omega_re, .unit = "1/M", .fixed = true, .help = "angular frequency") \
@@ -100,5 +99,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(qnm, "qnm", "quasi-normal modes of a Kerr hole, and its ringdown", .point_us = 1, .fresh_us = 1500,
-            .sound = true)
+KD_QUANTITY(qnm, "qnm", "quasi-normal modes of a Kerr hole, and its ringdown", .along = 4, .point_us = 1,
+            .fresh_us = 1500, .sound = true)

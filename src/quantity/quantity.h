@@ -22,6 +22,7 @@
 
 #include "base/buffer.h"
 #include "base/error.h"
+#include "document/document.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -29,31 +30,23 @@
 enum {
     KD_QUANTITY_PARAMETERS = 16, /* maximum for one quantity */
     KD_QUANTITY_OUTPUTS = 40,
-    KD_QUANTITY_POINTS = 100000, /* maximum for one answer */
+    KD_QUANTITY_POINTS = KD_RANGE_MOST, /* maximum for one answer */
 };
 
-/* A parameter is one of three: a number in its range; `word`, which is INFINITY for the function; or one of `words`
- * ("a|b|c"), which is given as its index. */
-struct kd_parameter {
-    const char *name, *unit, *help; /* unit "1": a pure number */
-    const char *initial;            /* default, as text of a request; may be a range */
-    double minimum, maximum;        /* inclusive, unless open */
-    bool open;
-    bool whole; /* integers only */
-    bool along; /* outputs that are `fixed` do not depend on it; such parameters come last */
-    const char *word, *words;
-};
+/* A parameter is a row of numbers, whole or not, with a word that is INFINITY for the function, or a row of words,
+ * which are given as their index. Its default is `typed`. */
 
 /* An output is NaN where it is undefined (help says when): null in JSON, an empty field in CSV. */
 struct kd_output {
     const char *name, *unit, *help;
-    bool fixed; /* independent of the parameters that are `along` */
+    bool fixed; /* independent of the quantity's parameters `along` a curve */
 };
 
 struct kd_quantity {
     const char *name, *summary;
-    const struct kd_parameter *parameters;
-    size_t n_parameters;
+    /* The last `along` ones follow a curve: outputs that are `fixed` do not depend on them. */
+    const struct kd_row *parameters;
+    size_t n_parameters, along;
     const struct kd_output *outputs;
     size_t n_outputs;
     const char *const *sources, *const *approximations; /* NULL-terminated lists of sentences */
@@ -75,24 +68,14 @@ const struct kd_quantity *kd_quantity_find(const char *name); /* NULL: none of t
 /* Writes "kerr, potential, ..." to out, truncated to size. */
 void kd_quantity_names(char *out, size_t size);
 
-/* Copies the first word of "a|b|c" to out; returns the remaining words, "" after the last. */
-enum { KD_WORD_TEXT = 40 };
-const char *kd_parameter_word(const char *words, char out[KD_WORD_TEXT]);
+/* Whether parameter i is one of those along a curve. */
+bool kd_quantity_is_along(const struct kd_quantity *quantity, size_t i);
 
-/* Describes what a parameter allows: "0 to 10 M, and \"isco\"". */
-enum { KD_ALLOWED_TEXT = 200 };
-void kd_parameter_allowed(const struct kd_parameter *parameter, char out[KD_ALLOWED_TEXT]);
-
-struct kd_axis {
-    double first, last;
-    size_t count; /* 1: a single value */
-};
-double kd_axis_at(const struct kd_axis *axis, size_t i);
-
+extern const struct kd_row kd_quantity_digits; /* the parameter `digits` of all quantities */
 struct kd_quantity_request {
     const struct kd_quantity *quantity;
-    struct kd_axis axes[KD_QUANTITY_PARAMETERS]; /* in the order of the parameters */
-    int digits; /* significant digits of numbers in lists, and of all numbers in CSV; KD_DECIMAL_DIGITS: all */
+    struct kd_range axes[KD_QUANTITY_PARAMETERS]; /* in the order of the parameters */
+    uint32_t digits; /* significant digits of numbers in lists, and of all numbers in CSV; KD_DECIMAL_DIGITS: all */
 };
 
 void kd_quantity_request_init(struct kd_quantity_request *request, const struct kd_quantity *quantity);

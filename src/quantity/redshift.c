@@ -7,10 +7,11 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180, \
+    P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
       .help = "polar angle of the observer, at infinity; not within 0.1 of 90") \
-    P(r, .unit = "M", .initial = "6", .minimum = 1, .maximum = 1e4, .word = "isco", .help = "radius of the ring") \
-    P(phi_deg, .unit = "degrees", .initial = "0:355:72", .minimum = -360, .maximum = 720, .along = true, \
+    P(r, .unit = "M", .typed = "6", .least = 1, .most = 1e4, .words = "isco", .stands = INFINITY, \
+      .help = "radius of the ring") \
+    P(phi_deg, .unit = "degrees", .typed = "0:355:72", .least = -360, .most = 720, \
       .help = "azimuth on the ring relative to the observer's: 0 is the near side, at 90 the gas recedes")
 #define OUTPUTS(O) \
     O(g, .unit = "1", .help = "redshift factor nu_observed/nu_emitted of the direct image") \
@@ -101,4 +102,4 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
 }
 
 KD_QUANTITY(redshift, "redshift", "redshift factor g and g^4 along a ring of gas, with the ring's lensed images",
-            .memory_size = sizeof(struct memory), .point_us = 100, .fresh_us = 3000)
+            .memory_size = sizeof(struct memory), .along = 1, .point_us = 100, .fresh_us = 3000)

@@ -37,10 +37,10 @@ static void write_quantity(struct kd_writer *w, const struct kd_quantity *quanti
     kd_write(w, "\n## %s\n\n%c%s.\n\n| parameter | unit | default | allowed | meaning |\n|---|---|---|---|---|\n",
              quantity->name, quantity->summary[0] - 'a' + 'A', quantity->summary + 1);
     for (size_t i = 0; i < quantity->n_parameters; i++) {
-        const struct kd_parameter *p = &quantity->parameters[i];
-        char allowed[KD_ALLOWED_TEXT];
-        kd_parameter_allowed(p, allowed);
-        kd_write(w, "| `%s` | %s | `%s` | %s | ", p->name, p->words ? "" : p->unit, p->initial, allowed);
+        const struct kd_row *p = &quantity->parameters[i];
+        char allowed[KD_ALLOWED_SIZE];
+        kd_row_allowed(p, allowed);
+        kd_write(w, "| `%s` | %s | `%s` | %s | ", p->name, p->kind == KD_KIND_WORD ? "" : p->unit, p->typed, allowed);
         write_escaped(w, p->help);
         kd_write(w, " |\n");
     }

@@ -7,13 +7,14 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180, \
+    P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
       .help = "polar angle of the observer; not within 0.1 of 90") \
     KD_PARAMETER_OBSERVER(P) \
-    P(r, .unit = "M", .initial = "6", .minimum = 1, .maximum = 1e4, .word = "isco", .help = "radius of the ring") \
-    P(order, .unit = "1", .initial = "0", .minimum = 0, .maximum = 1, .whole = true, \
+    P(r, .unit = "M", .typed = "6", .least = 1, .most = 1e4, .words = "isco", .stands = INFINITY, \
+      .help = "radius of the ring") \
+    P(order, .unit = "1", .typed = "0", .least = 0, .most = 1, .kind = KD_KIND_INT, \
       .help = "order of the image: 0 direct, 1 past the other side of the hole") \
-    P(angle_deg, .unit = "degrees", .initial = "0:355:72", .minimum = -360, .maximum = 720, .along = true, \
+    P(angle_deg, .unit = "degrees", .typed = "0:355:72", .least = -360, .most = 720, \
       .help = "angle psi in the image plane: the direction from the origin is (cos psi, cos i sin psi), uniform " \
               "along an unlensed ring; at a finite radius it is about the direction -r on the sky, in the frame of " \
               "an observer that falls from rest at infinity")
@@ -99,4 +100,4 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
 
 KD_QUANTITY(ring_image, "ring-image",
             "images of a ring in the equatorial plane, direct or past the hole, from any distance",
-            .memory_size = sizeof(struct memory), .point_us = 300, .fresh_us = 10)
+            .memory_size = sizeof(struct memory), .along = 1, .point_us = 300, .fresh_us = 10)

@@ -7,13 +7,14 @@
 #include "physics/spacetime/scale.h"
 
 #define PARAMETERS(P) \
-    P(hole, .initial = "m87", .words = "m87|sgra|none", .help = "a hole whose ring has been measured: M87*, Sgr A*") \
-    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \
-    P(inclination_deg, .unit = "degrees", .initial = "0", .minimum = 0, .maximum = 180, \
+    P(hole, .typed = "m87", .kind = KD_KIND_WORD, .words = "m87|sgra|none", \
+      .help = "a hole whose ring has been measured: M87*, Sgr A*") \
+    P(spin, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, .help = "spin parameter a") \
+    P(inclination_deg, .unit = "degrees", .typed = "0", .least = 0, .most = 180, \
       .help = "polar angle of the observer, for the shadow of a hole with spin") \
-    P(mass_msun, .unit = "solar masses", .initial = "hole", .minimum = 1e-3, .maximum = 1e12, .word = "hole", \
-      .along = true, .help = "mass of the hole") \
-    P(distance_pc, .unit = "pc", .initial = "hole", .minimum = 1e-3, .maximum = 1e11, .word = "hole", .along = true, \
+    P(mass_msun, .unit = "solar masses", .typed = "hole", .least = 1e-3, .most = 1e12, .words = "hole", \
+      .stands = INFINITY, .help = "mass of the hole") \
+    P(distance_pc, .unit = "pc", .typed = "hole", .least = 1e-3, .most = 1e11, .words = "hole", .stands = INFINITY, \
       .help = "angular diameter distance of the hole")
 #define OUTPUTS(O) \
     O(mass, .unit = "solar masses", .help = "as used") \
@@ -101,4 +102,4 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
 }
 
 KD_QUANTITY(scale, "scale", "scales of a hole in kilometres, seconds and microarcseconds, with the measured rings",
-            .memory_size = sizeof(struct memory), .point_us = 3, .fresh_us = 1000)
+            .memory_size = sizeof(struct memory), .along = 2, .point_us = 3, .fresh_us = 1000)

@@ -6,9 +6,9 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    P(inclination_deg, .unit = "degrees", .initial = "0", .minimum = 0, .maximum = 180, \
+    P(inclination_deg, .unit = "degrees", .typed = "0", .least = 0, .most = 180, \
       .help = "inclination of the orbit to the equator, as of /v1/orbits; more than 90 is retrograde") \
-    P(e, .unit = "1", .initial = "0", .minimum = 0, .maximum = 0.999999, .along = true, .help = "eccentricity")
+    P(e, .unit = "1", .typed = "0", .least = 0, .most = 0.999999, .help = "eccentricity")
 #define OUTPUTS(O) \
     O(p, .unit = "M", .help = "smallest semi-latus rectum of a stable bound orbit") \
     O(r_min, .unit = "M", .help = "radius at which a body on the separatrix whirls: its periapsis p/(1 + e)") \
@@ -39,5 +39,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
 }
 
 KD_QUANTITY(separatrix, "separatrix",
-            "separatrix of bound orbits: the smallest p of a stable one, by eccentricity and inclination",
+            "separatrix of bound orbits: the smallest p of a stable one, by eccentricity and inclination", .along = 1,
             .point_us = 60)

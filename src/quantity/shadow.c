@@ -6,10 +6,10 @@
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
     KD_PARAMETER_CHARGE(P) \
-    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180, \
+    P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
       .help = "polar angle of the observer") \
     KD_PARAMETER_OBSERVER(P) \
-    P(angle_deg, .unit = "degrees", .initial = "0:355:72", .minimum = -360, .maximum = 720, .along = true, \
+    P(angle_deg, .unit = "degrees", .typed = "0:355:72", .least = -360, .most = 720, \
       .help = "angle about the curve's centre, from the right over the top")
 #define OUTPUTS(O) \
     O(alpha, .unit = "M", \
@@ -93,4 +93,4 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
 
 KD_QUANTITY(shadow, "shadow",
             "the critical curve, which is the edge of the shadow, for any observer, with its size and shape",
-            .memory_size = sizeof(struct memory), .point_us = 8, .fresh_us = 1000)
+            .memory_size = sizeof(struct memory), .along = 1, .point_us = 8, .fresh_us = 1000)

@@ -5,12 +5,12 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180, \
+    P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
       .help = "polar angle of the observer") \
     KD_PARAMETER_OBSERVER(P) \
-    P(yaw_deg, .unit = "degrees", .initial = "0:180:37", .minimum = -360, .maximum = 360, .along = true, \
+    P(yaw_deg, .unit = "degrees", .typed = "0:180:37", .least = -360, .most = 360, \
       .help = "direction of g: angle to the right of the hole, as camera.yaw_deg; 180 is away from the hole") \
-    P(pitch_deg, .unit = "degrees", .initial = "0", .minimum = -90, .maximum = 90, .along = true, \
+    P(pitch_deg, .unit = "degrees", .typed = "0", .least = -90, .most = 90, \
       .help = "direction of g: angle upwards, as camera.pitch_deg")
 #define OUTPUTS(O) \
     O(g, .unit = "1", \
@@ -91,4 +91,4 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
 }
 
 KD_QUANTITY(sky, "sky", "the redshift of the sky for any observer, and the size of the hole's black disk",
-            .memory_size = sizeof(struct memory), .point_us = 8, .fresh_us = 2500)
+            .memory_size = sizeof(struct memory), .along = 2, .point_us = 8, .fresh_us = 2500)

@@ -17,17 +17,14 @@ void kd_quantity_write_number(struct kd_writer *w, double value, const char *mis
         w->status = kd_buffer_append(w->out, missing, n);
 }
 
-void kd_quantity_write_value(struct kd_writer *w, const struct kd_parameter *parameter, double value, const char *quote)
+void kd_quantity_write_value(struct kd_writer *w, const struct kd_row *parameter, double value, const char *quote)
 {
-    char word[KD_WORD_TEXT];
-    if (parameter->words || isinf(value)) {
-        const char *rest = kd_parameter_word(parameter->words ? parameter->words : parameter->word, word);
-        for (int i = parameter->words ? (int)value : 0; i > 0; i--)
-            rest = kd_parameter_word(rest, word);
+    char word[KD_WORD_ROOM];
+    const bool words = parameter->kind == KD_KIND_WORD;
+    if ((words || isinf(value)) && kd_word_at(parameter->words, words ? (int)value : 0, word))
         kd_write(w, "%s%s%s", quote, word, quote);
-    } else {
+    else
         kd_quantity_write_number(w, value, "");
-    }
 }
 
 void kd_quantity_write_sentences(struct kd_writer *w, const char *const *sentences)

@@ -7,17 +7,15 @@
 #include "physics/waves/tidal.h"
 
 #define PARAMETERS(P) \
-    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, \
+    P(spin, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, \
       .help = "spin parameter a; a < 0: the star's orbit is against the hole's spin") \
-    P(mass_msun, .unit = "solar masses", .initial = "1e6", .minimum = 1e-3, .maximum = 1e12, \
-      .help = "mass of the hole") \
-    P(star_mass_msun, .unit = "solar masses", .initial = "1", .minimum = 1e-3, .maximum = 1e3, \
-      .help = "mass of the star") \
-    P(star_radius_rsun, .unit = "solar radii", .initial = "1", .minimum = 1e-6, .maximum = 1e4, .help = "its radius") \
-    P(penetration, .unit = "1", .initial = "1", .minimum = 0.1, .maximum = 100, .along = true, \
+    P(mass_msun, .unit = "solar masses", .typed = "1e6", .least = 1e-3, .most = 1e12, .help = "mass of the hole") \
+    P(star_mass_msun, .unit = "solar masses", .typed = "1", .least = 1e-3, .most = 1e3, .help = "mass of the star") \
+    P(star_radius_rsun, .unit = "solar radii", .typed = "1", .least = 1e-6, .most = 1e4, .help = "its radius") \
+    P(penetration, .unit = "1", .typed = "1", .least = 0.1, .most = 100, \
       .help = "tidal radius over pericentre of its parabolic orbit") \
-    P(time_days, .unit = "days", .initial = "fallback", .minimum = 0, .maximum = 1e9, .word = "fallback", \
-      .along = true, \
+    P(time_days, .unit = "days", .typed = "fallback", .least = 0, .most = 1e9, .words = "fallback", \
+      .stands = INFINITY, \
       .help = "time after the disruption, for the rate of fallback; \"fallback\": when the first debris returns")
 #define OUTPUTS(O) \
     O(tidal_radius, .unit = "M", .fixed = true, .help = "r_t = R (M/m)^(1/3)") \
@@ -102,5 +100,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
 }
 
 KD_QUANTITY(tidal, "tidal",
-            "tidal disruption of a star: tidal radius, fallback, and the heaviest hole that disrupts it", .point_us = 1,
-            .fresh_us = 1)
+            "tidal disruption of a star: tidal radius, fallback, and the heaviest hole that disrupts it", .along = 2,
+            .point_us = 1, .fresh_us = 1)

@@ -1,9 +1,5 @@
 #include "server/dispatch.h"
 
-#include "integral/request.h"
-#include "orbit/request.h"
-#include "playground/json.h"
-#include "render/rays/request.h"
 #include "base/clock.h"
 #include "base/watch.h"
 #include "server/http/cors.h"
@@ -137,78 +133,63 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state, enum 
     atomic_fetch_sub(&server->requests, 1);
 }
 
-/* Name and size limit of a request's body. */
-static struct most {
-    const char *what;
-    size_t bytes;
-} most_of(const struct kd_request *request)
+static size_t most_of(const struct kd_request *request)
 {
-    switch (request->route->takes) {
-    case KD_TAKES_RAYS: return (struct most) { "a body of rays", KD_RAYS_BODY_MAX };
-    case KD_TAKES_ORBITS: return (struct most) { "a body of orbits", KD_ORBIT_BODY_MAX };
-    case KD_TAKES_INTEGRAL: return (struct most) { "a body of an integral", KD_INTEGRAL_BODY_MAX };
-    /* with axes of a sweep, the body is that of a job */
-    case KD_TAKES_PLAN: return (struct most) { "a body of a job", KD_JOB_BODY_MAX };
-    case KD_TAKES_JOB: return (struct most) { "a body of a job with a playground", KD_JOB_FILM_MAX };
-    case KD_TAKES_PLAYGROUND: return (struct most) { "a playground's document", KD_PLAYGROUND_JSON_MAX };
-    case KD_TAKES_ASSET: return (struct most) { "an asset", KD_ASSET_BYTES };
-    default: return (struct most) { "a body", KD_BODY_MAX };
+    const size_t most = kd_taken[request->route->takes].most;
+    return most ? most : KD_BODY_MAX;
+}
+
+/* Texts of a refusal. */
+struct told { char detail[300], offered[200]; };
+
+static const char *too_large(const struct kd_request *request, struct told *told)
+{
+    const char *what = kd_taken[request->route->takes].what;
+    snprintf(told->detail, sizeof told->detail, "%s must have at most %zu bytes", what ? what : "a body",
+             most_of(request));
+    return told->detail;
+}
+
+static bool media_type_fault(const struct kd_request *request, bool patch, struct told *told,
+                             struct kd_problem *problem)
+{
+    const struct kd_taken *taken = &kd_taken[request->route->takes];
+    const char *types = patch ? "application/json " KD_PATCH_TYPE : taken->types ? taken->types : "application/json";
+    size_t said = (size_t)snprintf(told->detail, sizeof told->detail,
+                                   "%s must have Content-Type: ", taken->types && !patch ? taken->what : "a body"),
+           offered = 0;
+    for (const char *at = types; *at; at += strspn(at, " ")) {
+        char type[64];
+        snprintf(type, sizeof type, "%.*s", (int)strcspn(at, " "), at);
+        if (kd_media_type_is(request->header.content_type, type))
+            return false;
+        at += strlen(type);
+        said += (size_t)snprintf(told->detail + said, sizeof told->detail - said, "%s%s",
+                                 !offered ? ""
+                                 : *at    ? ", "
+                                          : " or ",
+                                 type);
+        offered += (size_t)snprintf(told->offered + offered, sizeof told->offered - offered, "%s%s",
+                                    offered ? ", " : "", type);
     }
+    *problem = (struct kd_problem) { .type = KD_PROBLEM_MEDIA_TYPE, .offered = told->offered, .detail = told->detail };
+    return true;
 }
 
-#define TOO_LARGE 80
-
-static const char *too_large(const struct kd_request *request, char text[TOO_LARGE])
-{
-    const struct most most = most_of(request);
-    snprintf(text, TOO_LARGE, "%s must have at most %zu bytes", most.what, most.bytes);
-    return text;
-}
-
-static bool media_type_fault(const struct kd_request *request, bool patch, struct kd_problem *problem)
-{
-#define SAY "a body must have Content-Type: application/json"
-#define OR(other) \
-    { \
-        other, "application/json, " other, SAY " or " other \
-    }
-    static const struct {
-        const char *other, *offered, *detail;
-    } all[] = {
-        { "application/json", "application/json", SAY },
-        OR(KD_NPY_TYPE),
-        OR(KD_PATCH_TYPE),
-        { KD_ASSET_TYPE, KD_ASSET_TYPE ", " KD_ASSET_GRID_TYPE ", " KD_ASSET_UVFITS_TYPE ", " KD_ASSET_CSV_TYPE,
-          "an asset must have Content-Type: " KD_ASSET_TYPE ", " KD_ASSET_GRID_TYPE ", " KD_ASSET_UVFITS_TYPE
-          " or " KD_ASSET_CSV_TYPE },
-    };
-#undef OR
-#undef SAY
-    const bool asset = request->route->takes == KD_TAKES_ASSET;
-    size_t i = asset ? 3 : patch ? 2 : request->route->takes == KD_TAKES_RAYS;
-    const char *type = request->header.content_type;
-    *problem =
-        (struct kd_problem) { .type = KD_PROBLEM_MEDIA_TYPE, .offered = all[i].offered, .detail = all[i].detail };
-    if (asset && (kd_media_type_is(type, KD_ASSET_UVFITS_TYPE) || kd_media_type_is(type, KD_ASSET_CSV_TYPE)))
-        return false;
-    return !kd_media_type_is(type, asset ? KD_ASSET_GRID_TYPE : "application/json") &&
-           !kd_media_type_is(type, all[i].other);
-}
-
-/* Whether the announced body must be refused. *problem may point into text. */
-static bool body_fault(const struct kd_request *request, char text[TOO_LARGE], struct kd_problem *problem)
+/* Whether the announced body must be refused. *problem may point into *told. */
+static bool body_fault(const struct kd_request *request, struct told *told, struct kd_problem *problem)
 {
     bool patch = !strcmp(request->method, "PATCH");
     if (!patch && strcmp(request->method, "POST") && strcmp(request->method, "PUT")) {
         *problem = (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method accepts no body" };
         return request->body_announced;
     }
-    if (request->route->takes == KD_TAKES_STRIKE && !request->body_announced)
+    if (kd_taken[request->route->takes].may_lack && !request->body_announced)
         return false;
-    if (media_type_fault(request, patch, problem))
+    if (media_type_fault(request, patch, told, problem))
         return true;
-    if (request->header.content_length > most_of(request).bytes) {
-        *problem = (struct kd_problem) { .type = KD_PROBLEM_BODY_TOO_LARGE, .detail = too_large(request, text) };
+    if (request->header.content_length > most_of(request)) {
+        *problem = (struct kd_problem) { .type = KD_PROBLEM_BODY_TOO_LARGE, .detail = too_large(request, told) };
         return true;
     }
     bool quota,
@@ -271,7 +252,8 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_problem problem;
     struct kd_error error;
-    char text[TOO_LARGE], key[KD_ONCE_TEXT];
+    struct told told;
+    char key[KD_ONCE_TEXT];
 
     if (kd_target_parse(&request->target, request->raw, &error))
         problem =
@@ -311,7 +293,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
         problem = (struct kd_problem) { .type = KD_PROBLEM_PRECONDITION,
                                         .close = request->body_announced,
                                         .detail = "no resource here has an ETag of If-Match" };
-    else if (!body_fault(request, text, &problem) && kd_once_read(request, &problem, key))
+    else if (!body_fault(request, &told, &problem) && kd_once_read(request, &problem, key))
         return true;
     *result =
         kd_sign_in_wanted(request, &problem) ? kd_sign_in_page(request, &problem) : kd_reply_problem(request, &problem);
@@ -369,10 +351,10 @@ static enum MHD_Result receive(struct kd_request *request, const char *data, siz
 {
     struct kd_server *server = request->server;
 
-    char text[TOO_LARGE];
+    struct told told;
 
-    if (*size > most_of(request).bytes - request->body.size)
-        return cut_body(request, KD_PROBLEM_BODY_TOO_LARGE, too_large(request, text));
+    if (*size > most_of(request) - request->body.size)
+        return cut_body(request, KD_PROBLEM_BODY_TOO_LARGE, too_large(request, &told));
     size_t all = request->body.size + *size;
     bool quota;
     if (kd_bytes_take(server->bodies, request->client, *size,

@@ -1,186 +1,42 @@
 /* Table of routes, declared in http/route.h. */
+#include "render/output/format.h"
+#include "server/http/query.h"
 #include "server/http/route.h"
+#include "server/openapi/strict.h"
+#include "server/playground/sessions.h"
 
 #define JSON "application/json"
+#define QUERIES(...) \
+    (const struct kd_query[]) { __VA_ARGS__, { 0 } }
 
+#define NATURAL "{\"type\":\"integer\",\"minimum\":0,\"maximum\":999999999999999999}" /* range of kd_target_number */
+#define PART "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_MIN_SCALE_MIN) ",\"maximum\":1}"
+#define PACE_MS \
+    "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_MAX_FRAME_MS_MIN) ",\"maximum\":" KD_SCHEMA_DIGITS( \
+        KD_MAX_FRAME_MS_MAX) "}"
+#define ORDER \
+    "order", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" KD_SCHEMA_DIGITS(KD_ORDER_MAX) "}", \
+        "order of concurrent patches: the highest number counts, and a patch that arrives after a higher one has no " \
+        "effect"
+#define MIN_SCALE \
+    "min_scale", PART, "smallest width of a frame while the scene changes, as a fraction of image.width; default 0.25"
+#define MAX_FRAME_MS \
+    "max_frame_ms", PACE_MS, "limit of a frame's time in ms: frames that take longer are made narrower than min_scale"
+#define MOMENT "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_WAIT_MS_MAX) "}"
+
+#define ROOM(least, most) \
+    "{\"type\":\"integer\",\"minimum\":" KD_SCHEMA_DIGITS(least) ",\"maximum\":" KD_SCHEMA_DIGITS(most) "}"
+
+#define FRAME \
+    "Kerrd-Frame Kerrd-Revision Kerrd-Time Kerrd-Azimuth Kerrd-Accuracy Kerrd-Clock Kerrd-Flux Kerrd-Sentences " \
+    "Kerrd-Approximations Kerrd-Quality Server-Timing Kerrd-Waited Kerrd-Patched"
+#define SAME "Kerrd-Scene-Hash Kerrd-Approximations Kerrd-Clock"
+#define PICTURE_HEADERS SAME " Content-Disposition"
+
+_Static_assert(KD_PLAYGROUND_DEBRIS_MAX == 1000000 && KD_PLAY_DEBRIS == 20000, "the row of at_most says so");
+
+#define ROUTE(handler, ...) { .handle = handler, .path = __VA_ARGS__ },
 const struct kd_route kd_routes[] = {
-    { "/", KD_GET, kd_handle_page, "text/html; charset=utf-8",
-      "The page with the live view, its controls and computed quantities", .status = { 200, 304 }, .page = true,
-      .parts = true },
-    { "/story", KD_GET, kd_handle_page, "text/html; charset=utf-8",
-      "What a black hole looks like, and why: chapters with pictures to move", .status = { 200, 304 }, .page = true,
-      .parts = true },
-    { "/storia", KD_GET, kd_handle_page, "text/html; charset=utf-8", "The same in Italian", .status = { 200, 304 },
-      .page = true, .parts = true },
-    { "/lesson", KD_GET, kd_handle_page, "text/html; charset=utf-8",
-      "The page of a pupil, who follows the picture of a teacher", .status = { 200, 304 }, .page = true,
-      .parts = true },
-    { "/web/{name}", KD_GET, kd_handle_page, "*/*", "Files of the page", .status = { 200, 304 }, .parts = true },
-    { "/web/stills/{name}", KD_GET, kd_handle_page, "*/*",
-      "small pictures of the presets, and of the page's first view", .status = { 200, 304 }, .parts = true },
-    { "/web/vendor/uplot/{name}", KD_GET, kd_handle_page, "*/*", "uPlot, which draws the page's plots",
-      .status = { 200, 304 }, .parts = true },
-    { "/web/vendor/lean-qr/{name}", KD_GET, kd_handle_page, "*/*", "lean-qr, which draws the page's QR codes",
-      .status = { 200, 304 }, .parts = true },
-    { "/s/{code}", KD_GET, kd_handle_shared, "text/html; charset=utf-8",
-      "A page for a shared scene: a preview for other sites, and a link to the live page", KD_TAKES_LINK },
-    { "/embed/{code}", KD_GET, kd_handle_embed, "text/html; charset=utf-8",
-      "A shared scene for an iframe on a page that --embed-origin names: a picture that becomes live when touched",
-      KD_TAKES_LINK },
-    { "/oembed", KD_GET, kd_handle_oembed, JSON, "Embedding of a shared scene on another site (oEmbed)" },
-    { "/healthz", KD_GET, kd_handle_health, JSON, "200 while the process lives", .open = true },
-    { "/readyz", KD_GET, kd_handle_ready, JSON, "200 while renders are accepted, 503 during shutdown", .open = true },
-    { "/metrics", KD_GET, kd_handle_metrics, "text/plain; version=0.0.4; charset=utf-8",
-      "Counters and gauges for Prometheus" },
-    { "/openapi.json", KD_GET, kd_handle_cached_document, JSON, "This description", .status = { 200, 304 },
-      .parts = true },
-    { "/v1/device", KD_GET, kd_handle_device, JSON, "Device, driver, precision, memory, versions" },
-    { "/v1/accuracy", KD_GET, kd_handle_accuracy, JSON,
-      "Measured speed and error of the engines on this device; made by `kerrd bench accuracy`" },
-    { "/v1/presets", KD_GET, kd_handle_cached_document, JSON, "Names and titles of the presets", .status = { 200, 304 },
-      .parts = true },
-    { "/v1/presets/{name}", KD_GET, kd_handle_cached_document, JSON, "The scene of a preset", .status = { 200, 304 },
-      .parts = true },
-    { "/v1/presets/{name}/thumbnail.png", KD_GET, kd_handle_thumbnail, "image/png",
-      "A small picture of a preset, 192 by 120 pixels, rendered at the first request and then cached",
-      .status = { 200, 304 } },
-    { "/v1/schema", KD_GET, kd_handle_cached_document, "application/schema+json", "JSON Schema of a scene",
-      .status = { 200, 304 }, .parts = true },
-    { "/v1/approximations", KD_GET, kd_handle_cached_document, JSON,
-      "Names of all approximations, as Kerrd-Approximations lists them, and the sentence of each",
-      .status = { 200, 304 }, .parts = true },
-    { "/v1/plan", KD_POST, kd_handle_plan, JSON,
-      "Cost of a scene: passes, rays, bytes, estimated time, approximations; with axes, the total cost of a sweep",
-      KD_TAKES_PLAN, .question = true },
-    { "/v1/rays", KD_POST, kd_handle_rays, JSON,
-      "End points of listed rays: equatorial crossings, redshift, delay, direction of escape, error", KD_TAKES_RAYS,
-      .question = true },
-    { "/v1/physics", KD_GET, kd_handle_cached_document, JSON, "The quantities that /v1/physics/NAME gives",
-      .status = { 200, 304 }, .parts = true },
-    { "/v1/physics/{name}", KD_GET, kd_handle_quantity, JSON,
-      "A quantity at a point, or along ranges of its parameters", KD_TAKES_QUANTITY },
-    { "/v1/orbits", KD_POST, kd_handle_orbits, JSON,
-      "Timelike orbits: path, turning points, constants of motion and their drift, frequencies, periastron advance",
-      KD_TAKES_ORBITS, .question = true },
-    { "/v1/line", KD_POST, kd_handle_integral, JSON,
-      "The profile of a line that the gas of a thin disk emits: the share of its photons in each bin of energy",
-      KD_TAKES_INTEGRAL, .also = "text/csv application/x-npy application/x-npz", .question = true },
-    { "/v1/transfer-function", KD_POST, kd_handle_integral, JSON,
-      "Cunningham's transfer function f(g*, r) of a thin disk, near and far side", KD_TAKES_INTEGRAL,
-      .also = "text/csv application/x-npy application/x-npz", .question = true },
-    { "/v1/spectrum", KD_POST, kd_handle_integral, JSON,
-      "The spectrum of a thin disk of black bodies, or of a scene's volume, in SI units", KD_TAKES_INTEGRAL,
-      .also = "text/csv application/x-npy application/x-npz", .question = true },
-    { "/v1/visibility", KD_POST, kd_handle_integral, JSON,
-      "Visibilities of a scene's picture: amplitude and phase by baseline, for all its light and by image order",
-      KD_TAKES_INTEGRAL, .also = "text/csv application/x-npy application/x-npz", .question = true },
-    { "/v1/compare", KD_POST, kd_handle_integral, JSON,
-      "Comparison of a scene with an interferometer's observation: amplitudes, closure phases and log closure "
-      "amplitudes, and chi^2 of each",
-      KD_TAKES_INTEGRAL, .also = "text/csv application/x-npy application/x-npz", .question = true },
-    { "/v1/observe", KD_POST, kd_handle_integral, JSON,
-      "Visibilities of a scene as the array of an observation would have measured them, with its noise",
-      KD_TAKES_INTEGRAL, .also = "text/csv application/x-npy application/x-npz application/x-uvfits",
-      .question = true },
-    { "/v1/sessions", KD_POST, kd_handle_sessions, JSON,
-      "Opens a live session of a scene; the answer has its id and the token for changes", KD_TAKES_SCENE,
-      .status = { 201 }, .once = true, .own = { "least", "patience_ms" } },
-    { "/v1/sessions/{id}", KD_GET | KD_PATCH | KD_DELETE, kd_handle_session, JSON,
-      "The scene of a session; PATCH: a merge patch (RFC 7396), to which the answer with Prefer: return=minimal is "
-      "only the revision; DELETE: ends the session",
-      KD_TAKES_SCENE },
-    { "/v1/sessions/{id}/ringdown", KD_POST, kd_handle_session_ringdown, JSON,
-      "Strikes the hole: sets style.ringdown, with style.ringdown_time now; the answer is the session's scene",
-      KD_TAKES_STRIKE },
-    { "/v1/sessions/{id}/path", KD_POST | KD_DELETE, kd_handle_session_path, JSON,
-      "Moves a session along keyframes, whose places are in seconds; DELETE: stops it at its present state",
-      KD_TAKES_PATH },
-    { "/v1/sessions/{id}/particles", KD_GET, kd_handle_session_particles, "application/octet-stream",
-      "Positions of the particles, their constants and rates: 32-bit little-endian floats, row by row",
-      KD_TAKES_PARTICLES },
-    { "/v1/sessions/{id}/frame.png", KD_GET, kd_handle_session_frame, "image/png",
-      "The newest frame, as soon as its number is above after; 204 if there is none within wait_ms",
-      .status = { 200, 204 } },
-    { "/v1/sessions/{id}/frame", KD_GET | KD_PATCH, kd_handle_session_picture, "image/png",
-      "The same; with lossy=Q, frames before the last are JPEG. PATCH: also a merge patch of the scene (RFC 7396), and "
-      "the answer is a frame with it",
-      KD_TAKES_SCENE, .status = { 200, 204 }, .also = "image/jpeg" },
-    { "/v1/sessions/{id}/frames", KD_GET, kd_handle_session_frames, "multipart/x-mixed-replace",
-      "Stream of the newest frames; with Accept: application/x-kerrd-frames, length, number, revision and 0 precede "
-      "each frame",
-      .also = "application/x-kerrd-frames" },
-    { "/v1/sessions/{id}/events", KD_GET, kd_handle_session_events, "text/event-stream",
-      "Numbers of each frame: quality in force, times, accuracy" },
-    { "/v1/lessons", KD_POST, kd_handle_lessons, JSON,
-      "Opens a lesson, whose pupils follow a session; the answer has its id and the token of the teacher",
-      KD_TAKES_LESSON, .status = { 201 } },
-    { "/v1/lessons/{id}", KD_GET | KD_PATCH | KD_DELETE, kd_handle_lesson, JSON,
-      "A lesson: its session, the number of pupils, the question; with the teacher's token also who chose what. PATCH: "
-      "changes the session, asks or closes a question; DELETE: ends the lesson",
-      KD_TAKES_LESSON },
-    { "/v1/lessons/{id}/hands", KD_POST, kd_handle_lesson_hands, JSON,
-      "Says that a pupil is present, and what it chooses; the answer is the lesson", KD_TAKES_HAND, .question = true },
-    { "/v1/playground", KD_GET | KD_POST, kd_handle_playgrounds, JSON,
-      "Presets, settings and fields of a body; POST: opens a playground, and the answer has its id and the token for "
-      "changes",
-      KD_TAKES_PLAYGROUND, .status = { 200, 201 }, .once = true },
-    { "/v1/playground/{id}", KD_GET | KD_PATCH | KD_DELETE, kd_handle_play, JSON,
-      "State of a playground; PATCH: changes its pace, settings and bodies; DELETE: ends it", KD_TAKES_PLAYGROUND },
-    { "/v1/playground/{id}/step", KD_POST, kd_handle_play_step, JSON,
-      "Advances a paused playground, as `kerrd playground --time` does", KD_TAKES_STEP },
-    { "/v1/playground/{id}/events", KD_GET, kd_handle_play_events, "text/event-stream",
-      "Stream of its numbers (tick) and of its numbered events (happened), each once" },
-    { "/v1/playground/{id}/bodies", KD_GET, kd_handle_play_bodies, "application/octet-stream",
-      "Its bodies as packed 32-bit words: a header of eight, then ten for each body; 204 if there is nothing new "
-      "within wait_ms",
-      KD_TAKES_TICK, .also = "application/x-npy", .status = { 200, 204 } },
-    { "/v1/playground/{id}/debris", KD_GET, kd_handle_play_debris, "application/octet-stream",
-      "A subset of its debris as packed 32-bit words: a header of eight, then four for each piece; 204 if there is "
-      "nothing new within wait_ms",
-      KD_TAKES_TICK, .also = "application/x-npy", .status = { 200, 204 } },
-    { "/v1/playground/{id}/frame.png", KD_GET, kd_handle_play_frame, "image/png",
-      "Its newest picture, as soon as its number is above after; 204 if there is none within wait_ms",
-      .status = { 200, 204 } },
-    { "/v1/playground/{id}/frames", KD_GET, kd_handle_play_frames, "multipart/x-mixed-replace",
-      "Stream of its newest pictures, as for a session", .also = "application/x-kerrd-frames" },
-    { "/v1/playground/{id}/snapshot", KD_GET, kd_handle_play_snapshot, JSON,
-      "A snapshot, from which a playground continues exactly, here or on the command line" },
-    { "/v1/playground/{id}/series", KD_GET, kd_handle_play_series, "text/csv",
-      "Energy, angular momentum, separation, wave frequency, strain and debris over time",
-      .also = "application/x-npy application/json" },
-    { "/v1/playground/{id}/fallback", KD_GET, kd_handle_play_fallback, "text/csv",
-      "Rate at which debris has returned, with the law t^(-5/3) for comparison", .also = "application/x-npy" },
-    { "/v1/assets", KD_GET | KD_PUT, kd_handle_assets, JSON,
-      "Number of assets and its limit; PUT: stores a picture, a grid of matter or an observation, and the answer has "
-      "its SHA-256 and the token that deletes it",
-      KD_TAKES_ASSET, .status = { 200, 201 } },
-    { "/v1/assets/{sha256}", KD_GET | KD_DELETE, kd_handle_asset, "image/png",
-      "The bytes of an asset; DELETE: deletes it", .also = "application/x-npz application/x-uvfits text/csv",
-      .status = { 200, 304 }, .parts = true },
-    { "/v1/jobs", KD_POST, kd_handle_jobs, JSON,
-      "Starts a job of one scene, of a list, or of a scene with keyframes; the answer has its id and the token that "
-      "ends it",
-      KD_TAKES_JOB, .status = { 202 }, .once = true },
-    { "/v1/jobs/{id}", KD_GET | KD_DELETE, kd_handle_job, JSON,
-      "Progress of a job; DELETE: ends it and deletes its files" },
-    { "/v1/jobs/{id}/events", KD_GET, kd_handle_job_events, "text/event-stream", "Stream of its progress" },
-    { "/v1/jobs/{id}/preview.png", KD_GET, kd_handle_job_preview, "image/png",
-      "The unfinished frame as far as it is rendered, or else the last finished one; 409 while there is none",
-      .status = { 200, 304 }, .parts = true },
-    { "/v1/jobs/{id}/result", KD_GET, kd_handle_job_result, NULL,
-      "The picture of a job with one frame, or a ZIP of all frames; with format=png one frame, with format=stream the "
-      "frames as they finish; for a sweep with output cube one array for each layer, as application/fits or with "
-      "format=npz; for a light curve its rows, as application/json or text/csv",
-      .gives = KD_GIVES_RESULT, .status = { 200, 304 }, .parts = true },
-    { "/v1/pixel", KD_GET | KD_POST, kd_handle_pixel, JSON,
-      "Explanation of one pixel of a scene's picture: its ray, what the ray crosses, the light of each emitter, where "
-      "the ray ends and why; with trace=steps the engine's steps along it",
-      KD_TAKES_SCENE, .status = { 200, 304 }, .own = { "at", "trace" }, .question = true },
-    { "/v1/share", KD_GET | KD_POST, kd_handle_share, JSON, "A short address of a scene, for sharing", KD_TAKES_SCENE,
-      .question = true },
-    { "/v1/share/{code}/picture.png", KD_GET, kd_handle_shared_picture, "image/png",
-      "The picture of a shared scene, 1200 by 630 pixels", KD_TAKES_LINK, .status = { 200, 304 } },
-    { "/v1/render", KD_GET | KD_POST, kd_handle_render, NULL, "The picture of a scene", KD_TAKES_SCENE,
-      .gives = KD_GIVES_PICTURE, .status = { 200, 304 }, .own = { "format", "quality", "v" }, .question = true },
+#include "server/http/routes.def"
 };
 const size_t kd_n_routes = sizeof kd_routes / sizeof *kd_routes;

@@ -176,7 +176,7 @@ TOGETHER = [
     ("(POST|PATCH) /v1/playground", SESSION),
     (
         "POST /v1/sessions|PATCH /v1/sessions/{id}(/frame)?|POST /v1/sessions/{id}/path",
-        SESSION + ("patience_ms needs least, below whose width it lets frames shrink",),
+        SESSION + ("max_frame_ms needs min_scale, below whose width it lets frames shrink",),
     ),
     ("POST /v1/sessions/{id}/path|POST /v1/jobs", TIMELINE),
     (

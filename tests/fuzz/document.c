@@ -4,6 +4,28 @@
 #include "../document_example.h"
 #include "document/tree.h"
 
+/* A range that a row accepts has numbers that it holds. */
+static void check_range(const char *name, const char *text)
+{
+    const struct kd_row *row = kd_document_find(&tea_document, name);
+    struct kd_range range;
+    struct kd_error error = { 0 };
+    if (!row || row->kind > KD_KIND_INT)
+        return;
+    const enum kd_status status = kd_row_range(row, text, "/x", &range, &error);
+    if (status) {
+        kd_fuzz_refused(status, &error);
+        return;
+    }
+    CHECK(range.count >= 1 && range.count <= KD_RANGE_MOST, "%zu numbers", range.count);
+    for (size_t i = 0; i < range.count; i += 1 + range.count / 7) {
+        const double x = kd_range_at(&range, i);
+        CHECK(row->words && isinf(x) ? range.count == 1 : kd_row_holds(row, x) || row->above_0 > 0, "%s has %g", name,
+              x);
+        CHECK(row->kind != KD_KIND_INT || x == floor(x), "%s has %g", name, x);
+    }
+}
+
 static void check(struct tea *tea, enum kd_status status, const struct kd_error *error)
 {
     if (status) {
@@ -55,6 +77,7 @@ int kd_fuzz_document(const uint8_t *data, size_t size)
             char *value = strchr(line.at, '=');
             if (value) {
                 *value++ = 0;
+                check_range(line.at, value);
                 status = kd_document_set(&tea_document, &tea, line.at, value, NULL, &error);
             }
             free(line.at);

@@ -16,7 +16,8 @@ static void begin(void)
 
 int kd_fuzz_query(const uint8_t *data, size_t size)
 {
-    static const struct kd_route get = { .path = "/v1/render", .methods = KD_GET | KD_POST, .own = { "format" } };
+    static const struct kd_query own[] = { { .name = "format" }, { 0 } };
+    static const struct kd_route get = { .path = "/v1/render", .methods = KD_GET | KD_POST, .queries = own };
     struct kd_fuzz_text raw = kd_fuzz_part(&data, &size), body = kd_fuzz_bare(data, size);
     struct kd_error error = { 0 };
     struct kd_problem problem = { 0 };

@@ -166,7 +166,7 @@ static void write_other_dictionaries(void)
     for (size_t i = 0; i < kd_quantity_count; i++) {
         WORDS(dict, kd_quantities[i]->name);
         for (size_t k = 0; k < kd_quantities[i]->n_parameters; k++) {
-            WORDS(dict, kd_quantities[i]->parameters[k].name, kd_quantities[i]->parameters[k].initial);
+            WORDS(dict, kd_quantities[i]->parameters[k].name, kd_quantities[i]->parameters[k].typed);
             alternatives(dict, kd_quantities[i]->parameters[k].words);
         }
     }
@@ -262,7 +262,7 @@ static void write_quantities(void)
         CHECK(!kd_buffer_printf(&text, "%s\n", kd_quantities[i]->name), "out of memory");
         for (size_t k = 0; k < kd_quantities[i]->n_parameters; k++)
             CHECK(!kd_buffer_printf(&text, "%s=%s\n", kd_quantities[i]->parameters[k].name,
-                                    kd_quantities[i]->parameters[k].initial),
+                                    kd_quantities[i]->parameters[k].typed),
                   "out of memory");
         put("quantity", kd_quantities[i]->name, "", text.data, text.size);
         kd_buffer_finish(&text);

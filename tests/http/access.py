@@ -56,6 +56,7 @@ READ = [
     "/web/style.css",
     "/metrics",
     "/openapi.json",
+    "/docs",
     "/v1/device",
     "/v1/presets",
     "/v1/schema",

@@ -247,7 +247,7 @@ class Kinds(daemon.Owned):
             self.patch(session, {"camera": {"inclination_deg": 181}}, at), 422, pointer="/camera/inclination_deg"
         )
         self.assertProblem(self.patch(session, {}, at + "&order=0"), 422, pointer="/order")
-        self.assertProblem(self.patch(session, {}, at + "&least=0.5"), 422)
+        self.assertProblem(self.patch(session, {}, at + "&min_scale=0.5"), 422)
         self.assertProblem(self.daemon.request("PATCH", self.at(session, at), "{}"), 403)
         self.assertProblem(self.daemon.request("PATCH", self.at(session, at), "{", self.owner(session)), 400)
         still = self.make(RESTING)

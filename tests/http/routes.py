@@ -3,6 +3,7 @@
 import concurrent.futures
 import ctypes
 import gzip
+import html
 import json
 import os
 import pathlib
@@ -31,6 +32,7 @@ GETS = {
     "/readyz": "application/json",
     "/metrics": "text/plain; version=0.0.4; charset=utf-8",
     "/openapi.json": "application/json",
+    "/docs": "text/html; charset=utf-8",
     "/v1/device": "application/json",
     "/v1/presets": "application/json",
     "/v1/presets/gargantua": "application/json",
@@ -302,6 +304,45 @@ class Routes(daemon.Case):
         self.assertIn("/v1/presets/{name}", document["paths"])
         names = [p["name"] for p in document["paths"]["/v1/render"]["get"]["parameters"]]
         self.assertIn("camera.inclination_deg", names)
+
+    def test_the_table_of_routes(self):
+        """/docs and docs/routes.md have the same cells; /openapi.json has these operations, with these statuses."""
+        page = self.daemon.get("/docs")
+        self.assertEqual(page.header("Content-Type"), "text/html; charset=utf-8")
+        self.assertIn("default-src 'none'", page.header("Content-Security-Policy"))
+        rows = page.body.decode().split("</table>")[0].split("<tr>")[2:]
+        rows = [
+            [html.unescape(re.sub(r"</?code>", "", cell)).strip() for cell in row.split("<td>")[1:]] for row in rows
+        ]
+        text = (pathlib.Path(__file__).parents[2] / "docs/routes.md").read_text()
+        table = [line[1:-1].split(" | ") for line in text.splitlines() if line.startswith("| `")]
+        table = [[re.sub(r"[`\\]", "", cell).strip() for cell in row] for row in table]
+        self.assertEqual(rows, table, "docs/routes.md is old: build/src/server/kd_route_table > docs/routes.md")
+        paths = self.daemon.get("/openapi.json").json()["paths"]
+        common = set(
+            re.search(r"same for all: ([^.]*)\.", text.replace("\n", " "))[1].replace(" and ", ", ").split(", ")
+        )
+        known = {}
+        for operation, _, _, gives, statuses, role in table:
+            method, path = operation.split()
+            one = paths[path.replace("{name}", "kerr") if path.startswith("/v1/physics/") else path][method.lower()]
+            known[operation] = set(one["responses"])
+            self.assertEqual(known[operation] - common, set(statuses.split(", ")), operation)
+            first = next(answer for status, answer in one["responses"].items() if status < "300")
+            if method != "DELETE" and "/v1/physics/" not in path:
+                self.assertEqual(sorted(first["content"]), sorted(set(gives.split(", "))), operation)
+            ways = json.dumps(one.get("security", ["view"]))
+            self.assertEqual(role == "everybody", ways == "[]", operation)
+            self.assertEqual(role.startswith("render"), "render" in ways, operation)
+        self.assertEqual(
+            {name for name in known if "/v1/physics/" not in name},
+            {
+                f"{method.upper()} {path}"
+                for path, row in paths.items()
+                for method in row
+                if not path.startswith("/v1/physics/")
+            },
+        )
 
     def test_openapi_lists_the_statuses(self):
         paths = self.daemon.get("/openapi.json").json()["paths"]

@@ -41,22 +41,22 @@ class Sessions(daemon.Owned):
             {**SCENE, "image": {"width": 640, "height": 360}, "time": 60}
         )  # milliseconds, while a frame should take 33
         for query, pointer in (
-            ("least=0.2", "least"),
-            ("least=1.01", "least"),
-            ("least=nan", "least"),
-            ("least=half", "least"),
-            ("least=", "least"),
-            ("least=0.5&patience_ms=9", "patience_ms"),
-            ("patience_ms=100", "patience_ms"),
+            ("min_scale=0.2", "min_scale"),
+            ("min_scale=1.01", "min_scale"),
+            ("min_scale=nan", "min_scale"),
+            ("min_scale=half", "min_scale"),
+            ("min_scale=", "min_scale"),
+            ("min_scale=0.5&max_frame_ms=9", "max_frame_ms"),
+            ("max_frame_ms=100", "max_frame_ms"),
         ):
             answer = self.daemon.post("/v1/sessions?" + query, body)
             self.assertEqual((answer.status, answer.json().get("pointer")), (422, "/" + pointer), answer.body)
         for query, narrowest in (
-            ("?least=1", 640),
-            ("?least=0.5", 320),
-            ("?least=0.5&patience_ms=1000", 320),
+            ("?min_scale=1", 640),
+            ("?min_scale=0.5", 320),
+            ("?min_scale=0.5&max_frame_ms=1000", 320),
             ("", 160),
-            ("?least=0.5&patience_ms=20", 160),
+            ("?min_scale=0.5&max_frame_ms=20", 160),
         ):
             session = self.daemon.post("/v1/sessions" + query, body).json()
             owner, at = (
@@ -83,9 +83,11 @@ class Sessions(daemon.Owned):
             if narrowest < 320:
                 self.assertTrue(daemon.eventually(lambda: goes_below(320)))
             self.assertGreaterEqual(min(widths), narrowest)
-        self.assertEqual(self.daemon.request("PATCH", at + "?least=2", "{}", owner).status, 422)
+        self.assertEqual(self.daemon.request("PATCH", at + "?min_scale=2", "{}", owner).status, 422)
         self.assertEqual(
-            self.daemon.request("PATCH", at + "?least=1", json.dumps({"camera": {"inclination_deg": 5}}), owner).status,
+            self.daemon.request(
+                "PATCH", at + "?min_scale=1", json.dumps({"camera": {"inclination_deg": 5}}), owner
+            ).status,
             200,
         )
         widths.clear()
@@ -98,8 +100,32 @@ class Sessions(daemon.Owned):
         self.assertTrue(daemon.eventually(wide), "a change of it holds for what goes on")
         for method in ("GET", "DELETE"):
             self.assertEqual(
-                self.daemon.request(method, at + "?least=1", None, owner).status, 422, "where it would do nothing"
+                self.daemon.request(method, at + "?min_scale=1", None, owner).status, 422, "where it would do nothing"
             )
+
+    def test_former_names_are_still_read(self):
+        for query, pointer in (
+            ("least=0.2", "least"),
+            ("least=0.5&patience_ms=9", "patience_ms"),
+            ("min_scale=0.5&least=0.5", "least"),
+        ):
+            answer = self.daemon.post("/v1/sessions?" + query, json.dumps(SCENE))
+            self.assertEqual((answer.status, answer.json().get("pointer")), (422, "/" + pointer), answer.body)
+            self.assertIsNone(answer.header("Deprecation"))
+        opened = self.daemon.post("/v1/sessions?least=0.5&patience_ms=100", json.dumps(SCENE))
+        self.assertEqual(opened.status, 201)
+        self.assertEqual(opened.header("Deprecation"), "@1795910400")
+        self.assertEqual(opened.header("Link"), '</docs>; rel="deprecation"')
+        session = opened.json()
+        owner, at = {"Authorization": "Bearer " + session["token"]}, "/v1/sessions/" + session["id"]
+        for query, date in (
+            ("least=1", "@1795910400"),
+            ("min_scale=1", None),
+            ("max_frame_ms=50&least=0.5", "@1795910400"),
+        ):
+            answer = self.daemon.request("PATCH", at + "?" + query, "{}", owner)
+            self.assertEqual((answer.status, answer.header("Deprecation")), (200, date), query)
+        self.assertIn("formerly <code>least</code>", self.daemon.get("/docs").body.decode())
 
     def test_life(self):
         session = self.open()

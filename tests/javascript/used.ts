@@ -15,7 +15,7 @@ const picture: Picture = await hole.render(scene, { preset, signal: AbortSignal.
 const bytes: Uint8Array<ArrayBuffer> = picture.bytes;
 const blob: Blob = picture.blob;
 
-const live: Session = await hole.session(scene, { least: 0.5 });
+const live: Session = await hole.session(scene, { minScale: 0.5 });
 const revision: number = await live.patch({ camera: { r: null }, disk: null, spots: { 0: { r: 9 } } });
 for await (const frame of live.frames({ quality: 80 })) {
   const number: number = frame.number;

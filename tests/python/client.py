@@ -310,6 +310,14 @@ class Blocking(Case):
         self.assertEqual(curve["t"].tolist(), [0, 15, 30, 45, 60])
         self.assertGreater(curve["flux"].min(), 0)
 
+    def test_former_names(self):
+        with self.assertWarnsRegex(DeprecationWarning, "least is now called min_scale"):
+            self.hole.session({"image": {"width": 320, "height": 180}}, least=1).close()
+        with self.hole.session({"image": {"width": 320, "height": 180}}, min_scale=1) as live:
+            self.assertEqual(next(iter(live)).image.width, 320)
+        with self.assertRaisesRegex(TypeError, "both given"):
+            self.hole.session(min_scale=1, least=1)
+
     def test_a_session(self):
         with self.hole.session({"image": {"width": 320, "height": 180}}) as live:
             frames = list(live)

@@ -209,6 +209,71 @@ static void the_schema_says_the_same(void **state)
     kd_buffer_finish(&out);
 }
 
+static void ranges_are_read_and_refused(void **state)
+{
+    static const struct kd_row whole = { .name = "cups",
+                                         .kind = KD_KIND_INT,
+                                         .least = -2,
+                                         .most = 8,
+                                         .typed = "1:3:3" },
+                               heat = { .name = "heat",
+                                        .least = 50,
+                                        .most = 100,
+                                        .open = KD_OPEN,
+                                        .words = "boiling",
+                                        .stands = INFINITY,
+                                        .typed = "boiling" },
+                               leaf = { .name = "leaf", .kind = KD_KIND_WORD, .words = "none|green", .typed = "green" };
+    static const struct {
+        const struct kd_row *row;
+        const char *text, *message; /* message NULL: is read */
+        struct kd_range range;
+    } cases[] = {
+        { &whole, "-2", NULL, { -2, -2, 1 } },
+        { &whole, "-2:8:6", NULL, { -2, 8, 6 } },
+        { &heat, "boiling", NULL, { INFINITY, INFINITY, 1 } },
+        { &heat, "99:51:100000", NULL, { 99, 51, 100000 } },
+        { &leaf, "green", NULL, { 1, 1, 1 } },
+        { &whole,
+          "1:2:3",
+          "cups is \"1:2:3\", a string where a number is needed; it must be a whole number from -2 to 8, "
+          "or a range first:last:count of 2 to 100000 such values",
+          { 0 } },
+        { &whole, "1:9:9", "", { 0 } },
+        { &whole, "0.5", "", { 0 } },
+        { &heat,
+          "50:60:3",
+          "heat is \"50:60:3\"; it must be a number above 50 and below 100, or \"boiling\", or a range "
+          "first:last:count of 2 to 100000 such values",
+          { 0 } },
+        { &heat, "51:60:1", "", { 0 } },
+        { &heat, "51:60:2.5", "", { 0 } },
+        { &heat, "51:60:100001", "", { 0 } },
+        { &heat, "51:60", "", { 0 } },
+        { &heat, "51:60:2:2", "", { 0 } },
+        { &heat, "boiling:60:2", "", { 0 } },
+        { &leaf, "black", "leaf is \"black\"; it must be \"none\" or \"green\"", { 0 } },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct kd_range range = { 7, 7, 7 };
+        struct kd_error error = { 0 };
+        const bool good = !kd_row_range(cases[i].row, cases[i].text, "/x", &range, &error);
+        assert_int_equal(good, !cases[i].message);
+        if (good) {
+            assert_memory_equal(&range, &cases[i].range, sizeof range);
+            continue;
+        }
+        assert_true(range.count == 7 && error.status == KD_EINVAL);
+        assert_string_equal(error.pointer, "/x");
+        if (*cases[i].message)
+            assert_string_equal(error.message, cases[i].message);
+    }
+    const struct kd_range down = { 1, 0.7, 4 };
+    assert_true(kd_range_at(&down, 0) == 1 && kd_range_at(&down, 3) == 0.7 &&
+                fabs(kd_range_at(&down, 1) - 0.9) < 1e-15);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -217,6 +282,7 @@ int main(void)
         cmocka_unit_test(a_kind_of_document_has_its_own_rows),
         cmocka_unit_test(typed_text_sets_one_field),
         cmocka_unit_test(the_schema_says_the_same),
+        cmocka_unit_test(ranges_are_read_and_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

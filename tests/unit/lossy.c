@@ -109,7 +109,8 @@ static void packets(void **state)
         assert_int_equal((webp ? kd_webp_encode : kd_jpeg_encode)(WIDTH, HEIGHT, pixels, 80, &bare, &error), KD_OK);
         assert_null(find(webp, bare.data, bare.size, &length, &room));
         assert_int_equal(kd_buffer_append(&file, "before", 6), KD_OK);
-        assert_int_equal((webp ? kd_webp_add_xmp : kd_jpeg_add_xmp)(&bare, packet, strlen(packet), &file, &error), KD_OK);
+        assert_int_equal((webp ? kd_webp_add_xmp : kd_jpeg_add_xmp)(&bare, packet, strlen(packet), &file, &error),
+                         KD_OK);
         assert_memory_equal(file.data, "before", 6);
         struct kd_buffer whole = { file.data + 6, file.size - 6, file.size - 6 };
         cut_anywhere(webp, &whole);

@@ -191,7 +191,7 @@ static enum MHD_Result put(struct kd_request *request)
 enum MHD_Result kd_handle_assets(struct kd_request *request)
 {
     enum MHD_Result refused;
-    if (!kd_reply_only(request, (const char *const[]) { NULL }, &refused))
+    if (!kd_reply_only(request, &refused))
         return refused;
     if (!strcmp(request->method, "PUT"))
         return put(request);

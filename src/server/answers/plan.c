@@ -76,7 +76,7 @@ static enum MHD_Result plan_sweep(struct kd_request *request)
     enum MHD_Result refused;
     if (request->task)
         return deliver(request);
-    if (kd_scene_query_check(&request->target, false, request->route->own, &error))
+    if (kd_scene_query_check(&request->target, false, request->route, &error))
         return refuse(request, &error);
     struct sweep *s = kd_task_begin(request, request->server->scheduler, &KIND, &refused);
     if (!s)

@@ -34,6 +34,14 @@ enum MHD_Result kd_handle_device(struct kd_request *request)
     return kd_reply_json(request, status, &json, request->route->answer);
 }
 
+enum MHD_Result kd_handle_docs(struct kd_request *request)
+{
+    static const char *const guarded[] = { "Content-Security-Policy",
+                                           "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'",
+                                           "Referrer-Policy", "no-referrer", NULL };
+    return kd_reply_served(request, kd_cached_documents_find(request->server->documents, "/docs"), guarded);
+}
+
 enum MHD_Result kd_handle_cached_document(struct kd_request *request)
 {
     const struct kd_served *document = kd_cached_documents_find(request->server->documents, request->target.path);

@@ -2,16 +2,17 @@
 #ifndef KD_SERVER_HTTP_QUERY_H
 #define KD_SERVER_HTTP_QUERY_H
 
-#define KD_WAIT_MS 25000      /* default of the parameter wait_ms: proxies commonly give up after 30 s */
-#define KD_WAIT_MS_MAX 60000  /* largest value of wait_ms */
-#define KD_LOSSY_MAX 100      /* largest value of the parameter lossy; the smallest is 1 */
-#define KD_VERSION_LETTERS 40 /* longest value of the parameter v */
-#define KD_LEAST_MIN 0.25     /* smallest value of the parameter least; the largest is 1 */
-#define KD_PATIENCE_MS_MIN 10 /* smallest value of the parameter patience_ms */
-#define KD_PATIENCE_MS_MAX 60000
+#define KD_WAIT_MS 25000       /* default of the parameter wait_ms: proxies commonly give up after 30 s */
+#define KD_WAIT_MS_MAX 60000   /* largest value of wait_ms */
+#define KD_LOSSY_MAX 100       /* largest value of the parameter lossy; the smallest is 1 */
+#define KD_VERSION_LETTERS 40  /* longest value of the parameter v */
+#define KD_MIN_SCALE_MIN 0.25  /* smallest value of the parameter min_scale; the largest is 1 */
+#define KD_MAX_FRAME_MS_MIN 10 /* smallest value of the parameter max_frame_ms */
+#define KD_MAX_FRAME_MS_MAX 60000
 /* largest value of the parameter order: 2^53, up to which every client represents integers exactly; the smallest is
  * 1 */
 #define KD_ORDER_MAX 9007199254740992
-#define KD_SENTENCES_MAX 4294967295 /* largest value of the parameter sentences: 32 bits */
+#define KD_SENTENCES_MAX 4294967295  /* largest value of the parameter sentences: 32 bits */
+#define KD_DEPRECATION "@1795910400" /* since when former names of parameters are such: 2026-11-29 */
 
 #endif

@@ -3,6 +3,7 @@
 #include "image/gzip.h"
 #include "server/http/cors.h"
 #include "server/http/negotiate.h"
+#include "server/http/query.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -144,6 +145,15 @@ static void add_quota(const struct kd_request *request, struct MHD_Response *res
     MHD_add_response_header(response, "RateLimit", text);
 }
 
+/* Says that the query has a former name of a parameter (RFC 9745). */
+static void add_deprecation(const struct kd_request *request, struct MHD_Response *response)
+{
+    char link[KD_BASE_PATH_MOST + 40];
+    snprintf(link, sizeof link, "<%s/docs>; rel=\"deprecation\"", request->server->base.path);
+    MHD_add_response_header(response, "Deprecation", KD_DEPRECATION);
+    MHD_add_response_header(response, "Link", link);
+}
+
 enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response)
 {
     struct kd_server *server = request->server;
@@ -168,6 +178,8 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
     if (server->access)
         MHD_add_response_header(response, "Vary", "Authorization, " KD_ACCESS_HEADER ", Cookie");
     kd_cors_add(request, response);
+    if (status < 400 && kd_route_is_dated(request))
+        add_deprecation(request, response);
     add_quota(request, response);
     if (*request->file && (status == MHD_HTTP_OK || status == MHD_HTTP_PARTIAL_CONTENT))
         MHD_add_response_header(response, "Content-Disposition", request->file);
@@ -239,9 +251,17 @@ enum MHD_Result kd_reply_cancelled(struct kd_request *request)
                                                   "the server is back, or at another server" });
 }
 
-bool kd_reply_only(struct kd_request *request, const char *const *known, enum MHD_Result *refused)
+bool kd_reply_only(struct kd_request *request, enum MHD_Result *refused)
 {
+    const unsigned method = kd_route_method(request->method);
+    const char *known[16] = { 0 };
+    size_t n = 0;
     struct kd_error error = { 0 };
+    for (const struct kd_query *query = request->route->queries; query && query->name && n < 15; query++)
+        if (kd_route_for(query->methods, method))
+            known[n++] = query->name;
+    if (!n)
+        known[0] = "token";
     if (!kd_target_only(&request->target, known, &error))
         return true;
     struct kd_problem problem = kd_problem_from(&error);

@@ -1,5 +1,6 @@
 #include "server/http/route.h"
 
+#include "document/text.h"
 #include "server/http/request.h"
 
 #include <stdio.h>
@@ -72,6 +73,43 @@ static bool is_health(const char *path, size_t n)
 static bool refuse(struct kd_problem *problem, const char *detail)
 {
     *problem = (struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = detail };
+    return false;
+}
+
+bool kd_route_has_query(const struct kd_route *route, const char *name)
+{
+    for (const struct kd_query *query = route ? route->queries : NULL; query && query->name; query++)
+        if (!strcmp(query->name, name) || (query->was && !strcmp(query->was, name)))
+            return true;
+    return false;
+}
+
+enum kd_status kd_route_query(const struct kd_request *request, const char *name, const char **given,
+                              const char **value, struct kd_error *error)
+{
+    const struct kd_query *query = request->route->queries;
+    while (query && query->name && strcmp(query->name, name))
+        query++;
+    const char *was = query && query->name ? query->was : NULL, *now = NULL, *before = NULL;
+    if (query && query->name) {
+        now = kd_target_value(&request->target, name);
+        before = was ? kd_target_value(&request->target, was) : NULL;
+    }
+    char pointer[sizeof error->pointer] = "";
+    *given = before ? was : name;
+    *value = before ? before : now;
+    if (!now || !before)
+        return KD_OK;
+    kd_text_pointer(pointer, sizeof pointer, was);
+    return kd_error_field(error, pointer, "the query has %s, and its former name %s too", name, was);
+}
+
+bool kd_route_is_dated(const struct kd_request *request)
+{
+    const struct kd_query *query = request->route ? request->route->queries : NULL;
+    for (; query && query->name; query++)
+        if (query->was && kd_target_value(&request->target, query->was))
+            return true;
     return false;
 }
 

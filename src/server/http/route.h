@@ -1,5 +1,5 @@
-/* The table of routes: path, methods, handler, media type, statuses, parameters. /openapi.json and the Allow header
- * are generated from it. */
+/* The table of routes. A route is an object: all that is known of it stands in its line of server/http/routes.def, and
+ * /openapi.json, docs/routes.md, the Allow header, roles and limits of bodies are made from that. */
 #ifndef KD_SERVER_HTTP_ROUTE_H
 #define KD_SERVER_HTTP_ROUTE_H
 
@@ -43,6 +43,24 @@ enum kd_takes {
     KD_TAKES_QUANTITY, /* the parameters, in the query, of the quantity that the path names */
 };
 
+/* What a kind of request is, in openapi/takes.c. */
+struct kd_json;
+struct cJSON;
+struct kd_route;
+struct kd_taken {
+    const char *about, *what;     /* the request in a few words; name of its body */
+    size_t most;                  /* limit of the body, bytes; 0: KD_BODY_MAX */
+    const char *types;            /* media types of the body, "a/b c/d"; NULL: application/json. A PATCH may also be
+                                   * a merge patch */
+    const char *schema, *changes; /* JSON Schema of a body, and of that of a PATCH, as text */
+    bool may_lack;                /* the body may be missing */
+    /* Write the member "requestBody", instead of `schema`; and entries of "parameters". May be NULL. */
+    void (*body)(struct kd_json *json, const struct kd_route *route);
+    void (*parameters)(struct kd_json *json, unsigned method, const struct cJSON *scene_schema);
+};
+enum { KD_TAKES = KD_TAKES_QUANTITY + 1 };
+extern const struct kd_taken kd_taken[KD_TAKES];
+
 /* Where an answer's media types are listed. */
 enum kd_gives {
     KD_GIVES_ITS_ANSWER, /* the members `answer` and `also` list them */
@@ -50,28 +68,59 @@ enum kd_gives {
     KD_GIVES_RESULT,     /* every result of a job: job/formats.h */
 };
 
+/* In the next structs, methods 0 are all methods of the route. */
+struct kd_query {                     /* a parameter of the query that is no field of a scene */
+    const char *name, *schema, *help; /* schema: JSON Schema as text; NULL: the names of the formats of jobs */
+    unsigned methods;
+    bool required;
+    const char *was; /* its former name, which is deprecated; NULL: none */
+};
 struct kd_route {
     const char *path; /* at most one segment is in braces; it matches any text, which becomes request->rest */
     unsigned methods;
-    /* Called when the body is complete, and again when the work that the handler started is done. */
-    enum MHD_Result (*handle)(struct kd_request *request);
     const char *answer, *summary; /* answer: media type (NULL: see `gives`); summary: a sentence for openapi.json */
     enum kd_takes takes;
     enum kd_gives gives;
     const char *also;   /* further media types of answers, "a/b c/d"; NULL: none */
-    bool question;      /* the role view may send this POST: it renders nothing that stays, and stores nothing but
-                         * a pupil's answer (access.h) */
+    bool question;      /* the role view may send this POST: it renders nothing that stays, and stores nothing but a
+                         * pupil's answer (access.h) */
     bool open;          /* needs no access token */
     bool page;          /* a page of a browser: takes the access token in its address, and asks for it (access.h) */
     bool once;          /* POST takes Idempotency-Key (once.h) */
     bool parts;         /* GET may answer with a range, 206 (representation.h) */
+    bool owner;         /* POST needs the token of the object, as PATCH and DELETE always do */
+    bool brief;         /* PATCH takes Prefer: return=minimal */
+    bool changes;       /* not every answer has an ETag, because unfinished ones change */
     unsigned status[2]; /* success statuses; { 0 }: 200; DELETE answers 204 */
-    const char *own[4]; /* names of query parameters that are not fields of the scene, up to the first NULL */
+    /* The handler. Called when the body is complete, and again when the work that it started is done. */
+    enum MHD_Result (*handle)(struct kd_request *request);
+    const struct kd_query *queries; /* ends with a NULL name; NULL: none */
+    struct {
+        unsigned methods;
+        const char *text;
+    } schemas[2]; /* of JSON answers, as text */
+    struct {
+        unsigned methods, status;
+        const char *headers;
+    } tells[3];                                  /* headers of answers, "A B" */
+    struct { unsigned methods, status; } may[2]; /* problems that the other members do not imply */
 };
 
 /* All routes, in server/routes.c. */
 extern const struct kd_route kd_routes[];
 extern const size_t kd_n_routes;
+
+/* Whether an entry of a route that is for these methods is for this one. */
+static inline bool kd_route_for(unsigned methods, unsigned method) { return !methods || methods & method; }
+/* Whether the query parameter is one of the route's own, also by its former name; route may be NULL. */
+bool kd_route_has_query(const struct kd_route *route, const char *name);
+
+/* Value of the route's own query parameter, or NULL: it is not given, or the route has no such parameter. *given: the
+ * name that the query has, which may be the former one. KD_EINVAL if it has both. */
+enum kd_status kd_route_query(const struct kd_request *request, const char *name, const char **given,
+                              const char **value, struct kd_error *error);
+/* Whether the query has a former name of a parameter. */
+bool kd_route_is_dated(const struct kd_request *request);
 
 /* Finds the route of the request's path. Sets request->route, ->matched and ->rest. `rest` points into the target's
  * path, from which the base path is removed. The base path alone, without a slash, leads to the page. Returns false
@@ -98,57 +147,9 @@ struct kd_problem;
 bool kd_sign_in_wanted(struct kd_request *request, const struct kd_problem *problem);
 enum MHD_Result kd_sign_in_page(struct kd_request *request, const struct kd_problem *problem);
 
-/* The handlers. The comments name the files that define them. */
-enum MHD_Result kd_handle_page(struct kd_request *request);   /* answers/pages.c */
-enum MHD_Result kd_handle_health(struct kd_request *request); /* answers/reports.c */
-enum MHD_Result kd_handle_ready(struct kd_request *request);
-enum MHD_Result kd_handle_metrics(struct kd_request *request); /* answers/metrics.c */
-enum MHD_Result kd_handle_device(struct kd_request *request);
-/* cached documents: openapi/cached_documents.h */
-enum MHD_Result kd_handle_cached_document(struct kd_request *request);
-enum MHD_Result kd_handle_plan(struct kd_request *request);   /* answers/plan.c */
-enum MHD_Result kd_handle_render(struct kd_request *request); /* render/renders.c */
-enum MHD_Result kd_handle_pixel(struct kd_request *request);
-enum MHD_Result kd_handle_shared_picture(struct kd_request *request);
-enum MHD_Result kd_handle_share(struct kd_request *request); /* answers/share.c */
-enum MHD_Result kd_handle_oembed(struct kd_request *request);
-enum MHD_Result kd_handle_shared(struct kd_request *request); /* answers/shared_page.c */
-enum MHD_Result kd_handle_embed(struct kd_request *request);
-enum MHD_Result kd_handle_thumbnail(struct kd_request *request); /* render/thumbnails.c */
-enum MHD_Result kd_handle_rays(struct kd_request *request);      /* answers/rays.c */
-enum MHD_Result kd_handle_orbits(struct kd_request *request);    /* answers/orbits.c */
-enum MHD_Result kd_handle_integral(struct kd_request *request);  /* answers/integrals.c */
-enum MHD_Result kd_handle_accuracy(struct kd_request *request);  /* answers/accuracy.c */
-enum MHD_Result kd_handle_assets(struct kd_request *request);    /* answers/assets.c */
-enum MHD_Result kd_handle_asset(struct kd_request *request);
-enum MHD_Result kd_handle_sessions(struct kd_request *request); /* session/routes.c */
-enum MHD_Result kd_handle_session(struct kd_request *request);
-enum MHD_Result kd_handle_session_ringdown(struct kd_request *request);
-enum MHD_Result kd_handle_session_path(struct kd_request *request);
-enum MHD_Result kd_handle_session_particles(struct kd_request *request); /* session/particles.c */
-enum MHD_Result kd_handle_session_frame(struct kd_request *request);     /* session/live.c */
-enum MHD_Result kd_handle_session_picture(struct kd_request *request);
-enum MHD_Result kd_handle_session_frames(struct kd_request *request);
-enum MHD_Result kd_handle_session_events(struct kd_request *request);
-enum MHD_Result kd_handle_lessons(struct kd_request *request); /* lesson/routes.c */
-enum MHD_Result kd_handle_lesson(struct kd_request *request);
-enum MHD_Result kd_handle_lesson_hands(struct kd_request *request);
-enum MHD_Result kd_handle_playgrounds(struct kd_request *request); /* playground/routes.c */
-enum MHD_Result kd_handle_play(struct kd_request *request);
-enum MHD_Result kd_handle_play_step(struct kd_request *request);
-enum MHD_Result kd_handle_play_snapshot(struct kd_request *request);
-enum MHD_Result kd_handle_play_series(struct kd_request *request);
-enum MHD_Result kd_handle_play_fallback(struct kd_request *request);
-enum MHD_Result kd_handle_play_frame(struct kd_request *request);
-enum MHD_Result kd_handle_play_frames(struct kd_request *request);
-enum MHD_Result kd_handle_play_bodies(struct kd_request *request); /* playground/data.c */
-enum MHD_Result kd_handle_play_debris(struct kd_request *request);
-enum MHD_Result kd_handle_play_events(struct kd_request *request); /* playground/events.c */
-enum MHD_Result kd_handle_jobs(struct kd_request *request);        /* job/routes.c */
-enum MHD_Result kd_handle_job(struct kd_request *request);
-enum MHD_Result kd_handle_job_events(struct kd_request *request);
-enum MHD_Result kd_handle_job_result(struct kd_request *request);  /* job/result.c */
-enum MHD_Result kd_handle_job_preview(struct kd_request *request); /* job/result.c */
-enum MHD_Result kd_handle_quantity(struct kd_request *request);    /* answers/physics.c */
+/* The handlers. */
+#define ROUTE(handler, ...) enum MHD_Result handler(struct kd_request *request);
+#include "server/http/routes.def"
+#undef ROUTE
 
 #endif

@@ -177,7 +177,7 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request)
     enum MHD_Result refused;
     if (request->task)
         return deliver(request);
-    if (kd_scene_query_check(&request->target, false, request->route->own, &error))
+    if (kd_scene_query_check(&request->target, false, request->route, &error))
         return refuse(request, &error, false);
     if (made_before(request, &refused))
         return refused;

@@ -28,8 +28,7 @@ void kd_openapi_access_default(struct kd_json *json, bool closed)
 
 bool kd_openapi_is_owners(const struct kd_route *route, unsigned method)
 {
-    return method == KD_PATCH || method == KD_DELETE || route->takes == KD_TAKES_STRIKE ||
-           route->takes == KD_TAKES_PATH || route->takes == KD_TAKES_STEP;
+    return method == KD_PATCH || method == KD_DELETE || (method == KD_POST && route->owner);
 }
 
 void kd_openapi_access_operation(struct kd_json *json, const struct kd_route *route, unsigned method, bool closed)

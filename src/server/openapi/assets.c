@@ -53,22 +53,3 @@ void kd_openapi_asset_schema(struct kd_json *json)
     KD_OPENAPI_STRICT(json, "AssetLimits", limits);
     KD_OPENAPI_STRICT(json, "Assets", assets);
 }
-
-void kd_openapi_asset_body(struct kd_json *json)
-{
-    kd_json_object(json, "requestBody");
-    kd_json_bool(json, "required", true);
-    kd_json_object(json, "content");
-    kd_openapi_media(json, KD_ASSET_TYPE, "", 0);
-    kd_openapi_media(json, KD_ASSET_GRID_TYPE, "", 0);
-    kd_openapi_media(json, KD_ASSET_UVFITS_TYPE, "", 0);
-    kd_openapi_media(json, KD_ASSET_CSV_TYPE, "", 0);
-    kd_json_end(json);
-    kd_json_end(json);
-}
-
-void kd_openapi_asset_answer(struct kd_json *json, unsigned method)
-{
-    const char *schema = method == KD_PUT ? KD_SCHEMA_REF("Asset") : KD_SCHEMA_REF("Assets");
-    kd_openapi_media(json, "application/json", schema, strlen(schema));
-}

@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 #include "scene/sha256.h"
 #include "server/openapi/openapi.h"
+#include "server/openapi/route_table.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -50,6 +51,7 @@ static const struct {
     enum kd_status (*make)(struct kd_buffer *out);
 } makers[] = {
     { "/openapi.json", "application/json", NULL /* made by kd_openapi_json, which has other parameters */ },
+    { "/docs", "text/html; charset=utf-8", kd_route_table_html },
     { "/v1/schema", "application/schema+json", kd_scene_schema },
     { "/v1/presets", "application/json", presets_json },
     { "/v1/physics", "application/json", kd_quantity_list_json },

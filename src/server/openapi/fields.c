@@ -1,6 +1,8 @@
 #include "server/openapi/fields.h"
 
 #include "base/buffer.h"
+#include "scene/scene.h"
+#include "server/http/route.h"
 
 #include <string.h>
 
@@ -83,4 +85,32 @@ void kd_openapi_field_paths(struct kd_json *json, const cJSON *schema)
     each(json, schema, "", add_path);
     kd_json_end(json);
     kd_json_end(json);
+}
+
+void kd_openapi_preset_schema(struct kd_json *json)
+{
+    kd_json_object(json, "schema");
+    kd_json_string(json, "type", "string");
+    kd_json_array(json, "enum");
+    for (size_t i = 0; i < kd_scene_preset_count(); i++)
+        kd_json_string(json, NULL, kd_scene_preset_name(i));
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+void kd_openapi_preset_parameter(struct kd_json *json, unsigned method, const cJSON *schema)
+{
+    (void)method, (void)schema;
+    kd_json_object(json, NULL);
+    kd_json_string(json, "name", "preset");
+    kd_json_string(json, "in", "query");
+    kd_openapi_preset_schema(json);
+    kd_json_end(json);
+}
+
+void kd_openapi_scene_parameters(struct kd_json *json, unsigned method, const cJSON *schema)
+{
+    kd_openapi_preset_parameter(json, method, schema);
+    if (method != KD_POST)
+        kd_openapi_field_parameters(json, schema);
 }

@@ -2,6 +2,7 @@
 
 #include "base/schema.h"
 #include "server/http/once.h"
+#include "server/http/query.h"
 #include "server/http/request_id.h"
 
 #include <stdio.h>
@@ -55,6 +56,9 @@ static const struct {
     { "RateLimit", TEXT,
       "\"device-seconds\";r=LEFT;t=SECONDS: remaining device time, and the seconds until all of it is available again",
       false },
+    { "Deprecation", "{\"const\":\"" KD_DEPRECATION "\"}",
+      "if the query has a former name of a parameter: since when it is one (RFC 9745)", false },
+    { "Link", TEXT, "with Deprecation: where the present names are", false },
     { "Retry-After", COUNT, "seconds to wait before another attempt", false },
     { "WWW-Authenticate", "{\"const\":\"Bearer\"}", "scheme of authentication", true },
     { "Allow", TEXT, "methods of this address", true },
@@ -71,61 +75,6 @@ static const struct {
 
 #define EVERY \
     KD_REQUEST_ID_HEADER " RateLimit-Policy RateLimit Access-Control-Allow-Origin Access-Control-Expose-Headers"
-#define FRAME \
-    "Kerrd-Frame Kerrd-Revision Kerrd-Time Kerrd-Azimuth Kerrd-Accuracy Kerrd-Clock Kerrd-Flux Kerrd-Sentences " \
-    "Kerrd-Approximations Kerrd-Quality Server-Timing Kerrd-Waited Kerrd-Patched"
-#define SAME "Kerrd-Scene-Hash Kerrd-Approximations Kerrd-Clock"
-#define PICTURE SAME " Content-Disposition"
-
-/* Headers of each route's answers: their names, separated by blanks. methods 0: all methods. */
-static const struct {
-    const char *path;
-    unsigned methods, status;
-    const char *names;
-} told[] = {
-    { "/", 0, 303, "Location Set-Cookie" },
-    { "/story", 0, 303, "Location Set-Cookie" },
-    { "/storia", 0, 303, "Location Set-Cookie" },
-    { "/lesson", 0, 303, "Location Set-Cookie" },
-    { "/v1/render", 0, 200, PICTURE " Kerrd-Accuracy Kerrd-Flux Server-Timing" },
-    { "/v1/render", 0, 304, SAME },
-    { "/v1/pixel", 0, 200, PICTURE " Kerrd-Accuracy Kerrd-Flux Server-Timing" },
-    { "/v1/pixel", 0, 304, SAME },
-    { "/v1/share/{code}/picture.png", 0, 200, PICTURE " Kerrd-Accuracy Kerrd-Flux Server-Timing" },
-    { "/v1/share/{code}/picture.png", 0, 304, SAME },
-    { "/v1/rays", 0, 200, "Server-Timing Kerrd-Accuracy Kerrd-Approximations Content-Disposition" },
-    { "/v1/orbits", 0, 200, "Server-Timing Content-Disposition" },
-    { "/v1/line", 0, 200, "Server-Timing Content-Disposition" },
-    { "/v1/transfer-function", 0, 200, "Server-Timing Content-Disposition" },
-    { "/v1/spectrum", 0, 200, "Server-Timing Content-Disposition" },
-    { "/v1/visibility", 0, 200, "Server-Timing Content-Disposition" },
-    { "/v1/compare", 0, 200, "Server-Timing Content-Disposition" },
-    { "/v1/observe", 0, 200, "Server-Timing Content-Disposition" },
-    { "/v1/physics/{name}", 0, 200, "Server-Timing Content-Disposition" },
-    { "/v1/sessions", KD_POST, 201, "Server-Timing" },
-    { "/v1/sessions/{id}", KD_PATCH, 200, "Server-Timing Preference-Applied" },
-    { "/v1/sessions/{id}", KD_GET, 200, "Server-Timing" },
-    { "/v1/sessions/{id}/ringdown", 0, 200, "Server-Timing" },
-    { "/v1/sessions/{id}/path", KD_POST, 200, "Server-Timing" },
-    { "/v1/sessions/{id}/frame.png", 0, 200, FRAME },
-    { "/v1/sessions/{id}/frame.png", 0, 204, "Kerrd-Waited" },
-    { "/v1/sessions/{id}/frame", 0, 200, FRAME },
-    { "/v1/sessions/{id}/frame", 0, 204, "Kerrd-Waited Kerrd-Patched" },
-    { "/v1/sessions/{id}/particles", 0, 200,
-      "Kerrd-Fields Kerrd-Count Kerrd-Particles Kerrd-Time Server-Timing Content-Disposition" },
-    { "/v1/playground/{id}/frame.png", 0, 200, FRAME },
-    { "/v1/playground/{id}/frame.png", 0, 204, "Kerrd-Waited" },
-    { "/v1/playground/{id}/bodies", 0, 200, "Kerrd-Generation Kerrd-Time" },
-    { "/v1/playground/{id}/debris", 0, 200, "Kerrd-Generation Kerrd-Time" },
-    { "/v1/playground/{id}/snapshot", 0, 200, "Content-Disposition" },
-    { "/v1/playground/{id}/series", 0, 200, "Content-Disposition" },
-    { "/v1/playground/{id}/fallback", 0, 200, "Content-Disposition" },
-    { "/v1/assets/{sha256}", KD_GET, 200, "Content-Disposition" },
-    { "/v1/presets/{name}/thumbnail.png", 0, 200, "Content-Disposition" },
-    { "/v1/jobs/{id}/preview.png", 0, 200, "Kerrd-Frame Kerrd-Rows Content-Disposition" },
-    { "/v1/jobs/{id}/result", 0, 200, "Content-Disposition" },
-};
-
 static bool is_kept(const struct kd_route *route, unsigned method)
 {
     return method != KD_DELETE && (route->status[0] == 304 || route->status[1] == 304);
@@ -136,10 +85,7 @@ static bool tells_events(const struct kd_route *route, unsigned method)
     return (void)method, route->answer && !strcmp(route->answer, "text/event-stream");
 }
 static bool is_made_once(const struct kd_route *route, unsigned method) { return method == KD_POST && route->once; }
-static bool may_say_little(const struct kd_route *route, unsigned method)
-{
-    return method == KD_PATCH && !strcmp(route->path, "/v1/sessions/{id}");
-}
+static bool may_say_little(const struct kd_route *route, unsigned method) { return method == KD_PATCH && route->brief; }
 
 /* Request headers whose use here goes beyond their general meaning in HTTP. */
 static const struct {
@@ -203,11 +149,18 @@ static void refer_all(struct kd_json *json, const char *names)
 
 static const char *names_of(const struct kd_route *route, unsigned method, unsigned status)
 {
-    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
-        if (told[i].status == status && (!told[i].methods || told[i].methods & method) &&
-            !strcmp(told[i].path, route->path))
-            return told[i].names;
+    for (size_t i = 0; i < sizeof route->tells / sizeof *route->tells; i++)
+        if (route->tells[i].status == status && kd_route_for(route->tells[i].methods, method))
+            return route->tells[i].headers;
     return NULL;
+}
+
+static bool has_former_names(const struct kd_route *route, unsigned method)
+{
+    for (const struct kd_query *query = route->queries; query && query->name; query++)
+        if (query->was && kd_route_for(query->methods, method))
+            return true;
+    return false;
 }
 
 void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsigned method, unsigned status)
@@ -215,7 +168,7 @@ void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsi
     const char *names = names_of(route, method, status);
     const bool made = status == 201 || status == 202, part = status == 206;
     const bool whole = status == 200 && route->status[1] == 304,
-               kept = status == 304 || part || (whole && strncmp(route->path, "/v1/jobs/", 9));
+               kept = status == 304 || part || (whole && !route->changes);
     kd_json_object(json, "headers");
     refer_all(json, EVERY);
     if (made)
@@ -235,6 +188,8 @@ void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsi
         refer_all(json, "Content-Digest");
     if (names)
         refer_all(json, names);
+    if (has_former_names(route, method))
+        refer_all(json, "Deprecation Link");
     kd_json_end(json);
 }
 

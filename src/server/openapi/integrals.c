@@ -10,11 +10,11 @@ static const char *const requests[KD_INTEGRALS] = { "LineRequest", "TransferFunc
                                                     NULL,          "VisibilityRequest",       "CompareRequest",
                                                     NULL,          "ObserveRequest" };
 
-void kd_openapi_integral_body(struct kd_json *json, const char *path)
+void kd_openapi_integral_body(struct kd_json *json, const struct kd_route *route)
 {
     char schema[80];
-    int n =
-        snprintf(schema, sizeof schema, "{\"$ref\":\"#/components/schemas/%s\"}", requests[kd_integral_of_route(path)]);
+    int n = snprintf(schema, sizeof schema, "{\"$ref\":\"#/components/schemas/%s\"}",
+                     requests[kd_integral_of_route(route->path)]);
     kd_openapi_body(json, schema, (size_t)n, NULL);
 }
 

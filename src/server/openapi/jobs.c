@@ -39,7 +39,7 @@ static const char axes[] =
                      "\"minItems\":1,"
                      "\"maxItems\":100000,\"items\":{\"anyOf\":[{\"type\":\"number\"},{\"type\":\"string\"},{\"type\":"
                      "\"boolean\"},{\"type\":\"array\",\"items\":{\"type\":\"string\"}}]}},{\"type\":\"string\","
-                     "\"pattern\":\"^" KD_OPENAPI_DECIMAL ":" KD_OPENAPI_DECIMAL "(:" KD_OPENAPI_DECIMAL
+                     "\"pattern\":\"^" KD_SCHEMA_DECIMAL ":" KD_SCHEMA_DECIMAL "(:" KD_SCHEMA_DECIMAL
                      "|/([1-9][0-9]{0,5}))$\",\"description\":\"START:STOP:STEP or START:STOP/HOW MANY\"}]}}";
 
 /* Variants of a request for a job. Each is a format string; its arguments are the list of the outputs that are not
@@ -119,8 +119,9 @@ static void end_body(struct kd_json *json)
     kd_openapi_body_end(json);
 }
 
-void kd_openapi_jobs_body(struct kd_json *json)
+void kd_openapi_jobs_body(struct kd_json *json, const struct kd_route *route)
 {
+    (void)route;
     begin_body(json);
     add_way(json, sequence, of_any_job);
     add_way(json, sweep, any);
@@ -129,8 +130,9 @@ void kd_openapi_jobs_body(struct kd_json *json)
     end_body(json);
 }
 
-void kd_openapi_plan_body(struct kd_json *json)
+void kd_openapi_plan_body(struct kd_json *json, const struct kd_route *route)
 {
+    (void)route;
     begin_body(json);
     kd_schema_text(json, NULL, KD_OPENAPI_SCENE);
     add_way(json, sweep, any);

@@ -3,10 +3,11 @@
 #define KD_SERVER_OPENAPI_JOBS_H
 
 #include "base/json.h"
+#include "server/http/route.h"
 
 /* Both write an operation's requestBody. */
-void kd_openapi_jobs_body(struct kd_json *json);
-void kd_openapi_plan_body(struct kd_json *json);
+void kd_openapi_jobs_body(struct kd_json *json, const struct kd_route *route);
+void kd_openapi_plan_body(struct kd_json *json, const struct kd_route *route);
 /* Writes the schemas of a job's status and of a sweep's axes. */
 void kd_openapi_job_schema(struct kd_json *json);
 

@@ -59,21 +59,7 @@ void kd_openapi_lesson_schema(struct kd_json *json)
     kd_schema_text(json, "LessonChange", "{\"type\":\"object\"," MEMBERS "}");
 }
 
-void kd_openapi_lesson_body(struct kd_json *json, bool patch)
-{
-    static const char made[] = KD_SCHEMA_REF("NewLesson"), changed[] = KD_SCHEMA_REF("LessonChange");
-    kd_openapi_body_begin(json);
-    kd_openapi_media(json, "application/json", patch ? changed : made, patch ? sizeof changed - 1 : sizeof made - 1);
-    if (patch)
-        kd_openapi_media(json, KD_PATCH_TYPE, changed, sizeof changed - 1);
-    kd_openapi_body_end(json);
-}
-
-void kd_openapi_hand_body(struct kd_json *json)
-{
-    static const char hand[] =
-        "{\"type\":\"object\",\"additionalProperties\":false,\"required\":[\"pupil\"],\"dependentRequired\":{"
-        "\"question\":[\"choice\"],\"choice\":[\"question\"]},\"properties\":{\"pupil\":" ID ",\"name\":" TEXT(
-            0, 80) ",\"question\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":1000000000},\"choice\":" CHOICE "}}";
-    kd_openapi_body(json, hand, sizeof hand - 1, NULL);
-}
+const char kd_openapi_hand_schema[] =
+    "{\"type\":\"object\",\"additionalProperties\":false,\"required\":[\"pupil\"],\"dependentRequired\":{"
+    "\"question\":[\"choice\"],\"choice\":[\"question\"]},\"properties\":{\"pupil\":" ID ",\"name\":" TEXT(
+        0, 80) ",\"question\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":1000000000},\"choice\":" CHOICE "}}";

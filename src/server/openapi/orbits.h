@@ -4,9 +4,6 @@
 
 #include "base/json.h"
 
-/* Writes the operation's requestBody. */
-void kd_openapi_orbits_body(struct kd_json *json);
 void kd_openapi_orbits_schema(struct kd_json *json); /* writes "Orbit" of components.schemas */
-void kd_openapi_orbits_answer(struct kd_json *json);
 
 #endif

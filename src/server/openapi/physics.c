@@ -6,63 +6,10 @@
 #include "server/openapi/problems.h"
 #include "server/openapi/strict.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define NUMBERS "[{\"type\":[\"number\",\"null\"]},{\"type\":\"array\",\"items\":{\"type\":[\"number\",\"null\"]}}]"
-
-#define DIGITS "{\"type\":\"integer\",\"minimum\":1,\"maximum\":17}" /* the maximum is KD_DECIMAL_DIGITS */
-#define RANGE "^" KD_OPENAPI_DECIMAL ":" KD_OPENAPI_DECIMAL ":([2-9]|[1-9][0-9]{1,4}|100000)$"
-
-static void add_words(struct kd_json *json, const char *text)
-{
-    char word[KD_WORD_TEXT];
-    kd_json_array(json, "enum");
-    while (*text) {
-        text = kd_parameter_word(text, word);
-        kd_json_string(json, NULL, word);
-    }
-    kd_json_end(json);
-}
-
-static void add_number(struct kd_json *json, const struct kd_parameter *p)
-{
-    kd_json_object(json, NULL);
-    kd_json_string(json, "type", p->whole ? "integer" : "number");
-    kd_json_number(json, p->open ? "exclusiveMinimum" : "minimum", p->minimum);
-    kd_json_number(json, p->open ? "exclusiveMaximum" : "maximum", p->maximum);
-    kd_json_end(json);
-}
-
-/* Writes the schema of a parameter: a number, a range as text, or a word. */
-static void add_schema(struct kd_json *json, const struct kd_parameter *p)
-{
-    kd_json_object(json, "schema");
-    if (p->words) {
-        add_words(json, p->words);
-    } else {
-        kd_json_array(json, "anyOf");
-        /* The word comes first, because generators of clients take the first type that fits the default, and "infinity"
-         * parses as a number. */
-        if (p->word)
-            kd_schema_word(json, NULL, p->word);
-        add_number(json, p);
-        kd_json_object(json, NULL);
-        kd_json_string(json, "type", "string");
-        kd_json_string(json, "pattern", RANGE);
-        kd_json_end(json);
-        kd_json_end(json);
-    }
-    char *end;
-    double number = strtod(p->initial, &end);
-    if (*end || p->words || !isfinite(number)) /* "infinity" is a word of this schema */
-        kd_json_string(json, "default", p->initial);
-    else
-        kd_json_number(json, "default", number);
-    kd_json_end(json);
-}
 
 static void begin_parameter(struct kd_json *json, const char *name, const char *help, const char *unit)
 {
@@ -79,18 +26,18 @@ static void add_parameters(struct kd_json *json, const struct kd_quantity *quant
 {
     kd_json_array(json, "parameters");
     for (size_t i = 0; i < quantity->n_parameters; i++) {
-        const struct kd_parameter *p = &quantity->parameters[i];
-        begin_parameter(json, p->name, p->help, p->words ? "" : p->unit);
-        add_schema(json, p);
+        const struct kd_row *p = &quantity->parameters[i];
+        begin_parameter(json, p->name, p->help, p->kind == KD_KIND_WORD ? "" : p->unit);
+        kd_row_range_schema(json, "schema", p);
         kd_json_end(json);
     }
-    begin_parameter(json, "digits", "significant digits of numbers in lists, and of all numbers in CSV; 17: all", "");
-    kd_json_raw(json, "schema", DIGITS, strlen(DIGITS));
+    begin_parameter(json, "digits", kd_quantity_digits.help, "");
+    kd_row_type(json, "schema", &kd_quantity_digits);
     kd_json_end(json);
     begin_parameter(json, "format", "format of the answer, instead of Accept", "");
-    kd_json_object(json, "schema");
-    add_words(json, quantity->sound ? "json|csv|wav" : "json|csv");
-    kd_json_end(json);
+    kd_row_type(
+        json, "schema",
+        &(const struct kd_row) { .kind = KD_KIND_WORD, .words = quantity->sound ? "json|csv|wav" : "json|csv" });
     kd_json_end(json);
     kd_json_end(json);
 }
@@ -101,18 +48,19 @@ static void add_asked(struct kd_json *json, const struct kd_quantity *quantity)
     const char *names[KD_QUANTITY_PARAMETERS];
     kd_schema_begin_strict(json, "parameters");
     for (size_t i = 0; i < quantity->n_parameters; i++) {
-        const struct kd_parameter *p = &quantity->parameters[i];
-        kd_json_object(json, names[i] = p->name);
-        if (p->words) {
-            add_words(json, p->words);
-        } else {
-            kd_json_array(json, "anyOf");
-            if (p->word)
-                kd_schema_word(json, NULL, p->word);
-            kd_schema_text(json, NULL, KD_SCHEMA_NUMBER);
-            kd_schema_text(json, NULL, KD_SCHEMA_LIST(KD_SCHEMA_NUMBER));
-            kd_json_end(json);
+        const struct kd_row *p = &quantity->parameters[i];
+        names[i] = p->name;
+        if (p->kind == KD_KIND_WORD) {
+            kd_row_type(json, p->name, p);
+            continue;
         }
+        kd_json_object(json, p->name);
+        kd_json_array(json, "anyOf");
+        if (p->words)
+            kd_schema_word(json, NULL, p->words);
+        kd_schema_text(json, NULL, KD_SCHEMA_NUMBER);
+        kd_schema_text(json, NULL, KD_SCHEMA_LIST(KD_SCHEMA_NUMBER));
+        kd_json_end(json);
         kd_json_end(json);
     }
     kd_schema_end_strict(json, names, quantity->n_parameters);
@@ -138,7 +86,7 @@ static void add_units(struct kd_json *json, const struct kd_quantity *quantity)
     size_t n = 0, own;
     kd_schema_begin_strict(json, "units");
     for (size_t i = 0; i < quantity->n_parameters; i++)
-        if (!quantity->parameters[i].words)
+        if (quantity->parameters[i].kind != KD_KIND_WORD)
             kd_schema_text(json, names[n++] = quantity->parameters[i].name, KD_SCHEMA_TEXT);
     own = n;
     for (size_t i = 0; i < quantity->n_outputs; i++) {

@@ -299,22 +299,7 @@ void kd_openapi_playground_schemas(struct kd_json *json)
     add_tick(json);
 }
 
-void kd_openapi_playground_body(struct kd_json *json, bool patch, const char *other)
-{
-    static const char made[] = "{\"$ref\":\"#/components/schemas/Playground\"}",
-                      changed[] = "{\"$ref\":\"#/components/schemas/PlaygroundChange\"}";
-    kd_openapi_body_begin(json);
-    kd_openapi_media(json, "application/json", patch ? changed : made, patch ? sizeof changed - 1 : sizeof made - 1);
-    if (patch)
-        kd_openapi_media(json, other, changed, sizeof changed - 1);
-    kd_openapi_body_end(json);
-}
-
-void kd_openapi_step_body(struct kd_json *json)
-{
-    static const char schema[] =
-        "{\"type\":\"object\",\"additionalProperties\":false,\"required\":[\"by\"],\"properties\":{\"by\":{\"type\":"
-        "\"number\","
-        "\"exclusiveMinimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_PLAYGROUND_TIME) ",\"description\":\"M\"}}}";
-    kd_openapi_body(json, schema, sizeof schema - 1, NULL);
-}
+const char kd_openapi_step_schema[] =
+    "{\"type\":\"object\",\"additionalProperties\":false,\"required\":[\"by\"],\"properties\":{\"by\":{\"type\":"
+    "\"number\","
+    "\"exclusiveMinimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_PLAYGROUND_TIME) ",\"description\":\"M\"}}}";

@@ -4,11 +4,8 @@
 
 #include "base/json.h"
 
-/* Writes the schemas that the bodies below refer to. */
+/* Writes the schemas that bodies and answers refer to. */
 void kd_openapi_playground_schemas(struct kd_json *json);
-/* Writes the requestBody that creates a playground; if patch is true, the one that changes it. That one has a second
- * media type, `other`. */
-void kd_openapi_playground_body(struct kd_json *json, bool patch, const char *other);
-void kd_openapi_step_body(struct kd_json *json);
+extern const char kd_openapi_step_schema[]; /* of the body of .../step */
 
 #endif

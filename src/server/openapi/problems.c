@@ -19,14 +19,6 @@ static bool has_body(const struct kd_route *route, unsigned method)
     return (void)route, method == KD_POST || method == KD_PATCH || method == KD_PUT;
 }
 
-static bool is_one_of(const struct kd_route *route, const char *const *paths)
-{
-    for (; *paths; paths++)
-        if (!strcmp(route->path, *paths))
-            return true;
-    return false;
-}
-
 /* Whether the operation may answer 403: for a wrong role, a page of another site, or a wrong token of the object. */
 static bool forbids(const struct kd_route *route, unsigned method)
 {
@@ -35,45 +27,20 @@ static bool forbids(const struct kd_route *route, unsigned method)
 
 static bool is_found_by_name(const struct kd_route *route, unsigned method)
 {
-    (void)method;
-    return (strchr(route->path, '{') && route->takes != KD_TAKES_QUANTITY) || !strcmp(route->path, "/v1/accuracy") ||
-           !strcmp(route->path, "/oembed");
+    return (void)method, strchr(route->path, '{') && route->takes != KD_TAKES_QUANTITY;
 }
 
 /* Whether the client chooses the format of an answer by Accept. */
 static bool negotiates(const struct kd_route *route, unsigned method)
 {
-    static const char *const by_hand[] = { "/v1/playground/{id}/series", "/v1/playground/{id}/fallback", NULL };
-    (void)method;
-    return route->gives != KD_GIVES_ITS_ANSWER || route->takes == KD_TAKES_RAYS || route->takes == KD_TAKES_ORBITS ||
-           route->takes == KD_TAKES_INTEGRAL || route->takes == KD_TAKES_QUANTITY || route->takes == KD_TAKES_TICK ||
-           is_one_of(route, by_hand);
+    return (void)method, route->gives != KD_GIVES_ITS_ANSWER;
 }
 
-static bool may_come_too_early(const struct kd_route *route, unsigned method)
-{
-    static const char *const paths[] = { "/v1/jobs/{id}/result", "/v1/jobs/{id}/preview.png", NULL };
-    return (method == KD_POST && route->once) || route->takes == KD_TAKES_PARTICLES ||
-           route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_STEP || route->takes == KD_TAKES_HAND ||
-           (route->takes == KD_TAKES_PLAYGROUND && method == KD_PATCH) || is_one_of(route, paths);
-}
+static bool is_made_once(const struct kd_route *route, unsigned method) { return method == KD_POST && route->once; }
 
 static bool checks_what_it_is_given(const struct kd_route *route, unsigned method)
 {
-    static const char *const strict[] = {
-        "/v1/presets/{name}/thumbnail.png",
-        "/v1/sessions/{id}/frame.png",
-        "/v1/playground/{id}/frame.png",
-        "/v1/playground/{id}/events",
-        "/v1/jobs/{id}/preview.png",
-        "/v1/jobs/{id}/result",
-        "/oembed",
-        NULL,
-    };
-    if (method == KD_DELETE)
-        return !strcmp(route->path, "/v1/sessions/{id}") ||
-               route->takes == KD_TAKES_LESSON; /* the query of its operations may only hold a token */
-    return has_body(route, method) || route->takes != KD_TAKES_NOTHING || is_one_of(route, strict);
+    return method != KD_DELETE && (has_body(route, method) || route->takes != KD_TAKES_NOTHING);
 }
 
 static bool makes_films(const struct kd_route *route, unsigned method)
@@ -81,45 +48,45 @@ static bool makes_films(const struct kd_route *route, unsigned method)
     return (void)method, route->gives == KD_GIVES_RESULT;
 }
 static bool sends_parts(const struct kd_route *route, unsigned method) { return method == KD_GET && route->parts; }
-static bool keeps_files(const struct kd_route *route, unsigned method)
-{
-    return makes_films(route, method) || (method == KD_POST && route->takes == KD_TAKES_JOB) ||
-           (method == KD_PUT && route->takes == KD_TAKES_ASSET);
-}
 
 static const struct {
     unsigned status;
     bool (*of)(const struct kd_route *route, unsigned method);
 } rows[] = {
-    { 400, always },
-    { 401, closed },
-    { 403, forbids },
-    { 404, is_found_by_name },
-    { 405, never },
-    { 406, negotiates },
-    { 408, always },
-    { 409, may_come_too_early },
-    { 412, always },
-    { 413, always },
-    { 414, always },
-    { 415, has_body },
-    { 416, sends_parts },
-    { 421, always },
-    { 422, checks_what_it_is_given },
-    { 429, always },
-    { 431, always },
-    { 500, closed },
-    { 501, makes_films },
-    { 503, always },
-    { 505, always },
-    { 507, keeps_files },
+    { 400, always },           { 401, closed },       { 403, forbids },
+    { 404, is_found_by_name }, { 405, never },        { 406, negotiates },
+    { 408, always },           { 409, is_made_once }, { 412, always },
+    { 413, always },           { 414, always },       { 415, has_body },
+    { 416, sends_parts },      { 421, always },       { 422, checks_what_it_is_given },
+    { 429, always },           { 431, always },       { 500, closed },
+    { 501, makes_films },      { 503, always },       { 505, always },
+    { 507, makes_films },
 };
+
+bool kd_openapi_has_problem(const struct kd_route *route, unsigned method, unsigned status)
+{
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (rows[i].status == status && rows[i].of(route, method))
+            return true;
+    for (size_t i = 0; i < sizeof route->may / sizeof *route->may; i++)
+        if (route->may[i].status == status && kd_route_for(route->may[i].methods, method))
+            return true;
+    return false;
+}
+
+bool kd_openapi_problem_is_common(unsigned status)
+{
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (rows[i].status == status)
+            return rows[i].of == always || rows[i].of == closed || rows[i].of == forbids;
+    return false;
+}
 
 void kd_openapi_problems(struct kd_json *json, const struct kd_route *route, unsigned method)
 {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char status[12], reference[80];
-        if (!rows[i].of(route, method))
+        if (!kd_openapi_has_problem(route, method, rows[i].status))
             continue;
         snprintf(status, sizeof status, "%u", rows[i].status);
         snprintf(reference, sizeof reference, "{\"$ref\":\"#/components/responses/Problem%s\"}", status);

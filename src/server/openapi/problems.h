@@ -7,6 +7,9 @@
 
 /* Writes the members of an operation's "responses". */
 void kd_openapi_problems(struct kd_json *json, const struct kd_route *route, unsigned method);
+/* Whether the operation may answer this problem status; and whether operations in general may. */
+bool kd_openapi_has_problem(const struct kd_route *route, unsigned method, unsigned status);
+bool kd_openapi_problem_is_common(unsigned status);
 /* Writes the members of components.responses, one for each status, such as "Problem404". */
 void kd_openapi_problem_responses(struct kd_json *json);
 /* Writes Problem, a member of components.schemas. */

@@ -1,12 +1,12 @@
 #include "server/openapi/rays.h"
 
 #include "render/rays/schema.h"
-#include "server/openapi/media.h"
 
 #include <stdio.h>
 
-void kd_openapi_rays_parameters(struct kd_json *json)
+void kd_openapi_rays_parameters(struct kd_json *json, unsigned method, const struct cJSON *schema)
 {
+    (void)method, (void)schema;
     const char *name, *help;
     for (size_t i = 0; (name = kd_rays_field_name(i, &help)); i++) {
         char description[200];
@@ -20,21 +20,8 @@ void kd_openapi_rays_parameters(struct kd_json *json)
     }
 }
 
-void kd_openapi_rays_body(struct kd_json *json)
-{
-    static const char request[] = KD_SCHEMA_REF("RaysRequest");
-    kd_openapi_body(json, request, sizeof request - 1, "application/x-npy");
-}
-
 void kd_openapi_rays_schemas(struct kd_json *json)
 {
     kd_rays_request_schema(json, "RaysRequest");
     kd_rays_answer_schemas(json);
-}
-
-void kd_openapi_rays_answer(struct kd_json *json)
-{
-    static const char answer[] = KD_SCHEMA_REF("RaysAnswer");
-    kd_openapi_media(json, "application/json", answer, sizeof answer - 1);
-    kd_openapi_media(json, "application/x-npy", "", 0);
 }

@@ -3,14 +3,10 @@
 #include "render/output/format.h"
 #include "server/http/request_id.h"
 #include "server/job/formats.h"
-#include "server/openapi/answers.h"
-#include "server/openapi/assets.h"
 #include "server/openapi/headers.h"
 #include "server/openapi/links.h"
 #include "server/openapi/media.h"
-#include "server/openapi/orbits.h"
 #include "server/openapi/problems.h"
-#include "server/openapi/rays.h"
 #include "server/openapi/strict.h"
 
 #include <stdio.h>
@@ -40,27 +36,24 @@ static void add_formats(struct kd_json *json, enum kd_gives gives)
         kd_openapi_media(json, format.media_type, "", 0);
 }
 
-/* Writes a media type of an answer. For JSON it adds the schema in the table of answers. */
-static void add_known(struct kd_json *json, const struct kd_route *route, unsigned method, const char *type)
+/* Writes a media type of an answer. JSON has the schema that the route gives. */
+static void add_type(struct kd_json *json, const struct kd_route *route, unsigned method, const char *type, size_t n)
 {
-    const char *known = strcmp(type, "application/json") ? NULL : kd_openapi_answer(route->path, method);
-    kd_openapi_media(json, type, known ? known : "", known ? strlen(known) : 0);
+    char name[64];
+    const char *known = NULL;
+    snprintf(name, sizeof name, "%.*s", (int)n, type);
+    for (size_t i = 0; i < sizeof route->schemas / sizeof *route->schemas && !strcmp(name, "application/json"); i++)
+        if (!known && kd_route_for(route->schemas[i].methods, method))
+            known = route->schemas[i].text;
+    kd_openapi_media(json, name, known ? known : "", known ? strlen(known) : 0);
 }
 
 static void add_typed(struct kd_json *json, const struct kd_route *route, unsigned method)
 {
-    char type[64];
-    snprintf(type, sizeof type, "%.*s", (int)strcspn(route->answer, ";"), route->answer);
-    switch (route->takes) {
-    case KD_TAKES_RAYS: kd_openapi_rays_answer(json); break;
-    case KD_TAKES_ORBITS: kd_openapi_orbits_answer(json); break;
-    case KD_TAKES_ASSET: kd_openapi_asset_answer(json, method); break;
-    default: add_known(json, route, method, type);
-    }
+    add_type(json, route, method, route->answer, strcspn(route->answer, ";"));
     for (const char *also = route->also; also && *also; also += strspn(also, " ")) {
-        snprintf(type, sizeof type, "%.*s", (int)strcspn(also, " "), also);
-        add_known(json, route, method, type);
-        also += strlen(type);
+        add_type(json, route, method, also, strcspn(also, " "));
+        also += strcspn(also, " ");
     }
 }
 
@@ -74,48 +67,49 @@ static void add_answer(struct kd_json *json, const struct kd_route *route, unsig
     kd_json_end(json);
 }
 
-/* Writes the redirect of a page: from an address with an access token to the address without the token. */
-static void add_led_on(struct kd_json *json, const struct kd_route *route, unsigned method)
+size_t kd_openapi_successes(const struct kd_route *route, unsigned method, unsigned out[KD_OPENAPI_SUCCESSES])
 {
-    if (!route->page)
-        return;
-    begin_response(json, route, method, 303, "If the address had an access token");
-    kd_json_end(json);
+    const bool makes = route->status[1] == 201; /* by POST; GET then answers with the first status */
+    size_t n = 0;
+    out[n++] = method == KD_DELETE ? 204 : makes && method == KD_POST ? 201 : route->status[0] ? route->status[0] : 200;
+    if (route->status[1] && method != KD_DELETE && (!makes || method == KD_PUT))
+        out[n++] = route->status[1];
+    if (route->parts && method == KD_GET)
+        out[n++] = 206;
+    if (route->page)
+        out[n++] = 303;
+    return n;
 }
 
-static void add_part(struct kd_json *json, const struct kd_route *route, unsigned method)
+static void add_part(struct kd_json *json)
 {
     static const char bytes[] = "{\"type\":\"string\",\"format\":\"binary\"}";
-    begin_response(json, route, method, 206, "The part that Range requests");
     kd_json_object(json, "content");
     kd_openapi_media(json, "*/*", bytes, strlen(bytes));
     kd_json_end(json);
-    kd_json_end(json);
+}
+
+static const char *about(const struct kd_route *route, unsigned status)
+{
+    return status == 304   ? "The client's copy is still valid"
+           : status == 206 ? "The part that Range requests"
+           : status == 303 ? "If the address had an access token"
+                           : route->summary;
 }
 
 void kd_openapi_responses(struct kd_json *json, const struct kd_route *route, unsigned method)
 {
+    unsigned statuses[KD_OPENAPI_SUCCESSES];
+    const size_t n = kd_openapi_successes(route, method, statuses);
     kd_json_object(json, "responses");
-    const bool makes = method == KD_POST && route->status[1] == 201;
-    begin_response(json, route, method,
-                   method == KD_DELETE ? 204
-                   : makes             ? 201
-                   : route->status[0]  ? route->status[0]
-                                       : 200,
-                   route->summary);
-    if (method != KD_DELETE)
-        add_answer(json, route, method);
-    kd_json_end(json);
-    const unsigned also = method == KD_DELETE || (route->status[1] == 201 && method != KD_PUT) ? 0 : route->status[1];
-    if (also) {
-        begin_response(json, route, method, also, also == 304 ? "The client's copy is still valid" : route->summary);
-        if (also == 201)
+    for (size_t i = 0; i < n; i++) {
+        begin_response(json, route, method, statuses[i], about(route, statuses[i]));
+        if (statuses[i] == 206)
+            add_part(json);
+        else if (statuses[i] < 203)
             add_answer(json, route, method);
         kd_json_end(json);
     }
-    if (method == KD_GET && route->parts)
-        add_part(json, route, method);
-    add_led_on(json, route, method);
     kd_openapi_problems(json, route, method);
     kd_json_end(json);
 }

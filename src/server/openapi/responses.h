@@ -5,6 +5,9 @@
 #include "base/json.h"
 #include "server/http/route.h"
 
+/* The statuses of an operation that are no problems, and how many they are. */
+enum { KD_OPENAPI_SUCCESSES = 4 };
+size_t kd_openapi_successes(const struct kd_route *route, unsigned method, unsigned out[KD_OPENAPI_SUCCESSES]);
 /* Writes the member "responses" of an operation. */
 void kd_openapi_responses(struct kd_json *json, const struct kd_route *route, unsigned method);
 

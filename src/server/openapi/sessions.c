@@ -53,8 +53,9 @@ void kd_openapi_session_schemas(struct kd_json *json)
     KD_OPENAPI_STRICT(json, "SessionPatched", patched); /* the answer to PATCH with Prefer: return=minimal */
 }
 
-void kd_openapi_strike_body(struct kd_json *json)
+void kd_openapi_strike_body(struct kd_json *json, const struct kd_route *route)
 {
+    (void)route;
     static const char body[] = "{\"required\":false,\"content\":{\"application/"
                                "json\":{\"schema\":{\"type\":\"object\",\"additionalProperties\":false,\"properties\":{"
                                "\"amplitude\":{\"type\":\"number\",\"minimum\":0,\"maximum\":1,\"description\":\"new "
@@ -62,13 +63,10 @@ void kd_openapi_strike_body(struct kd_json *json)
     kd_json_raw(json, "requestBody", body, sizeof body - 1);
 }
 
-void kd_openapi_path_body(struct kd_json *json)
-{
-    static const char schema[] = KD_OPENAPI_OBJECT "\"required\":[\"keyframes\"],\"properties\":{" KD_OPENAPI_TIMELINE(
+const char kd_openapi_path_schema[] =
+    KD_OPENAPI_OBJECT "\"required\":[\"keyframes\"],\"properties\":{" KD_OPENAPI_TIMELINE(
         "at", "{\"type\":\"number\",\"minimum\":0,\"maximum\":3600,\"description\":\"seconds from now\"}") "}}";
-    _Static_assert(KD_SESSION_PATH_S == 3600, "openapi.json says so");
-    kd_openapi_body(json, schema, sizeof schema - 1, NULL);
-}
+_Static_assert(KD_SESSION_PATH_S == 3600, "openapi.json says so");
 
 static void begin(struct kd_json *json, const char *name, const char *help)
 {
@@ -78,8 +76,9 @@ static void begin(struct kd_json *json, const char *name, const char *help)
     kd_json_string(json, "description", help);
 }
 
-void kd_openapi_particles_parameters(struct kd_json *json)
+void kd_openapi_particles_parameters(struct kd_json *json, unsigned method, const struct cJSON *schema)
 {
+    (void)method, (void)schema;
     static const struct {
         const char *name, *help, *schema;
     } known[] = {

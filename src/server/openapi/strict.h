@@ -4,9 +4,6 @@
 
 #include "base/schema.h"
 
-/* Pattern of a decimal number (document/number.h). */
-#define KD_OPENAPI_DECIMAL "-?((0|[1-9][0-9]*)([.][0-9]*)?|[.][0-9]+)([eE][-+]?[0-9]+)?"
-
 #define kd_openapi_member kd_schema_member
 #define kd_openapi_strict kd_schema_strict
 #define KD_OPENAPI_STRICT KD_SCHEMA_STRICT

@@ -121,7 +121,7 @@ enum MHD_Result kd_handle_play_events(struct kd_request *request)
 {
     uint64_t since;
     enum MHD_Result refused;
-    if (!kd_reply_only(request, (const char *const[]) { "since", NULL }, &refused))
+    if (!kd_reply_only(request, &refused))
         return refused;
     if (!begins_at(request, &since))
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS,

@@ -384,7 +384,7 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
 enum MHD_Result kd_handle_shared_picture(struct kd_request *request)
 {
     enum MHD_Result refused;
-    if (!kd_reply_only(request, (const char *const[]) { KD_SHARED_WIDTH_NAME, NULL }, &refused))
+    if (!kd_reply_only(request, &refused))
         return refused;
     request->format = kd_formats[0];
     return kd_handle_render(request);

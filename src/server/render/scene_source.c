@@ -24,23 +24,19 @@ static void pointer_of(const char *name, char *out, size_t size)
     out[n] = 0;
 }
 
-/* Whether a parameter is one of the route's own, not a field. */
-static bool is_own(const char *name, const char *const *own)
+static enum kd_status refuse_name(const struct kd_route *route, const char *name, const char *pointer,
+                                  struct kd_error *error)
 {
-    while (*own && strcmp(name, *own))
-        own++;
-    return *own;
-}
-
-static enum kd_status refuse_name(const char *name, const char *const *own, const char *pointer, struct kd_error *error)
-{
+    const struct kd_query *queries = route && route->queries ? route->queries : &(const struct kd_query) { 0 };
     char known[120] = "preset";
-    for (; *own; own++)
-        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", own[1] ? ", " : " and ", *own);
+    size_t used = strlen(known);
+    for (const struct kd_query *query = queries; query->name && used < sizeof known; query++)
+        used +=
+            (size_t)snprintf(known + used, sizeof known - used, "%s%s", query[1].name ? ", " : " and ", query->name);
     return kd_error_field(error, pointer, "the query of a POST may have %s, not %.100s", known, name);
 }
 
-enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, const char *const *own,
+enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, const struct kd_route *route,
                                     struct kd_error *error)
 {
     char pointer[sizeof error->pointer];
@@ -50,8 +46,8 @@ enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields,
         for (size_t k = 0; k < i; k++)
             if (fields ? kd_scene_same_path(target->pairs[k].name, name) : !strcmp(target->pairs[k].name, name))
                 return kd_error_field(error, pointer, "the query has %.100s twice", name);
-        if (!fields && strcmp(name, "preset") && !is_own(name, own))
-            return refuse_name(name, own, pointer, error);
+        if (!fields && strcmp(name, "preset") && !kd_route_has_query(route, name))
+            return refuse_name(route, name, pointer, error);
     }
     return KD_OK;
 }
@@ -70,13 +66,13 @@ static enum kd_status apply_preset(const struct kd_target *target, struct kd_sce
 }
 
 /* Applies the style before all other fields, because the order of a query's parameters must not matter. */
-static enum kd_status apply_fields(const struct kd_target *target, const char *const *own, struct kd_scene *scene,
+static enum kd_status apply_fields(const struct kd_target *target, const struct kd_route *route, struct kd_scene *scene,
                                    struct kd_error *error)
 {
     char pointer[sizeof error->pointer];
     for (size_t i = 0; i < 2 * target->n_pairs; i++) {
         const struct kd_target_pair *pair = &target->pairs[i % target->n_pairs];
-        if (!strcmp(pair->name, "preset") || is_own(pair->name, own) ||
+        if (!strcmp(pair->name, "preset") || kd_route_has_query(route, pair->name) ||
             !strcmp(pair->name, "style.name") != (i < target->n_pairs))
             continue;
         enum kd_status status = kd_scene_set(scene, pair->name, pair->value, error);
@@ -90,14 +86,14 @@ static enum kd_status apply_fields(const struct kd_target *target, const char *c
     return KD_OK;
 }
 
-enum kd_status kd_scene_of_query(const struct kd_target *target, const char *const *own, struct kd_scene *scene,
+enum kd_status kd_scene_of_query(const struct kd_target *target, const struct kd_route *route, struct kd_scene *scene,
                                  struct kd_error *error)
 {
     enum kd_status status;
     kd_scene_defaults(scene);
-    KD_TRY(kd_scene_query_check(target, true, own, error));
+    KD_TRY(kd_scene_query_check(target, true, route, error));
     KD_TRY(apply_preset(target, scene, error));
-    KD_TRY(apply_fields(target, own, scene, error));
+    KD_TRY(apply_fields(target, route, scene, error));
 done:
     return status;
 }
@@ -106,12 +102,11 @@ bool kd_scene_of_request(const struct kd_request *request, struct kd_scene *scen
                          struct kd_error *error)
 {
     bool post = !strcmp(request->method, "POST"), malformed = false;
-    const char *const *own = request->route->own;
 
     enum kd_status status;
     if (post) {
         kd_scene_defaults(scene);
-        KD_TRY(kd_scene_query_check(&request->target, false, own, error));
+        KD_TRY(kd_scene_query_check(&request->target, false, request->route, error));
         KD_TRY(apply_preset(&request->target, scene, error));
         status = kd_scene_from_json(scene, request->body.data ? (const char *)request->body.data : "",
                                     request->body.size, error);
@@ -119,7 +114,7 @@ bool kd_scene_of_request(const struct kd_request *request, struct kd_scene *scen
         malformed = status == KD_EINVAL && !*error->pointer;
         KD_TRY(status);
     } else {
-        KD_TRY(kd_scene_of_query(&request->target, own, scene, error));
+        KD_TRY(kd_scene_of_query(&request->target, request->route, scene, error));
     }
     KD_TRY(kd_scene_resolve(scene, kd_asset_store_assets(request->server->assets), error));
     KD_TRY(kd_scene_validate(scene, error));

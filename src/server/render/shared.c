@@ -23,14 +23,13 @@ static bool nothing_there(struct kd_problem *problem, const struct kd_error *err
 /* Parses the text as a query. */
 static enum kd_status read_text(const char *text, struct kd_scene *scene, struct kd_error *error)
 {
-    static const char *const none[] = { NULL };
     struct kd_buffer raw = { 0 };
     struct kd_target *target = calloc(1, sizeof *target);
     enum kd_status status;
     if (!target || kd_buffer_printf(&raw, "/?%s", text))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
     KD_TRY(kd_target_parse(target, (const char *)raw.data, error));
-    KD_TRY(kd_scene_of_query(target, none, scene, error));
+    KD_TRY(kd_scene_of_query(target, NULL, scene, error));
     KD_TRY(kd_scene_link_check(scene, error));
     KD_TRY(kd_scene_validate(scene, error));
 done:

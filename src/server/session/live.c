@@ -127,10 +127,7 @@ enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *f
     const bool patches = kinds && !strcmp(request->method, "PATCH");
     if (request->viewer)
         return look(request);
-    if (!kd_reply_only(request,
-                       (const char *const[]) { "after", "wait_ms", kinds ? "lossy" : NULL, kinds ? "sentences" : NULL,
-                                               patches ? "order" : NULL, NULL },
-                       &refused))
+    if (!kd_reply_only(request, &refused))
         return refused;
     if (kinds && kd_target_value(&request->target, "lossy") &&
         (!kd_target_whole(&request->target, "lossy", 0, KD_LOSSY_MAX, &lossy) || !lossy))

@@ -133,15 +133,17 @@ static enum MHD_Result answer_created(struct kd_request *request, const struct k
 }
 
 /* Parses a query parameter as a number between the bounds. If it is absent *value is unchanged. */
-static enum kd_status read_number(const struct kd_request *request, const char *name, double low, double high,
-                                  double *value, struct kd_error *error)
+static enum kd_status read_number(const struct kd_request *request, const char *parameter, double low, double high,
+                                  double *value, bool *said, struct kd_error *error)
 {
-    const char *text = kd_target_value(&request->target, name);
-    const size_t n = text ? strlen(text) : 0;
-    const double number = n && kd_number_span(text, n) == n ? kd_number_parse(text) : NAN;
+    const char *text, *name;
     char pointer[40];
-    if (!text)
-        return KD_OK;
+    const enum kd_status status = kd_route_query(request, parameter, &name, &text, error);
+    if (status || !text)
+        return *said = false, status;
+    const size_t n = strlen(text);
+    const double number = n && kd_number_span(text, n) == n ? kd_number_parse(text) : NAN;
+    *said = true;
     snprintf(pointer, sizeof pointer, "/%s", name);
     if (!(number >= low && number <= high))
         return kd_error_field(error, pointer, "%s is %.20s; it must be %g to %g", name, text, low, high);
@@ -154,13 +156,14 @@ static enum kd_status read_pace(const struct kd_request *request, struct kd_sess
                                 struct kd_error *error)
 {
     enum kd_status status;
-    *said = kd_target_value(&request->target, "least");
     *pace = (struct kd_session_pace)KD_SESSION_PACE_DEFAULT;
-    KD_TRY(read_number(request, "least", KD_LEAST_MIN, 1, &pace->least, error));
-    KD_TRY(read_number(request, "patience_ms", KD_PATIENCE_MS_MIN, KD_PATIENCE_MS_MAX, &pace->patience_ms, error));
-    if (!*said && isfinite(pace->patience_ms))
-        KD_TRY(
-            kd_error_field(error, "/patience_ms", "patience_ms needs least, below whose width it lets frames shrink"));
+    KD_TRY(read_number(request, "min_scale", KD_MIN_SCALE_MIN, 1, &pace->min_scale, said, error));
+    bool limited;
+    KD_TRY(read_number(request, "max_frame_ms", KD_MAX_FRAME_MS_MIN, KD_MAX_FRAME_MS_MAX, &pace->max_frame_ms, &limited,
+                       error));
+    if (limited && !*said)
+        KD_TRY(kd_error_field(error, "/max_frame_ms",
+                              "max_frame_ms needs min_scale, below whose width it lets frames shrink"));
 done:
     return status;
 }
@@ -325,7 +328,7 @@ enum MHD_Result kd_handle_session(struct kd_request *request)
 {
     enum MHD_Result result;
     struct kd_session_state state;
-    if (strcmp(request->method, "PATCH") && !kd_reply_only(request, (const char *const[]) { "token", NULL }, &result))
+    if (strcmp(request->method, "PATCH") && !kd_reply_only(request, &result))
         return result;
     struct kd_session *session = kd_session_of(request, &result);
     if (!session)

@@ -127,7 +127,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
     memcpy(s->lens_key, plan->lens.key, sizeof s->lens_key);
     kd_governor_init(&s->governor, kd_governor_params(.target_ms = TARGET_MS));
     if (pace)
-        kd_governor_least(&s->governor, pace->least, pace->patience_ms);
+        kd_governor_least(&s->governor, pace->min_scale, pace->max_frame_ms);
     kd_governor_changed(&s->governor, s->since_ms, scene, true);
     pthread_mutex_lock(&all->lock);
     unsigned own = 0;
@@ -280,7 +280,7 @@ done:
 void kd_session_keep(struct kd_session *s, const struct kd_session_pace *pace)
 {
     pthread_mutex_lock(&s->all->lock);
-    kd_governor_least(&s->governor, pace->least, pace->patience_ms);
+    kd_governor_least(&s->governor, pace->min_scale, pace->max_frame_ms);
     pthread_mutex_unlock(&s->all->lock);
 }
 

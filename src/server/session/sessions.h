@@ -35,8 +35,8 @@ void kd_sessions_destroy(struct kd_sessions *all);
 enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error);
 
 /* Limits of the quality reduction while a session moves. A frame is at least `least` times as wide as requested, unless
- * it then takes longer than patience_ms (kd_governor_least). */
-struct kd_session_pace { double least, patience_ms; };
+ * it then takes longer than max_frame_ms (kd_governor_least). */
+struct kd_session_pace { double min_scale, max_frame_ms; };
 #define KD_SESSION_PACE_DEFAULT { 0.25, INFINITY }
 
 /* Opens a session of a valid scene with its plan. Its frames count towards the client's share. The caller gets a

@@ -414,8 +414,9 @@ class AsyncClient:
         scene: SceneLike = None,
         *,
         preset: str | Open | None = None,
-        least: float | Open | None = None,
+        min_scale: float | Open | None = None,
         quality: int | Open | None = None,
+        least: float | Open | None = None,
         **changes: Any,
     ) -> AsyncSession:
         """Opens a live view; iterate over it for its frames.
@@ -423,11 +424,13 @@ class AsyncClient:
         Args:
             scene: a Scene or a dict (docs/scene.md); None: the default scene.
             preset: name of the preset to which `scene` and `changes` are applied.
-            least: smallest width of a frame while the scene changes, as a fraction of image.width; None: 0.25.
+            min_scale: smallest width of a frame while the scene changes, as a fraction of image.width; None: 0.25.
             quality: quality of JPEG frames while something moves, 1 to 100; None: PNG frames only.
+            least: former name of min_scale.
             changes: fields of the scene by section, such as spacetime={"spin": 0.9}.
         """
-        return AsyncSession(self, await self._run(calls.open_session(scene_of(scene, changes), preset, least)), quality)
+        call = calls.open_session(scene_of(scene, changes), preset, min_scale, least)
+        return AsyncSession(self, await self._run(call), quality)
 
     async def job(self, document: Mapping[str, Any], *, preset: str | None = None) -> AsyncJob:
         """Starts a job.

@@ -9,6 +9,7 @@ import json
 import os
 import pathlib
 import uuid
+import warnings
 import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -348,12 +349,19 @@ def put_asset(data: bytes, kind: str) -> Call[answers.Asset]:
     return Call("PUT", "/v1/assets", _json, {}, {"Content-Type": kind}, data)
 
 
-def open_session(scene: Document, preset: str | None, least: float | None) -> Call[dict[str, Any]]:
+def open_session(
+    scene: Document, preset: str | None, min_scale: float | None, least: float | None
+) -> Call[dict[str, Any]]:
+    if least is not None:
+        if min_scale is not None:
+            raise TypeError("min_scale and least, its former name, are both given")
+        warnings.warn("least is now called min_scale", DeprecationWarning, stacklevel=3)
+        min_scale = least
     return post(
         "/v1/sessions",
         scene,
         _json,
-        params={**over(preset), **({"least": str(least)} if least is not None else {})},
+        params={**over(preset), **({"min_scale": str(min_scale)} if min_scale is not None else {})},
         once=True,
     )
 

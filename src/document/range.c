@@ -1,0 +1,104 @@
+/* Ranges of evenly spaced numbers, typed as first:last:count. */
+#include "document/internal.h"
+
+#include "base/schema.h"
+#include "document/number.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+double kd_range_at(const struct kd_range *range, size_t i)
+{
+    if (!i || i + 1 >= range->count)
+        return i ? range->last : range->first;
+    return range->first + (range->last - range->first) * (double)i / (double)(range->count - 1);
+}
+
+/* Reads a number. Returns what follows it; NULL if text does not start with one. */
+static const char *number(const char *text, double *value)
+{
+    const size_t n = kd_number_span_typed(text, strlen(text));
+    if (!n)
+        return NULL;
+    *value = kd_number_parse(text);
+    return text + n;
+}
+
+static bool parse(const char *text, struct kd_range *range)
+{
+    double count = 1;
+    const char *rest = number(text, &range->first);
+    range->last = range->first;
+    if (rest && *rest == ':') {
+        rest = number(rest + 1, &range->last);
+        rest = rest && *rest == ':' ? number(rest + 1, &count) : NULL;
+        if (!(count >= 2 && count <= KD_RANGE_MOST && count == floor(count)))
+            return false;
+    }
+    range->count = (size_t)count;
+    return rest && !*rest;
+}
+
+static bool holds(const struct kd_row *row, const struct kd_range *range)
+{
+    const bool whole = row->kind == KD_KIND_INT;
+    bool good = kd_row_holds(row, range->first) && kd_row_holds(row, range->last);
+    for (size_t i = 0; good && whole && i < range->count; i++)
+        good = kd_range_at(range, i) == floor(kd_range_at(range, i));
+    return good;
+}
+
+enum kd_status kd_row_range(const struct kd_row *row, const char *text, const char *pointer, struct kd_range *range,
+                            struct kd_error *error)
+{
+    const struct kd_value value = kd_value_typed(text);
+    struct kd_range read = { row->stands, row->stands, 1 };
+    if (row->kind == KD_KIND_WORD) {
+        read.first = read.last = kd_word_index(row->words, text);
+        if (read.first < 0)
+            return kd_row_refuse(row, &value, row->name, pointer, error);
+    } else if (!(row->words && !strcmp(text, row->words)) && !(parse(text, &read) && holds(row, &read))) {
+        char allowed[KD_ALLOWED_SIZE];
+        struct kd_row told = *row;
+        kd_row_allowed(row, allowed);
+        snprintf(allowed + strlen(allowed), sizeof allowed - strlen(allowed),
+                 ", or a range first:last:count of 2 to %d such values", KD_RANGE_MOST);
+        told.allowed = allowed;
+        return kd_row_refuse(&told, &value, row->name, pointer, error);
+    }
+    *range = read;
+    return KD_OK;
+}
+
+/* The count is that of KD_RANGE_MOST. */
+#define PATTERN "^" KD_SCHEMA_DECIMAL ":" KD_SCHEMA_DECIMAL ":([2-9]|[1-9][0-9]{1,4}|100000)$"
+_Static_assert(KD_RANGE_MOST == 100000, "the pattern says so");
+
+void kd_row_range_schema(struct kd_json *json, const char *name, const struct kd_row *row)
+{
+    const struct kd_value initial = kd_value_typed(row->typed);
+    kd_json_object(json, name);
+    if (row->kind == KD_KIND_WORD) {
+        kd_row_type_members(json, row);
+    } else {
+        kd_json_array(json, "anyOf");
+        /* The word comes first, because generators of clients take the first type that fits the default, and "infinity"
+         * parses as a number. */
+        if (row->words)
+            kd_schema_word(json, NULL, row->words);
+        kd_json_object(json, NULL);
+        kd_row_number_members(json, row);
+        kd_json_end(json);
+        kd_json_object(json, NULL);
+        kd_json_string(json, "type", "string");
+        kd_json_string(json, "pattern", PATTERN);
+        kd_json_end(json);
+        kd_json_end(json);
+    }
+    if (initial.kind == KD_VALUE_NUMBER)
+        kd_json_number(json, "default", initial.number);
+    else
+        kd_json_string(json, "default", row->typed);
+    kd_json_end(json);
+}
