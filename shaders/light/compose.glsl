@@ -193,6 +193,17 @@ void kd_beam_points(inout kd_beam beam, uint pixel)
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_POINTS_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 }
 
+/* Whether a pixel has any points of light. */
+bool kd_beam_has_points(uint pixel)
+{
+    bool has = false;
+#define KD_HAS_POINTS_(number, name) \
+    if ((TRAITS_##name & KD_TRAIT_POINTS) != 0u) \
+        has = has || kd_##name##_points(pixel) != vec3(0.0);
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_HAS_POINTS_, KD_NO_EMITTER_, KD_NO_EMITTER_)
+    return has;
+}
+
 /* Marks a ray that was given up, with a colour that nothing in the sky has, so that it does not look complete. */
 void kd_beam_given_up(inout kd_beam beam)
 {

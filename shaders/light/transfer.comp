@@ -3,6 +3,7 @@
  * slice.ray. KD_PIECES: continues those rays that the same kernel could not complete, one piece at a time. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shared/interface.h"
 #include "shared/spec.h"
 KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
@@ -35,6 +36,9 @@ void forget_stokes()
     stokes_apart = vec2(0.0);
     untold = false;
 }
+
+/* Whether a crossing has light; w < 0: the mark of a ray that was given up. */
+bool has_light(float w) { return w < 0.0 || (w >= emission.frame.w_least && w <= emission.frame.w_most); }
 
 /* Composes a crossing of order n of the ray at this place of the camera, with index `at` in the lens map. w = 1/r;
  * negative: the ray was given up on its way to the crossing. */
@@ -184,12 +188,12 @@ void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
     }
 }
 
-/* Lights KD_TRANSFER_ROWS pixels of a column, with one ray each and without diffuse light behind them. Pixels without
- * light are left as they are: they were set to black before.
+/* COLUMNS: an invocation lights KD_TRANSFER_ROWS pixels of a column, with one ray each and without diffuse light behind
+ * them. Pixels without light are left as they are: they were set to black before.
  *
- * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop searches the next
- * crossing with light, which is cheap, and the outer loop lights it. With diffuse light on the sky every pixel has
- * light, and the search would only cost time. */
+ * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So a first loop finds what has
+ * light, which is cheap, and a second one lights only that. With diffuse light on the sky every pixel has light, and
+ * the search would only cost time. */
 #ifdef KD_MARCH
 const bool COLUMNS = false, SAMPLES = CRITICAL == 0; /* the march's error is measured on a lattice of pixels
                                                       * (src/render/frame/march_error.c) */
@@ -200,54 +204,59 @@ const bool COLUMNS =
 #endif
 
 /* If the sky consists of points only, each pixel gets its points first; pixels with a crossing are lit again
- * afterwards. */
+ * afterwards. Most pixels have no points. */
 void point_column(uint x, uint y, uint end)
 {
-    for (;;) {
-        vec3 light = vec3(0.0);
-        for (; y < end; y++) { /* most pixels have none */
-            light = background(uvec2(x, y), (y - slice.band0) * cam.width + x, light_at(x, y));
-            if (light != vec3(0.0))
-                break;
-        }
-        if (y >= end)
-            break;
-        store(light_at(x, y), light, 0.0, vec3(0.0), vec2(0.0));
-        y++;
+    uint has = 0u; /* bit k: whether the pixel in row y + k has any, or its ray has no end */
+    [[unroll]] for (uint k = 0u; k < KD_TRANSFER_ROWS; k++) {
+        uint row = min(y + k, end - 1u);
+        float fate = quantity(KD_LENS_FATE, (row - slice.band0) * cam.width + x);
+        bool seen = fate == KD_FATE_UNDECIDED || kd_beam_has_points(light_at(x, row));
+        has |= seen && y + k < end ? 1u << k : 0u;
+    }
+    for (; has != 0u; has &= has - 1u) {
+        uint row = y + uint(findLSB(has)), to = light_at(x, row);
+        store(to, background(uvec2(x, row), (row - slice.band0) * cam.width + x, to), 0.0, vec3(0.0), vec2(0.0));
     }
 }
 
-void light_column(uint x, uint y, uint end)
+/* Rows whose crossings fit the bits of one word. */
+const uint AHEAD = KD_TRANSFER_ROWS * ORDERS > 32u ? 32u / ORDERS : KD_TRANSFER_ROWS;
+
+/* The crossings with light of AHEAD pixels of a column, from row y on: bit ORDERS k + n for order n of row y + k. All
+ * of them are read before the first one is lit, so that the reads wait for memory together. */
+uint lit_of(uint x, uint y, uint end)
 {
-    uint n = 0, of = end;
-    kd_beam beam;
-    for (;;) {
-        float w;
-        uint at;
-        for (;;) {
-            at = (y - slice.band0) * cam.width + x;
-            w = 0.0;
-            if (y < end)
-                w = KD_MAP_AT(at + n * slice.stride);
-            if (y >= end || w < 0.0 || (w >= emission.frame.w_least && w <= emission.frame.w_most))
-                break;
-            bool more = w > 0.0 && n + 1 < ORDERS;
-            y += more ? 0 : 1;
-            n = more ? n + 1 : 0;
+    uint at = (y - slice.band0) * cam.width + x, lit = 0u;
+    bool more = true; /* whether any ray crosses the plane once more */
+    for (uint n = 0u; n < ORDERS && more; n++) {
+        more = false;
+        [[unroll]] for (uint k = 0u; k < KD_TRANSFER_ROWS; k++) {
+            float w = KD_MAP_AT(at + min(k, end - 1u - y) * cam.width + n * slice.stride);
+            more = more || w != 0.0;
+            lit |= has_light(w) && k < AHEAD && y + k < end ? 1u << (ORDERS * k + n) : 0u;
         }
-        if (y >= end)
-            break;
-        if (y != of) {
+    }
+    return lit;
+}
+
+void light_rows(uint x, uint y, uint end)
+{
+    uint lit = lit_of(x, y, end), of = end;
+    kd_beam beam;
+    while (lit != 0u) {
+        uint next = uint(findLSB(lit)), k = next / ORDERS, n = next - ORDERS * k, row = y + k,
+             at = (row - slice.band0) * cam.width + x;
+        if (row != of) {
             beam = kd_beam(vec3(0.0), 0.0, 1.0);
             forget_stokes();
         }
-        of = y;
-        meet(beam, w, n, uvec2(x, y), at);
-        vec3 behind = ENDS ? beam.through * background(uvec2(x, y), at, light_at(x, y)) : vec3(0.0);
-        store(light_at(x, y), beam.light + behind, beam.apart, stokes, stokes_apart);
-        bool more = beam.through > 0.0 && n + 1 < ORDERS;
-        y += more ? 0 : 1;
-        n = more ? n + 1 : 0;
+        of = row;
+        meet(beam, KD_MAP_AT(at + n * slice.stride), n, uvec2(x, row), at);
+        vec3 behind = ENDS ? beam.through * background(uvec2(x, row), at, light_at(x, row)) : vec3(0.0);
+        store(light_at(x, row), beam.light + behind, beam.apart, stokes, stokes_apart);
+        uint hidden = ((1u << ORDERS) - 1u) << (ORDERS * k); /* all crossings of this ray */
+        lit &= beam.through > 0.0 ? lit - 1u : ~hidden;
     }
 }
 
@@ -416,8 +425,8 @@ void main()
              end = min(y + KD_TRANSFER_ROWS, slice.row0 + slice.rows);
         if (ENDS)
             point_column(px, y, end);
-        if (KD_GLOWS)
-            light_column(px, y, end);
+        for (; KD_GLOWS && y < end; y += AHEAD)
+            light_rows(px, y, end);
         return;
     }
     if (CRITICAL > 0) {

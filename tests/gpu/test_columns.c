@@ -10,7 +10,7 @@
 /* Pixels of 2 x 2 rays against those of one ray of a picture twice as wide and high. */
 static void assert_same_light(struct kd_scene scene)
 {
-    const int w = 96, h = 60;
+    const int w = 96, h = 61; /* the last column of pixels has two rows */
     scene.image.width = w;
     scene.image.height = h;
     scene.image.samples = 2;
@@ -57,6 +57,15 @@ static void test_disk(void **state)
     assert_same_light(scene_of("{\"disk\":{\"opacity\":0.6},\"sky\":{\"model\":\"grid\"}}"));
     assert_same_light(
         scene_of("{\"disk\":{\"inner\":12,\"outer\":15,\"taper\":0},\"camera\":{\"r\":20,\"inclination_deg\":60}}"));
+}
+
+/* The crossings of a column are bits of one word: eight rows of three orders, six of five, four of eight. */
+static void test_many_orders(void **state)
+{
+    (void)state;
+    assert_same_light(scene_of("{\"disk\":{\"opacity\":0.3},\"accuracy\":{\"orders\":1}}"));
+    assert_same_light(scene_of("{\"disk\":{\"opacity\":0.3},\"accuracy\":{\"orders\":5}}"));
+    assert_same_light(scene_of("{\"disk\":{\"opacity\":0.3},\"accuracy\":{\"orders\":8}}"));
 }
 
 static void test_spots(void **state)
@@ -133,9 +142,8 @@ int main(void)
     if (status)
         return status;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_disk),     cmocka_unit_test(test_spots),
-        cmocka_unit_test(test_plunging), cmocka_unit_test(test_nothing_but_sky),
-        cmocka_unit_test(test_readers),
+        cmocka_unit_test(test_disk),     cmocka_unit_test(test_many_orders),     cmocka_unit_test(test_spots),
+        cmocka_unit_test(test_plunging), cmocka_unit_test(test_nothing_but_sky), cmocka_unit_test(test_readers),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }
