@@ -324,6 +324,13 @@ TOGETHER = [
         ("%s is %s, |inside the horizon at %.9g M; it must be outside",),
     ),
     (
+        "GET /v1/physics/returning$",
+        (
+            "%s is %s, |inside the ISCO at %.9g M; it must be outside",
+            "%s is %s, |so close to an extremal hole that the energy balance is wrong by %.1g; it must be right to %g",
+        ),
+    ),
+    (
         "GET /v1/physics/(deflection|redshift|ring-image|shadow|sky|photon-rings|infall)$",
         (*OBSERVER, "%s is %s, |not outside the horizon at %.9g M"),
     ),
