@@ -1324,6 +1324,11 @@ export interface SpectrumRequest {
   /** colour temperature over effective temperature; 1 to 10. */
   colour_correction?: number;
   /**
+   * yes: the disk absorbs the light that returns to it, and radiates it again as a black body; inner must then be
+   * the ISCO.
+   */
+  returning?: 'no' | 'yes';
+  /**
    * first frequency; auto: 0.001 k/h times the hottest ring's colour temperature; for a volume 1/30 of
    * volume.frequency_ghz [Hz]; 0.001 to 1e+25.
    */
@@ -1355,6 +1360,7 @@ export interface DiskSpectrum {
     distance_pc: number;
     mdot_edd: number;
     colour_correction: number;
+    returning: string;
     frequency_min_hz: number;
     frequency_max_hz: number;
     frequencies: number;
