@@ -215,7 +215,7 @@ static void light_of_a_ring_goes_where_followed_rays_go(void **state)
             const double isco = kd_kerr_isco(hole), r = isco * (far ? 3 : 1 + 1e-9);
             const struct kd_returning_ring got = kd_returning_ring(hole, limb, r);
             struct kd_returning_ring want = { .error = 0 };
-            const int side = (int)sqrt(rays / 8);
+            const int side = (int)sqrt(rays / 16);
             double photons = 0, energy = 0;
             for (int i = 0; i < side * side; i++) {
                 const struct direction d = direction_of(r, i, side);
@@ -339,7 +339,7 @@ static void energy_is_conserved(void **state)
             within("at last", spins[i], last->falls_in + last->escapes, 1, 2e-4);
             within("told error", spins[i], table->error, 0, 1e-3);
             assert_true(table->error >= fabs(last->falls_in + last->escapes - 1));
-            for (double r = table->isco * 1.03; r < 1e4; r *= 9) {
+            for (double r = table->isco * 1.03; r < 1e4; r *= 30) {
                 const struct kd_returning_ring ring = kd_returning_ring(&table->hole, limb, r);
                 const struct kd_returning_shares photons = kd_returning_shares_at(table, &table->photons, r),
                                                  energy = kd_returning_shares_at(table, &table->energy, r);

@@ -8,6 +8,7 @@
 #include "physics/spacetime/kerr.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -412,7 +413,7 @@ static void share_out(struct kd_returning *table, const struct kernel *kernel)
     table->error = fmax(fabs(arrives / table->first.returns - 1), fabs(total(&table->lastly) - 1));
 }
 
-bool kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
+static bool make(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
 {
     struct kernel *kernel = calloc(1, sizeof *kernel);
     const struct rule rule = rule_of();
@@ -443,6 +444,35 @@ bool kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, e
     converge(table, kernel);
     share_out(table, kernel);
     free(kernel);
+    return true;
+}
+
+/* The last tables. */
+enum { KEPT = 8 };
+static struct kd_returning kept[KEPT];
+static unsigned next_kept;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+static bool recall(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
+{
+    bool found = false;
+    pthread_mutex_lock(&lock);
+    for (int i = 0; i < KEPT && !found; i++)
+        if (kept[i].steps && kept[i].hole.a == hole->a && kept[i].hole.q == hole->q && kept[i].limb == limb)
+            *table = kept[i], found = true;
+    pthread_mutex_unlock(&lock);
+    return found;
+}
+
+bool kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
+{
+    if (recall(table, hole, limb))
+        return true;
+    if (!make(table, hole, limb))
+        return false;
+    pthread_mutex_lock(&lock);
+    kept[next_kept++ % KEPT] = *table;
+    pthread_mutex_unlock(&lock);
     return true;
 }
 

@@ -63,7 +63,7 @@ struct kd_returning {
     int steps;                         /* of the iteration, to 1e-12 */
 };
 
-/* Some 0.1 s. Returns false if memory is short. */
+/* Some 0.1 s. The last 8 are kept and copied. Returns false if memory is short. */
 bool kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb);
 
 /* F at r >= ISCO; and one of the table's lists at r, divided by r^3. */
