@@ -1324,6 +1324,11 @@ export interface SpectrumRequest {
   /** colour temperature over effective temperature; 1 to 10. */
   colour_correction?: number;
   /**
+   * yes: the disk absorbs the light that returns to it, and radiates it again as a black body; inner must then be
+   * the ISCO.
+   */
+  returning?: 'no' | 'yes';
+  /**
    * first frequency; auto: 0.001 k/h times the hottest ring's colour temperature; for a volume 1/30 of
    * volume.frequency_ghz [Hz]; 0.001 to 1e+25.
    */
@@ -1355,6 +1360,7 @@ export interface DiskSpectrum {
     distance_pc: number;
     mdot_edd: number;
     colour_correction: number;
+    returning: string;
     frequency_min_hz: number;
     frequency_max_hz: number;
     frequencies: number;
@@ -5404,6 +5410,108 @@ export interface Operations {
           mdot_msun_yr: string;
           luminosity_w: string;
           luminosity_lsun: string;
+        };
+        sources: string[];
+        approximations: string[];
+      };
+      'text/csv': string;
+    };
+  };
+  /** light of a thin disk that returns to it, falls into the hole, or escapes. */
+  'GET /v1/physics/returning': {
+    takes: {
+      query?: {
+        /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
+        spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
+        /** light of the disk's surface by the angle to its normal: the laws of /v1/spectrum; default "isotropic". */
+        limb?: 'isotropic' | 'laor' | 'haardt' | 'scattering';
+        /** radius in the disk, at least the ISCO [M]; 1 to 1000000; default 10. */
+        r?: 'isco' | number | string;
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
+        digits?: number;
+        /** format of the answer, instead of Accept. */
+        format?: 'json' | 'csv';
+      };
+    };
+    gives: {
+      'application/json': {
+        quantity: 'returning';
+        parameters: {
+          spin: number | number[];
+          charge: number | number[];
+          limb: 'isotropic' | 'laor' | 'haardt' | 'scattering';
+          r: 'isco' | number | number[];
+        };
+        ranges?: string[];
+        shape?: number[];
+        values: {
+          /** share of the photons of the ring at r that fall on the disk. */
+          returns: number | null | (number | null)[];
+          /** share that falls into the hole. */
+          falls_in: number | null | (number | null)[];
+          /** share that escapes to infinity. */
+          escapes: number | null | (number | null)[];
+          /** the same of the energy at infinity. */
+          energy_returns: number | null | (number | null)[];
+          /** the same. */
+          energy_falls_in: number | null | (number | null)[];
+          /** the same. */
+          energy_escapes: number | null | (number | null)[];
+          /** F/Mdot of one face without returning light. */
+          page_thorne: number | null | (number | null)[];
+          /** F/Mdot of one face that absorbs the returning light and radiates it again. */
+          flux: number | null | (number | null)[];
+          /** returning light; what else it adds to page_thorne is the work of stresses. */
+          received: number | null | (number | null)[];
+          /** effective temperature over that without returning light; null at the ISCO, where the latter is 0. */
+          temperature_ratio: number | null | (number | null)[];
+          /** inner edge of the disk. */
+          isco: number | null | (number | null)[];
+          /** share of the luminosity of the whole disk, without returning light, that falls on the disk again. */
+          disk_returns: number | null | (number | null)[];
+          /** share that falls into the hole. */
+          disk_falls_in: number | null | (number | null)[];
+          /** share that escapes. */
+          disk_escapes: number | null | (number | null)[];
+          /** share of the luminosity that is in the hole after any number of returns. */
+          ends_in_hole: number | null | (number | null)[];
+          /** share that has escaped. */
+          ends_escaped: number | null | (number | null)[];
+          /** 1 - E at the ISCO. */
+          efficiency: number | null | (number | null)[];
+          /** that times ends_escaped. */
+          efficiency_seen: number | null | (number | null)[];
+          /** number of returns that are followed, to 1e-12. */
+          iterations: number | null | (number | null)[];
+          /** relative error of the energy balance: of what arrives against what returns, and of both ends against 1. */
+          error: number | null | (number | null)[];
+        };
+        units: {
+          spin: string;
+          charge: string;
+          r: string;
+          returns: string;
+          falls_in: string;
+          escapes: string;
+          energy_returns: string;
+          energy_falls_in: string;
+          energy_escapes: string;
+          page_thorne: string;
+          flux: string;
+          received: string;
+          temperature_ratio: string;
+          isco: string;
+          disk_returns: string;
+          disk_falls_in: string;
+          disk_escapes: string;
+          ends_in_hole: string;
+          ends_escaped: string;
+          efficiency: string;
+          efficiency_seen: string;
+          iterations: string;
+          error: string;
         };
         sources: string[];
         approximations: string[];

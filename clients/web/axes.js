@@ -9,4 +9,8 @@ export const axis = (label, more) => ({ label, ...more });
 export const outside =
   (far, points = 141) =>
   async p => ({ r: `${(await physics('kerr', { spin: p.spin })).values.horizon}:${far}:${points}` });
+// A range of radii from the ISCO outwards.
+export const ofDisk =
+  (far, points = 121) =>
+  async p => ({ r: `${(await physics('kerr', { spin: p.spin })).values.isco}:${far}:${points}` });
 export const radius = t('radius r / M', 'raggio r / M');

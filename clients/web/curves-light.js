@@ -1,6 +1,6 @@
 // The curves of light, space and the disk. Each has parameters, an equation, and a function that picks what to draw
 // from the values of /v1/physics.
-import { axis, degrees, outside, radius, spin } from './axes.js';
+import { axis, degrees, ofDisk, outside, radius, spin } from './axes.js';
 import { number, t } from './i18n.js';
 import { drawn, physics, physicsUrl } from './server.js';
 
@@ -241,6 +241,29 @@ export const light = [
         { name: t('Newton, cut at the ISCO', 'Newton, tagliato all’ISCO'), y: v.t_eff_newton_k, style: 'dim' },
       ],
       marks: [{ x: v.inner, label: 'ISCO', low: true }],
+      along: p.r,
+    }),
+  },
+  {
+    name: 'returning',
+    title: t('Light that returns to the disk', 'Luce che torna sul disco'),
+    inputs: [spin(0.9)],
+    adjust: ofDisk(20),
+    equation:
+      '<mi>F</mi><mo>=</mo><msub><mi>F</mi><mn>0</mn></msub><mo>+</mo><mo>∫</mo><msup><mi>g</mi><mn>4</mn></msup><mfrac><mi>F</mi><mi>π</mi></mfrac><mi>μ</mi><mi>d</mi><mi>Ω</mi><mo>+</mo><msub><mi>F</mi><mi>t</mi></msub>',
+    show: (v, p) => ({
+      note: t(
+        `Of the whole disk ${number(100 * v.disk_returns, 3)} % returns and ${number(100 * v.disk_falls_in, 3)} % falls in. In the end ${number(100 * v.ends_in_hole, 3)} % is in the hole: of ${number(100 * v.efficiency, 3)} % of the mass that becomes light, ${number(100 * v.efficiency_seen, 3)} % gets away.`,
+        `Di tutto il disco il ${number(100 * v.disk_returns, 3)} % torna e il ${number(100 * v.disk_falls_in, 3)} % cade nel buco. Alla fine nel buco c’è il ${number(100 * v.ends_in_hole, 3)} %: del ${number(100 * v.efficiency, 3)} % della massa che diventa luce se ne va il ${number(100 * v.efficiency_seen, 3)} %.`,
+      ),
+      x: axis(radius),
+      y: axis(t('share of the photons', 'quota dei fotoni'), { min: 0, max: 1 }),
+      series: [
+        { name: t('escapes', 'se ne va'), y: v.escapes },
+        { name: t('returns to the disk', 'torna sul disco'), y: v.returns },
+        { name: t('falls in', 'cade nel buco'), y: v.falls_in, style: 'dim' },
+      ],
+      marks: [{ x: v.isco, label: 'ISCO', low: true }],
       along: p.r,
     }),
   },

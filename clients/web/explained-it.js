@@ -56,6 +56,15 @@ export const explained = {
       'Tutta insieme è l’energia di legame dell’ISCO: l’efficienza è 1 − E(ISCO), qualunque sia l’attrito.',
     ],
   },
+  returning: {
+    text: 'Non tutta la luce di un disco se ne va. Una parte cade nel buco, un’altra piega sopra il buco e torna giù sul disco, per lo più dall’altro lato. Più un anello è vicino al buco, più luce ha questa sorte; accanto a un buco veloce l’ha quasi tutta. Il gas illuminato assorbe questa luce e brilla un po’ più caldo, e una parte torna ancora una volta. La luce che cade frena anche la rotazione del buco: perciò l’accrescimento non la porta oltre circa 0,998.',
+    steps: [
+      'Un fotone conserva energia E e momento angolare L all’infinito. Il gas su un’orbita circolare lo vede con u^t (E − ΩL), e g è il rapporto fra due di questi.',
+      'F è la luce di una faccia, F₀ quella che il gas irraggerebbe da solo, e l’integrale va su tutte le direzioni da cui arriva luce del disco, all’angolo di coseno μ.',
+      'La luce che torna porta meno momento angolare del gas. Lo sforzo F_t che porta via la differenza compie lavoro, così che l’energia si conserva (Cunningham 1976).',
+      'L’equazione si risolve contando i ritorni: uno in più a ogni passo, finché nulla cambia.',
+    ],
+  },
   'frame-dragging': {
     text: 'Un buco che ruota porta con sé lo spazio. Ciò che è lasciato cadere da fermo, senza alcun momento angolare, presto gira, alla velocità ω. Più vicino anche la luce ha poca scelta: tutto ciò che si muove lo fa fra le due linee esterne. Dove la più bassa passa per lo zero comincia l’ergosfera, in cui nulla può stare fermo, visto da lontano. All’orizzonte le tre linee si incontrano: lì tutto gira alla sola velocità del buco.',
     steps: [

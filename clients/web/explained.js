@@ -56,6 +56,15 @@ export const explained = {
       'All of it together is the binding energy of the ISCO: the efficiency is 1 − E(ISCO), whatever the friction is.',
     ],
   },
+  returning: {
+    text: 'Not all light of a disk gets away. Some of it falls into the hole, and some is bent over the hole and comes down on the disk again, mostly on the other side. The nearer a ring is to the hole, the more of its light has this fate; next to a fast hole most of it has. The gas that is lit absorbs this light and shines a little hotter, and part of that returns once more. The light that falls in also brakes the hole’s spin: this is why accretion does not drive it beyond about 0.998.',
+    steps: [
+      'A photon keeps its energy E and angular momentum L at infinity. Gas on a circular orbit sees it with u^t (E − ΩL), and g is the ratio of two of these.',
+      'F is the light of one face, F₀ what the gas would radiate alone, and the integral is over all directions from which light of the disk arrives, at the angle whose cosine is μ.',
+      'Returning light brings less angular momentum than the gas has. The stress F_t that carries the difference away does work, so that energy is conserved (Cunningham 1976).',
+      'The equation is solved by counting returns: one more in each step, until nothing changes.',
+    ],
+  },
   'frame-dragging': {
     text: 'A spinning hole takes space along. Something dropped from rest with no angular momentum at all is soon going round, at the rate ω. Farther in even light has little choice: all that moves does so between the two outer lines. Where the lower one crosses zero begins the ergosphere, in which nothing can stand still as seen from afar. At the horizon the three lines meet: there everything turns at the one rate of the hole itself.',
     steps: [

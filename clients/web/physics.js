@@ -21,6 +21,7 @@ const order = [
   'redshift',
   'kerr',
   'disk-flux',
+  'returning',
   'frame-dragging',
   'flamm',
   'qnm',

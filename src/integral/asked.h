@@ -39,6 +39,7 @@ struct kd_integral_request {
     struct kd_number_list radii, g_star; /* for a transfer function */
     uint32_t rings, g_stars;
     double mass_msun, distance_pc, mdot_edd, colour_correction; /* for a spectrum */
+    int returning;                                              /* 1: the disk absorbs returning light */
     double frequency_min_hz, frequency_max_hz;                  /* NaN: chosen by the hottest ring */
     uint32_t frequencies;
     struct kd_number_list frequencies_hz;

@@ -31,6 +31,10 @@ static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error 
             error, "/inner",
             "inner is %.9g, within the ISCO of this spin, %.9g M; it must be at least that, or \"isco\"", r->inner,
             isco);
+    if (r->returning && r->inner > isco * (1 + 1e-9))
+        return kd_error_field(error, "/inner",
+                              "inner is %.9g; with returning \"yes\" it must be the ISCO, %.9g M, or \"isco\"",
+                              r->inner, isco);
     r->inner = fmax(r->inner, isco);
     if (r->outer <= r->inner * (1 + 1e-6))
         return kd_error_field(error, "/outer", "outer is %.9g and inner is %.9g; outer must be larger than inner",

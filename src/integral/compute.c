@@ -29,6 +29,7 @@ static const char *const transfer_sources[] = {
 static const char *const spectrum_sources[] = {
     "D. N. Page & K. S. Thorne 1974, ApJ 191, 499 (flux)",
     "L.-X. Li et al. 2005, ApJS 157, 335, eq. 6 (spectrum)",
+    "C. T. Cunningham 1976, ApJ 208, 534 (returning light)",
     "T. Shimura & F. Takahara 1995, ApJ 445, 780 (colour correction)",
     "S. E. Gralla & A. Lupsasca 2020, Phys. Rev. D 101, 044032 (rays in closed form)",
     NULL,
@@ -36,9 +37,12 @@ static const char *const spectrum_sources[] = {
 static const char *const spectrum_approximations[] = {
     "a thin opaque disk in the equatorial plane, gas on circular orbits, no torque at the ISCO, nothing within it",
     "each ring shines as a black body of its colour temperature, dimmed so that its flux is conserved",
-    "only the direct image: light that goes round the hole, or returns to the disk, is ignored",
+    "only the direct image: light that goes round the hole is ignored",
     NULL,
 };
+static const char no_returning[] = "light that returns to the disk is ignored";
+static const char with_returning[] = "the disk absorbs all light that returns to it from a disk without outer edge, "
+                                     "and radiates it again as a black body";
 static const char *const disk_approximations[] = {
     "a thin opaque disk in the equatorial plane, gas on circular orbits, nothing within its inner edge",
     "only the direct image: light that goes round the hole and crosses the plane again is ignored",
@@ -363,17 +367,49 @@ static enum kd_status compute_transfer(const struct kd_integral_request *r, cons
     return status;
 }
 
+/* The largest flux, from a fine grid: it is flat there. */
+static double largest_flux(const struct kd_returning *table)
+{
+    enum { STEPS = 2000 };
+    double largest = 0;
+    for (int i = 0; i <= STEPS; i++)
+        largest = fmax(largest, kd_returning_flux(table, table->isco * (1 + 3. * i / STEPS)));
+    return largest;
+}
+
+/* Error of the energy balance from which the answer is refused. */
+#define WRONG 1e-2
+
+static enum kd_status returning_of(const struct kd_integral_request *r, struct kd_returning **table,
+                                   struct kd_error *error)
+{
+    *table = malloc(sizeof **table);
+    if (!*table || !kd_returning_init(*table, kd_hole(r->spin), r->limb))
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the kernel of returning light");
+    if (!((*table)->error < WRONG))
+        return kd_error_field(
+            error, "/spin",
+            "spin is %.17g, so close to an extremal hole that the energy balance of returning light is "
+            "wrong by %.1g; it must be right to %g",
+            r->spin, (*table)->error, WRONG);
+    return KD_OK;
+}
+
 static enum kd_status compute_spectrum(const struct kd_integral_request *r, const struct kd_disk_image *image,
                                        struct kd_integral_answer *answer, struct kd_error *error)
 {
-    const struct kd_disk_spectrum_params params = { r->inner,       r->outer,    r->mass_msun,
-                                                    r->distance_pc, r->mdot_edd, r->colour_correction,
-                                                    r->limb };
+    struct kd_disk_spectrum_params params = { r->inner,       r->outer,    r->mass_msun,
+                                              r->distance_pc, r->mdot_edd, r->colour_correction,
+                                              r->limb,        NULL };
+    struct kd_returning *table = NULL;
     double hottest = fmax(r->inner, kd_disk_peak_page_thorne(kd_hole(r->spin))),
            distance = r->distance_pc * KD_PARSEC_M;
     enum kd_status status;
     KD_TRY(kd_integral_make_columns(answer, r->frequencies, error));
     double *const *c = answer->columns;
+    if (r->returning)
+        KD_TRY(returning_of(r, &table, error));
+    params.returning = table;
     KD_TRY(
         kd_disk_spectrum(image, &params, r->frequencies_hz.at, (int)r->frequencies, c[1], &answer->values[3], error));
     for (size_t i = 0; i < r->frequencies; i++) {
@@ -382,11 +418,15 @@ static enum kd_status compute_spectrum(const struct kd_integral_request *r, cons
         c[3][i] = 4 * M_PI * distance * distance * c[0][i] * c[1][i];
     }
     answer->values[0] = image->isco;
-    answer->values[1] = kd_disk_temperature(kd_disk_flux_page_thorne(kd_hole(r->spin), hottest), kd_hole(r->spin),
-                                            r->mass_msun, r->mdot_edd);
+    answer->values[1] =
+        kd_disk_temperature(table ? largest_flux(table) : kd_disk_flux_page_thorne(kd_hole(r->spin), hottest),
+                            kd_hole(r->spin), r->mass_msun, r->mdot_edd);
+    answer->values[3] += table ? table->error : 0;
+    answer->told[answer->n_told++] = table ? with_returning : no_returning;
     answer->values[2] = kd_kerr_efficiency(kd_hole(r->spin)) *
                         kd_disk_rate(kd_hole(r->spin), r->mass_msun, r->mdot_edd) * KD_C_M_S * KD_C_M_S;
 done:
+    free(table);
     return status;
 }
 

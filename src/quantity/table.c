@@ -10,7 +10,7 @@
 /* In the order of the listing. */
 /* clang-format off */
 #define QUANTITIES(X) X(kerr) X(shadow) X(deflection) X(potential) X(redshift) X(ring_image) X(photon_rings) \
-X(disk_flux) X(blackbody) X(qnm) X(flamm) X(frame_dragging) \
+X(disk_flux) X(returning) X(blackbody) X(qnm) X(flamm) X(frame_dragging) \
     X(infall) X(sky) X(scale) X(inspiral) X(tidal) X(separatrix)
 /* clang-format on */
 

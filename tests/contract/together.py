@@ -236,6 +236,8 @@ TOGETHER = [
             "%s is %.9g after %.9g; each must be larger than the one before",
             "frequency_max_hz is %.9g and frequency_min_hz %.9g; frequency_max_hz must be larger than frequency_min_hz",
             "spin is %.17g, so close to an extremal hole that the flux at %.9g Hz is not a number",
+            "spin is %.17g, so close to an extremal hole that the energy balance of returning light is wrong by %.1g; it must be right to %g",
+            'inner is %.9g; with returning "yes" it must be the ISCO, %.9g M, or "isco"',
             "volume.model has no light of one frequency in physical units, as a spectrum needs; it must be a model with volume.frequency_ghz, such as gold or riaf; without scene and preset the spectrum is that of a thin disk",
             'a spectrum needs a scene where only the volume shines: disk.model and sky.model must be "none", and there must be no jets, spots or bodies',
             "camera.projection does not preserve areas, as a flux needs; it must be plane or pinhole",
@@ -325,6 +327,13 @@ TOGETHER = [
     (
         "GET /v1/physics/(disk-flux|flamm|frame-dragging|potential|kerr|tidal|infall)$",
         ("%s is %s, |inside the horizon at %.9g M; it must be outside",),
+    ),
+    (
+        "GET /v1/physics/returning$",
+        (
+            "%s is %s, |inside the ISCO at %.9g M; it must be outside",
+            "%s is %s, |so close to an extremal hole that the energy balance is wrong by %.1g; it must be right to %g",
+        ),
     ),
     (
         "GET /v1/physics/(deflection|redshift|ring-image|shadow|sky|photon-rings|infall)$",

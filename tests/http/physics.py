@@ -515,6 +515,32 @@ class Integrals(daemon.Case):
         self.assertAlmostEqual(totals[2] / totals[0], 1.2761, delta=2e-3)
         self.assertAlmostEqual(totals[3] / totals[0], 1.2573, delta=2e-3)
 
+    def test_light_that_returns(self):
+        """Over all directions and frequencies arrives the share of the luminosity that /v1/physics/returning says escapes:
+        at once, where returning light is ignored, and in the end, where the disk absorbs it."""
+        nodes = ((0.0694318442, 0.1739274226), (0.3300094782, 0.3260725774), (0.6699905218, 0.3260725774))
+        nodes += ((0.9305681558, 0.1739274226),)
+        asked = {"spin": 0.9, "outer": 1e4, "frequencies": 150, "frequency_min_hz": 1e13, "frequency_max_hz": 1e20}
+        said = self.daemon.get("/v1/physics/returning?spin=0.9").json()["values"]
+        for returning, share in (("no", "disk_escapes"), ("yes", "ends_escaped")):
+            total = 0
+            for cosine, weight in nodes:
+                answer = self.post(
+                    "spectrum", {**asked, "inclination_deg": math.degrees(math.acos(cosine)), "returning": returning}
+                ).json()
+                x, y = answer["columns"]["frequency_hz"], answer["columns"]["nu_l_nu_w"]
+                total += weight * sum((a + b) / 2 * math.log(g / f) for f, g, a, b in zip(x, x[1:], y, y[1:]))
+            # beyond 1e4 M the disk radiates 3/2 GM Mdot/r: 0.1 % of the light here
+            self.assertAlmostEqual(
+                total / answer["values"]["luminosity_w"] + 1.5e-4 / said["efficiency"], said[share], delta=3e-3
+            )
+            self.assertLess(answer["values"]["error"], 1e-3)
+        peaks = [
+            self.post("spectrum", {"spin": 0.998, "frequencies_hz": [1e17], "returning": word}).json()["values"]
+            for word in ("no", "yes")
+        ]
+        self.assertAlmostEqual(peaks[1]["t_max_k"] / peaks[0]["t_max_k"], 1.0678, delta=1e-3)
+
     def test_an_image_that_is_kept_changes_nothing(self):
         document = {"spin": 0.31, "inclination_deg": 33, "bins": 20}
         first = self.post("line", document).body
@@ -769,6 +795,9 @@ class Integrals(daemon.Case):
             ("transfer-function", {"rings": 1000}, "/radii", "rows (limit 5000)"),
             ("transfer-function", {"index": 3}, "/index", "no field index"),
             ("spectrum", {"frequencies_hz": [2, 1]}, "/frequencies_hz/1", "larger than the one before"),
+            ("spectrum", {"returning": "yes", "inner": 8}, "/inner", 'with returning "yes" it must be the ISCO, 6 M'),
+            ("spectrum", {"returning": "yes", "spin": 1 - 1e-11}, "/spin", "energy balance of returning light"),
+            ("line", {"returning": "yes"}, "/returning", "no field returning"),
             ("spectrum", {"frequency_min_hz": 1e18, "frequency_max_hz": 1e17}, "/frequency_max_hz", "larger"),
         ):
             with self.subTest(document):

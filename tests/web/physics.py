@@ -28,6 +28,10 @@ class Physics(Browser):
         page.keyboard.press("Tab")
         self.assertTrue(daemon.eventually(lambda: self.drawn(page, "#curve-qnm canvas")["hash"] != before["hash"]))
         self.linked(page, "qnm.spin=0.95")
+        self.there(page, "Of the whole disk 6.06 % returns and 2.27 % falls in.", "#curve-returning")
+        page.fill("#in-returning-spin", "0")
+        page.keyboard.press("Tab")
+        page.wait_for_selector("#curve-returning >> text=/Of the whole disk 1.68 % returns/")
 
     def test_what_a_scene_adds_up_to(self):
         """Line, spectrum and visibilities of the shown scene are requested when one is chosen, requested again when the

@@ -38,13 +38,18 @@ static double stretch_of(const struct ring *ring, double apart, int j, int n)
     return fabs(a_r * along(ring->beta, j, n) - b_r * along(ring->alpha, j, n));
 }
 
+static double flux_at(const struct kd_disk_image *image, const struct kd_disk_spectrum_params *p, double r)
+{
+    return p->returning ? kd_returning_flux(p->returning, r) : kd_disk_flux_page_thorne(&image->hole, r);
+}
+
 /* Adds a ring's light; weight: its width in ln r. */
 static void add_ring(const struct kd_disk_image *image, const struct kd_disk_spectrum_params *p, double r,
                      double weight, int skip, int n, const double *frequencies, int n_f, struct ring *ring, double *sum)
 {
     struct kd_disk_ring gas = kd_disk_image_gas(image, r);
-    double t = kd_disk_temperature(kd_disk_flux_page_thorne(&image->hole, r), &image->hole, p->mass_msun, p->mdot_edd) *
-               p->colour_correction;
+    double t =
+        kd_disk_temperature(flux_at(image, p, r), &image->hole, p->mass_msun, p->mdot_edd) * p->colour_correction;
     if (!(t > 0))
         return;
     kd_disk_image_ring(image, r, skip, n, ring->alpha, ring->beta);

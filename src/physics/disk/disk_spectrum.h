@@ -2,7 +2,8 @@
  *
  *   F_nu = (M/D)^2 Int g^3 B_nu(nu/g, f T)/f^4 limb(mu) dalpha dbeta      sigma T^4 = F(r)
  *
- * F is that of Page & Thorne 1974, ApJ 191, 499 (thin_disk.h), from the ISCO or beyond. f is the colour correction
+ * F is that of Page & Thorne 1974, ApJ 191, 499 (thin_disk.h), or of a disk with returning light, from the ISCO or
+ * beyond. f is the colour correction
  * (Shimura & Takahara 1995, ApJ 445, 780); it conserves the energy of the light. Li et al. 2005, ApJS 157, 335, eq.
  * 6. The integral over the disk's image (disk_image.h) uses even steps in chi, which converge exponentially, and
  * Gauss points in the square root of ln(r/inner). */
@@ -11,12 +12,14 @@
 
 #include "base/error.h"
 #include "physics/disk/line_profile.h"
+#include "physics/disk/returning.h"
 
 struct kd_disk_spectrum_params {
     double inner, outer;                     /* M */
     double mass_msun, distance_pc, mdot_edd; /* mdot_edd: accretion rate as in thin_disk.h */
     double colour_correction;
-    enum kd_limb limb; /* normalised so that a face radiates F: Int limb mu dmu = 1/2 */
+    enum kd_limb limb;                    /* normalised so that a face radiates F: Int limb mu dmu = 1/2 */
+    const struct kd_returning *returning; /* of the same hole and limb: F is its flux; NULL: that of Page & Thorne */
 };
 
 /* flux: W m^-2 Hz^-1 at each of n frequencies, in Hz. *error_out: largest relative error, estimated from half as

@@ -1,5 +1,7 @@
 #include "physics/disk/scattering.h"
 
+#include "physics/math/quadrature.h"
+
 #include <math.h>
 
 #define PI 3.14159265358979323846
@@ -12,24 +14,11 @@ struct rule { double mu[NODES], weight[NODES]; };
 static struct rule gauss(void)
 {
     struct rule rule;
+    double s[NODES];
+    kd_gauss_legendre(NODES, s, rule.weight);
     for (int i = 0; i < NODES; i++) {
-        double x = cos(PI * (i + 0.75) / (NODES + 0.5)), slope = 1;
-        for (int k = 0; k < 60; k++) { /* Newton's method, by the recurrence of the polynomials */
-            double p = x, before = 1;
-            for (int n = 2; n <= NODES; n++) {
-                const double next = ((2 * n - 1) * x * p - (n - 1) * before) / n;
-                before = p;
-                p = next;
-            }
-            slope = NODES * (x * p - before) / (x * x - 1);
-            const double step = p / slope;
-            x -= step;
-            if (fabs(step) < 1e-16)
-                break;
-        }
-        const double s = 0.5 * (1 + x);
-        rule.mu[i] = s * s;
-        rule.weight[i] = 2 * s / ((1 - x * x) * slope * slope);
+        rule.mu[i] = s[i] * s[i];
+        rule.weight[i] *= 2 * s[i];
     }
     return rule;
 }

@@ -31,3 +31,25 @@ double kd_quadrature(kd_integrand f, const void *context)
     }
     return NAN;
 }
+
+void kd_gauss_legendre(int n, double *nodes, double *weights)
+{
+    for (int i = 0; i < n; i++) {
+        double x = cos(M_PI * (n - 1 - i + 0.75) / (n + 0.5)), slope = 1;
+        for (int k = 0; k < 60; k++) { /* Newton's method, by the recurrence of the polynomials */
+            double p = x, before = 1;
+            for (int j = 2; j <= n; j++) {
+                const double next = ((2 * j - 1) * x * p - (j - 1) * before) / j;
+                before = p;
+                p = next;
+            }
+            slope = n * (x * p - before) / (x * x - 1);
+            const double step = p / slope;
+            x -= step;
+            if (fabs(step) < 1e-16)
+                break;
+        }
+        nodes[i] = 0.5 * (1 + x);
+        weights[i] = 1 / ((1 - x * x) * slope * slope);
+    }
+}

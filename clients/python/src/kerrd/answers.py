@@ -442,6 +442,7 @@ class DiskSpectrumParameters(TypedDict):
     distance_pc: float
     mdot_edd: float
     colour_correction: float
+    returning: str
     frequency_min_hz: float
     frequency_max_hz: float
     frequencies: float

@@ -1,0 +1,495 @@
+#include "physics/disk/returning.h"
+
+#include "base/pause.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/math/quadrature.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/null/null_plane.h"
+#include "physics/spacetime/kerr.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    N = KD_RETURNING_RINGS,
+    ORDERS = 5, /* crossings of the plane that are followed; without spin each further one has e^-pi of the light, and
+                 * next to a = 1 more: at a = 0.998 the sixth has 1e-5 of that of the ISCO */
+    SIDES = 16, /* Gauss points in chi, in each of at most PANELS panels */
+    PANELS = 3,
+    DEPTH = 12, /* and along each chi */
+};
+
+/* E at infinity over that in the frame of zero angular momentum below which a ray is followed by series: the labels
+ * L/E and Q/E^2 of the closed form grow without bound. */
+#define SLOW 1e-3
+
+/* Gas on a circular orbit at r, and the frame of zero angular momentum there. */
+struct ring { double r, ut, omega, energy, momentum, lapse, drag, girth; };
+
+static struct ring ring_of(const struct kd_hole *hole, double r)
+{
+    const struct kd_metric_scalars m = kd_metric_at(hole, r, 0);
+    return (struct ring) { .r = r,
+                           .ut = kd_kerr_ut(hole, r),
+                           .omega = kd_kerr_omega(hole, r),
+                           .energy = kd_kerr_energy(hole, r),
+                           .momentum = kd_kerr_momentum(hole, r),
+                           .lapse = sqrt(m.lapse2),
+                           .drag = m.omega,
+                           .girth = sqrt(m.area / m.sigma) };
+}
+
+/* Light of energy 1 in the frame of zero angular momentum: E, L and |p_theta|; its energy in the gas's frame. */
+struct light { double energy, momentum, polar, seen; };
+
+static struct light light_of(const struct ring *o, double sin_rho, double cos_chi)
+{
+    const double along = sin_rho * cos_chi, l = o->girth * along;
+    return (struct light) { .energy = o->lapse + o->drag * l,
+                            .momentum = l,
+                            .polar = o->r * sin_rho * sqrt((1 - cos_chi) * (1 + cos_chi)),
+                            .seen = o->ut * (o->lapse + (o->drag - o->omega) * l) };
+}
+
+/* x = ln tan(rho/2): over distances the dark disk is small, and close to the hole nearly all of the sky. */
+static double sine(double x) { return 1 / cosh(x); }
+
+/* 1/r of crossing n: INFINITY after capture, -INFINITY after escape. */
+static double follow(const struct kd_hole *hole, const struct ring *o, double cos_chi, double x, int n)
+{
+    const struct light p = light_of(o, sine(x), cos_chi);
+    if (p.energy < SLOW) {
+        const struct kd_vantage at = { .hole = *hole, .r = o->r, .u = 0, .s = 1 };
+        const struct kd_covector photon = { p.energy, p.momentum, p.polar,
+                                            -tanh(x) * o->r * sqrt(kd_hole_delta(hole, o->r)) };
+        const double r = kd_null_plane_radius(&at, &photon, n);
+        return isfinite(r) ? 1 / r : -r;
+    }
+    const struct kd_null_ray ray = { .hole = *hole,
+                                     .radius = o->r,
+                                     .sin_theta = 1,
+                                     .alpha = -p.momentum / p.energy,
+                                     .beta = p.polar / p.energy,
+                                     .outward = x > 0,
+                                     .orders = n + 1 };
+    const struct kd_null_path path = kd_null_trace_fast(&ray);
+    return n < path.crossings ? 1 / path.crossing[n].r : path.fate == KD_NULL_ESCAPED ? -INFINITY : INFINITY;
+}
+
+/* The x at which crossing n is at 1/r = w, from a guess. 1/r falls with x. */
+static double edge(const struct kd_hole *hole, const struct ring *o, double cos_chi, int n, double w, double guess)
+{
+    double low = -60, high = 40, x = guess, x0 = NAN, f0 = NAN, step = 0.25;
+    bool below = false, above = false;
+    for (int i = 0; i < 100 && high - low > 1e-11 * (1 + fabs(x)); i++) {
+        const double f = follow(hole, o, cos_chi, x, n) - w;
+        if (f > 0)
+            low = x, below = true;
+        else
+            high = x, above = true;
+        if (fabs(f) < 1e-10)
+            break;
+        const double slope = (f - f0) / (x - x0);
+        double next = isfinite(f) && isfinite(f0) && slope < 0 ? x - f / slope : NAN;
+        if (isfinite(f))
+            x0 = x, f0 = f;
+        if (!(next > low && next < high)) {
+            next = below && above ? 0.5 * (low + high) : f > 0 ? x + step : x - step;
+            step *= 2;
+        }
+        x = next;
+    }
+    return x;
+}
+
+/* Parts of the sky along one chi. The disk is seen in order n from in[n] to out[n] < in[n - 1]; the light between
+ * out[n] and in[n - 1] escapes, that below in[orders - 1] falls in. The second order exists where a ray can pass
+ * between the ISCO and the hole. */
+struct parts {
+    int orders;
+    double in[ORDERS], out[ORDERS];
+};
+
+static struct parts parts_of(const struct kd_hole *hole, const struct ring *o, double isco, double cos_chi,
+                             const struct parts *guess)
+{
+    struct parts parts = *guess;
+    parts.in[0] = edge(hole, o, cos_chi, 0, 1 / isco, guess->in[0]);
+    parts.out[0] = edge(hole, o, cos_chi, 0, 0, guess->out[0]);
+    parts.orders = 1;
+    for (int n = 1; n < ORDERS && follow(hole, o, cos_chi, parts.in[n - 1], n) < 1 / isco; n++) {
+        parts.in[n] = edge(hole, o, cos_chi, n, 1 / isco, guess->in[n]);
+        parts.out[n] = fmin(edge(hole, o, cos_chi, n, 0, guess->out[n]), parts.in[n - 1]);
+        parts.orders++;
+    }
+    return parts;
+}
+
+/* Gauss points on (0, 1): in chi, and along a chi. */
+struct rule { double side[SIDES], side_weight[SIDES], depth[DEPTH], depth_weight[DEPTH]; };
+
+static struct rule rule_of(void)
+{
+    struct rule rule;
+    kd_gauss_legendre(SIDES, rule.side, rule.side_weight);
+    kd_gauss_legendre(DEPTH, rule.depth, rule.depth_weight);
+    return rule;
+}
+
+/* 1/r of the second crossing of the ray that has its first at the ISCO. */
+static double beyond(const struct kd_hole *hole, const struct ring *o, double isco, double cos_chi, double *guess)
+{
+    *guess = edge(hole, o, cos_chi, 0, 1 / isco, *guess);
+    return follow(hole, o, cos_chi, *guess, 1);
+}
+
+/* The sky of a ring, one chi after the other. Parts of the sky are smooth functions of chi in each panel: panels end
+ * where that second crossing is at infinity, and at the ISCO. In chi integrands are smooth up to the plane, where mu
+ * vanishes as sin(chi). */
+struct sky {
+    int panels;
+    double ends[PANELS + 1];
+    struct parts parts; /* of the last chi */
+};
+
+static struct sky sky_of(const struct kd_hole *hole, const struct ring *o, double isco)
+{
+    const double levels[] = { 0, 1 / isco }, near = 1e-3;
+    double guess = log(2.6 / o->r), found[2];
+    const double first = beyond(hole, o, isco, cos(near), &guess), last = beyond(hole, o, isco, -cos(near), &guess);
+    struct sky sky = { .panels = 0 };
+    for (int i = 0; i < 2; i++) {
+        double low = 0, high = M_PI;
+        if ((first < levels[i]) == (last < levels[i]))
+            continue;
+        for (int k = 0; k < 16; k++) {
+            const double chi = 0.5 * (low + high);
+            *((beyond(hole, o, isco, cos(chi), &guess) < levels[i]) == (first < levels[i]) ? &low : &high) = chi;
+        }
+        found[sky.panels++] = 0.5 * (low + high);
+    }
+    const bool swapped = sky.panels == 2 && found[1] < found[0];
+    for (int i = 0; i < sky.panels; i++)
+        sky.ends[i + 1] = found[swapped ? 1 - i : i];
+    sky.ends[++sky.panels] = M_PI;
+    for (int n = 0; n < ORDERS; n++)
+        sky.parts.in[n] = sky.parts.out[n] = log(2.6 / o->r);
+    return sky;
+}
+
+static int sides(const struct sky *sky) { return sky->panels * SIDES; }
+
+/* Moves on to chi i. Returns cos(chi) and sin(chi) dchi. */
+struct side { double cos_chi, width; };
+
+static struct side side_of(const struct kd_hole *hole, const struct ring *o, double isco, const struct rule *rule,
+                           struct sky *sky, int i)
+{
+    const double *ends = sky->ends + i / SIDES, chi = ends[0] + (ends[1] - ends[0]) * rule->side[i % SIDES];
+    sky->parts = parts_of(hole, o, isco, cos(chi), &sky->parts);
+    return (struct side) { cos(chi), (ends[1] - ends[0]) * rule->side_weight[i % SIDES] * sin(chi) };
+}
+
+/* The part of a chi between two x. `wide`: it is measured by rho; the others by t = cot(rho/2), since over distances
+ * the light of the disk is near the dark disk. */
+struct strip {
+    struct side side;
+    double from, to;
+    bool wide;
+};
+
+static struct strip strip_of(struct side side, double from, double to)
+{
+    return (struct strip) { side, exp(-from), exp(-to), false };
+}
+
+static struct strip strip_wide(struct side side, double from, double to)
+{
+    return (struct strip) { side, 2 * atan(exp(from)), 2 * atan(exp(to)), true };
+}
+
+/* Returns mu dOmega of Gauss point k, and its x. mu dOmega = sin^2(rho) drho dcos(chi), drho = -2 dt/(1 + t^2). */
+static double point_of(const struct strip *s, const struct rule *rule, int k, double *x)
+{
+    const double place = s->from + (s->to - s->from) * rule->depth[k],
+                 step = (s->to - s->from) * rule->depth_weight[k] * s->side.width;
+    *x = s->wide ? log(tan(0.5 * place)) : -log(place);
+    return pow(sine(*x), 2) * (s->wide ? step : -2 * step / (1 + place * place));
+}
+
+static double emitted(enum kd_limb limb, double mu) { return kd_limb_at(limb, mu) * kd_limb_scale(limb) / M_PI; }
+
+/* Shares of photons and of energy at infinity that a strip of a ring's sky has. */
+static void add_strip(const struct ring *o, enum kd_limb limb, const struct rule *rule, struct strip strip,
+                      double *photons, double *energy)
+{
+    for (int k = 0; k < DEPTH; k++) {
+        double x;
+        const double solid = point_of(&strip, rule, k, &x);
+        const struct light p = light_of(o, sine(x), strip.side.cos_chi);
+        const double part = solid / pow(p.seen, 3) * emitted(limb, p.polar / (o->r * p.seen));
+        *photons += part;
+        *energy += part * p.energy / (p.seen * o->energy);
+    }
+}
+
+/* Adds where light goes along one chi. */
+static void add_side(const struct ring *o, enum kd_limb limb, const struct rule *rule, const struct parts *parts,
+                     struct side side, struct kd_returning_ring *sum)
+{
+    struct kd_returning_shares *p = &sum->photons, *e = &sum->energy;
+    add_strip(o, limb, rule, strip_wide(side, parts->out[0], INFINITY), &p->escapes, &e->escapes);
+    for (int n = 0; n < parts->orders; n++) {
+        add_strip(o, limb, rule, strip_of(side, parts->in[n], parts->out[n]), &p->returns, &e->returns);
+        if (n && parts->out[n] < parts->in[n - 1])
+            add_strip(o, limb, rule, strip_wide(side, parts->out[n], parts->in[n - 1]), &p->escapes, &e->escapes);
+    }
+    add_strip(o, limb, rule, strip_wide(side, -INFINITY, parts->in[parts->orders - 1]), &p->falls_in, &e->falls_in);
+}
+
+static double total(const struct kd_returning_shares *s) { return s->returns + s->falls_in + s->escapes; }
+
+struct kd_returning_ring kd_returning_ring(const struct kd_hole *hole, enum kd_limb limb, double r)
+{
+    const struct rule rule = rule_of();
+    const struct ring ring = ring_of(hole, r);
+    const double isco = kd_kerr_isco(hole);
+    struct kd_returning_ring sum = { .error = 0 };
+    struct sky sky = sky_of(hole, &ring, isco);
+    for (int j = 0; j < sides(&sky); j++) {
+        const struct side side = side_of(hole, &ring, isco, &rule, &sky, j);
+        add_side(&ring, limb, &rule, &sky.parts, side, &sum);
+        kd_pause();
+    }
+    sum.error = fmax(fabs(total(&sum.photons) - 1), fabs(total(&sum.energy) - 1));
+    return sum;
+}
+
+/* Nodes in s are those of Chebyshev's polynomials; interpolation in the barycentric form (J.-P. Berrut & L. N.
+ * Trefethen 2004, SIAM Review 46, 501). */
+static void weights_at(const double *nodes, double s, double *weights)
+{
+    double sum = 0;
+    for (int j = 0; j < N; j++) {
+        const double gap = s - nodes[j];
+        if (gap == 0) {
+            memset(weights, 0, N * sizeof *weights);
+            weights[j] = 1;
+            return;
+        }
+        weights[j] = (j % 2 ? -1 : 1) * sin(M_PI * (j + 0.5) / N) / gap;
+        sum += weights[j];
+    }
+    for (int j = 0; j < N; j++)
+        weights[j] /= sum;
+}
+
+static double at_nodes(const double *nodes, const double *values, double s)
+{
+    double weights[N], sum = 0;
+    weights_at(nodes, s, weights);
+    for (int j = 0; j < N; j++)
+        sum += weights[j] * values[j];
+    return sum;
+}
+
+/* What rings receive, per r^3: of light that the gas emits by itself, and as a matrix over `more`. */
+struct kernel {
+    double flux[N], deficit[N], energy[N]; /* F_ret; L F_ret - l; energy at infinity */
+    double flux_of[N][N], deficit_of[N][N];
+    double stress_of[N][N]; /* r^3 F_t of the deficits */
+};
+
+static void receive(const struct kd_returning *table, struct kernel *kernel, int i, const struct ring *o,
+                    const struct light *p, double solid, double from)
+{
+    const struct kd_hole *hole = &table->hole;
+    const double left = kd_kerr_ut(hole, from) * (p->energy - kd_kerr_omega(hole, from) * p->momentum),
+                 part = pow(o->r, 3) * solid * p->seen / pow(left, 4) * emitted(table->limb, p->polar / (from * left)),
+                 deficit = o->momentum - p->momentum / p->seen;
+    const double own = part * kd_disk_flux_page_thorne(hole, from);
+    double weights[N];
+    kernel->flux[i] += own;
+    kernel->deficit[i] += own * deficit;
+    kernel->energy[i] += own * p->energy / p->seen;
+    weights_at(table->s, sqrt(table->isco / from), weights);
+    for (int j = 0; j < N; j++) {
+        const double more = part / pow(from, 3) * weights[j];
+        kernel->flux_of[i][j] += more;
+        kernel->deficit_of[i][j] += more * deficit;
+    }
+}
+
+static void receive_along(const struct kd_returning *table, struct kernel *kernel, int i, const struct ring *o,
+                          const struct rule *rule, struct strip strip, int order)
+{
+    for (int k = 0; k < DEPTH; k++) {
+        double x;
+        const double solid = point_of(&strip, rule, k, &x);
+        const double w = follow(&table->hole, o, strip.side.cos_chi, x, order);
+        const struct light p = light_of(o, sine(x), strip.side.cos_chi);
+        if (w > 0 && isfinite(w))
+            receive(table, kernel, i, o, &p, solid, fmax(1 / w, table->isco));
+    }
+}
+
+/* dOmega/dr = -(3 r^2/2 - 2 q^2 r)/(s (r^2 + a s)^2), s^2 = r - q^2 (kerr.h). */
+static double shear(const struct kd_hole *hole, double r)
+{
+    const double q2 = hole->q * hole->q, s = sqrt(r - q2), under = r * r + hole->a * s;
+    return -(1.5 * r * r - 2 * q2 * r) / (s * under * under);
+}
+
+/* The integral from the ISCO to each ring as one from s to 1 of the polynomial through the nodes. */
+static void fill_stress(const struct kd_returning *table, const struct rule *rule, struct kernel *kernel)
+{
+    for (int i = 0; i < N; i++) {
+        const double r = table->isco / pow(table->s[i], 2),
+                     scale = -shear(&table->hole, r) * pow(r * kd_kerr_ut(&table->hole, r), 2);
+        for (int k = 0; k < DEPTH; k++) {
+            const double s = table->s[i] + (1 - table->s[i]) * rule->depth[k];
+            double weights[N];
+            weights_at(table->s, s, weights);
+            for (int j = 0; j < N; j++)
+                kernel->stress_of[i][j] -= scale * (1 - table->s[i]) * rule->depth_weight[k] * weights[j] * 2 *
+                                           table->s[j] / table->isco /
+                                           kd_kerr_ut(&table->hole, table->isco / pow(table->s[j], 2));
+        }
+    }
+}
+
+static double times(const double *row, const double *x)
+{
+    double sum = 0;
+    for (int j = 0; j < N; j++)
+        sum += row[j] * x[j];
+    return sum;
+}
+
+/* One more scattering in each step. */
+static void converge(struct kd_returning *table, const struct kernel *kernel)
+{
+    double change = 1;
+    for (table->steps = 0; change > 1e-12 && table->steps < 1000; table->steps++) {
+        double deficit[N], next[N], largest = 0;
+        change = 0;
+        for (int i = 0; i < N; i++) {
+            table->back[i] = kernel->flux[i] + times(kernel->flux_of[i], table->more);
+            deficit[i] = kernel->deficit[i] + times(kernel->deficit_of[i], table->more);
+        }
+        for (int i = 0; i < N; i++) {
+            next[i] = table->back[i] + times(kernel->stress_of[i], deficit);
+            change = fmax(change, fabs(next[i] - table->more[i]));
+            largest = fmax(largest, fabs(next[i]));
+        }
+        change /= largest;
+        memcpy(table->more, next, sizeof next);
+    }
+}
+
+/* Integrals over the disk: 4 pi r dr = 8 pi r_isco^2 ds/s^5, and the efficiency is that of F_0 E. */
+static void share_out(struct kd_returning *table, const struct kernel *kernel)
+{
+    enum { POINTS = 96 };
+    double at[POINTS], weight[POINTS], arrives = 0;
+    const struct kd_hole *hole = &table->hole;
+    const double efficiency = kd_kerr_efficiency(hole);
+    kd_gauss_legendre(POINTS, at, weight);
+    for (int k = 0; k < POINTS; k++) {
+        const double s = at[k], r = table->isco / (s * s),
+                     area = weight[k] * 8 * M_PI * table->isco * table->isco / pow(s, 5) / efficiency,
+                     own = area * kd_kerr_energy(hole, r) * kd_disk_flux_page_thorne(hole, r),
+                     all = area * kd_kerr_energy(hole, r) * kd_returning_flux(table, r);
+        const struct kd_returning_shares shares = kd_returning_shares_at(table, &table->energy, r);
+        table->first.returns += own * shares.returns;
+        table->first.falls_in += own * shares.falls_in;
+        table->first.escapes += own * shares.escapes;
+        table->lastly.falls_in += all * shares.falls_in;
+        table->lastly.escapes += all * shares.escapes;
+        arrives += area * at_nodes(table->s, kernel->energy, s) / (r * r * r);
+    }
+    table->error = fmax(fabs(arrives / table->first.returns - 1), fabs(total(&table->lastly) - 1));
+}
+
+static bool make(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
+{
+    struct kernel *kernel = calloc(1, sizeof *kernel);
+    const struct rule rule = rule_of();
+    *table = (struct kd_returning) { .hole = *hole, .limb = limb, .isco = kd_kerr_isco(hole) };
+    if (!kernel)
+        return false;
+    for (int i = 0; i < N; i++)
+        table->s[i] = 0.5 * (1 + cos(M_PI * (i + 0.5) / N));
+    for (int i = 0; i < N; i++) {
+        const struct ring ring = ring_of(hole, table->isco / pow(table->s[i], 2));
+        struct sky sky = sky_of(hole, &ring, table->isco);
+        struct kd_returning_ring shares = { .error = 0 };
+        for (int j = 0; j < sides(&sky); j++) {
+            const struct side side = side_of(hole, &ring, table->isco, &rule, &sky, j);
+            const struct parts *parts = &sky.parts;
+            add_side(&ring, limb, &rule, parts, side, &shares);
+            for (int n = 0; n < parts->orders; n++)
+                receive_along(table, kernel, i, &ring, &rule, strip_of(side, parts->in[n], parts->out[n]), n);
+            kd_pause();
+        }
+        table->photons.returns[i] = shares.photons.returns, table->photons.falls_in[i] = shares.photons.falls_in;
+        table->energy.returns[i] = shares.energy.returns, table->energy.falls_in[i] = shares.energy.falls_in;
+    }
+    memcpy(table->once, kernel->flux, sizeof table->once);
+    for (int i = 0; i < N; i++)
+        table->lacks[i] = kernel->deficit[i] * table->s[i];
+    fill_stress(table, &rule, kernel);
+    converge(table, kernel);
+    share_out(table, kernel);
+    free(kernel);
+    return true;
+}
+
+/* The last tables. */
+enum { KEPT = 8 };
+static struct kd_returning kept[KEPT];
+static unsigned next_kept;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+static bool recall(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
+{
+    bool found = false;
+    pthread_mutex_lock(&lock);
+    for (int i = 0; i < KEPT && !found; i++)
+        if (kept[i].steps && kept[i].hole.a == hole->a && kept[i].hole.q == hole->q && kept[i].limb == limb)
+            *table = kept[i], found = true;
+    pthread_mutex_unlock(&lock);
+    return found;
+}
+
+bool kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
+{
+    if (recall(table, hole, limb))
+        return true;
+    if (!make(table, hole, limb))
+        return false;
+    pthread_mutex_lock(&lock);
+    kept[next_kept++ % KEPT] = *table;
+    pthread_mutex_unlock(&lock);
+    return true;
+}
+
+double kd_returning_at(const struct kd_returning *table, const double list[N], double r)
+{
+    return at_nodes(table->s, list, sqrt(table->isco / r)) / (r * r * r);
+}
+
+struct kd_returning_shares kd_returning_shares_at(const struct kd_returning *table,
+                                                  const struct kd_returning_list *list, double r)
+{
+    const double s = sqrt(table->isco / r), back = at_nodes(table->s, list->returns, s),
+                 in = at_nodes(table->s, list->falls_in, s);
+    return (struct kd_returning_shares) { back, in, 1 - back - in };
+}
+
+double kd_returning_flux(const struct kd_returning *table, double r)
+{
+    return kd_disk_flux_page_thorne(&table->hole, r) + kd_returning_at(table, table->more, r);
+}

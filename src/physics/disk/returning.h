@@ -1,0 +1,77 @@
+/* Returning radiation: light of a thin disk that falls on the disk again, because the hole bends it. Double precision;
+ * pure except for making the table, any thread. G = c = M = 1.
+ *
+ * A photon keeps E and L at infinity; gas on a circular orbit sees it with the energy e = u^t (E - Omega L). The
+ * element r dr dphi dt is a comoving area times proper time, so a ring at r receives from the ring at r_e, per comoving
+ * area and proper time,
+ *
+ *   F_ret(r) = Int g^4 (F(r_e)/pi) f(mu_e) mu dOmega      g = e(r)/e(r_e)
+ *
+ * over the directions in its rest frame from which light of the disk arrives. f is the law of limb darkening (limb.h).
+ * The integral is taken in the frame of zero angular momentum, in polar coordinates (rho, chi) about the direction to
+ * the hole: along each chi the radius r_e grows with rho from the edge of the hole's dark disk to infinity. Each ray is
+ * followed in closed form (null_geodesic.h); light of E <= 0 in the ergosphere by Taylor series (null_plane.h).
+ *
+ * The gas absorbs the light that returns, with its angular momentum, and radiates it again. Conservation of energy and
+ * angular momentum (C. T. Cunningham 1976, ApJ 208, 534; L.-X. Li et al. 2005, ApJS 157, 335, section 3) gives
+ *
+ *   F = F_0 + F_ret + F_t      F_t = -Omega'/(r (E - Omega L)^2) Int (l - L F_ret) (E - Omega L) r dr
+ *
+ * with F_0 of Page & Thorne 1974 (thin_disk.h), the integral from the ISCO to r, E and L of the gas, and l the angular
+ * momentum that the light brings per comoving area and proper time: F_t is the work of the stress that carries the
+ * difference away. It is solved by iteration: one scattering or reemission more in each step.
+ *
+ * The disk ends at the ISCO and has no outer edge. Between the ISCO and the hole nothing stops light (E. Agol & J. H.
+ * Krolik 2000, ApJ 528, 161, and J. D. Schnittman & J. H. Krolik 2009, ApJ 701, 1175, compute the same fractions). */
+#ifndef KD_PHYSICS_DISK_RETURNING_H
+#define KD_PHYSICS_DISK_RETURNING_H
+
+#include "physics/disk/limb.h"
+#include "physics/spacetime/hole.h"
+
+#include <stdbool.h>
+
+enum { KD_RETURNING_RINGS = 24 };
+
+/* Shares of a ring's light. The sum of each kind is 1. */
+struct kd_returning_shares { double returns, falls_in, escapes; };
+
+/* Where the light of a ring at r >= ISCO goes when it leaves the disk for the first time: shares of the photons, and of
+ * their energy at infinity. `error`: how far the sums of the integrals are from 1. Some 4 ms. */
+struct kd_returning_ring {
+    struct kd_returning_shares photons, energy;
+    double error;
+};
+struct kd_returning_ring kd_returning_ring(const struct kd_hole *hole, enum kd_limb limb, double r);
+
+/* The converged disk of one hole. */
+struct kd_returning {
+    struct kd_hole hole;
+    enum kd_limb limb;
+    double isco;
+    /* Nodes in s = sqrt(r_isco/r), and r^3 (F - F_0) and r^3 F_ret at them. The two fluxes over Mdot, as in
+     * thin_disk.h. */
+    double s[KD_RETURNING_RINGS], more[KD_RETURNING_RINGS], back[KD_RETURNING_RINGS];
+    /* The same of light that returns for the first time: F_ret, and s (L F_ret - l), what its angular momentum lacks.
+     */
+    double once[KD_RETURNING_RINGS], lacks[KD_RETURNING_RINGS];
+    struct kd_returning_list { double returns[KD_RETURNING_RINGS], falls_in[KD_RETURNING_RINGS]; } photons, energy;
+    struct kd_returning_shares first;  /* of the luminosity of the disk of Page & Thorne: where its light goes first */
+    struct kd_returning_shares lastly; /* of the same luminosity: where it ends at last; `returns` is 0 */
+    double error;                      /* relative: of the energy that arrives, against that which returns; or of the
+                                        * sum of `lastly`, if larger */
+    int steps;                         /* of the iteration, to 1e-12 */
+};
+
+/* Some 0.1 s. The last 8 are kept and copied. Returns false if memory is short. */
+bool kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb);
+
+/* F at r >= ISCO; and one of the table's lists at r, divided by r^3. */
+double kd_returning_flux(const struct kd_returning *table, double r);
+double kd_returning_at(const struct kd_returning *table, const double list[KD_RETURNING_RINGS], double r);
+
+/* The shares of kd_returning_ring, from table->photons or table->energy: within 1e-4 of them. */
+struct kd_returning_shares kd_returning_shares_at(const struct kd_returning *table,
+                                                  const struct kd_returning_list *list, double r);
+
+#endif

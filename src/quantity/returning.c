@@ -1,0 +1,106 @@
+#include "quantity/define.h"
+
+#include "physics/disk/returning.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/spacetime/kerr.h"
+
+#define PARAMETERS(P) \
+    KD_PARAMETER_SPIN(P) \
+    KD_PARAMETER_CHARGE(P) \
+    P(limb, .initial = "isotropic", .words = "isotropic|laor|haardt|scattering", \
+      .help = "light of the disk's surface by the angle to its normal: the laws of /v1/spectrum") \
+    P(r, .unit = "M", .initial = "10", .minimum = 1, .maximum = 1e6, .word = "isco", .along = true, \
+      .help = "radius in the disk, at least the ISCO")
+#define OUTPUTS(O) \
+    O(returns, .unit = "1", .help = "share of the photons of the ring at r that fall on the disk") \
+    O(falls_in, .unit = "1", .help = "share that falls into the hole") \
+    O(escapes, .unit = "1", .help = "share that escapes to infinity") \
+    O(energy_returns, .unit = "1", .help = "the same of the energy at infinity") \
+    O(energy_falls_in, .unit = "1", .help = "the same") \
+    O(energy_escapes, .unit = "1", .help = "the same") \
+    O(page_thorne, .unit = "1/M^2", .help = "F/Mdot of one face without returning light") \
+    O(flux, .unit = "1/M^2", .help = "F/Mdot of one face that absorbs the returning light and radiates it again") \
+    O(received, .unit = "1/M^2", .help = "returning light; what else it adds to page_thorne is the work of stresses") \
+    O(temperature_ratio, .unit = "1", \
+      .help = "effective temperature over that without returning light; null at the ISCO, where the latter is 0") \
+    O(isco, .unit = "M", .fixed = true, .help = "inner edge of the disk") \
+    O(disk_returns, .unit = "1", .fixed = true, \
+      .help = "share of the luminosity of the whole disk, without returning light, that falls on the disk again") \
+    O(disk_falls_in, .unit = "1", .fixed = true, .help = "share that falls into the hole") \
+    O(disk_escapes, .unit = "1", .fixed = true, .help = "share that escapes") \
+    O(ends_in_hole, .unit = "1", .fixed = true, \
+      .help = "share of the luminosity that is in the hole after any number of returns") \
+    O(ends_escaped, .unit = "1", .fixed = true, .help = "share that has escaped") \
+    O(efficiency, .unit = "1", .fixed = true, .help = "1 - E at the ISCO") \
+    O(efficiency_seen, .unit = "1", .fixed = true, .help = "that times ends_escaped") \
+    O(iterations, .unit = "1", .fixed = true, .help = "number of returns that are followed, to 1e-12") \
+    O(error, .unit = "1", .fixed = true, \
+      .help = \
+          "relative error of the energy balance: of what arrives against what returns, and of both ends against 1")
+KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
+
+static const char *const sources[] = {
+    "C. T. Cunningham 1976, ApJ 208, 534; L.-X. Li, E. R. Zimmerman, R. Narayan & J. E. McClintock 2005, ApJS 157, 335 "
+    "(balance of energy and angular momentum)",
+    "E. Agol & J. H. Krolik 2000, ApJ 528, 161; J. D. Schnittman & J. H. Krolik 2009, ApJ 701, 1175",
+    "D. N. Page & K. S. Thorne 1974, ApJ 191, 499 (flux without returning light)",
+    "S. E. Gralla & A. Lupsasca 2020, Phys. Rev. D 101, 044032 (rays in closed form)",
+    NULL,
+};
+static const char *const approximations[] = {
+    "a thin disk from the ISCO to infinity; between the ISCO and the hole nothing stops light",
+    "the disk absorbs all returning light, and radiates it again from the same place with the law of its own light",
+    NULL,
+};
+
+struct memory { struct kd_returning table; };
+
+/* Error of the energy balance from which the answer is refused: at 1 - |a| of some 1e-9. */
+#define WRONG 1e-2
+
+static enum kd_status begin(const struct parameters *p, struct memory *m, struct outputs *o, struct kd_error *error)
+{
+    const struct kd_hole hole = kd_hole_charged(p->spin, p->charge);
+    if (kd_quantity_hole_exists(p->spin, p->charge, error))
+        return KD_EINVAL;
+    if (!kd_returning_init(&m->table, &hole, (enum kd_limb)p->limb))
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the kernel of returning light");
+    if (!(m->table.error < WRONG))
+        return kd_quantity_outside(error, "spin", p->spin,
+                                   "so close to an extremal hole that the energy balance is wrong by %.1g; it must be "
+                                   "right to %g",
+                                   m->table.error, WRONG);
+    o->isco = m->table.isco;
+    o->disk_returns = m->table.first.returns, o->disk_falls_in = m->table.first.falls_in,
+    o->disk_escapes = m->table.first.escapes;
+    o->ends_in_hole = m->table.lastly.falls_in, o->ends_escaped = m->table.lastly.escapes;
+    o->efficiency = kd_kerr_efficiency(&hole);
+    o->efficiency_seen = o->efficiency * o->ends_escaped;
+    o->iterations = m->table.steps, o->error = m->table.error;
+    return KD_OK;
+}
+
+static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
+{
+    const struct parameters *p = KD_QUANTITY_IN(in);
+    struct outputs *o = KD_QUANTITY_OUT(out);
+    struct memory *m = memory;
+    const enum kd_status status = fresh ? begin(p, m, o, error) : KD_OK;
+    if (status)
+        return status;
+    const double r = isinf(p->r) ? m->table.isco : p->r;
+    if (r < m->table.isco)
+        return kd_quantity_outside(error, "r", r, "inside the ISCO at %.9g M; it must be outside", m->table.isco);
+    const struct kd_returning_shares photons = kd_returning_shares_at(&m->table, &m->table.photons, r),
+                                     energy = kd_returning_shares_at(&m->table, &m->table.energy, r);
+    o->returns = photons.returns, o->falls_in = photons.falls_in, o->escapes = photons.escapes;
+    o->energy_returns = energy.returns, o->energy_falls_in = energy.falls_in, o->energy_escapes = energy.escapes;
+    o->page_thorne = kd_disk_flux_page_thorne(&m->table.hole, r);
+    o->flux = kd_returning_flux(&m->table, r);
+    o->received = kd_returning_at(&m->table, m->table.back, r);
+    o->temperature_ratio = o->page_thorne > 0 ? sqrt(sqrt(o->flux / o->page_thorne)) : NAN;
+    return KD_OK;
+}
+
+KD_QUANTITY(returning, "returning", "light of a thin disk that returns to it, falls into the hole, or escapes",
+            .memory_size = sizeof(struct memory), .point_us = 20, .fresh_us = 300000)
