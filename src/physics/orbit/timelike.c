@@ -24,8 +24,9 @@ double kd_orbit_radial_slope(const struct kd_orbit *o, double w)
 
 double kd_orbit_radial_by_energy(const struct kd_orbit *o, double w)
 {
+    const double q2w = o->hole.q * o->hole.q * w; /* with charge 2 w^3 becomes (2 - q^2 w) w^3 */
     return 2 * o->energy * (1 + o->hole.a * o->hole.a * w * w) -
-           4 * o->hole.a * (o->momentum - o->hole.a * o->energy) * w * w * w;
+           (4 - 2 * q2w) * o->hole.a * (o->momentum - o->hole.a * o->energy) * w * w * w;
 }
 
 /* z is the root, in u^2, that the motion reaches. 1 - z follows from the product L^2 = (1 - z)(n - a^2 b) or from z
@@ -50,14 +51,18 @@ static void set_polar(struct kd_orbit *o)
 
 void kd_orbit_set_constants(struct kd_orbit *o)
 {
-    double a2 = o->hole.a * o->hole.a, rest = o->momentum - o->hole.a * o->energy;
+    double a2 = o->hole.a * o->hole.a, q2 = o->hole.q * o->hole.q, rest = o->momentum - o->hole.a * o->energy;
     o->k = o->carter + rest * rest;
     o->total = o->momentum * o->momentum + o->carter;
     o->w[0] = -o->binding;
     o->w[1] = 2;
-    o->w[2] = -(a2 * o->binding + o->total);
+    o->w[2] = -(a2 * o->binding + o->total + q2);
     o->w[3] = 2 * o->k;
-    o->w[4] = -a2 * o->carter;
+    o->w[4] = -a2 * o->carter - q2 * o->k;
+    o->drag = o->hole.a * o->momentum + q2 * o->energy;
+    o->four = 4 - q2;
+    o->near = 8 * o->energy - 2 * o->hole.a * o->momentum - 4 * q2 * o->energy;
+    o->nearer = q2 * (o->four * o->energy - o->hole.a * o->momentum);
     set_polar(o);
 }
 
@@ -100,12 +105,12 @@ static void set_fate(struct kd_orbit *o)
 
 enum kd_status kd_orbit_check_hole(const struct kd_hole *hole, struct kd_error *error)
 {
-    if (hole->q != 0)
-        return kd_error_set(error, KD_EINVAL, "the hole has the charge %.16g M; orbits are for uncharged holes only",
-                            hole->q);
-    if (fabs(hole->a) < 1)
-        return KD_OK;
-    return kd_error_field(error, "/spin", "spin is %.16g; it must be a number above -1 and below 1", hole->a);
+    if (!(fabs(hole->a) < 1))
+        return kd_error_field(error, "/spin", "spin is %.16g; it must be a number above -1 and below 1", hole->a);
+    if (!kd_hole_exists(hole))
+        return kd_error_field(error, "/charge", "charge is %.16g; with spin %.16g its magnitude must be below %.9g",
+                              hole->q, hole->a, sqrt((1 - hole->a) * (1 + hole->a)));
+    return KD_OK;
 }
 
 /* True if E(r^2 + a^2) - aL > 0: the particle moves towards the future. */
