@@ -19,6 +19,7 @@ static const struct {
 } fields[] = {
     { "case", "mercury|zoom-whirl|plunge|isco|spherical", "an orbit by name" },
     { "spin", "A", "spin of the hole, above -1 and below 1" },
+    { "charge", "Q", "charge of the hole in M; the body is neutral (0)" },
     { "p", "P", "bound orbit by its shape: semi-latus rectum; the radii are between P/(1+E) and P/(1-E)" },
     { "e", "E", "bound orbit by its shape: eccentricity, below 1" },
     { "inclination_deg", "I", "bound orbit by its shape: inclination; above 90 is retrograde" },

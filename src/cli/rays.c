@@ -16,6 +16,7 @@
 
 enum {
     KEY_SPIN = 256,
+    KEY_CHARGE,
     KEY_R,
     KEY_INCLINATION,
     KEY_MOTION,
@@ -38,6 +39,7 @@ enum {
 
 /* Fields in the order of their keys. Their names are those of kd_rays_request_set. */
 static const char *const names[N_FIELDS] = { "spin",
+                                             "charge",
                                              "r",
                                              "inclination_deg",
                                              "motion",
@@ -66,6 +68,7 @@ static const struct argp_option table[] = {
     { "format", 'f', "json|npy|csv|text", 0, "format of the output, independent of its name; text needs --trace", 0 },
     { "ray", 'r', "ALPHA,BETA", 0, "another ray, in M; may be repeated", 0 },
     { "spin", KEY_SPIN, "A", 0, "spin of the hole, above -1 and below 1", 0 },
+    { "charge", KEY_CHARGE, "Q", 0, "charge of the hole in M", 0 },
     { "r", KEY_R, "R|infinity", 0, "radius of the observer in M", 0 },
     { "inclination-deg", KEY_INCLINATION, "I", 0, "polar angle of the observer", 0 },
     { "motion", KEY_MOTION, KD_OBSERVER_WORDS, 0,

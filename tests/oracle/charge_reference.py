@@ -122,6 +122,25 @@ def advance(q, p, e):
     return 2 * quad(share, [0, pi / 2, pi]) - 2 * pi
 
 
+def bending(a, q, b):
+    """Deflection of light of impact parameter b > 0 towards +phi in the plane, from the conserved E = 1 and L = b."""
+    e, k = a * b + q * q, (b - a) ** 2
+    # (dw/dlambda)^2, and its quotient by w0 - w, by Horner's scheme
+    radial = [-q * q * k, 2 * k, a * a - b * b, mpf(0), mpf(1)]
+    roots = mp.polyroots(radial if q else radial[1:], maxsteps=200, extraprec=400)
+    w0 = min(mp.re(w) for w in roots if mp.re(w) > 0 and abs(mp.im(w)) < mpf(10) ** -30)
+    quotient = [radial[0]]
+    for c in radial[1:4]:
+        quotient.append(quotient[-1] * w0 + c)
+
+    def share(x):  # w = w0 (1 - x^2), so that the root at w0 becomes regular
+        w = w0 * (1 - x * x)
+        turn = b + a * (2 * w - e * w * w) / (1 - 2 * w + (a * a + q * q) * w * w)
+        return 2 * turn * sqrt(w0 / -mp.polyval(quotient, w))
+
+    return 2 * quad(share, [0, mpf(1) / 64, mpf(1) / 8, mpf(1) / 2, 1]) - pi
+
+
 def text(x):
     return mp.nstr(x, 22)
 
@@ -131,7 +150,8 @@ def main():
     print("#ifndef KD_TESTS_CHARGE_REFERENCE_H\n#define KD_TESTS_CHARGE_REFERENCE_H\n")
     print("struct charge_place_reference { double a, q, photon, isco, peak; };")
     print("struct charge_orbit_reference { double a, q, r, omega, energy, momentum, ut, flux; };")
-    print("struct charge_advance_reference { double q, p, e, advance; };\n")
+    print("struct charge_advance_reference { double q, p, e, advance; };")
+    print("struct charge_bending_reference { double a, q, b, angle; };\n")
     print("static const struct charge_place_reference charge_place_reference[] = {")
     orbits = []
     for a, q in HOLES:
@@ -149,6 +169,12 @@ def main():
         for p, e in [(6.7, 0.3), (6.25, 0.1), (8, 0.9), (20, 0), (1000, 0.5), (3.7e7, 0.2)]:
             q, p, e = float(q), float(p), float(e)
             print(f"    {{ {q.hex()}, {p.hex()}, {e.hex()}, {text(advance(mpf(q), mpf(p), mpf(e)))} }},")
+    print("};\n\nstatic const struct charge_bending_reference charge_bending_reference[] = {")
+    for a, q in [(0.0, 0.5), (0.0, 1 - 1e-9), (0.3, 0.6), (-0.3, 0.6), (0.9, 0.4), (-0.9, 0.4), (0.8, 0.599999)]:
+        photon, _ = places(mpf(a), mpf(q))
+        for factor in [1.001, 1.3, 3, 12, 1e3, 1e7]:
+            b = float(factor / omega(mpf(a), mpf(q), photon))
+            print(f"    {{ {a.hex()}, {q.hex()}, {b.hex()}, {text(bending(mpf(a), mpf(q), mpf(b)))} }},")
     print("};\n\n#endif")
 
 

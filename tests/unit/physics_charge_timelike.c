@@ -117,8 +117,8 @@ static struct kd_orbit_place followed(const struct kd_orbit *o, const struct kd_
     return kd_orbit_path_place(&path);
 }
 
-/* A radial period and a bit: closed form and both integrators. An orbit closer to the separatrix than to 0 magnifies the
- * errors of all; so do the rounded constants of the oracle's start. */
+/* A radial period and a bit: closed form and both integrators. An orbit closer to the separatrix than to 0 magnifies
+ * the errors of all; so do the rounded constants of the oracle's start. */
 static void bound_orbits(void **state)
 {
     (void)state;
@@ -161,8 +161,8 @@ static void free_motion(void **state)
         struct kd_orbit_path path;
         kd_orbit_path_init(&path, &o, &start, KD_ORBIT_RKN6);
         const double h = 2e-3 / sqrt(o.total + 1);
-        for (int k = 0; k < 20000 && 1 / path.place[KD_PATH_W].value < 40 &&
-                        1 / path.place[KD_PATH_W].value > hole.outer * 1.05;
+        for (int k = 0;
+             k < 20000 && 1 / path.place[KD_PATH_W].value < 40 && 1 / path.place[KD_PATH_W].value > hole.outer * 1.05;
              k++)
             kd_orbit_path_step(&path, h);
         const struct kd_orbit_place got = kd_orbit_path_place(&path);
@@ -280,17 +280,21 @@ static void too_much_charge(void **state)
     const struct kd_hole hole = kd_hole_charged(0.8, 0.7);
     assert_int_equal(kd_orbit_from_shape(&hole, 10, 0.1, 1, &o, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/charge");
-    assert_non_null(strstr(error.message, "charge is 0.7; with spin 0.8 its magnitude must be below 0.6"));
+    assert_non_null(strstr(error.message, "charge is 0.7 M; with spin 0.8 its magnitude must be below 0.6 M"));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(norm_at_the_turning_points), cmocka_unit_test(radial_by_energy),
+        cmocka_unit_test(norm_at_the_turning_points),
+        cmocka_unit_test(radial_by_energy),
         cmocka_unit_test(bound_orbits),
-        cmocka_unit_test(free_motion),                cmocka_unit_test(precession_without_spin),
-        cmocka_unit_test(separatrix_without_spin),    cmocka_unit_test(lanes_are_scalar_paths),
-        cmocka_unit_test(extremes),                   cmocka_unit_test(too_much_charge),
+        cmocka_unit_test(free_motion),
+        cmocka_unit_test(precession_without_spin),
+        cmocka_unit_test(separatrix_without_spin),
+        cmocka_unit_test(lanes_are_scalar_paths),
+        cmocka_unit_test(extremes),
+        cmocka_unit_test(too_much_charge),
     };
     return cmocka_run_group_tests_name("bodies about charged holes", tests, NULL, NULL);
 }

@@ -149,7 +149,7 @@ double kd_orbit_least_circle(const struct kd_hole *hole, double x)
 enum kd_status kd_orbit_from_shape(const struct kd_hole *hole, double p, double e, double x, struct kd_orbit *o,
                                    struct kd_error *error)
 {
-    enum kd_status status = kd_orbit_check_hole(hole, error);
+    enum kd_status status = kd_hole_check(hole, error);
     if (status)
         return status;
     if (!(e >= 0 && e < 1))
@@ -160,7 +160,7 @@ enum kd_status kd_orbit_from_shape(const struct kd_hole *hole, double p, double 
     double least = p < 12.5 ? kd_orbit_separatrix(hole, e, x) : 0;
     if (p < least && (e > 0 || !exists(o)))
         return kd_error_field(
-            error, "/p", "p is %.16g; with this spin, e and inclination_deg it must be above the separatrix at %.9g", p,
+            error, "/p", "p is %.16g; with this hole, e and inclination_deg it must be above the separatrix at %.9g", p,
             least);
     o->fate = p < least ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND;
     return KD_OK;

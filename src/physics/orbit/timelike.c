@@ -103,16 +103,6 @@ static void set_fate(struct kd_orbit *o)
     o->fate = !o->turns_in ? KD_ORBIT_PLUNGE : o->turns_out ? KD_ORBIT_BOUND : KD_ORBIT_ESCAPE;
 }
 
-enum kd_status kd_orbit_check_hole(const struct kd_hole *hole, struct kd_error *error)
-{
-    if (!(fabs(hole->a) < 1))
-        return kd_error_field(error, "/spin", "spin is %.16g; it must be a number above -1 and below 1", hole->a);
-    if (!kd_hole_exists(hole))
-        return kd_error_field(error, "/charge", "charge is %.16g; with spin %.16g its magnitude must be below %.9g",
-                              hole->q, hole->a, sqrt((1 - hole->a) * (1 + hole->a)));
-    return KD_OK;
-}
-
 /* True if E(r^2 + a^2) - aL > 0: the particle moves towards the future. */
 static bool to_the_future(const struct kd_orbit *o)
 {
@@ -123,7 +113,7 @@ static bool to_the_future(const struct kd_orbit *o)
 enum kd_status kd_orbit_from_constants(const struct kd_hole *hole, double energy, double momentum, double carter,
                                        double r, struct kd_orbit *o, struct kd_error *error)
 {
-    enum kd_status status = kd_orbit_check_hole(hole, error);
+    enum kd_status status = kd_hole_check(hole, error);
     if (status)
         return status;
     if (!(carter >= 0))
@@ -194,7 +184,7 @@ static enum kd_status check_state(const struct kd_hole *hole, double r, double t
     const struct kd_vantage at = { *hole, r, kd_cos_deg(theta_deg), kd_sin_deg(theta_deg) };
     const struct kd_observer_row *row = &kd_observers[frame];
     char others[KD_OBSERVER_TEXT];
-    enum kd_status status = kd_orbit_check_hole(hole, error);
+    enum kd_status status = kd_hole_check(hole, error);
     double speed = hypot(hypot(v[0], v[1]), v[2]);
     if (status)
         return status;

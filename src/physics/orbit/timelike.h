@@ -88,7 +88,6 @@ double kd_orbit_radial_by_energy(const struct kd_orbit *orbit, double w);
 /* Shared by the files of this folder: sets all that follows from the hole, E, b, L and Q
  * alone. */
 void kd_orbit_set_constants(struct kd_orbit *orbit);
-enum kd_status kd_orbit_check_hole(const struct kd_hole *hole, struct kd_error *error);
 
 /* W = (w - w_low)(w_high - w)(g[0] + g[1] w + g[2] w^2), if both ends are turning points. */
 void kd_orbit_factor(const struct kd_orbit *orbit, double g[3]);
