@@ -800,6 +800,8 @@ export type FieldPath =
 export interface RaysRequest {
   /** spin of the hole, a/M; -1 to 1. */
   spin?: number;
+  /** charge Q of the hole; a^2 + Q^2 < 1 [M]; -1 to 1. */
+  charge?: number;
   observer?: {
     /** radius of the observer, M; outside the horizon; 1 to 10000000. */
     r?: 'infinity' | number;
@@ -911,6 +913,7 @@ export interface Ray {
 
 export interface RaysAnswer {
   spin: number;
+  charge?: number;
   observer: RaysObserver;
   /** at least 0. */
   orders: number;
@@ -922,6 +925,8 @@ export interface RaysAnswer {
 export interface OrbitByShape {
   /** spin of the hole, a/M; -1 to 1. */
   spin?: number;
+  /** charge Q of the hole; the body is neutral; a^2 + Q^2 < 1 [M]; -1 to 1. */
+  charge?: number;
   /** semi-latus rectum of a bound orbit; its radii are between p/(1+e) and p/(1-e) [M]; 1 to 1e+20. */
   p: number;
   /** eccentricity; 0 to 1. */
@@ -933,6 +938,8 @@ export interface OrbitByShape {
 export interface OrbitByConstants {
   /** spin of the hole, a/M; -1 to 1. */
   spin?: number;
+  /** charge Q of the hole; the body is neutral; a^2 + Q^2 < 1 [M]; -1 to 1. */
+  charge?: number;
   /** energy per rest mass; -1000000 to 1000000. */
   energy: number;
   /** angular momentum about the axis, per rest mass [M]; -1e+20 to 1e+20. */
@@ -948,6 +955,8 @@ export interface OrbitByConstants {
 export interface OrbitByState {
   /** spin of the hole, a/M; -1 to 1. */
   spin?: number;
+  /** charge Q of the hole; the body is neutral; a^2 + Q^2 < 1 [M]; -1 to 1. */
+  charge?: number;
   position: {
     /** radius [M]; 1 to 1e+20. */
     r: number;
@@ -971,6 +980,8 @@ export interface OrbitByState {
 export interface OrbitByCase {
   /** spin of the hole, a/M; -1 to 1. */
   spin?: number;
+  /** charge Q of the hole; the body is neutral; a^2 + Q^2 < 1 [M]; -1 to 1. */
+  charge?: number;
   /** an orbit by name. */
   case: 'mercury' | 'zoom-whirl' | 'plunge' | 'isco' | 'spherical';
 }
@@ -980,6 +991,8 @@ export type Orbit = OrbitByShape | OrbitByConstants | OrbitByState | OrbitByCase
 export interface OrbitsRequest {
   /** spin of the hole, a/M; -1 to 1. */
   spin?: number;
+  /** charge Q of the hole; the body is neutral; a^2 + Q^2 < 1 [M]; -1 to 1. */
+  charge?: number;
   /**
    * number of samples of the path, both ends included; 0 for none; at most 20000 if "seen" is given; 0 to 200000.
    */
@@ -1121,6 +1134,7 @@ export interface OrbitResult {
 /** per rest mass; lengths and times in M, angles in radians unless a name ends in _deg. */
 export interface OrbitPath {
   spin: number;
+  charge?: number;
   fate: 'bound' | 'plunge' | 'escape';
   circular: boolean;
   constants: OrbitConstants;
@@ -4566,6 +4580,8 @@ export interface Operations {
       query?: {
         /** spin of the hole, a/M; -1 to 1. */
         spin?: number;
+        /** charge Q of the hole; a^2 + Q^2 < 1 [M]; -1 to 1. */
+        charge?: number;
         /** radius of the observer, M; outside the horizon; 1 to 10000000. */
         r?: 'infinity' | number;
         /** polar angle of the observer, from the hole's axis; 0 to 180. */
@@ -4606,6 +4622,8 @@ export interface Operations {
       query?: {
         /** spin of the hole, a/M; -1 to 1. */
         spin?: number;
+        /** charge Q of the hole; a^2 + Q^2 < 1 [M]; -1 to 1. */
+        charge?: number;
         /** radius of the observer, M; outside the horizon; 1 to 10000000. */
         r?: 'infinity' | number;
         /** polar angle of the observer, from the hole's axis; 0 to 180. */
@@ -4661,6 +4679,8 @@ export interface Operations {
       query?: {
         /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /** polar angle at which the ergosphere is given [degrees]; 0 to 180; default 90. */
         theta_deg?: number | string;
         /** radius of the circular orbit whose frequencies are given [M]; 1 to 1000000000; default 10. */
@@ -4676,6 +4696,7 @@ export interface Operations {
         quantity: 'kerr';
         parameters: {
           spin: number | number[];
+          charge: number | number[];
           theta_deg: number | number[];
           r: 'isco' | number | number[];
         };
@@ -4686,7 +4707,7 @@ export interface Operations {
           horizon: number | null | (number | null)[];
           /** inner horizon r-. */
           inner_horizon: number | null | (number | null)[];
-          /** angular velocity of the horizon, a/(2 r+). */
+          /** angular velocity of the horizon, a/(2 r+ - Q^2). */
           horizon_omega: number | null | (number | null)[];
           /** static limit r_E at theta_deg. */
           ergosphere: number | null | (number | null)[];
@@ -4723,6 +4744,7 @@ export interface Operations {
         };
         units: {
           spin: string;
+          charge: string;
           theta_deg: string;
           r: string;
           horizon: string;
@@ -4888,6 +4910,8 @@ export interface Operations {
       query?: {
         /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /** impact parameter of light in the equatorial plane, |L|/E [M]; 1 to 1e+12; default 10. */
         b?: number | string;
         /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
@@ -4901,6 +4925,7 @@ export interface Operations {
         quantity: 'deflection';
         parameters: {
           spin: number | number[];
+          charge: number | number[];
           b: number | number[];
         };
         ranges?: string[];
@@ -4912,7 +4937,7 @@ export interface Operations {
           angle_retrograde: number | null | (number | null)[];
           /** weak field, 4/b. */
           weak: number | null | (number | null)[];
-          /** with the next order, 4/b + (15 pi/4 - 4a)/b^2. */
+          /** with the next order, 4/b + (15 pi/4 - 4a - 3 pi Q^2/4)/b^2. */
           weak_second: number | null | (number | null)[];
           /** the same towards -phi. */
           weak_second_retrograde: number | null | (number | null)[];
@@ -4942,6 +4967,7 @@ export interface Operations {
         };
         units: {
           spin: string;
+          charge: string;
           b: string;
           angle: string;
           angle_retrograde: string;
@@ -4971,6 +4997,8 @@ export interface Operations {
       query?: {
         /** spin parameter a [M]; -1 to 1; default 0. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /**
          * angular momentum, positive towards +phi: per unit mass for matter, and of the photon for v_light [M];
          * -1000000 to 1000000; default 4.
@@ -4989,6 +5017,7 @@ export interface Operations {
         quantity: 'potential';
         parameters: {
           spin: number | number[];
+          charge: number | number[];
           l: number | number[];
           r: number | number[];
         };
@@ -5016,6 +5045,7 @@ export interface Operations {
         };
         units: {
           spin: string;
+          charge: string;
           l: string;
           r: string;
           v_matter: string;
@@ -5040,6 +5070,8 @@ export interface Operations {
       query?: {
         /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /** polar angle of the observer, at infinity; not within 0.1 of 90 [degrees]; 0 to 180; default 60. */
         inclination_deg?: number | string;
         /** radius of the ring [M]; 1 to 10000; default 6. */
@@ -5060,6 +5092,7 @@ export interface Operations {
         quantity: 'redshift';
         parameters: {
           spin: number | number[];
+          charge: number | number[];
           inclination_deg: number | number[];
           r: 'isco' | number | number[];
           phi_deg: number | number[];
@@ -5101,6 +5134,7 @@ export interface Operations {
         };
         units: {
           spin: string;
+          charge: string;
           inclination_deg: string;
           r: string;
           phi_deg: string;
@@ -5131,6 +5165,8 @@ export interface Operations {
       query?: {
         /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /** polar angle of the observer; not within 0.1 of 90 [degrees]; 0 to 180; default 60. */
         inclination_deg?: number | string;
         /** radius of the observer [M]; 0.01 to 10000000; default "infinity". */
@@ -5183,6 +5219,7 @@ export interface Operations {
         quantity: 'ring-image';
         parameters: {
           spin: number | number[];
+          charge: number | number[];
           inclination_deg: number | number[];
           observer_r: 'infinity' | number | number[];
           observer: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
@@ -5222,6 +5259,7 @@ export interface Operations {
         };
         units: {
           spin: string;
+          charge: string;
           inclination_deg: string;
           observer_r: string;
           velocity_r: string;
@@ -5253,6 +5291,8 @@ export interface Operations {
       query?: {
         /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /**
          * polar angle of the observer, who is at infinity; at 90 the plane is a line [degrees]; 0 to 180; default 60.
          */
@@ -5278,6 +5318,7 @@ export interface Operations {
         quantity: 'photon-rings';
         parameters: {
           spin: number | number[];
+          charge: number | number[];
           inclination_deg: number | number[];
           angle_deg: number | number[];
           inner: 'horizon' | number | number[];
@@ -5307,6 +5348,7 @@ export interface Operations {
         };
         units: {
           spin: string;
+          charge: string;
           inclination_deg: string;
           angle_deg: string;
           inner: string;
@@ -5332,6 +5374,8 @@ export interface Operations {
       query?: {
         /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /** mass of the hole [solar masses]; 0.001 to 1e+12; default 100000000. */
         mass_msun?: number | string;
         /**
@@ -5352,6 +5396,7 @@ export interface Operations {
         quantity: 'disk-flux';
         parameters: {
           spin: number | number[];
+          charge: number | number[];
           mass_msun: number | number[];
           mdot_edd: number | number[];
           r: number | number[];
@@ -5392,6 +5437,7 @@ export interface Operations {
         };
         units: {
           spin: string;
+          charge: string;
           mass_msun: string;
           mdot_edd: string;
           r: string;
@@ -5708,6 +5754,8 @@ export interface Operations {
       query?: {
         /** spin parameter a [M]; -1 to 1; default 0. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /** Boyer-Lindquist radius, at or outside the horizon [M]; 1 to 1000000000; default "2:20:73". */
         r?: number | string;
         /** azimuth; ranges of azimuth and r make a mesh [degrees]; -360 to 360; default 0. */
@@ -5723,6 +5771,7 @@ export interface Operations {
         quantity: 'flamm';
         parameters: {
           spin: number | number[];
+          charge: number | number[];
           r: number | number[];
           phi_deg: number | number[];
         };
@@ -5735,17 +5784,18 @@ export interface Operations {
           y: number | null | (number | null)[];
           /** height over the horizon's circle. */
           z: number | null | (number | null)[];
-          /** circumference over 2 pi, sqrt(r^2 + a^2 + 2a^2/r). */
+          /** circumference over 2 pi, sqrt(r^2 + a^2 + a^2 (2r - Q^2)/r^2). */
           radius: number | null | (number | null)[];
           /** from the horizon along r. */
           proper_distance: number | null | (number | null)[];
-          /** sqrt(8 (r - 2)), z for a = 0; null for r < 2. */
+          /** sqrt(8 (r - 2)), z for a = Q = 0; null for r < 2. */
           flamm: number | null | (number | null)[];
           /** where the surface begins. */
           horizon: number | null | (number | null)[];
         };
         units: {
           spin: string;
+          charge: string;
           r: string;
           phi_deg: string;
           x: string;
@@ -5768,6 +5818,8 @@ export interface Operations {
       query?: {
         /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /** polar angle [degrees]; 0 to 180; default 90. */
         theta_deg?: number | string;
         /** radius [M]; 1 to 1000000000; default 10. */
@@ -5783,6 +5835,7 @@ export interface Operations {
         quantity: 'frame-dragging';
         parameters: {
           spin: number | number[];
+          charge: number | number[];
           theta_deg: number | number[];
           r: number | number[];
         };
@@ -5797,13 +5850,14 @@ export interface Operations {
           omega_least: number | null | (number | null)[];
           /** largest angular velocity of any observer at r; null on the axis, as is the smallest. */
           omega_most: number | null | (number | null)[];
-          /** angular velocity of the horizon, a/(2 r+). */
+          /** angular velocity of the horizon, a/(2 r+ - Q^2). */
           horizon_omega: number | null | (number | null)[];
           /** static limit at theta_deg. */
           ergosphere: number | null | (number | null)[];
         };
         units: {
           spin: string;
+          charge: string;
           theta_deg: string;
           r: string;
           omega: string;
@@ -5927,6 +5981,8 @@ export interface Operations {
       query?: {
         /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /** polar angle of the observer [degrees]; 0 to 180; default 60. */
         inclination_deg?: number | string;
         /** radius of the observer [M]; 0.01 to 10000000; default "infinity". */
@@ -5976,6 +6032,7 @@ export interface Operations {
         quantity: 'sky';
         parameters: {
           spin: number | number[];
+          charge: number | number[];
           inclination_deg: number | number[];
           observer_r: 'infinity' | number | number[];
           observer: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
@@ -6020,6 +6077,7 @@ export interface Operations {
         };
         units: {
           spin: string;
+          charge: string;
           inclination_deg: string;
           observer_r: string;
           velocity_r: string;
@@ -6361,6 +6419,8 @@ export interface Operations {
       query?: {
         /** spin parameter a; a < 0: the orbit or the disk turns against its hole [M]; -1 to 1; default 0.9. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /**
          * inclination of the orbit to the equator, as of /v1/orbits; more than 90 is retrograde [degrees]; 0 to 180;
          * default 0.
@@ -6379,6 +6439,7 @@ export interface Operations {
         quantity: 'separatrix';
         parameters: {
           spin: number | number[];
+          charge: number | number[];
           inclination_deg: number | number[];
           e: number | number[];
         };
@@ -6399,6 +6460,7 @@ export interface Operations {
         };
         units: {
           spin: string;
+          charge: string;
           inclination_deg: string;
           e: string;
           p: string;

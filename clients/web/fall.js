@@ -3,7 +3,7 @@
 // fast it falls, and where it is put by the slider.
 import { byId, latest, still } from './dom.js';
 import { duration, number, t, tell } from './i18n.js';
-import { physics } from './server.js';
+import { holeOf, physics } from './server.js';
 
 const begin_r = 20; // M, the radius where the fall begins if the camera is at infinity
 const wide_deg = 100;
@@ -34,8 +34,7 @@ const falls = scene => scene.get('camera.r') !== 'infinity' && scene.get('camera
 function faller(scene) {
   const own = name => [name, scene.get('camera.' + name)];
   return {
-    spin: scene.get('spacetime.spin'),
-    ...(scene.get('spacetime.charge') ? { charge: scene.get('spacetime.charge') } : {}),
+    ...holeOf(scene),
     inclination_deg: scene.get('camera.inclination_deg'),
     mass_msun: scene.get('spacetime.mass_msun'),
     ...(falls(scene) ? Object.fromEntries(numbers.map(own)) : {}),

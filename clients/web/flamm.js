@@ -1,15 +1,15 @@
 // Curved space over the picture: Flamm's paraboloid, also of a spinning hole, and how its spokes are dragged round.
 import { t } from './i18n.js';
-import { drawn, physics } from './server.js';
+import { drawn, holeOf, physics } from './server.js';
 
 const radians = Math.PI / 180;
 const dragged_for = 10; // M, the time for which the spokes are dragged
 
 // The grid in space, projected along straight lines from the camera.
 export async function flamm(scene, look, path) {
-  const spin = scene.get('spacetime.spin'),
+  const hole = holeOf(scene),
     far = scene.get('camera.r') === 'infinity',
-    { horizon } = (await physics('kerr', { spin })).values,
+    { horizon } = (await physics('kerr', hole)).values,
     within = !far && scene.get('camera.r') <= horizon;
   if (within)
     throw new Error(
@@ -21,8 +21,8 @@ export async function flamm(scene, look, path) {
   const outer = Math.max(scene.get('disk.outer'), 12);
   const range = `${horizon}:${outer}:129`;
   const [surface, dragging] = await Promise.all([
-    physics('flamm', { spin, r: range, ...drawn }),
-    physics('frame-dragging', { spin, r: range, ...drawn }),
+    physics('flamm', { ...hole, r: range, ...drawn }),
+    physics('frame-dragging', { ...hole, r: range, ...drawn }),
   ]);
   const { radius, z } = surface.values,
     depth = z.at(-1),

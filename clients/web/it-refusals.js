@@ -189,8 +189,8 @@ const refusals = [
     '{} è {}; con {} {} deve essere 0, perché oltre {} i modi di un buco si affollano e nessuno risuona da solo',
   ],
   [
-    '{} is {}; with this spin, e and inclination_deg it must be above the separatrix at {}',
-    '{} è {}; con questi spin, e e inclination_deg deve essere sopra la separatrice, a {}',
+    '{} is {}; with this hole, e and inclination_deg it must be above the separatrix at {}',
+    '{} è {}; con questo buco, e e inclination_deg deve essere sopra la separatrice, a {}',
   ],
   [
     "{} is {}; inside the horizon, at {} {}, it must be {}, because coordinate time does not define the light's delay there",

@@ -26,7 +26,9 @@ const anyWay = asked => (asked.method === 'closed' && asked.orbit.p == null ? { 
 export async function settled(asked) {
   const { p, e, inclination_deg } = asked.orbit;
   if (p == null) return { asked: anyWay(asked) };
-  const { values } = await physics('separatrix', { spin: asked.spin, e, inclination_deg });
+  const { spin, charge = 0 } = asked,
+    hole = charge ? { spin, charge } : { spin },
+    { values } = await physics('separatrix', { ...hole, e, inclination_deg });
   if (p > values.p) return { asked };
   return e === 0 && p > values.circle
     ? { asked: { ...asked, method: asked.method === 'closed' ? 'yoshida6' : asked.method } }

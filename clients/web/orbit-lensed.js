@@ -4,7 +4,7 @@ import { number, t } from './i18n.js';
 import * as link from './link.js';
 import { follow, settled } from './orbit-ask.js';
 import { requested, specs } from './orbit-fields.js';
-import { lines } from './server.js';
+import { holeOf, lines } from './server.js';
 
 const apart = (5 * Math.PI) / 180; // angle between neighbouring points as seen from the hole
 const margin = 1.1; // the largest angle was measured on a path with other samples
@@ -83,8 +83,7 @@ async function images(asked, signal) {
 
 async function seen(scene, signal) {
   const chosen = Object.fromEntries(specs.map(({ name, value }) => [name, link.get('orbit.' + name) ?? value])),
-    spin = scene.get('spacetime.spin'),
-    wanted = { ...requested(chosen), spin },
+    wanted = { ...requested(chosen), ...holeOf(scene) },
     view = observer(scene),
     key = JSON.stringify([wanted, view]);
   if (key === last.key) return last.answer;
@@ -110,7 +109,7 @@ function share({ rows, asked, all, fate }) {
 // look, path: see overlay.js; signal: aborts when the camera moves
 export async function orbit(scene, look, path, width, signal) {
   const answer = await seen(scene, signal),
-    { rows, columns, spin, shape } = answer,
+    { rows, columns, spin, charge, shape } = answer,
     column = name => rows.map(row => row[columns.indexOf(name)]),
     [alpha, beta, right, up, inwards, off] = ['alpha', 'beta', 'right', 'up', 'inwards', 'off'].map(column),
     far = scene.get('camera.r') === 'infinity';
@@ -125,9 +124,10 @@ export async function orbit(scene, look, path, width, signal) {
     lost = off.filter(miss => miss == null).length,
     worst = off.reduce((most, miss) => Math.max(most, miss ?? 0), 0),
     part = share(answer),
+    hole = `a = ${number(spin)} M${charge ? `, Q = ${number(charge)} M` : ''}`,
     name = shape
-      ? `p = ${number(shape.p)} M, e = ${number(shape.e)}, ${number(shape.inclination_deg)}°, a = ${number(spin)} M`
-      : `a = ${number(spin)} M`;
+      ? `p = ${number(shape.p)} M, e = ${number(shape.e)}, ${number(shape.inclination_deg)}°, ${hole}`
+      : hole;
   return {
     lines: [path(whole)],
     tags: [t('orbit', 'orbita')],

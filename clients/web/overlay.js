@@ -3,7 +3,7 @@
 import { byId, el, latest, svg } from './dom.js';
 import { number, t, tell } from './i18n.js';
 import { nameLines } from './naming.js';
-import { drawn, physics } from './server.js';
+import { drawn, holeOf, physics } from './server.js';
 import * as link from './link.js';
 
 const radians = Math.PI / 180;
@@ -66,7 +66,6 @@ const path = (points, closed) => {
     : text;
 };
 
-const charge = scene => (scene.get('spacetime.charge') ? { charge: scene.get('spacetime.charge') } : {});
 const at_infinity = scene => scene.get('camera.r') === 'infinity';
 const motion = scene =>
   Object.fromEntries(
@@ -76,8 +75,7 @@ const motion = scene =>
     ]),
   );
 const hole = scene => ({
-  spin: scene.get('spacetime.spin'),
-  ...charge(scene),
+  ...holeOf(scene),
   inclination_deg: scene.get('camera.inclination_deg'),
   ...(at_infinity(scene)
     ? {}
@@ -137,7 +135,7 @@ async function circle(scene, look, r, order = 0) {
   return path(fine.map(point => point.at));
 }
 
-const radii = async scene => (await physics('kerr', { spin: scene.get('spacetime.spin') })).values;
+const radii = async scene => (await physics('kerr', holeOf(scene))).values;
 
 async function photons(scene, look) {
   const { photon_prograde: one, photon_retrograde: other } = await radii(scene);
@@ -234,7 +232,7 @@ const overlays = [
   ['orbit', orbit, 'Orbit of the Orbits view, lensed', 'Orbita della vista Orbite, deviata dalla lente'],
 ];
 
-const charged = ['shadow', 'names']; // these are known for a charged hole, too
+const uncharged = ['polarization', 'ring']; // these are known for an uncharged hole only
 const slow = ['orbit']; // takes seconds: the other lines are drawn first
 
 export function buildOverlays(root, stage, scene) {
@@ -261,7 +259,7 @@ export function buildOverlays(root, stage, scene) {
       try {
         if (scene.get('camera.projection') === 'ring' || scene.get('camera.stereo') === 'pair')
           throw new Error(t('not in this projection', 'non in questa proiezione'));
-        if (scene.get('spacetime.charge') && !charged.includes(name))
+        if (scene.get('spacetime.charge') && uncharged.includes(name))
           throw new Error(t('known for an uncharged hole only', 'nota solo per un buco scarico'));
         if (slow.includes(name))
           lay(groups, width, height),

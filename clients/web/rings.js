@@ -2,7 +2,7 @@
 // distance to it in decades, outside the curve above and inside below; and the image orders, placed by where the disk's
 // edges are seen.
 import { svg } from './dom.js';
-import { drawn, physics } from './server.js';
+import { drawn, holeOf, physics } from './server.js';
 
 const orders = 6;
 const every_deg = 45;
@@ -39,9 +39,8 @@ export async function ringAxes(scene, width, height) {
   // A third of the way across, in the middle of each band that is tall enough on the screen.
   const x = width / 3,
     [inner, outer] = [scene.get('disk.inner'), scene.get('disk.outer')];
-  if (scene.get('spacetime.charge')) return { lines, nodes }; // the widths of rings are known for an uncharged hole
   const { values } = await physics('photon-rings', {
-    spin: scene.get('spacetime.spin'),
+    ...holeOf(scene),
     inclination_deg: get('inclination_deg'),
     angle_deg: ((angle(x) % 360) + 360) % 360,
     order: `1:${orders}:${orders}`,

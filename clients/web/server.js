@@ -73,6 +73,12 @@ export function physicsUrl(name, parameters) {
   return `v1/physics/${name}?` + new URLSearchParams(parameters).toString().replaceAll('%3A', ':');
 }
 
+// A scene's hole as parameters of quantities and orbits. Without charge they are as short as before there was one.
+export const holeOf = scene => ({
+  spin: scene.get('spacetime.spin'),
+  ...(scene.get('spacetime.charge') ? { charge: scene.get('spacetime.charge') } : {}),
+});
+
 // Charts show no more digits than these; all digits would be three times the bytes.
 export const drawn = { digits: 6 };
 

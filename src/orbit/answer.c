@@ -150,10 +150,10 @@ static double periastron_advance(const struct kd_orbit_run *run)
 /* Advance per radial period. An orbit in the equatorial plane has no node. */
 static void advances(struct text *t, const struct kd_orbit_run *run, double p)
 {
-    double advance = periastron_advance(run);
+    double advance = periastron_advance(run), q2 = run->orbit.hole.q * run->orbit.hole.q;
     open(t, "advance");
     member(t, "periastron", advance);
-    member(t, "weak_field", run->orbit.circular ? NAN : 6 * M_PI / p);
+    member(t, "weak_field", run->orbit.circular ? NAN : (6 - q2) * M_PI / p);
     member(t, "node", run->orbit.z > 0 ? kd_orbit_nodal_advance(&run->bound) : NAN);
     if (!isnan(run->mass_msun)) {
         double period_s = 2 * M_PI / run->frequencies.r * KD_M_SUN_S * run->mass_msun;
@@ -167,6 +167,8 @@ static void head(struct text *t, const struct kd_orbit_run *run)
     const struct kd_orbit *o = &run->orbit;
     double swing = asin(fmin(sqrt(o->z), 1)) * 180 / M_PI;
     member(t, "spin", o->hole.a);
+    if (o->hole.q != 0)
+        member(t, "charge", o->hole.q);
     put(t, ",\"fate\":\"");
     put(t, kd_orbit_fate_name(o->fate));
     put(t, o->circular ? "\",\"circular\":true" : "\",\"circular\":false");

@@ -99,6 +99,7 @@ void kd_orbit_answer_schemas(struct kd_json *json)
 {
     static const struct kd_schema_member path[] = {
         { "spin", NUMBER },
+        { "charge", NUMBER, true },
         { "fate", NULL, false, fate },
         { "circular", KD_SCHEMA_BOOL },
         { "constants", KD_SCHEMA_REF("OrbitConstants") },

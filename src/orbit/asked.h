@@ -20,7 +20,8 @@ const char *kd_orbit_way_name(enum kd_orbit_way way); /* "yoshida6", "rkn6", "cl
 
 struct kd_orbit_spec {
     enum kd_orbit_form form;
-    double spin; /* NAN: the spin of the request, or of the named case */
+    double spin;   /* NAN: the spin of the request, or of the named case */
+    double charge; /* NAN: the charge of the request */
     double p, e, inclination_deg;
     double energy, momentum, carter, r; /* r: NAN if not given */
     bool outward;
@@ -31,7 +32,8 @@ struct kd_orbit_spec {
 };
 
 struct kd_orbit_params {
-    double spin; /* NAN if not given; it is then 0, or that of the named case */
+    double spin;   /* NAN if not given; it is then 0, or that of the named case */
+    double charge; /* NAN if not given; it is then 0 */
     double periods,
         /* Duration: radial periods (turns, if r is constant), or t in M. At most one is given, the other is NAN. */
         time;

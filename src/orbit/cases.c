@@ -8,35 +8,43 @@
 double kd_orbit_case_mass_msun(enum kd_orbit_case which) { return which == KD_CASE_MERCURY ? 1 : NAN; }
 
 /* Semi-major axis and eccentricity of Mercury from NASA's planetary fact sheet, GM of the Sun as IAU 2015 nominal. */
-static struct kd_orbit_spec mercury(double spin)
+static struct kd_orbit_spec mercury(double spin, double charge)
 {
     const double axis_m = 57.909e9, e = 0.20563, gm_m = 1.3271244e20 / (299792458. * 299792458.);
     return (struct kd_orbit_spec) {
-        .form = KD_ORBIT_SHAPE, .spin = isnan(spin) ? 0 : spin, .e = e, .p = axis_m * (1 - e * e) / gm_m
+        .form = KD_ORBIT_SHAPE,
+        .spin = isnan(spin) ? 0 : spin,
+        .charge = charge,
+        .e = e,
+        .p = axis_m * (1 - e * e) / gm_m,
     };
 }
 
-struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin)
+struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin, double charge)
 {
-    struct kd_orbit_spec spec = { .form = KD_ORBIT_SHAPE, .spin = isnan(spin) ? 0.9 : spin };
+    const double q = isnan(charge) ? 0 : charge;
+    struct kd_orbit_spec spec = { .form = KD_ORBIT_SHAPE, .spin = isnan(spin) ? 0.9 : spin, .charge = q };
+    const struct kd_hole hole = kd_hole_charged(spec.spin, q);
+    if (!kd_hole_exists(&hole)) /* which is refused later */
+        return spec;
     switch (which) {
-    case KD_CASE_MERCURY: return mercury(spin);
+    case KD_CASE_MERCURY: return mercury(spin, q);
     case KD_CASE_ZOOM_WHIRL: /* a ten-thousandth outside the separatrix: several turns of whirl for each radial period
                               */
         spec.e = 0.8;
-        spec.p = 1.0001 * kd_orbit_separatrix(kd_hole(spec.spin), spec.e, 1);
+        spec.p = 1.0001 * kd_orbit_separatrix(&hole, spec.e, 1);
         return spec;
     case KD_CASE_PLUNGE: /* tangential velocity too small to stay in orbit */
         spec.form = KD_ORBIT_STATE;
-        spec.place_r = 2 * kd_kerr_isco(kd_hole(spec.spin));
+        spec.place_r = 2 * kd_kerr_isco(&hole);
         spec.theta_deg = 90;
         spec.frame = KD_OBSERVER_ZAMO;
         spec.v[2] = 0.2;
         return spec;
-    case KD_CASE_ISCO: spec.p = kd_kerr_isco(kd_hole(spec.spin)); return spec;
+    case KD_CASE_ISCO: spec.p = kd_kerr_isco(&hole); return spec;
     case KD_CASE_SPHERICAL:
         spec.inclination_deg = 60;
-        spec.p = 1.5 * kd_orbit_separatrix(kd_hole(spec.spin), 0, 0.5);
+        spec.p = 1.5 * kd_orbit_separatrix(&hole, 0, 0.5);
         return spec;
     case KD_CASES: break;
     }

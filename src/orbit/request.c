@@ -26,6 +26,7 @@ static const char *const form_texts[KD_ORBIT_FORMS] = {
 void kd_orbit_request_init(struct kd_orbit_request *request)
 {
     *request = (struct kd_orbit_request) { .params = { .spin = NAN,
+                                                       .charge = NAN,
                                                        .periods = NAN,
                                                        .time = NAN,
                                                        .r_max = 100,
@@ -45,7 +46,7 @@ void kd_orbit_request_finish(struct kd_orbit_request *request)
 static struct kd_orbit_spec empty_spec(void)
 {
     return (struct kd_orbit_spec) {
-        .form = KD_ORBIT_FORMS, .spin = NAN, .r = NAN, .theta_deg = 90, .frame = KD_OBSERVER_ZAMO
+        .form = KD_ORBIT_FORMS, .spin = NAN, .charge = NAN, .r = NAN, .theta_deg = 90, .frame = KD_OBSERVER_ZAMO
     };
 }
 
@@ -263,17 +264,17 @@ static enum kd_status check_whirl(const struct kd_orbit_spec *s, const struct kd
 static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit_params *params, struct kd_orbit *orbit,
                             struct kd_orbit_state *start, double *rounding, struct kd_error *error)
 {
+    const struct kd_hole hole = kd_hole_charged(s->spin, s->charge);
     double x = kd_cos_deg(s->inclination_deg), r = s->r;
     enum kd_status status;
     switch (s->form) {
-    case KD_ORBIT_SHAPE: status = kd_orbit_from_shape(kd_hole(s->spin), s->p, s->e, x, orbit, error); break;
+    case KD_ORBIT_SHAPE: status = kd_orbit_from_shape(&hole, s->p, s->e, x, orbit, error); break;
     case KD_ORBIT_CONSTANTS:
         if (isnan(r) && s->energy >= 1)
             r = params->r_max;
-        status = kd_orbit_from_constants(kd_hole(s->spin), s->energy, s->momentum, s->carter, r, orbit, error);
+        status = kd_orbit_from_constants(&hole, s->energy, s->momentum, s->carter, r, orbit, error);
         break;
-    default:
-        status = kd_orbit_from_state(kd_hole(s->spin), s->place_r, s->theta_deg, s->frame, s->v, orbit, start, error);
+    default: status = kd_orbit_from_state(&hole, s->place_r, s->theta_deg, s->frame, s->v, orbit, start, error);
     }
     if (!status && s->form != KD_ORBIT_STATE)
         *start = kd_orbit_start(orbit, s->form == KD_ORBIT_SHAPE ? NAN : r, s->outward);
@@ -289,18 +290,23 @@ enum kd_status kd_orbit_request_solve(const struct kd_orbit_request *request, si
     struct kd_error why = { 0 };
     if (isnan(spec.spin))
         spec.spin = request->params.spin;
+    if (isnan(spec.charge))
+        spec.charge = request->params.charge;
     if (spec.form == KD_ORBIT_CASE)
-        spec = kd_orbit_case_spec(spec.named, spec.spin);
+        spec = kd_orbit_case_spec(spec.named, spec.spin, spec.charge);
     if (isnan(spec.spin))
         spec.spin = 0;
+    if (isnan(spec.charge))
+        spec.charge = 0;
     enum kd_status status = solve(&spec, &request->params, orbit, start, rounding, &why);
     if (!status)
         return KD_OK;
     char pointer[sizeof why.pointer + 40];
     if (request->many)
         snprintf(pointer, sizeof pointer, "/orbits/%zu%s", index, why.pointer);
-    else if (!strcmp(why.pointer, "/spin") && isnan(request->specs[0].spin))
-        snprintf(pointer, sizeof pointer, "/spin");
+    else if ((!strcmp(why.pointer, "/spin") && isnan(request->specs[0].spin)) ||
+             (!strcmp(why.pointer, "/charge") && isnan(request->specs[0].charge)))
+        snprintf(pointer, sizeof pointer, "%s", why.pointer);
     else
         snprintf(pointer, sizeof pointer, "/orbit%s", why.pointer);
     return kd_error_field(error, pointer, "%s", why.message);

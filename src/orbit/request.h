@@ -12,8 +12,8 @@
  *     {"case"}                                                        "mercury", "zoom-whirl", "plunge", "isco",
  *       "spherical"
  *
- * and may have its own "spin". "orbits" instead of "orbit" is an array of up to KD_ORBITS_MAX; the answer has a
- * summary of each, and series if "series" is true. */
+ * and may have its own "spin" and "charge". "orbits" instead of "orbit" is an array of up to KD_ORBITS_MAX; the answer
+ * has a summary of each, and series if "series" is true. */
 #ifndef KD_ORBIT_REQUEST_H
 #define KD_ORBIT_REQUEST_H
 

@@ -5,6 +5,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
+    KD_PARAMETER_CHARGE(P) \
     P(b, .unit = "M", .typed = "10", .least = 1, .most = 1e12, \
       .help = "impact parameter of light in the equatorial plane, |L|/E")
 #define OUTPUTS(O) \
@@ -12,7 +13,7 @@
       .help = "total bending towards +phi, whole turns included; null if captured, b < b_critical") \
     O(angle_retrograde, .unit = "radians", .help = "the same for light that turns towards -phi") \
     O(weak, .unit = "radians", .help = "weak field, 4/b") \
-    O(weak_second, .unit = "radians", .help = "with the next order, 4/b + (15 pi/4 - 4a)/b^2") \
+    O(weak_second, .unit = "radians", .help = "with the next order, 4/b + (15 pi/4 - 4a - 3 pi Q^2/4)/b^2") \
     O(weak_second_retrograde, .unit = "radians", .help = "the same towards -phi") \
     O(strong, .unit = "radians", \
       .help = "limit close to b_critical, -rate ln(b/b_critical - 1) + offset; null if captured") \
@@ -32,6 +33,7 @@ KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 static const char *const sources[] = {
     "C. G. Darwin 1959, Proc. R. Soc. Lond. A 249, 180; S. V. Iyer & E. C. Hioki 2009, arXiv:0907.0352",
     "V. Bozza 2002, Phys. Rev. D 66, 103001 (strong limit)",
+    "E. F. Eiroa, G. E. Romero & D. F. Torres 2002, Phys. Rev. D 66, 024010 (a charged hole)",
     NULL,
 };
 static const char *const approximations[] = {
@@ -51,23 +53,23 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
     struct memory *m = memory;
-    double a = p->spin, b = p->b;
-    (void)error;
+    const struct kd_hole *hole = KD_QUANTITY_HOLE(p), *turned = kd_hole_turned(hole, -1);
+    double b = p->b;
+    if (kd_hole_check(hole, error))
+        return KD_EINVAL;
     if (fresh) {
-        *m = (struct memory) { kd_deflection_strong(kd_hole(a)), kd_deflection_strong(kd_hole(-a)) };
-        o->b_critical = kd_deflection_critical(kd_hole(a)),
-        o->b_critical_retrograde = kd_deflection_critical(kd_hole(-a));
+        *m = (struct memory) { kd_deflection_strong(hole), kd_deflection_strong(turned) };
+        o->b_critical = kd_deflection_critical(hole), o->b_critical_retrograde = kd_deflection_critical(turned);
         o->strong_rate = m->with.rate, o->strong_offset = m->with.offset;
     }
-    o->angle = kd_deflection(kd_hole(a), b), o->angle_retrograde = kd_deflection(kd_hole(-a), b);
+    o->angle = kd_deflection(hole, b), o->angle_retrograde = kd_deflection(turned, b);
     o->weak = kd_deflection_weak(b);
-    o->weak_second = kd_deflection_weak_second(kd_hole(a), b);
-    o->weak_second_retrograde = kd_deflection_weak_second(kd_hole(-a), b);
+    o->weak_second = kd_deflection_weak_second(hole, b);
+    o->weak_second_retrograde = kd_deflection_weak_second(turned, b);
     o->strong = strong(m->with, b, o->b_critical);
     o->strong_retrograde = strong(m->against, b, o->b_critical_retrograde);
-    o->closest = kd_deflection_closest(kd_hole(a), b), o->closest_retrograde = kd_deflection_closest(kd_hole(-a), b);
-    o->farthest = kd_deflection_farthest(kd_hole(a), b),
-    o->farthest_retrograde = kd_deflection_farthest(kd_hole(-a), b);
+    o->closest = kd_deflection_closest(hole, b), o->closest_retrograde = kd_deflection_closest(turned, b);
+    o->farthest = kd_deflection_farthest(hole, b), o->farthest_retrograde = kd_deflection_farthest(turned, b);
     return KD_OK;
 }
 

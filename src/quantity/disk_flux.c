@@ -6,6 +6,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
+    KD_PARAMETER_CHARGE(P) \
     KD_PARAMETER_MASS(P) \
     P(mdot_edd, .unit = "Eddington rates", .typed = "0.1", .least = 1e-12, .most = 1e3, \
       .help = "accretion rate as luminosity over the Eddington luminosity, with the efficiency of this spin") \
@@ -43,14 +44,14 @@ static const char *const approximations[] = {
 
 static void fill_disk(const struct parameters *p, struct outputs *o)
 {
+    const struct kd_hole *hole = KD_QUANTITY_HOLE(p);
     double m_sun_kg = KD_GM_SUN_SI / KD_G_SI;
-    o->inner = kd_kerr_isco(kd_hole(p->spin));
-    o->r_peak = kd_disk_peak_page_thorne(kd_hole(p->spin));
-    o->t_peak_k = kd_disk_temperature(kd_disk_flux_page_thorne(kd_hole(p->spin), o->r_peak), kd_hole(p->spin),
-                                      p->mass_msun, p->mdot_edd);
-    o->efficiency = kd_kerr_efficiency(kd_hole(p->spin));
+    o->inner = kd_kerr_isco(hole);
+    o->r_peak = kd_disk_peak_page_thorne(hole);
+    o->t_peak_k = kd_disk_temperature(kd_disk_flux_page_thorne(hole, o->r_peak), hole, p->mass_msun, p->mdot_edd);
+    o->efficiency = kd_kerr_efficiency(hole);
     o->efficiency_newton = 1 / (2 * o->inner);
-    o->mdot_kg_s = kd_disk_rate(kd_hole(p->spin), p->mass_msun, p->mdot_edd);
+    o->mdot_kg_s = kd_disk_rate(hole, p->mass_msun, p->mdot_edd);
     o->mdot_msun_yr = o->mdot_kg_s * KD_YEAR_S / m_sun_kg;
     o->luminosity_w = o->efficiency * o->mdot_kg_s * KD_C_M_S * KD_C_M_S;
     o->luminosity_lsun = o->luminosity_w / KD_L_SUN_W;
@@ -59,18 +60,19 @@ static void fill_disk(const struct parameters *p, struct outputs *o)
 static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
 {
     const struct parameters *p = KD_QUANTITY_IN(in);
+    const struct kd_hole *hole = KD_QUANTITY_HOLE(p);
     struct outputs *o = KD_QUANTITY_OUT(out);
     (void)memory;
-    if (kd_quantity_outside_horizon(kd_hole(p->spin), p->r, error))
+    if (kd_hole_check(hole, error) || kd_quantity_outside_horizon(hole, p->r, error))
         return KD_EINVAL;
     if (fresh)
         fill_disk(p, o);
-    o->page_thorne = kd_disk_flux_page_thorne(kd_hole(p->spin), p->r);
-    o->shakura_sunyaev = kd_disk_flux_shakura_sunyaev(kd_hole(p->spin), p->r);
-    o->page_thorne_w_m2 = kd_disk_flux_si(o->page_thorne, kd_hole(p->spin), p->mass_msun, p->mdot_edd);
-    o->shakura_sunyaev_w_m2 = kd_disk_flux_si(o->shakura_sunyaev, kd_hole(p->spin), p->mass_msun, p->mdot_edd);
-    o->t_eff_k = kd_disk_temperature(o->page_thorne, kd_hole(p->spin), p->mass_msun, p->mdot_edd);
-    o->t_eff_newton_k = kd_disk_temperature(o->shakura_sunyaev, kd_hole(p->spin), p->mass_msun, p->mdot_edd);
+    o->page_thorne = kd_disk_flux_page_thorne(hole, p->r);
+    o->shakura_sunyaev = kd_disk_flux_shakura_sunyaev(hole, p->r);
+    o->page_thorne_w_m2 = kd_disk_flux_si(o->page_thorne, hole, p->mass_msun, p->mdot_edd);
+    o->shakura_sunyaev_w_m2 = kd_disk_flux_si(o->shakura_sunyaev, hole, p->mass_msun, p->mdot_edd);
+    o->t_eff_k = kd_disk_temperature(o->page_thorne, hole, p->mass_msun, p->mdot_edd);
+    o->t_eff_newton_k = kd_disk_temperature(o->shakura_sunyaev, hole, p->mass_msun, p->mdot_edd);
     return KD_OK;
 }
 

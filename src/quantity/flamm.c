@@ -5,6 +5,7 @@
 #include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
+    KD_PARAMETER_CHARGE(P) \
     P(spin, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, .help = "spin parameter a") \
     P(r, .unit = "M", .typed = "2:20:73", .least = 1, .most = 1e9, \
       .help = "Boyer-Lindquist radius, at or outside the horizon") \
@@ -14,9 +15,9 @@
     O(x, .unit = "M", .help = "of the embedded surface: radius cos(phi)") \
     O(y, .unit = "M", .help = "of the embedded surface: radius sin(phi)") \
     O(z, .unit = "M", .help = "height over the horizon's circle") \
-    O(radius, .unit = "M", .help = "circumference over 2 pi, sqrt(r^2 + a^2 + 2a^2/r)") \
+    O(radius, .unit = "M", .help = "circumference over 2 pi, sqrt(r^2 + a^2 + a^2 (2r - Q^2)/r^2)") \
     O(proper_distance, .unit = "M", .help = "from the horizon along r") \
-    O(flamm, .unit = "M", .help = "sqrt(8 (r - 2)), z for a = 0; null for r < 2") \
+    O(flamm, .unit = "M", .help = "sqrt(8 (r - 2)), z for a = Q = 0; null for r < 2") \
     O(horizon, .unit = "M", .fixed = true, .help = "where the surface begins")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
@@ -32,18 +33,19 @@ struct memory { double r, z; };
 static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
 {
     const struct parameters *p = KD_QUANTITY_IN(in);
+    const struct kd_hole *hole = KD_QUANTITY_HOLE(p);
     struct outputs *o = KD_QUANTITY_OUT(out);
     struct memory *m = memory;
-    if (kd_quantity_outside_horizon(kd_hole(p->spin), p->r, error))
+    if (kd_hole_check(hole, error) || kd_quantity_outside_horizon(hole, p->r, error))
         return KD_EINVAL;
     if (fresh || m->r != p->r)
-        *m = (struct memory) { p->r, kd_embedding_height(kd_hole(p->spin), p->r) };
-    o->horizon = kd_hole(p->spin)->outer;
-    o->radius = kd_embedding_radius(kd_hole(p->spin), p->r);
+        *m = (struct memory) { p->r, kd_embedding_height(hole, p->r) };
+    o->horizon = hole->outer;
+    o->radius = kd_embedding_radius(hole, p->r);
     o->x = o->radius * kd_cos_deg(p->phi_deg);
     o->y = o->radius * kd_sin_deg(p->phi_deg);
     o->z = m->z;
-    o->proper_distance = kd_embedding_distance(kd_hole(p->spin), p->r);
+    o->proper_distance = kd_embedding_distance(hole, p->r);
     o->flamm = p->r >= 2 ? sqrt(8 * (p->r - 2)) : NAN;
     return KD_OK;
 }

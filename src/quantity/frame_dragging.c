@@ -5,6 +5,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
+    KD_PARAMETER_CHARGE(P) \
     P(theta_deg, .unit = "degrees", .typed = "90", .least = 0, .most = 180, .help = "polar angle") \
     P(r, .unit = "M", .typed = "10", .least = 1, .most = 1e9, .help = "radius")
 #define OUTPUTS(O) \
@@ -14,7 +15,7 @@
       .help = "smallest angular velocity of any observer at r; positive inside the ergosphere") \
     O(omega_most, .unit = "1/M", \
       .help = "largest angular velocity of any observer at r; null on the axis, as is the smallest") \
-    O(horizon_omega, .unit = "1/M", .fixed = true, .help = "angular velocity of the horizon, a/(2 r+)") \
+    O(horizon_omega, .unit = "1/M", .fixed = true, .help = "angular velocity of the horizon, a/(2 r+ - Q^2)") \
     O(ergosphere, .unit = "M", .fixed = true, .help = "static limit at theta_deg")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
@@ -29,18 +30,19 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
 {
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
-    double a = p->spin, r = p->r, u = kd_cos_deg(p->theta_deg), s = kd_sin_deg(p->theta_deg);
+    const struct kd_hole *hole = KD_QUANTITY_HOLE(p);
+    double a = hole->a, r = p->r, u = kd_cos_deg(p->theta_deg), s = kd_sin_deg(p->theta_deg);
     (void)memory;
-    if (kd_quantity_outside_horizon(kd_hole(a), r, error))
+    if (kd_hole_check(hole, error) || kd_quantity_outside_horizon(hole, r, error))
         return KD_EINVAL;
     if (fresh) {
-        o->horizon_omega = a / (2 * kd_hole(a)->outer);
-        o->ergosphere = kd_kerr_ergosphere(kd_hole(a), u);
+        o->horizon_omega = a / (2 * hole->outer - hole->q * hole->q);
+        o->ergosphere = kd_kerr_ergosphere(hole, u);
     }
-    o->omega = kd_kerr_dragging(kd_hole(a), r, u);
+    o->omega = kd_kerr_dragging(hole, r, u);
     o->far_field = 2 * a / (r * r * r);
     bool axis = p->theta_deg == 0 || p->theta_deg == 180;
-    double reach = kd_kerr_rotation_reach(kd_hole(a), r, u, s);
+    double reach = kd_kerr_rotation_reach(hole, r, u, s);
     o->omega_least = axis ? NAN : o->omega - reach;
     o->omega_most = axis ? NAN : o->omega + reach;
     return KD_OK;

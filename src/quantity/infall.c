@@ -75,7 +75,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
         .fall_momentum = p->infall_momentum,
     };
     const double horizon = at.hole.outer, second = kd_scale_seconds(p->mass_msun);
-    if (kd_quantity_hole_exists(p->spin, p->charge, error) || check(&motion, &at, error))
+    if (kd_hole_check(&at.hole, error) || check(&motion, &at, error))
         return KD_EINVAL;
     const struct kd_tetrad frame = kd_observer_tetrad(&motion, &at);
     bool within = at.r <= horizon;

@@ -7,6 +7,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
+    KD_PARAMETER_CHARGE(P) \
     P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
       .help = "polar angle of the observer, who is at infinity; at 90 the plane is a line") \
     P(angle_deg, .unit = "degrees", .typed = "0", .least = -360, .most = 720, \
@@ -56,7 +57,7 @@ static double width_of(const struct memory *m, const struct parameters *p, int o
 /* From below the plane the picture is mirrored vertically, so the inclination is reflected to above. */
 static enum kd_status begin(const struct parameters *p, struct memory *m, struct outputs *o, struct kd_error *error)
 {
-    const double horizon = kd_hole(p->spin)->outer;
+    const double horizon = KD_QUANTITY_HOLE(p)->outer;
     const bool below = p->inclination_deg > 90;
     m->inner = isinf(p->inner) ? horizon : p->inner;
     if (m->inner < horizon)
@@ -64,7 +65,7 @@ static enum kd_status begin(const struct parameters *p, struct memory *m, struct
                                    horizon);
     if (!(p->outer > m->inner))
         return kd_quantity_outside(error, "outer", p->outer, "but must be more than inner, %.9g M", m->inner);
-    m->curve = kd_critical_of(&(struct kd_critical_observer) { .hole = kd_hole_of(p->spin),
+    m->curve = kd_critical_of(&(struct kd_critical_observer) { .hole = kd_hole_charged(p->spin, p->charge),
                                                                .radius = INFINITY,
                                                                .cos_theta = fabs(kd_cos_deg(p->inclination_deg)),
                                                                .sin_theta = kd_sin_deg(p->inclination_deg) });
@@ -81,7 +82,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     struct outputs *o = KD_QUANTITY_OUT(out);
     struct memory *m = memory;
     const int order = (int)p->order;
-    if (fresh && begin(p, m, o, error))
+    if (fresh && (kd_hole_check(KD_QUANTITY_HOLE(p), error) || begin(p, m, o, error)))
         return KD_EINVAL;
     o->inner_edge = kd_lensing_edge(&m->curve, &m->point, order, m->inner);
     o->outer_edge = kd_lensing_edge(&m->curve, &m->point, order, p->outer);

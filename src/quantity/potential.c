@@ -4,6 +4,7 @@
 #include "physics/spacetime/potential.h"
 
 #define PARAMETERS(P) \
+    KD_PARAMETER_CHARGE(P) \
     P(spin, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, .help = "spin parameter a") \
     P(l, .unit = "M", .typed = "4", .least = -1e6, .most = 1e6, \
       .help = "angular momentum, positive towards +phi: per unit mass for matter, and of the photon for v_light") \
@@ -31,8 +32,8 @@ static const char *const approximations[] = {
 
 static void fill_extrema(const struct parameters *p, struct outputs *o)
 {
-    struct kd_potential_extrema matter = kd_potential_of_matter(kd_hole(p->spin), p->l),
-                                light = kd_potential_of_light(kd_hole(p->spin), p->l);
+    const struct kd_hole *hole = KD_QUANTITY_HOLE(p);
+    struct kd_potential_extrema matter = kd_potential_of_matter(hole, p->l), light = kd_potential_of_light(hole, p->l);
     o->r_max_matter = matter.r_max;
     o->v_max_matter = matter.v_max;
     o->r_min_matter = matter.r_min;
@@ -44,14 +45,15 @@ static void fill_extrema(const struct parameters *p, struct outputs *o)
 static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
 {
     const struct parameters *p = KD_QUANTITY_IN(in);
+    const struct kd_hole *hole = KD_QUANTITY_HOLE(p);
     struct outputs *o = KD_QUANTITY_OUT(out);
     (void)memory;
-    if (kd_quantity_outside_horizon(kd_hole(p->spin), p->r, error))
+    if (kd_hole_check(hole, error) || kd_quantity_outside_horizon(hole, p->r, error))
         return KD_EINVAL;
     if (fresh)
         fill_extrema(p, o);
-    o->v_matter = kd_potential(kd_hole(p->spin), p->l, 1, p->r);
-    o->v_light = kd_potential(kd_hole(p->spin), p->l, 0, p->r);
+    o->v_matter = kd_potential(hole, p->l, 1, p->r);
+    o->v_light = kd_potential(hole, p->l, 0, p->r);
     o->newton = 1 - 1 / p->r + p->l * p->l / (2 * p->r * p->r);
     return KD_OK;
 }

@@ -7,6 +7,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
+    KD_PARAMETER_CHARGE(P) \
     P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
       .help = "polar angle of the observer, at infinity; not within 0.1 of 90") \
     P(r, .unit = "M", .typed = "6", .least = 1, .most = 1e4, .words = "isco", .stands = INFINITY, \
@@ -51,11 +52,11 @@ struct memory {
 
 static double g_of(const struct parameters *p, double r, const struct kd_ring_image_point *at)
 {
+    const struct kd_hole *hole = KD_QUANTITY_HOLE(p);
     double s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg), lambda = -at->alpha * s;
     double eta = (at->alpha * at->alpha - p->spin * p->spin) * c * c + at->beta * at->beta;
-    return r >= kd_kerr_isco(kd_hole(p->spin))
-               ? kd_disk_redshift(kd_hole(p->spin), r, lambda)
-               : kd_disk_redshift_plunging(kd_hole(p->spin), r, lambda, eta, at->sense > 0);
+    return r >= kd_kerr_isco(hole) ? kd_disk_redshift(hole, r, lambda)
+                                   : kd_disk_redshift_plunging(hole, r, lambda, eta, at->sense > 0);
 }
 
 static enum kd_status not_found(const struct memory *m, struct kd_error *error)
@@ -66,16 +67,17 @@ static enum kd_status not_found(const struct memory *m, struct kd_error *error)
 
 static enum kd_status make_rings(const struct parameters *p, struct memory *m, struct kd_error *error)
 {
+    const struct kd_hole *hole = KD_QUANTITY_HOLE(p);
     /* an observer below the plane is reflected to above it, where only beta differs */
     double i = p->inclination_deg, up = (i > 90 ? 180 - i : i) * (M_PI / 180);
     if (i > 89.9 && i < 90.1)
         return kd_quantity_outside(error, "inclination_deg", i,
                                    "where the ring is a line; it must be 0 to 89.9 or 90.1 to 180");
-    m->r = isinf(p->r) ? kd_kerr_isco(kd_hole(p->spin)) : p->r;
-    if (m->r <= kd_hole(p->spin)->outer)
-        return kd_quantity_outside(error, "r", m->r, "not outside the horizon at %.9g M", kd_hole(p->spin)->outer);
-    bool found = kd_ring_image_init(&m->rings[0], kd_hole(p->spin), up, m->r, 0) &&
-                 kd_ring_image_init(&m->rings[1], kd_hole(p->spin), up, m->r, 1);
+    m->r = isinf(p->r) ? kd_kerr_isco(hole) : p->r;
+    if (m->r <= hole->outer)
+        return kd_quantity_outside(error, "r", m->r, "not outside the horizon at %.9g M", hole->outer);
+    bool found =
+        kd_ring_image_init(&m->rings[0], hole, up, m->r, 0) && kd_ring_image_init(&m->rings[1], hole, up, m->r, 1);
     return found ? KD_OK : not_found(m, error);
 }
 
@@ -85,7 +87,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     struct outputs *o = KD_QUANTITY_OUT(out);
     struct memory *m = memory;
     struct kd_ring_image_point at;
-    if (fresh && make_rings(p, m, error))
+    if (fresh && (kd_hole_check(KD_QUANTITY_HOLE(p), error) || make_rings(p, m, error)))
         return KD_EINVAL;
     double phi = p->phi_deg * (M_PI / 180), side = p->inclination_deg > 90 ? -1 : 1, s = kd_sin_deg(p->inclination_deg);
     if (!kd_ring_image_find(&m->rings[0], phi, &at))

@@ -7,9 +7,9 @@
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
     KD_PARAMETER_CHARGE(P) \
-    P(limb, .initial = "isotropic", .words = "isotropic|laor|haardt|scattering", \
+    P(limb, .typed = "isotropic", .kind = KD_KIND_WORD, .words = "isotropic|laor|haardt|scattering", \
       .help = "light of the disk's surface by the angle to its normal: the laws of /v1/spectrum") \
-    P(r, .unit = "M", .initial = "10", .minimum = 1, .maximum = 1e6, .word = "isco", .along = true, \
+    P(r, .unit = "M", .typed = "10", .least = 1, .most = 1e6, .words = "isco", .stands = INFINITY, \
       .help = "radius in the disk, at least the ISCO")
 #define OUTPUTS(O) \
     O(returns, .unit = "1", .help = "share of the photons of the ring at r that fall on the disk") \
@@ -103,4 +103,4 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
 }
 
 KD_QUANTITY(returning, "returning", "light of a thin disk that returns to it, falls into the hole, or escapes",
-            .memory_size = sizeof(struct memory), .point_us = 20, .fresh_us = 300000)
+            .memory_size = sizeof(struct memory), .along = 1, .point_us = 20, .fresh_us = 300000)

@@ -7,6 +7,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
+    KD_PARAMETER_CHARGE(P) \
     P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
       .help = "polar angle of the observer; not within 0.1 of 90") \
     KD_PARAMETER_OBSERVER(P) \
@@ -51,10 +52,10 @@ struct memory {
 static enum kd_status make(const struct parameters *p, double r, struct memory *m, struct kd_error *error)
 {
     const double i = p->inclination_deg;
-    const struct kd_vantage at = { kd_hole_of(p->spin), p->observer_r, kd_cos_deg(i), kd_sin_deg(i) };
+    const struct kd_vantage at = { kd_hole_charged(p->spin, p->charge), p->observer_r, kd_cos_deg(i), kd_sin_deg(i) };
     const struct kd_observer_motion motion = KD_QUANTITY_MOTION(p);
     if (isinf(at.r)) { /* from below the plane the ring looks the same except for beta */
-        m->far = kd_ring_image_plain(kd_hole(p->spin), (i > 90 ? 180 - i : i) * (M_PI / 180), r, (int)p->order);
+        m->far = kd_ring_image_plain(KD_QUANTITY_HOLE(p), (i > 90 ? 180 - i : i) * (M_PI / 180), r, (int)p->order);
         return KD_OK;
     }
     if (kd_quantity_observer_exists(&motion, &at, error))
@@ -84,13 +85,16 @@ static bool see_near(const struct parameters *p, const struct kd_ring_view *ring
 static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
 {
     const struct parameters *p = KD_QUANTITY_IN(in);
+    const struct kd_hole *hole = KD_QUANTITY_HOLE(p);
     struct outputs *o = KD_QUANTITY_OUT(out);
     struct memory *m = memory;
-    const double i = p->inclination_deg, r = isinf(p->r) ? kd_kerr_isco(kd_hole(p->spin)) : p->r;
+    const double i = p->inclination_deg, r = isinf(p->r) ? kd_kerr_isco(hole) : p->r;
+    if (kd_hole_check(hole, error))
+        return KD_EINVAL;
     if (i > 89.9 && i < 90.1)
         return kd_quantity_outside(error, "inclination_deg", i,
                                    "where the ring is a line; it must be 0 to 89.9 or 90.1 to 180");
-    if (kd_quantity_outside_horizon(kd_hole(p->spin), r, error) || (fresh && make(p, r, m, error)))
+    if (kd_quantity_outside_horizon(hole, r, error) || (fresh && make(p, r, m, error)))
         return KD_EINVAL;
     if (!(isinf(p->observer_r) ? see_far(p, &m->far, o) : see_near(p, &m->near, o)))
         return kd_quantity_outside(error, "r", r,

@@ -6,6 +6,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
+    KD_PARAMETER_CHARGE(P) \
     P(inclination_deg, .unit = "degrees", .typed = "0", .least = 0, .most = 180, \
       .help = "inclination of the orbit to the equator, as of /v1/orbits; more than 90 is retrograde") \
     P(e, .unit = "1", .typed = "0", .least = 0, .most = 0.999999, .help = "eccentricity")
@@ -29,12 +30,15 @@ static const char *const approximations[] = { NULL };
 static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
 {
     const struct parameters *p = KD_QUANTITY_IN(in);
+    const struct kd_hole *hole = KD_QUANTITY_HOLE(p);
     struct outputs *o = KD_QUANTITY_OUT(out);
-    (void)memory, (void)fresh, (void)error;
-    o->p = kd_orbit_separatrix(kd_hole(p->spin), p->e, kd_cos_deg(p->inclination_deg));
+    (void)memory, (void)fresh;
+    if (kd_hole_check(hole, error))
+        return KD_EINVAL;
+    o->p = kd_orbit_separatrix(hole, p->e, kd_cos_deg(p->inclination_deg));
     o->r_min = o->p / (1 + p->e);
     o->r_max = o->p / (1 - p->e);
-    o->circle = kd_orbit_least_circle(kd_hole(p->spin), kd_cos_deg(p->inclination_deg));
+    o->circle = kd_orbit_least_circle(hole, kd_cos_deg(p->inclination_deg));
     return KD_OK;
 }
 

@@ -58,7 +58,7 @@ static enum kd_status make_curve(const struct parameters *p, struct memory *m, s
         .sin_theta = at.s,
         .motion = KD_QUANTITY_MOTION(p),
     };
-    if (kd_quantity_hole_exists(p->spin, p->charge, error))
+    if (kd_hole_check(&at.hole, error))
         return KD_EINVAL;
     if (kd_quantity_observer_exists(&observer.motion, &at, error))
         return KD_EINVAL;

@@ -5,6 +5,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
+    KD_PARAMETER_CHARGE(P) \
     P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
       .help = "polar angle of the observer") \
     KD_PARAMETER_OBSERVER(P) \
@@ -46,7 +47,7 @@ static void far_away(struct outputs *o) { *o = (struct outputs) { 1, 1, 1, 1, 1,
 static enum kd_status look_around(const struct parameters *p, struct kd_sky_view *view, struct outputs *o,
                                   struct kd_error *error)
 {
-    const struct kd_vantage at = { kd_hole_of(p->spin), p->observer_r, kd_cos_deg(p->inclination_deg),
+    const struct kd_vantage at = { kd_hole_charged(p->spin, p->charge), p->observer_r, kd_cos_deg(p->inclination_deg),
                                    kd_sin_deg(p->inclination_deg) };
     const struct kd_critical_observer observer = {
         .hole = at.hole,
@@ -79,6 +80,8 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
     struct kd_sky_view *view = &((struct memory *)memory)->view;
+    if (kd_hole_check(KD_QUANTITY_HOLE(p), error))
+        return KD_EINVAL;
     if (isinf(p->observer_r)) {
         far_away(o);
         return KD_OK;

@@ -57,15 +57,6 @@ enum kd_status kd_quantity_outside_horizon(const struct kd_hole *hole, double r,
                : kd_quantity_outside(error, "r", r, "inside the horizon at %.9g M; it must be outside", horizon);
 }
 
-enum kd_status kd_quantity_hole_exists(double spin, double charge, struct kd_error *error)
-{
-    const struct kd_hole hole = kd_hole_charged(spin, charge);
-    if (kd_hole_exists(&hole))
-        return KD_OK;
-    return kd_quantity_outside(error, "charge", charge, "too much for this spin; its magnitude must be below %.9g M",
-                               sqrt((1 - spin) * (1 + spin)));
-}
-
 enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                                            struct kd_error *error)
 {

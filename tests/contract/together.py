@@ -18,6 +18,9 @@ OBSERVER = (
     "%sinfall_momentum |is %s M, with which the observer turns back outside %s%s %s M; it must be closer to 0",
 )
 
+# Spin and charge of a hole.
+HOLE = "charge is %.16g M; with spin %.16g its magnitude must be below %.9g M"
+
 # Fields of a scene that depend on each other. A document is applied over a preset, and a patch over the present scene.
 # So a member that is missing in the request still has a value, which counts.
 SCENE = (
@@ -296,7 +299,8 @@ TOGETHER = [
         + (
             # OpenAPI's parameters apply to all bodies of an operation
             "the query may have parameters only with a body of application/x-npy|; with JSON they must be in the document",
-            'r is %.16g; it must be "infinity" or a radius above that of the horizon, %.9g at this spin, up to %g',
+            'r is %.16g; it must be "infinity" or a radius above that of the horizon, %.9g, up to %g',
+            HOLE,
             *OBSERVER,
             "no light with the constants of ray %zu, alpha = %.9g and beta = %.9g, reaches an observer at r = %.9g",
         ),
@@ -304,6 +308,7 @@ TOGETHER = [
     (
         "POST /v1/orbits",
         (
+            HOLE,
             "%u samples of %zu orbits are too many (limit %u in all)",
             "energy %s and angular_momentum %s are too close to those of the unstable circle at r = %.9g for double precision to decide how long the body whirls there, and whether it falls or returns; they must differ from these by some parts in 1e12",
             "observer_r is %.9g; it must be a radius outside the horizon, r = %.9g",
@@ -321,7 +326,7 @@ TOGETHER = [
             "the speed is %.16g c; it must be below 1",
             "double precision cannot follow the motion from r = %.16g",
             "p is %.16g; it must be above the horizon at %.9g",
-            "p is %.16g; with this spin, e and inclination_deg it must be above the separatrix at %.9g",
+            "p is %.16g; with this hole, e and inclination_deg it must be above the separatrix at %.9g",
         ),
     ),
     (

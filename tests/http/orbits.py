@@ -108,6 +108,10 @@ class Orbits(daemon.Case):
             ({"orbits": [{"case": "isco"}] * 10001}, "/orbits"),
             ({**GENERIC, "samples": 200001}, "/samples"),
             ({**GENERIC, "colour": "red"}, "/colour"),
+            ({"orbit": {"p": 8, "e": 0.5}, "charge": 1}, "/charge"),
+            ({"orbit": {"p": 8, "e": 0.5}, "spin": 0.8, "charge": 0.7}, "/charge"),
+            ({"orbit": {"p": 8, "e": 0.5, "charge": -0.7}, "spin": 0.8}, "/orbit/charge"),
+            ({"orbit": {"case": "isco"}, "charge": 0.7}, "/charge"),
             ({**GENERIC, "duration": {"periods": 1e9}}, "/duration"),
         ]:
             problem = self.assertProblem(self.post(document), 400 if document == [] else 422)
@@ -166,6 +170,26 @@ class Orbits(daemon.Case):
         fall = strict(self.good({"spin": 0.5, "orbit": {"case": "plunge"}, "samples": 10}).body)
         self.assertEqual((fall["fate"], fall["result"]["end"]), ("plunge", "horizon"))
         self.assertEqual(fall["series"]["rows"][-1][2], None)  # t at the horizon
+
+    def test_charge(self):
+        """Without spin E and L follow from E^2 = f (1 + L^2/r^2) at both turning points, f = 1 - 2/r + Q^2/r^2."""
+        q, p, e = 0.7, 8, 0.5
+        answer = strict(self.good({"charge": q, "orbit": {"p": p, "e": e}, "samples": 0}).body)
+        near, far = (1 + e) / p, (1 - e) / p
+        f = [1 - 2 * w + q * q * w * w for w in (near, far)]
+        l2 = (f[1] - f[0]) / (f[0] * near**2 - f[1] * far**2)
+        self.assertEqual((answer["spin"], answer["charge"]), (0, q))
+        self.assertAlmostEqual(answer["constants"]["angular_momentum"], math.sqrt(l2), delta=1e-13)
+        self.assertAlmostEqual(answer["constants"]["energy"], math.sqrt(f[0] * (1 + l2 * near**2)), delta=1e-14)
+        self.assertAlmostEqual(answer["advance"]["weak_field"], (6 - q * q) * math.pi / p, delta=1e-14)
+        measured = answer["result"]["periastron_advance_measured"]
+        self.assertAlmostEqual(measured, answer["advance"]["periastron"], delta=1e-10)
+        self.assertNotIn("charge", strict(self.good({"orbit": {"p": p, "e": e}, "samples": 0}).body))
+        orbits = [{"p": 9, "e": 0.3}, {"p": 9, "e": 0.3, "charge": 0.2}, {"case": "isco", "spin": 0.5}]
+        answers = strict(self.good({"charge": 0.6, "orbits": orbits}).body)["orbits"]
+        self.assertEqual([a["charge"] for a in answers], [0.6, 0.2, 0.6])
+        fall = strict(self.good({"charge": 0.4, "orbit": {"case": "plunge"}, "samples": 10}).body)
+        self.assertEqual((fall["spin"], fall["fate"], fall["result"]["end"]), (0.9, "plunge", "horizon"))
 
     def test_many(self):
         orbits = [{"spin": i / 10, "p": 9 + i, "e": 0.3, "inclination_deg": 10 * i} for i in range(9)] + [

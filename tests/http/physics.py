@@ -67,6 +67,45 @@ class Physics(daemon.Case):
         }.items():
             self.assertAlmostEqual(values[name], exact, delta=1e-14 * exact)
 
+    def test_charge(self):
+        """Quantities of a charged hole have the charge as a parameter; the others refuse it by name."""
+        charged = {
+            "kerr",
+            "shadow",
+            "deflection",
+            "potential",
+            "redshift",
+            "ring-image",
+            "photon-rings",
+            "disk-flux",
+            "flamm",
+            "frame-dragging",
+            "infall",
+            "sky",
+            "separatrix",
+        }
+        for quantity in self.quantities():
+            query = f"/v1/physics/{quantity['name']}?"
+            if quantity["name"] == "sky":
+                query += "observer_r=9&"
+            with self.subTest(query):
+                self.assertEqual("charge" in [p["name"] for p in quantity["parameters"]], quantity["name"] in charged)
+                if quantity["name"] not in charged:
+                    problem = self.assertProblem(self.daemon.get(query + "charge=0.3"), 422, "invalid-parameters")
+                    self.assertEqual(problem["pointer"], "/charge")
+                    continue
+                some, none = (self.daemon.get(query + f"spin=0.2&charge={q}").json()["values"] for q in (-0.5, 1e-300))
+                self.assertEqual(none, self.daemon.get(query + "spin=0.2").json()["values"])
+                self.assertNotEqual(some, none)
+                self.assertEqual(some, self.daemon.get(query + "spin=0.2&charge=0.5").json()["values"])
+                problem = self.assertProblem(self.daemon.get(query + "spin=0.8&charge=0.7"), 422, "invalid-parameters")
+                self.assertEqual(problem["pointer"], "/charge")
+                self.assertIn("with spin 0.8 its magnitude must be below 0.6 M", problem["detail"])
+        values = self.daemon.get(KERR + "?spin=0&charge=0.5").json()["values"]
+        photon = (3 + 7**0.5) / 2
+        for name, exact in {"horizon": 1 + 0.75**0.5, "photon_prograde": photon, "photon_retrograde": photon}.items():
+            self.assertAlmostEqual(values[name], exact, delta=1e-14 * exact)
+
     def test_curve_is_made_of_its_points(self):
         curve = self.daemon.get(KERR + "?spin=0:0.998:100&r=20").json()
         spins = curve["parameters"]["spin"]
@@ -306,7 +345,7 @@ class Physics(daemon.Case):
             ("r=2:3", "/r", "first:last:count"),
             ("r=2:3:1", "/r", "count"),
             ("r=2:3:200000", "/r", "100000"),
-            ("mass=1", "/mass", "nown are spin, theta_deg, r"),
+            ("mass=1", "/mass", "nown are spin, charge, theta_deg, r"),
             ("format=xml", "/format", '"csv"'),
             ("a/b=1", "/a~1b", "a/b"),
             ("spin=0&spin=0", None, "twice"),

@@ -198,6 +198,8 @@ class Requests(daemon.Case):
             ('{%s,"spin":null}' % one, "/spin"),
             ('{%s,"spin":"0.5"}' % one, "/spin"),
             ('{%s,"spin":[0]}' % one, "/spin"),
+            ('{%s,"charge":1}' % one, "/charge"),
+            ('{%s,"spin":0.8,"charge":-0.7}' % one, "/charge"),
             ('{"spin":0,%s,"spin":0}' % one, "/spin"),
             ('{%s,"mass":1}' % one, "/mass"),
             ('{%s,"":1}' % one, "/"),
@@ -516,6 +518,22 @@ class Closed(daemon.Case):
                 ut = (1 + a * r**-1.5) / math.sqrt(1 - 3 / r + 2 * a * r**-1.5)
                 g = 1 / (ut * (1 + rate * alpha * math.sin(math.radians(inclination))))
                 self.assertLess(abs(c["g"] / g - 1), 1e-12)
+
+    def test_charge(self):
+        """Critical impact parameters without spin: E. F. Eiroa, G. E. Romero & D. F. Torres 2002, Phys. Rev. D 66, 024010,
+        with r = (3 + sqrt(9 - 8 Q^2))/2."""
+        for charge in 0.5, -0.6, 0.999999:
+            r = (3 + math.sqrt(9 - 8 * charge**2)) / 2
+            critical = r * r / math.sqrt(r * (r - 2) + charge**2)
+            answer = self.ask(
+                spin=0,
+                charge=charge,
+                observer={"inclination_deg": 40},
+                rays=[[critical * (1 - 1e-9), 0], [critical * (1 + 1e-9), 0]],
+            )
+            self.assertEqual([ray["fate"] for ray in answer["rays"]], ["captured", "escaped"])
+            self.assertEqual(answer["charge"], charge)
+        self.assertNotIn("charge", self.ask(spin=0, rays=[[7, 1]]))
 
     def test_gas_that_plunges(self):
         # A hole seen from above: lambda = 0. Light that leaves inwards, that is after the turning point, is shifted

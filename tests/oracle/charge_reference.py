@@ -106,6 +106,41 @@ def peak(a, q, photon, isco):
     return 1 + mp.e**low
 
 
+def advance(q, p, e):
+    """Azimuth from periastron to periastron beyond a full turn, at a = 0. E^2 = f (1 + L^2 w^2) at both turning points,
+    with f = 1 - 2w + q^2 w^2. By w = m - d cos(chi) both are taken out of the root, and what is left has no poles."""
+    w1, w2 = (1 - e) / p, (1 + e) / p
+    f1, both, squares = 1 - 2 * w1 + q * q * w1 * w1, w1 + w2, w1 * w1 + w2 * w2
+    # divided by w2 - w1, so that a circle is no special case
+    l2 = (2 - q * q * both) / (both - 2 * (squares + w1 * w2) + q * q * both * squares)
+    rest = [q * q * l2, both * q * q * l2 - 2 * l2, (1 - f1 * (1 + l2 * w1 * w1)) / (w1 * w2)]
+
+    def share(chi):
+        w = both / 2 - (w2 - w1) / 2 * mp.cos(chi)
+        return sqrt(l2 / (rest[2] + w * (rest[1] + w * rest[0])))
+
+    return 2 * quad(share, [0, pi / 2, pi]) - 2 * pi
+
+
+def bending(a, q, b):
+    """Deflection of light of impact parameter b > 0 towards +phi in the plane, from the conserved E = 1 and L = b."""
+    e, k = a * b + q * q, (b - a) ** 2
+    # (dw/dlambda)^2, and its quotient by w0 - w, by Horner's scheme
+    radial = [-q * q * k, 2 * k, a * a - b * b, mpf(0), mpf(1)]
+    roots = mp.polyroots(radial if q else radial[1:], maxsteps=200, extraprec=400)
+    w0 = min(mp.re(w) for w in roots if mp.re(w) > 0 and abs(mp.im(w)) < mpf(10) ** -30)
+    quotient = [radial[0]]
+    for c in radial[1:4]:
+        quotient.append(quotient[-1] * w0 + c)
+
+    def share(x):  # w = w0 (1 - x^2), so that the root at w0 becomes regular
+        w = w0 * (1 - x * x)
+        turn = b + a * (2 * w - e * w * w) / (1 - 2 * w + (a * a + q * q) * w * w)
+        return 2 * turn * sqrt(w0 / -mp.polyval(quotient, w))
+
+    return 2 * quad(share, [0, mpf(1) / 64, mpf(1) / 8, mpf(1) / 2, 1]) - pi
+
+
 def text(x):
     return mp.nstr(x, 22)
 
@@ -114,7 +149,9 @@ def main():
     print("/* Made by tests/oracle/charge_reference.py; do not edit. Orbits and disks about charged holes. */")
     print("#ifndef KD_TESTS_CHARGE_REFERENCE_H\n#define KD_TESTS_CHARGE_REFERENCE_H\n")
     print("struct charge_place_reference { double a, q, photon, isco, peak; };")
-    print("struct charge_orbit_reference { double a, q, r, omega, energy, momentum, ut, flux; };\n")
+    print("struct charge_orbit_reference { double a, q, r, omega, energy, momentum, ut, flux; };")
+    print("struct charge_advance_reference { double q, p, e, advance; };")
+    print("struct charge_bending_reference { double a, q, b, angle; };\n")
     print("static const struct charge_place_reference charge_place_reference[] = {")
     orbits = []
     for a, q in HOLES:
@@ -127,7 +164,19 @@ def main():
             numbers = [w, energy, momentum, ut, flux(x, y, mpf(r), photon, isco)]
             orbits.append(f"    {{ {a.hex()}, {q.hex()}, {r.hex()}, {', '.join(text(n) for n in numbers)} }},")
     print("};\n\nstatic const struct charge_orbit_reference charge_orbit_reference[] = {")
-    print("\n".join(orbits) + "\n};\n\n#endif")
+    print("\n".join(orbits) + "\n};\n\nstatic const struct charge_advance_reference charge_advance_reference[] = {")
+    for q in [0, 1e-3, 0.3, 0.7, 0.95, 1 - 1e-9]:
+        for p, e in [(6.7, 0.3), (6.25, 0.1), (8, 0.9), (20, 0), (1000, 0.5), (3.7e7, 0.2)]:
+            q, p, e = float(q), float(p), float(e)
+            print(f"    {{ {q.hex()}, {p.hex()}, {e.hex()}, {text(advance(mpf(q), mpf(p), mpf(e)))} }},")
+    print("};\n\nstatic const struct charge_bending_reference charge_bending_reference[] = {")
+    for a, q in [(0.0, 0.5), (0.0, 1 - 1e-9), (0.3, 0.6), (-0.3, 0.6), (0.9, 0.4), (-0.9, 0.4), (0.8, 0.599999)]:
+        photon, _ = places(mpf(a), mpf(q))
+        for factor in [1.001, 1.3, 3, 12, 1e3, 1e7]:
+            b = float(factor / omega(mpf(a), mpf(q), photon))
+            print(f"    {{ {a.hex()}, {q.hex()}, {b.hex()}, {text(bending(mpf(a), mpf(q), mpf(b)))} }},")
+    print("};\n\n#endif")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -238,6 +238,30 @@ struct ks_path ks_follow(const struct ks_place *at, const double p[4], int max_c
     return run((struct system) { at->a, p[0], 0 }, y, false, max_crossings);
 }
 
+/* The Hamiltonian of a body differs from that of light by a constant, so that its flow is the same. */
+struct ks_body_place ks_body_after(const struct ks_body *body, double proper)
+{
+    const double a = body->a, q = body->q, r = body->r, u = body->u, delta = r * r - 2 * r + a * a + q * q;
+    const struct system s = { a, body->energy, q };
+    const double p_r = body->p_r + ((2 * r - q * q) * body->energy - a * body->momentum) / delta;
+    state y = { 0 }, next;
+    place(a, r, sqrt((1 - u) * (1 + u)), u, -twist(a, q, r), (double[]) { p_r, body->p_theta, body->momentum }, y);
+    double h = 0.02 * r, done = 0;
+    while (done < proper) {
+        h = fmin(h, proper - done);
+        const double error = extrapolate(&s, y, h, next);
+        if (!(error < 1e-13) && h > 1e-9) {
+            h *= 0.5;
+            continue;
+        }
+        done += h;
+        memcpy(y, next, sizeof next);
+        h *= error < 1e-15 ? 2 : 1;
+    }
+    const double end = radius(a, y);
+    return (struct ks_body_place) { end, y[2] / end, y[6] - slow(a, q, end) + slow(a, q, r), azimuth(a, q, y) };
+}
+
 struct ks_photon ks_from_infinity(double a, double u, double alpha, double beta)
 {
     return ks_from_infinity_charged(a, 0, u, alpha, beta);

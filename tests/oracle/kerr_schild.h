@@ -74,4 +74,11 @@ void ks_delays(struct ks_photon photon, const double (*places)[2], int n, double
  * meaningless. No delays are computed. */
 struct ks_path ks_follow(const struct ks_place *at, const double p[4], int max_crossings);
 
+/* A neutral body of unit mass at (r, cos(theta)), of energy E, angular momentum L and the covariant Boyer-Lindquist
+ * components p_r and p_theta, after a proper time in which it does not reach the horizon. t and phi: Boyer-Lindquist,
+ * since the start; phi up to full turns. */
+struct ks_body { double a, q, r, u, energy, momentum, p_r, p_theta; };
+struct ks_body_place { double r, u, t, phi; };
+struct ks_body_place ks_body_after(const struct ks_body *body, double proper);
+
 #endif

@@ -37,9 +37,10 @@ def divide(x, y):
     return q
 
 
-def series(a, lam, eta, state, side):
+def series(a, lam, eta, state, side, q2=0):
     """Taylor coefficients about a point of (w, n_x, n_y, n_z, chi, S)."""
-    A, K, C = a * a - eta - lam * lam, eta + (lam - a) ** 2, -a * a * eta
+    A, K = a * a - eta - lam * lam, eta + (lam - a) ** 2
+    C = -a * a * eta - q2 * K
     w, dw, n, dn, chi, S = state
     W = [w, dw]
     N = [[n[i], dn[i]] for i in range(3)]
@@ -57,13 +58,15 @@ def series(a, lam, eta, state, side):
     # chi' = a w (2 - a lam w)/(1 - 2w + a^2 w^2); the last terms of t' = w (8 - 2 a lam - 4 a^2 w)/(same);
     # (1 - side w')(1/w^2 + 2/w) = -(A + 2K w + C w^2)(1 + 2w)/(1 + side w')
     count = len(V)
-    den = [(k == 0) - 2 * W[k] + a * a * W2[k] for k in range(count)]
-    P = divide([a * (2 * W[k] - a * lam * W2[k]) for k in range(count)], den)
-    Q = divide([(8 - 2 * a * lam) * W[k] - 4 * a * a * W2[k] for k in range(count)], den)
+    # with charge 2r becomes 2r - q^2 everywhere
+    den = [(k == 0) - 2 * W[k] + (a * a + q2) * W2[k] for k in range(count)]
+    P = divide([a * (2 * W[k] - (a * lam + q2) * W2[k]) for k in range(count)], den)
+    rest = 4 * a * a + q2 * (4 - q2 - a * lam)
+    Q = divide([(8 - 4 * q2 - 2 * a * lam) * W[k] - rest * W2[k] for k in range(count)], den)
     top = [-(A * (k == 0) + (2 * K + 2 * A) * W[k] + (C + 4 * K) * W2[k] + 2 * C * W3[k]) for k in range(count)]
     G = divide(top, [(k == 0) + side * V[k] for k in range(count)])
     chi_s = [chi] + [P[k] / (k + 1) for k in range(count)]
-    S_s = [S] + [(4 * (k == 0) + Q[k] + G[k] + a * a * Z2[k]) / (k + 1) for k in range(count)]
+    S_s = [S] + [((4 - q2) * (k == 0) + Q[k] + G[k] + a * a * Z2[k]) / (k + 1) for k in range(count)]
     return W, N, chi_s, S_s
 
 
@@ -75,12 +78,14 @@ def slope(c, h):
     return polyval([k * c[k] for k in range(len(c) - 1, 0, -1)], h)
 
 
-def trace(a, u, radius, alpha, beta, outward, orders):
+def trace(a, u, radius, alpha, beta, outward, orders, q=0):
     """Crossings (r, phi, delay, sense), whether the ray is captured, and (cos theta, phi) of the escape."""
     a, u, alpha, beta = mpf(a), mpf(u), mpf(alpha), mpf(beta)
     s = sqrt((1 - u) * (1 + u))
     lam, eta = -alpha * s, (alpha**2 - a * a) * u * u + beta**2
-    A, K, C = a * a - eta - lam * lam, eta + (lam - a) ** 2, -a * a * eta
+    q2 = mpf(q) ** 2
+    A, K = a * a - eta - lam * lam, eta + (lam - a) ** 2
+    C = -a * a * eta - q2 * K
     w = mpf(0) if radius == inf else 1 / mpf(radius)
     dw = sqrt(1 + A * w * w + 2 * K * w**3 + C * w**4) * (-1 if outward else 1)
     n, dn = [s, mpf(0), u], [-beta * u, alpha, beta * s]
@@ -92,7 +97,7 @@ def trace(a, u, radius, alpha, beta, outward, orders):
     side = -1 if outward else 1
     S = side * (1 / w - 2 * log(w)) if w else mpf(0)  # at infinity r + 2 ln r is subtracted
     state = (w, dw, n, dn, mpf(0), S)
-    horizon = 1 / (1 + sqrt(1 - a * a))
+    horizon = 1 / (1 + sqrt(1 - a * a - q2))
     turn = mpf(0)  # azimuth of n about the axis, not reduced to a turn
     found = []
     scale = 1 / sqrt(1 + eta + lam * lam + a * a)
@@ -100,7 +105,7 @@ def trace(a, u, radius, alpha, beta, outward, orders):
         if side != (1 if dw > 0 else -1):
             side = -side
             state = state[:5] + (state[5] + side * 2 * (1 / w - 2 * log(w)),)
-        W, N, X, T = series(a, lam, eta, state, side)
+        W, N, X, T = series(a, lam, eta, state, side, q2)
         # the radius of convergence from the last coefficients
         rho = min(
             (max(abs(c[k]) for c in (W, X, T) for k in (j, j - 1)) + mpf(10) ** -60) ** (mpf(-1) / j)

@@ -18,6 +18,7 @@ are by differences in 38 digits.
 import sys
 from multiprocessing import Pool
 
+import charge_reference
 import disk_reference
 import kerr_reference
 import null_reference
@@ -28,7 +29,7 @@ from null_reference import INF
 mp.dps = 38
 ORDERS = 3
 
-RAYS = [  # set, spin, inclination, radius, alpha, beta
+RAYS = [  # set, spin, inclination, radius, alpha, beta[, outward, charge]
     ("bulk", 0.0, 45, INF, 5.0, -2.5),
     ("bulk", 0.5, 17, INF, 3.0, 5.0),
     ("bulk", 0.5, 135, INF, 5.0, 3.0),
@@ -52,6 +53,10 @@ RAYS = [  # set, spin, inclination, radius, alpha, beta
     ("observer nearby", 0.9, 70, 50.0, 6.0, 2.0),
     ("observer nearby", 0.9999, 17, 6.0, 2.0, 4.0),
     ("observer nearby", -0.9, 90, 12.0, 3.0, -5.0),
+    ("charged", 0.0, 70, INF, 4.5, 1.0, 0, 0.875),
+    ("charged", 0.5, 45, INF, -3.0, 4.0, 0, 0.75),
+    ("charged", -0.5, 120, INF, 6.0, 2.0, 0, 0.5),
+    ("charged", 0.75, 60, INF, 5.0, -3.0, 0, 0.65625),
 ]
 CAMERAS = [  # spin, inclination, radius, observer, velocity, yaw, pitch
     (0.9, 75, 20.0, "static", (0, 0, 0), 8.0, -6.0),
@@ -70,26 +75,28 @@ def angles(i):
     return mpf(1) if i == 0 else mpf(0) if i == 90 else mpf(-1) if i == 180 else cos(i * pi / 180)
 
 
-def metric(a, r, u):
+def metric(a, r, u, q=0):
     """g_tt, g_tphi, g_phiphi, g_rr, g_thetatheta (Boyer-Lindquist)."""
-    s2, sigma, delta = 1 - u * u, r * r + a * a * u * u, r * r - 2 * r + a * a
+    s2, sigma, mass = 1 - u * u, r * r + a * a * u * u, 2 * r - q * q
+    delta = r * r - mass + a * a
     return (
-        -1 + 2 * r / sigma,
-        -2 * a * r * s2 / sigma,
-        (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2,
+        -1 + mass / sigma,
+        -a * mass * s2 / sigma,
+        (r * r + a * a + a * a * mass * s2 / sigma) * s2,
         sigma / delta,
         sigma,
     )
 
 
-def redshift(a, r, lam, eta, sense):
+def redshift(a, r, lam, eta, sense, q=0):
     """1/(-p.u) for gas on a circle or, inside the ISCO, falling with the ISCO's energy and angular momentum."""
-    isco = kerr_reference.orbits(a)[2]
-    tt, tp, pp, rr, _ = metric(a, r, mpf(0))
+    isco = charge_reference.places(a, mpf(q))[1] if q else kerr_reference.orbits(a)[2]
+    circle = (lambda x: charge_reference.orbit(a, mpf(q), x)[:4]) if q else lambda x: kerr_reference.orbit(a, x)
+    tt, tp, pp, rr, _ = metric(a, r, mpf(0), q)
     if r >= isco:
-        w, _, _, ut = kerr_reference.orbit(a, r)
+        w, _, _, ut = circle(r)
         return 1 / (ut * (1 - w * lam))
-    _, energy, momentum, _ = kerr_reference.orbit(a, isco)
+    _, energy, momentum, _ = circle(isco)
     det = tt * pp - tp * tp  # the inverse of the (t, phi) block
     ut, uphi = (-energy * pp - momentum * tp) / det, (energy * tp + momentum * tt) / det
     ur = -sqrt((-1 + energy * ut - momentum * uphi) / rr)
@@ -101,11 +108,11 @@ def redshift(a, r, lam, eta, sense):
 def quantities(ray):
     """Crossings (r, phi, delay, g), whether the ray is captured, and (theta, phi) of the escape."""
     a, i, radius, alpha, beta = ray[:5]
-    outward = ray[5] if len(ray) > 5 else 0
+    outward, q = ray[5] if len(ray) > 5 else 0, ray[6] if len(ray) > 6 else 0
     u = angles(i)
-    found, captured, sky = null_reference.trace(a, u, radius, alpha, beta, outward, ORDERS)
+    found, captured, sky = null_reference.trace(a, u, radius, alpha, beta, outward, ORDERS, q)
     lam, eta = -mpf(alpha) * sqrt((1 - u) * (1 + u)), (mpf(alpha) ** 2 - mpf(a) ** 2) * u * u + mpf(beta) ** 2
-    rows = [(r, phi, t, redshift(mpf(a), r, lam, eta, sense)) for r, phi, t, sense in found]
+    rows = [(r, phi, t, redshift(mpf(a), r, lam, eta, sense, q)) for r, phi, t, sense in found]
     return rows, captured, (acos(sky[0]), sky[1]) if sky else None
 
 
@@ -155,7 +162,8 @@ def ray_text(job):
     for k, row in enumerate(rows):
         text += f"\n        {'{ ' if k == 0 else '  '}{{ {', '.join(map(number, row))},\n            "
         text += ", ".join(map(short, gains[4 * k : 4 * k + 4])) + " }" + ("," if k + 1 < len(rows) else " }")
-    return text + (" }" if rows else " { { 0 } } }")
+    text += " }" if rows else " { { 0 } } }"
+    return text[:-2] + f", {ray[6]!r} }}" if len(ray) > 6 else text
 
 
 def contraction(g, p, q):

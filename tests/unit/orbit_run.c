@@ -66,7 +66,7 @@ static void refusals(void **state)
           "energy cannot be used with p; an orbit must be defined by" },
         { "{\"orbit\":{\"case\":\"mercury\",\"p\":6}}", "/orbit",
           "case cannot be used with p; an orbit must be defined by p, e and" },
-        { "{\"orbit\":{\"p\":9,\"e\":0,\"E\":0.9}}", "/orbit/E", "did you mean e? Known are spin, p, e" },
+        { "{\"orbit\":{\"p\":9,\"e\":0,\"E\":0.9}}", "/orbit/E", "did you mean e? Known are spin, charge, p, e" },
         { "{\"orbit\":{\"p\":9,\"e\":0,\"spin\":-1}}", "/orbit/spin", "above -1" },
         { "{\"spin\":1,\"orbit\":{\"p\":9,\"e\":0}}", "/spin", "below 1" },
         { "{\"spin\":1.5,\"orbit\":{\"p\":9,\"e\":0}}", "/spin", "below 1" },

@@ -3,7 +3,6 @@
 #include "physics/null/null_bend.h"
 #include "physics/null/null_course.h"
 #include "physics/null/null_radial.h"
-#include "physics/orbit/timelike.h"
 
 #include <float.h>
 #include <math.h>
@@ -222,22 +221,10 @@ static void bends(void **state)
     assert_true(seen > 300);
 }
 
-/* Orbits have no charge: a charged hole is refused by name. */
-static void orbits_refuse(void **state)
-{
-    (void)state;
-    struct kd_error error;
-    const struct kd_hole charged = kd_hole_charged(0.5, 0.25), none = kd_hole_of(0.5);
-    assert_int_equal(kd_orbit_check_hole(&none, &error), KD_OK);
-    assert_int_equal(kd_orbit_check_hole(&charged, &error), KD_EINVAL);
-    assert_non_null(strstr(error.message, "the charge 0.25 M"));
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(critical_impact), cmocka_unit_test(edge_of_the_shadow),
                                         cmocka_unit_test(rates),           cmocka_unit_test(crossings),
-                                        cmocka_unit_test(extremes),        cmocka_unit_test(bends),
-                                        cmocka_unit_test(orbits_refuse) };
+                                        cmocka_unit_test(extremes),        cmocka_unit_test(bends) };
     return cmocka_run_group_tests_name("light about charged holes", tests, NULL, NULL);
 }

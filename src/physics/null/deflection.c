@@ -3,6 +3,7 @@
 #include "physics/math/quadrature.h"
 #include "physics/null/null_radial.h"
 #include "physics/spacetime/kerr.h"
+#include "physics/spacetime/potential.h"
 
 #include <math.h>
 
@@ -10,78 +11,97 @@
 double kd_deflection_critical(const struct kd_hole *hole)
 {
     const double a = hole->a;
+    if (kd_hole_is_charged(hole))
+        return kd_potential_critical_impact(hole);
     return fabs(a) < 1 ? 6 * cos(acos(-a) / 3) - a : NAN;
 }
 
 /* The orbit in w = 1/r and Mino time, E = 1, L = b (docs/physics/geodesics.md at Q = 0):
- *   w'^2 = 1 - (b^2 - a^2) w^2 + 2 (b - a)^2 w^3,   phi' = b + chi',   chi' = a (2w - a b w^2)/(1 - 2w + a^2 w^2). */
-static double slow(double a, double w) { return 1 - w * (2 - a * a * w); }
+ *   w'^2 = 1 - (b^2 - a^2) w^2 + 2 (b - a)^2 w^3 - q^2 (b - a)^2 w^4,   phi' = b + chi',
+ *   chi' = a (2w - (a b + q^2) w^2)/(1 - 2w + (a^2 + q^2) w^2). */
+struct light { double a, b, q2; };
 
-static double drag(double a, double b, double w) { return a * w * (2 - a * b * w) / slow(a, w); }
+static struct light light_of(const struct kd_hole *hole, double b)
+{
+    return (struct light) { hole->a, b, hole->q * hole->q };
+}
 
-struct far { double a, b, w0; /* w0: at the closest approach */ };
+static double slow(const struct light *o, double w) { return 1 - w * (2 - (o->a * o->a + o->q2) * w); }
+
+static double drag(const struct light *o, double w) { return o->a * w * (2 - (o->a * o->b + o->q2) * w) / slow(o, w); }
+
+static double quadratic(const struct light *o) { return o->b * o->b - o->a * o->a; }
+static double cubic(const struct light *o) { return 2 * (o->b - o->a) * (o->b - o->a); }
+static double quartic(const struct light *o) { return o->q2 * (o->b - o->a) * (o->b - o->a); }
+
+struct far {
+    struct light light;
+    double w0; /* at the closest approach */
+};
 
 /* With w = w0 sin(psi) the first root cancels in w'^2 = w0^2 cos^2(psi) D(psi), and
- *   alpha = 2 Int_0^{pi/2} (phi'/sqrt(D) - 1) dpsi,   D = b^2 - a^2 - 2 (b - a)^2 w0 (s + 1/(1 + s)),   s = sin(psi).
+ *   alpha = 2 Int_0^{pi/2} (phi'/sqrt(D) - 1) dpsi,   s = sin(psi),
+ *   D = b^2 - a^2 - (b - a)^2 w0 (2 (s + 1/(1 + s)) - q^2 w0 (1 + s^2)).
  * phi'^2 - D, written out, is free of b^2: no term of the order of the flat pi remains to cancel. */
 static double far_bending(double x, double y, const void *context)
 {
     const struct far *f = context;
     (void)y;
-    double a = f->a, b = f->b, s = sin(M_PI / 2 * x), chi = drag(a, b, f->w0 * s);
-    double mass = 2 * (b - a) * (b - a) * f->w0 * (s + 1 / (1 + s));
+    double a = f->light.a, b = f->light.b, s = sin(M_PI / 2 * x), chi = drag(&f->light, f->w0 * s);
+    double mass = cubic(&f->light) * f->w0 * (s + 1 / (1 + s)) - quartic(&f->light) * f->w0 * f->w0 * (1 + s * s);
     double root = sqrt(b * b - a * a - mass);
     return M_PI * (a * a + mass + chi * (2 * b + chi)) / (root * (root + b + chi));
 }
 
-/* Solves w'^2 = 0 by Newton's method from 1/b, which is below the root. The cubic is convex enough here that the method
- * hardly overshoots. */
-static double nearest_w(double a, double b)
+/* Solves w'^2 = 0 by Newton's method from 1/b, which is below the root. The polynomial is convex enough here that the
+ * method hardly overshoots. */
+static double nearest_w(const struct light *o)
 {
-    double quadratic = b * b - a * a, cubic = 2 * (b - a) * (b - a), w = 1 / b;
+    const double two = quadratic(o), three = cubic(o), four = quartic(o);
+    double w = 1 / o->b;
     for (int i = 0; i < 8; i++)
-        w -= (1 - w * w * (quadratic - cubic * w)) / (w * (3 * cubic * w - 2 * quadratic));
+        w -= (1 - w * w * (two - (three - four * w) * w)) / (w * (3 * three * w - 2 * two - 4 * four * w * w));
     return w;
 }
 
 static const double far_away = 20;
 
-static struct kd_null_radial radial_of(double a, double b)
+static struct kd_null_radial radial_of(const struct kd_hole *hole, double b)
 {
-    struct kd_null_motion motion = kd_null_motion_of(kd_hole(a), 0, 1, -b, 0);
+    struct kd_null_motion motion = kd_null_motion_of(hole, 0, 1, -b, 0);
     struct kd_null_roots roots = kd_null_roots_of(&motion);
     return kd_null_radial_of(&motion, &roots, false);
 }
 
 double kd_deflection(const struct kd_hole *hole, double b)
 {
-    const double a = hole->a;
+    const struct light light = light_of(hole, b);
     double critical = kd_deflection_critical(hole);
     if (!(b >= critical))
         return NAN;
     if (b > far_away)
-        return kd_quadrature(far_bending, &(struct far) { a, b, nearest_w(a, b) });
-    struct kd_null_radial q = radial_of(a, b);
+        return kd_quadrature(far_bending, &(struct far) { light, nearest_w(&light) });
+    struct kd_null_radial q = radial_of(hole, b);
     return q.turns ? 2 * (b * q.turn.tau + q.turn.phi) - M_PI : INFINITY;
 }
 
 double kd_deflection_closest(const struct kd_hole *hole, double b)
 {
-    const double a = hole->a;
+    const struct light light = light_of(hole, b);
     if (!(b >= kd_deflection_critical(hole)))
         return NAN;
     if (b > far_away)
-        return 1 / nearest_w(a, b);
-    struct kd_null_radial q = radial_of(a, b);
+        return 1 / nearest_w(&light);
+    struct kd_null_radial q = radial_of(hole, b);
     return q.turns ? q.roots.r4 : kd_kerr_photon_orbit(hole);
 }
 
 double kd_deflection_farthest(const struct kd_hole *hole, double b)
 {
     const double a = hole->a;
-    if (!(b >= kd_deflection_critical(hole)) || a * b > 2 * hole->outer)
+    if (!(b >= kd_deflection_critical(hole)) || a * b > 2 * hole->outer - hole->q * hole->q)
         return NAN;
-    struct kd_null_radial q = radial_of(a, b);
+    struct kd_null_radial q = radial_of(hole, b);
     return q.turns ? q.roots.r3 : kd_kerr_photon_orbit(hole);
 }
 
@@ -89,37 +109,46 @@ double kd_deflection_weak(double b) { return 4 / b; }
 
 double kd_deflection_weak_second(const struct kd_hole *hole, double b)
 {
-    return (4 + (15 * M_PI / 4 - 4 * hole->a) / b) / b;
+    return (4 + (15 * M_PI / 4 - 4 * hole->a - 3 * M_PI / 4 * hole->q * hole->q) / b) / b;
 }
 
-/* On the critical ray w'^2 = cubic (w_c - w)^2 (w - w_1), w_1 = quadratic/cubic - 2 w_c < 0. */
-struct critical { double a, b, w, w1, cubic, rate; };
+/* On the critical ray w'^2 = (w_c - w)^2 (linear (w - w_1) - quartic w^2), linear = cubic - 2 quartic w_c, w_1 =
+ * (quadratic - quartic w_c^2)/linear - 2 w_c < 0. */
+struct critical {
+    struct light light;
+    double w, w1, linear, quartic, rate;
+};
 
-/* The integrand without its pole at w_c: (rate(w) - rate(w_c))/(1 - w/w_c) for rate = (b + chi')/sqrt(cubic (w -
- * w_1)). The factor is taken out of both differences, that of chi' and that of the root. */
+static double rest_of(const struct critical *c, double w) { return c->linear * (w - c->w1) - c->quartic * w * w; }
+
+/* The integrand without its pole at w_c: (rate(w) - rate(w_c))/(1 - w/w_c) for rate = (b + chi')/sqrt(rest). The factor
+ * is taken out of both differences, that of chi' and that of the root. */
 static double regular(double x, double y, const void *context)
 {
     (void)y;
     const struct critical *c = context;
-    double a = c->a, b = c->b, wc = c->w, w = wc * x, product = w * wc;
-    double root = sqrt(c->cubic * (w - c->w1)), root_c = sqrt(c->cubic * (wc - c->w1));
-    double chi = -wc * a * (2 - 2 * a * a * product - a * b * (w + wc - 2 * product)) / (slow(a, w) * slow(a, wc));
-    return chi / root + c->rate * c->cubic * wc / (root * (root + root_c));
+    const struct light *o = &c->light;
+    double a = o->a, wc = c->w, w = wc * x, product = w * wc;
+    double root = sqrt(rest_of(c, w)), root_c = sqrt(rest_of(c, wc));
+    double chi = -wc * a * (2 - 2 * (a * a + o->q2) * product - (a * o->b + o->q2) * (w + wc - 2 * product)) /
+                 (slow(o, w) * slow(o, wc));
+    return chi / root + c->rate * (c->linear - c->quartic * (w + wc)) * wc / (root * (root + root_c));
 }
 
-/* For b = b_c (1 + delta) the double root separates by +-e, e^2 = delta b_c (d w'^2/db)/(cubic (w_c - w_1)), and the
+/* For b = b_c (1 + delta) the double root separates by +-e, e^2 = delta b_c (d w'^2/db)/rest(w_c), and the
  * pole integrates to rate arcosh(w_c/e). */
 struct kd_deflection_strong kd_deflection_strong(const struct kd_hole *hole)
 {
-    const double a = hole->a;
     double r = kd_kerr_photon_orbit(hole), b = kd_deflection_critical(hole);
+    const struct light o = light_of(hole, b);
     if (isnan(b))
         return (struct kd_deflection_strong) { NAN, NAN };
-    struct critical c = { .a = a, .b = b, .w = 1 / r, .cubic = 2 * (b - a) * (b - a) };
-    c.w1 = (b * b - a * a) / c.cubic - 2 * c.w;
-    c.rate = (b + drag(a, b, c.w)) / sqrt(c.cubic * (c.w - c.w1));
-    double by_b = 2 * c.w * c.w * (b - 2 * (b - a) * c.w); /* -d w'^2/db at w_c */
-    double e2 = b * by_b / (c.cubic * (c.w - c.w1));
+    struct critical c = { .light = o, .w = 1 / r, .quartic = quartic(&o) };
+    c.linear = cubic(&o) - 2 * c.quartic * c.w;
+    c.w1 = (quadratic(&o) - c.quartic * c.w * c.w) / c.linear - 2 * c.w;
+    c.rate = (b + drag(&o, c.w)) / sqrt(rest_of(&c, c.w));
+    double by_b = 2 * c.w * c.w * (b - (2 - o.q2 * c.w) * (b - o.a) * c.w); /* -d w'^2/db at w_c */
+    double e2 = b * by_b / rest_of(&c, c.w);
     double rest = kd_quadrature(regular, &c);
     return (struct kd_deflection_strong) { .rate = c.rate,
                                            .offset = c.rate * log(4 * c.w * c.w / e2) + 2 * rest - M_PI };

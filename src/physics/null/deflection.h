@@ -1,10 +1,11 @@
-/* Deflection of light in the equatorial plane of Kerr. Double precision, pure functions, any thread. G = c = M = 1;
- * impact parameter b = |L|/E > 0; the light turns towards +phi, so that a < 0 is a hole that turns against it.
- * Angles in radians.
+/* Deflection of light in the equatorial plane of Kerr, with or without charge. Double precision, pure functions, any
+ * thread. G = c = M = 1; impact parameter b = |L|/E > 0; the light turns towards +phi, so that a < 0 is a hole that
+ * turns against it. Angles in radians.
  *
  * Sources: C. G. Darwin 1959, Proc. R. Soc. Lond. A 249, 180 (Schwarzschild); S. V. Iyer & E. C. Hioki 2009,
  * arXiv:0907.0352 (Kerr, and the weak field to the second order in M/b); V. Bozza 2002, Phys. Rev. D 66, 103001 (the
- * strong limit). Domain |a| < 1; outside: NaN. */
+ * strong limit); E. F. Eiroa, G. E. Romero & D. F. Torres 2002, Phys. Rev. D 66, 024010 (charge). Domain |a| < 1;
+ * outside: NaN. */
 #ifndef KD_PHYSICS_NULL_DEFLECTION_H
 #define KD_PHYSICS_NULL_DEFLECTION_H
 
@@ -23,11 +24,11 @@ double kd_deflection(const struct kd_hole *hole, double b);
 double kd_deflection_closest(const struct kd_hole *hole, double b);
 
 /* Largest radius that light of the same b reaches before it falls back, if it is emitted inside the photon orbit: the
- * other turning point. NaN also for b > 2 r+/a, a > 0: at the horizon all light has E >= L a/(2 r+), so that none has
- * such a b. */
+ * other turning point. NaN also for b > (2 r+ - q^2)/a, a > 0: at the horizon all light has E >= L a/(2 r+ - q^2), so
+ * that none has such a b. */
 double kd_deflection_farthest(const struct kd_hole *hole, double b);
 
-/* Weak-field deflection: 4/b, and with the next order 4/b + (15 pi/4 - 4a)/b^2. */
+/* Weak-field deflection: 4/b, and with the next order 4/b + (15 pi/4 - 4a - 3 pi q^2/4)/b^2. */
 double kd_deflection_weak(double b);
 double kd_deflection_weak_second(const struct kd_hole *hole, double b);
 

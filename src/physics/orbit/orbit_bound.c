@@ -45,13 +45,13 @@ static struct kd_orbit_sums radial_sums(const struct kd_orbit_bound *b, double u
     double at_plus = b->h * (r2 - r3) / (r2 - plus) * integral_pole(at, 1 - b->h_plus * s2);
     double at_minus = b->h * (r2 - r3) / (r2 - minus) * integral_pole(at, 1 - b->h_minus * s2);
     double j_plus = (u - at_plus) / (r2 - plus), j_minus = (u - at_minus) / (r2 - minus);
-    double once = 8 * o->energy - 2 * a * o->momentum, flat = 4 * a * a * o->energy;
-    double poles_t = ((once * plus - flat) * j_plus - (once * minus - flat) * j_minus) / gap;
-    double twice = 2 * o->energy, back = a * o->momentum;
+    double flat = 4 * a * a * o->energy + o->nearer;
+    double poles_t = ((o->near * plus - flat) * j_plus - (o->near * minus - flat) * j_minus) / gap;
+    double twice = 2 * o->energy, back = o->drag;
     double poles_phi = ((twice * plus - back) * j_plus - (twice * minus - back) * j_minus) / gap;
     return (struct kd_orbit_sums) {
         .proper = i2 / b->unit_r,
-        .t = (o->energy * (i2 + 2 * i1 + 4 * u) + poles_t) / b->unit_r,
+        .t = (o->energy * (i2 + 2 * i1 + o->four * u) + poles_t) / b->unit_r,
         .phi = a * poles_phi / b->unit_r,
     };
 }
@@ -229,15 +229,29 @@ static double complete_excess(double k)
     return x / (1 - x);
 }
 
-double kd_orbit_periastron_advance(const struct kd_orbit_bound *b)
+/* Advance about a hole without spin: 4 K(k)/sqrt(1 - less) - 2 pi, with 1 - less = b (r1 - r3)(r2 - r4)/l^2. Without
+ * charge r4 = 0, less = (6 - 2e)/p and k = 4e/(p - 6 + 2e): C. Darwin 1961, Proc. R. Soc. A 263, 39. With charge less
+ * follows from the coefficient of w^2 in W, without cancellation: W = (w - w_low)(w_high - w)(g0 + g1 w + g2 w^2),
+ * whose last factor, times r^2, is g0 (r - r3)(r - r4). */
+static double advance_in_a_plane(const struct kd_orbit_bound *b)
 {
     const struct kd_orbit *o = &b->orbit;
-    if (o->hole.a ==
-        0) { /* 4 K(k) sqrt(p/(p - 6 + 2e)) - 2 pi, k = 4e/(p - 6 + 2e): C. Darwin 1961, Proc. R. Soc. A 263, 39 */
-        double less = 2 * o->w_high + 4 * o->w_low; /* (6 - 2e)/p */
-        double pace = expm1(-0.5 * log1p(-less)), excess = complete_excess(2 * (o->w_high - o->w_low) / (1 - less));
-        return 2 * M_PI * (pace + excess + pace * excess);
+    double less = 2 * o->w_high + 4 * o->w_low, apart = 2;
+    if (kd_hole_is_charged(&o->hole)) {
+        double g[3], q2 = o->hole.q * o->hole.q;
+        kd_orbit_factor(o, g);
+        double third = g[0] * b->r[2], fourth = g[0] * b->r[3];
+        less = (third * (2 * o->w_low + o->w_high) + fourth * (o->w_low + 2 * o->w_high) - q2) / o->total;
+        apart = (third - fourth) / o->total;
     }
+    double pace = expm1(-0.5 * log1p(-less)), excess = complete_excess(apart * (o->w_high - o->w_low) / (1 - less));
+    return 2 * M_PI * (pace + excess + pace * excess);
+}
+
+double kd_orbit_periastron_advance(const struct kd_orbit_bound *b)
+{
+    if (b->orbit.hole.a == 0)
+        return advance_in_a_plane(b);
     struct kd_orbit_frequencies f = kd_orbit_frequencies_of(b);
     return 2 * M_PI * (fabs(f.mino_phi) / f.mino_r - 1);
 }

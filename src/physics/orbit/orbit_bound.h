@@ -1,5 +1,5 @@
-/* Bound timelike geodesics of Kerr in closed form: place and time at any Mino time, and the fundamental frequencies.
- * Double precision, pure functions, any thread. Units G = c = M = 1.
+/* Bound timelike geodesics of Kerr, with or without charge, in closed form: place and time at any Mino time, and the
+ * fundamental frequencies. Double precision, pure functions, any thread. Units G = c = M = 1.
  *
  * R. Fujita & W. Hikida 2009, arXiv:0906.1420 (r, theta, t, phi by elliptic functions; frequencies as S. Drasco & S.
  * A. Hughes 2004, astro-ph/0308479, define them). Their integrals of the third kind are written with Carlson's R_J,

@@ -48,11 +48,10 @@ static void pull(const struct kd_orbit_path *p, const double *q, double rest, do
         f[KD_PATH_CHI] = turn + a * slow - a * o->energy;
         return;
     }
-    double hole = 1 / kd_hole_delta_w(&o->hole, w);                                /* r^2/Delta */
-    f[KD_PATH_CHI] = turn + a * (2 * o->energy * w - a * o->momentum * w2) * hole; /* a (2Er - aL)/Delta */
-    /* E r^2 + 2 E r + 4 E + [(8E - 2aL) r - 4 a^2 E]/Delta + a^2 E u^2 */
-    f[KD_PATH_T] = o->energy * (far + 2 * w * far + 4 + up) +
-                   ((8 * o->energy - 2 * a * o->momentum) * w - 4 * a2w2 * o->energy) * hole;
+    double hole = 1 / kd_hole_delta_w(&o->hole, w); /* r^2/Delta */
+    f[KD_PATH_CHI] = turn + a * (2 * o->energy * w - o->drag * w2) * hole;
+    f[KD_PATH_T] =
+        o->energy * (far + 2 * w * far + o->four + up) + (o->near * w - 4 * a2w2 * o->energy - o->nearer * w2) * hole;
 }
 
 /* The weights w3, w2, w1, w0 of Yoshida's solution A, to 25 digits, from his three equations by Newton's method. */
@@ -154,8 +153,8 @@ static void albrecht(struct kd_orbit_path *p, double h)
 static void ahead(const struct kd_orbit *o, double w, double *t, double *phi)
 {
     double plus = o->hole.outer, minus = o->hole.inner, gap = plus - minus, r = 1 / w;
-    double near = log(r - plus), inner = o->hole.a == 0 ? 0 : log(r - minus);
-    *t = r + 2 * (plus * near - minus * inner) / gap;
+    double near = log(r - plus), inner = log(r - minus), q2 = o->hole.q * o->hole.q;
+    *t = r + ((2 * plus - q2) * near - (2 * minus - q2) * inner) / gap;
     *phi = o->hole.a * (near - inner) / gap;
 }
 
@@ -193,14 +192,14 @@ static double swing(const struct kd_orbit_path *p)
 void kd_orbit_path_init(struct kd_orbit_path *p, const struct kd_orbit *o, const struct kd_orbit_state *start,
                         enum kd_orbit_method method)
 {
-    double flat = o->hole.a * o->hole.a * o->binding, sum = o->total + flat, root = sqrt(o->z);
+    double flat = o->hole.a * o->hole.a * o->binding, sum = o->total + flat, root = sqrt(o->z), pull = -o->w[2];
     *p = (struct kd_orbit_path) { .orbit = *o, .method = method, .factored = o->turns_in && o->turns_out };
     if (p->factored)
         kd_orbit_factor(o, p->g);
     p->spring[KD_PATH_Y].strength = fmax(sum, 0);
     p->stiff = fmax(-sum, 0);
-    if (!o->circular && 12 * o->k * o->w_high < sum)
-        p->spring[KD_PATH_W] = (struct kd_spring) { .strength = sum, .centre = 1 / sum };
+    if (!o->circular && 12 * o->k * o->w_high < pull)
+        p->spring[KD_PATH_W] = (struct kd_spring) { .strength = pull, .centre = 1 / pull };
     p->cc = o->momentum != 0 ? fabs(o->momentum) / (o->n - flat) : 0;
     p->nu = -flat * p->cc * p->cc;
     p->twist = copysign(-flat * p->cc, -flat * o->momentum);

@@ -1,4 +1,5 @@
-/* Integrates timelike geodesics of Kerr. Double precision, any thread; a path belongs to one thread at a time.
+/* Integrates timelike geodesics of Kerr, with or without charge. Double precision, any thread; a path belongs to one
+ * thread at a time.
  *
  * In Mino time, with b = 1 - E^2, w = 1/r and y = cos(theta)/sqrt(z), -1 <= y <= 1 (timelike.h),
  *
@@ -69,9 +70,9 @@ void kd_orbit_path_step(struct kd_orbit_path *path, double h);
 struct kd_orbit_place kd_orbit_path_place(const struct kd_orbit_path *path);
 
 /* Errors of the first integrals, from the present place. E and the rest mass: relative. Q: the residual of the polar
- * equation, divided by L^2 + Q. With a = 0 Binet's C = (dw/dpsi)^2 + w^2 - 2w/l^2 - 2w^3 = (E^2 - 1)/l^2, l^2 = L^2
- * + Q, psi being the angle in the plane of the orbit, times l^2; otherwise NAN. The mass is NAN within a hundredth
- * of r+ from the horizon and a tenth from the axis, where it is 0/0. */
+ * equation, divided by L^2 + Q. With a = 0 Binet's C = (dw/dpsi)^2 + w^2 - 2w/l^2 - 2w^3 + q^2 w^2 (1/l^2 + w^2) =
+ * (E^2 - 1)/l^2, l^2 = L^2 + Q, psi being the angle in the plane of the orbit, times l^2; otherwise NAN. The mass is
+ * NAN within a hundredth of r+ from the horizon and a tenth from the axis, where it is 0/0. */
 struct kd_orbit_drift { double energy, carter, mass, binet; };
 struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *path);
 

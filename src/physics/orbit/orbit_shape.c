@@ -8,33 +8,33 @@
  * gr-qc/0202090, B.16 to B.21), regrouped. With L = x l, R(r) = 0 reads, in l instead of L,
  *
  *   f E^2 - 2 g a x E l - h l^2 - d = 0        Q = z (a^2 b + l^2)
- *   d = (r^2 + a^2 z) Delta    f = r^4 + a^2 (r (r + 2) + z Delta)    g = 2r    h = r (r - 2) + a^2 z
+ *   d = (r^2 + a^2 z) Delta    f = r^4 + a^2 (r (r + 2) - q^2 + z Delta)    g = 2r - q^2    h = r (r - 2) + q^2 + a^2 z
  *
  * which is regular at the pole, x = 0, where his h is not. His determinants of the two turning points vanish as e
  * does; here they are divided by r2 - r1, by divided differences, so that e = 0 is no special case. His sign of the
  * root becomes that of ax. */
 struct column { double f, g, h, d; };
 
-static struct column values(double a2, double z, double r)
+static struct column values(double a2, double q2, double z, double r)
 {
-    double delta = r * (r - 2) + a2;
-    return (struct column) { r * r * r * r + a2 * (r * (r + 2) + z * delta), 2 * r, r * (r - 2) + a2 * z,
+    double delta = r * (r - 2) + a2 + q2;
+    return (struct column) { r * r * r * r + a2 * (r * (r + 2) - q2 + z * delta), 2 * r - q2, r * (r - 2) + q2 + a2 * z,
                              (r * r + a2 * z) * delta };
 }
 
 /* (F(r2) - F(r1)) / (r2 - r1) */
-static struct column differences(double a2, double z, double r1, double r2)
+static struct column differences(double a2, double q2, double z, double r1, double r2)
 {
     double one = r1 + r2, two = r1 * r1 + r1 * r2 + r2 * r2, three = one * (r1 * r1 + r2 * r2);
     return (struct column) { three + a2 * (one + 2 + z * (one - 2)), 2, one - 2,
-                             three - 2 * two + a2 * one + a2 * z * (one - 2) };
+                             three - 2 * two + (a2 + q2) * one + a2 * z * (one - 2) };
 }
 
-/* The positive root l of the quadratic at r, for given E and b = 1 - E^2. q = f - d = 2r (r^2 + a^2) and b replace d
- * and E^2. */
+/* The positive root l of the quadratic at r, for given E and b = 1 - E^2. f - d = g (r^2 + a^2) and b replace d and
+ * E^2. */
 static double root_at(const struct column *v, double ax, double r, double a2, double energy, double binding)
 {
-    double half = v->g * ax * energy, rest = 2 * r * (r * r + a2) - v->f * binding;
+    double half = v->g * ax * energy, rest = v->g * (r * r + a2) - v->f * binding;
     double discriminant = sqrt(half * half + v->h * rest);
     return half > 0 ? rest / (half + discriminant) : (discriminant - half) / v->h;
 }
@@ -42,20 +42,20 @@ static double root_at(const struct column *v, double ax, double r, double a2, do
 /* b from W(w) = 0, with Q = z (a^2 b + l^2) and K = Q + (L - aE)^2. */
 static double binding_at(const struct kd_orbit *o, double x, double l, double w)
 {
-    double a2 = o->hole.a * o->hole.a, z = (1 - x) * (1 + x), l2 = x * l * x * l, q0 = z * l * l,
-           rest = x * l - o->hole.a * o->energy;
-    double fixed = w * (2 + w * (-(l2 + q0) + w * (2 * (q0 + rest * rest) - w * a2 * q0)));
-    return fixed / (1 + a2 * w * w * (1 + z * (1 - 2 * w + a2 * w * w)));
+    double a2 = o->hole.a * o->hole.a, q2 = o->hole.q * o->hole.q, z = (1 - x) * (1 + x), l2 = x * l * x * l,
+           q0 = z * l * l, rest = x * l - o->hole.a * o->energy, k0 = q0 + rest * rest;
+    double fixed = w * (2 + w * (-(l2 + q0 + q2) + w * (2 * k0 - w * a2 * q0 - w * q2 * k0)));
+    return fixed / (1 + a2 * w * w * (1 + z * (1 - 2 * w + (a2 + q2) * w * w)));
 }
 
 /* His formula for E loses the digits of b in wide orbits, and l those of b. With E^2 = 1 - b, eliminating l^2 from
- * the two equations gives rho b = chi - 2 a x sigma E l with chi from q instead of d, where E and l enter a small
+ * the two equations gives rho b = chi - 2 a x sigma E l with chi from f - d instead of d, where E and l enter a small
  * term only. Next to a parabola this loses digits too; there the outer turning point gives b, since W = 0 is almost
  * b = 2w. */
 static void energy_and_momentum(struct kd_orbit *o, double x, double r1, double r2, double *l)
 {
-    double a2 = o->hole.a * o->hole.a, z = (1 - x) * (1 + x), ax = o->hole.a * x;
-    struct column v = values(a2, z, r2), s = differences(a2, z, r1, r2);
+    double a2 = o->hole.a * o->hole.a, q2 = o->hole.q * o->hole.q, z = (1 - x) * (1 + x), ax = o->hole.a * x;
+    struct column v = values(a2, q2, z, r2), s = differences(a2, q2, z, r1, r2);
     double kappa = v.d * s.h - v.h * s.d, epsilon = v.d * s.g - v.g * s.d, rho = v.f * s.h - v.h * s.f;
     double eta = v.f * s.g - v.g * s.f, sigma = v.g * s.h - v.h * s.g;
     /* Next to a parabola the last two terms are equal within rounding; below E l is not needed more accurately than
@@ -63,7 +63,8 @@ static void energy_and_momentum(struct kd_orbit *o, double x, double r1, double 
     double inner = ax * ax * sigma * epsilon * epsilon + rho * epsilon * kappa - eta * kappa * kappa;
     double root = sqrt(fmax(sigma * inner, 0));
     double e2 = (kappa * rho + 2 * ax * ax * epsilon * sigma - 2 * ax * root) / (rho * rho + 4 * ax * ax * eta * sigma);
-    double q = 2 * r2 * (r2 * r2 + a2), chi = q * s.h - v.h * 2 * (r1 * r1 + r1 * r2 + r2 * r2 + a2);
+    double less = v.g * (r2 * r2 + a2), less_slope = 2 * (r1 * r1 + r1 * r2 + r2 * r2 + a2) - q2 * (r1 + r2);
+    double chi = less * s.h - v.h * less_slope;
     o->energy = sqrt(e2);
     *l = root_at(&v, ax, r2, a2, o->energy, 1 - e2);
     o->binding = (chi - 2 * ax * sigma * o->energy * *l) / rho;
@@ -112,10 +113,10 @@ static bool stable(const struct kd_orbit *o)
 
 double kd_orbit_separatrix(const struct kd_hole *hole, double e, double x)
 {
-    const double a = hole->a;
     if (e == 0 && fabs(x) == 1)
-        return kd_kerr_isco(kd_hole(x > 0 ? a : -a));
-    /* The largest separatrix is that of a retrograde parabola about an extremal hole, 2 r_mb = 11.66. */
+        return kd_kerr_isco(kd_hole_turned(hole, x > 0 ? 1 : -1));
+    /* The largest separatrix is that of a retrograde parabola about an extremal hole, 2 r_mb = 11.66; charge moves it
+     * inwards. */
     double low = hole->outer, high = 12;
     while (high - low > 2e-16 * high) {
         double p = 0.5 * (low + high);
@@ -148,7 +149,7 @@ double kd_orbit_least_circle(const struct kd_hole *hole, double x)
 enum kd_status kd_orbit_from_shape(const struct kd_hole *hole, double p, double e, double x, struct kd_orbit *o,
                                    struct kd_error *error)
 {
-    enum kd_status status = kd_orbit_check_hole(hole, error);
+    enum kd_status status = kd_hole_check(hole, error);
     if (status)
         return status;
     if (!(e >= 0 && e < 1))
@@ -159,7 +160,7 @@ enum kd_status kd_orbit_from_shape(const struct kd_hole *hole, double p, double 
     double least = p < 12.5 ? kd_orbit_separatrix(hole, e, x) : 0;
     if (p < least && (e > 0 || !exists(o)))
         return kd_error_field(
-            error, "/p", "p is %.16g; with this spin, e and inclination_deg it must be above the separatrix at %.9g", p,
+            error, "/p", "p is %.16g; with this hole, e and inclination_deg it must be above the separatrix at %.9g", p,
             least);
     o->fate = p < least ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND;
     return KD_OK;

@@ -24,8 +24,9 @@ double kd_orbit_radial_slope(const struct kd_orbit *o, double w)
 
 double kd_orbit_radial_by_energy(const struct kd_orbit *o, double w)
 {
+    const double q2w = o->hole.q * o->hole.q * w; /* with charge 2 w^3 becomes (2 - q^2 w) w^3 */
     return 2 * o->energy * (1 + o->hole.a * o->hole.a * w * w) -
-           4 * o->hole.a * (o->momentum - o->hole.a * o->energy) * w * w * w;
+           (4 - 2 * q2w) * o->hole.a * (o->momentum - o->hole.a * o->energy) * w * w * w;
 }
 
 /* z is the root, in u^2, that the motion reaches. 1 - z follows from the product L^2 = (1 - z)(n - a^2 b) or from z
@@ -50,14 +51,18 @@ static void set_polar(struct kd_orbit *o)
 
 void kd_orbit_set_constants(struct kd_orbit *o)
 {
-    double a2 = o->hole.a * o->hole.a, rest = o->momentum - o->hole.a * o->energy;
+    double a2 = o->hole.a * o->hole.a, q2 = o->hole.q * o->hole.q, rest = o->momentum - o->hole.a * o->energy;
     o->k = o->carter + rest * rest;
     o->total = o->momentum * o->momentum + o->carter;
     o->w[0] = -o->binding;
     o->w[1] = 2;
-    o->w[2] = -(a2 * o->binding + o->total);
+    o->w[2] = -(a2 * o->binding + o->total + q2);
     o->w[3] = 2 * o->k;
-    o->w[4] = -a2 * o->carter;
+    o->w[4] = -a2 * o->carter - q2 * o->k;
+    o->drag = o->hole.a * o->momentum + q2 * o->energy;
+    o->four = 4 - q2;
+    o->near = 8 * o->energy - 2 * o->hole.a * o->momentum - 4 * q2 * o->energy;
+    o->nearer = q2 * (o->four * o->energy - o->hole.a * o->momentum);
     set_polar(o);
 }
 
@@ -98,16 +103,6 @@ static void set_fate(struct kd_orbit *o)
     o->fate = !o->turns_in ? KD_ORBIT_PLUNGE : o->turns_out ? KD_ORBIT_BOUND : KD_ORBIT_ESCAPE;
 }
 
-enum kd_status kd_orbit_check_hole(const struct kd_hole *hole, struct kd_error *error)
-{
-    if (hole->q != 0)
-        return kd_error_set(error, KD_EINVAL, "the hole has the charge %.16g M; orbits are for uncharged holes only",
-                            hole->q);
-    if (fabs(hole->a) < 1)
-        return KD_OK;
-    return kd_error_field(error, "/spin", "spin is %.16g; it must be a number above -1 and below 1", hole->a);
-}
-
 /* True if E(r^2 + a^2) - aL > 0: the particle moves towards the future. */
 static bool to_the_future(const struct kd_orbit *o)
 {
@@ -118,7 +113,7 @@ static bool to_the_future(const struct kd_orbit *o)
 enum kd_status kd_orbit_from_constants(const struct kd_hole *hole, double energy, double momentum, double carter,
                                        double r, struct kd_orbit *o, struct kd_error *error)
 {
-    enum kd_status status = kd_orbit_check_hole(hole, error);
+    enum kd_status status = kd_hole_check(hole, error);
     if (status)
         return status;
     if (!(carter >= 0))
@@ -189,7 +184,7 @@ static enum kd_status check_state(const struct kd_hole *hole, double r, double t
     const struct kd_vantage at = { *hole, r, kd_cos_deg(theta_deg), kd_sin_deg(theta_deg) };
     const struct kd_observer_row *row = &kd_observers[frame];
     char others[KD_OBSERVER_TEXT];
-    enum kd_status status = kd_orbit_check_hole(hole, error);
+    enum kd_status status = kd_hole_check(hole, error);
     double speed = hypot(hypot(v[0], v[1]), v[2]);
     if (status)
         return status;

@@ -1,14 +1,14 @@
-/* Timelike geodesics of Kerr: constants of motion, turning points and fate. Double precision, pure functions, any
- * thread. Units G = c = M = 1, unit rest mass; Boyer-Lindquist coordinates. The spin a is signed; the orbit's sense
- * is that of its L.
+/* Timelike geodesics of Kerr, with or without charge: constants of motion, turning points and fate. Double precision,
+ * pure functions, any thread. Units G = c = M = 1, unit rest mass; Boyer-Lindquist coordinates. The spin a is signed;
+ * the orbit's sense is that of its L.
  *
  * In Mino time (dtau_proper = Sigma dlambda) with w = 1/r and u = cos(theta), K = Q + (L - aE)^2 and b = 1 - E^2,
  *
- *   w'^2 = W(w) = -b + 2w - (a^2 b + L^2 + Q) w^2 + 2K w^3 - a^2 Q w^4
+ *   w'^2 = W(w) = -b + 2w - (a^2 b + L^2 + Q + q^2) w^2 + 2K w^3 - (a^2 Q + q^2 K) w^4
  *   u'^2 = Q - (Q + L^2 + a^2 b) u^2 + a^2 b u^4
  *
- * (Carter 1968, Phys. Rev. 174, 1559; Mino 2003, gr-qc/0302075). Q is Carter's constant, Q = 0 in the equatorial
- * plane. */
+ * (Carter 1968, Phys. Rev. 174, 1559, with the charge q of the hole; Mino 2003, gr-qc/0302075). The particle is
+ * neutral. Q is Carter's constant, Q = 0 in the equatorial plane. */
 #ifndef KD_PHYSICS_ORBIT_TIMELIKE_H
 #define KD_PHYSICS_ORBIT_TIMELIKE_H
 
@@ -27,6 +27,9 @@ struct kd_orbit {
     double momentum, carter; /* L and Q */
     double k, total;         /* K, and L^2 + Q */
     double w[5];             /* coefficients of W, ascending powers */
+    /* Rates of azimuth and time per Mino time: a (2E r - drag)/Delta + L/sin^2 theta and
+     * E (r^2 + 2r + four + a^2 u^2) + (near r - 4 a^2 E - nearer)/Delta. */
+    double drag, four, near, nearer;
     /* u'^2 = (z - u^2)(n - a^2 b u^2), z n = Q: u oscillates between -sqrt(z) and sqrt(z), for Q < 0 on one side of
      * the equator. */
     double z, n, axis_gap; /* axis_gap is 1 - z */
@@ -82,9 +85,9 @@ double kd_orbit_radial(const struct kd_orbit *orbit, double w);
 double kd_orbit_radial_slope(const struct kd_orbit *orbit, double w);
 double kd_orbit_radial_by_energy(const struct kd_orbit *orbit, double w);
 
-/* Shared by the files of this folder: sets K, L^2 + Q and the coefficients of W from a, E, b, L and Q. */
+/* Shared by the files of this folder: sets all that follows from the hole, E, b, L and Q
+ * alone. */
 void kd_orbit_set_constants(struct kd_orbit *orbit);
-enum kd_status kd_orbit_check_hole(const struct kd_hole *hole, struct kd_error *error);
 
 /* W = (w - w_low)(w_high - w)(g[0] + g[1] w + g[2] w^2), if both ends are turning points. */
 void kd_orbit_factor(const struct kd_orbit *orbit, double g[3]);

@@ -5,7 +5,8 @@
  * Boyer & Lindquist 1967: dl^2 = r^2/Delta dr^2 + R^2 dphi^2 with R^2 = r^2 + a^2 + 2a^2/r, so that dz^2 = r^2/Delta
  * dr^2 - dR^2 and R^2 Delta (dz/dr)^2 = 2r^3 + 4a^2 r - 4a^2 + 2a^4/r - a^4/r^2 + 2a^4/r^3 - a^6/r^4. Each negative
  * term is smaller than the one before it for r >= 1 >= |a|: the plane can be embedded down to the horizon at any
- * spin. */
+ * spin. With charge 2a^2/r becomes a^2 (2r - q^2)/r^2, and with t = a^2 (r - q^2)/r^3 the polynomial is (2r - q^2)(r^2
+ * + a^2) + t Delta (2r - t), which is positive too. */
 #ifndef KD_PHYSICS_SPACETIME_EMBEDDING_H
 #define KD_PHYSICS_SPACETIME_EMBEDDING_H
 

@@ -5,6 +5,14 @@
  *     kappa^2     = Omega^2 (1 - 6/r + 8a r^(-3/2) - 3a^2/r^2)       radial
  *     Omega_th^2  = Omega^2 (1 - 4a r^(-3/2) + 3a^2/r^2)             vertical
  *
+ * With charge, in terms of kd_kerr_ring (kerr.h),
+ *
+ *     kappa^2     = Omega^2 X/(r s)^2
+ *     Omega_th^2  = Omega^2 ((r^2 + a^2) sigma^2 + 2a sigma Delta + a^2 Delta)/(r s)^2
+ *
+ * from the second derivatives of Carter's potentials: -R''/2 = X/P^2 and L^2 + a^2 (1 - E^2), with dt/dlambda = r (r^2
+ * + a s)/P.
+ *
  * Sources: J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972; A. T. Okazaki, S. Kato & J. Fukue 1987, PASJ 39, 457; S.
  * Kato 1990, PASJ 42, 99. The relative error is below 1e-14. For kappa, which has a zero at the ISCO, it is below 1e-15
  * r_isco/|r - r_isco| times the error for a = 0. */

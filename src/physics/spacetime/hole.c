@@ -15,6 +15,16 @@ struct kd_hole kd_hole_charged(double a, double q)
     return (struct kd_hole) { a, q, root, outer, (a2 + q2) / outer };
 }
 
+enum kd_status kd_hole_check(const struct kd_hole *hole, struct kd_error *error)
+{
+    if (!(fabs(hole->a) < 1))
+        return kd_error_field(error, "/spin", "spin is %.16g; it must be a number above -1 and below 1", hole->a);
+    if (!kd_hole_exists(hole))
+        return kd_error_field(error, "/charge", "charge is %.16g M; with spin %.16g its magnitude must be below %.9g M",
+                              hole->q, hole->a, sqrt((1 - hole->a) * (1 + hole->a)));
+    return KD_OK;
+}
+
 struct kd_metric_scalars kd_metric_at(const struct kd_hole *hole, double r, double cos_theta)
 {
     double a = hole->a, w = r * r + a * a, s2 = (1 - cos_theta) * (1 + cos_theta);

@@ -7,6 +7,8 @@
 #ifndef KD_PHYSICS_SPACETIME_HOLE_H
 #define KD_PHYSICS_SPACETIME_HOLE_H
 
+#include "base/error.h"
+
 #include <math.h>
 #include <stdbool.h>
 
@@ -39,6 +41,9 @@ static inline bool kd_hole_exists(const struct kd_hole *hole)
 {
     return hole->a * hole->a + hole->q * hole->q <= 1 && hole->root > 0 && hole->outer > 1;
 }
+
+/* KD_EINVAL at "/spin" or "/charge", with what is allowed, if it does not. */
+enum kd_status kd_hole_check(const struct kd_hole *hole, struct kd_error *error);
 
 /* A hole from its spin, to be used as an argument: kd_kerr_isco(kd_hole(0.9)). It lives until the end of the enclosing
  * block. */

@@ -93,11 +93,21 @@ double kd_kerr_outermost_photon_orbit(const struct kd_hole *hole)
     return kd_kerr_photon_orbit(kd_hole_turned(hole, hole->a > 0 ? -1 : 1));
 }
 
+/* r P (E - 1) */
+static double energy_above_rest(const void *user, double y)
+{
+    const struct kd_hole *hole = user;
+    const struct kd_kerr_ring o = kd_kerr_ring_at(hole, y);
+    return o.delta + hole->a * o.sigma - (1 + y) * sqrt(fmax(0, o.p2));
+}
+
 double kd_kerr_marginally_bound(const struct kd_hole *hole)
 {
     const double a = hole->a;
+    if (kd_hole_is_charged(hole)) /* E falls from infinity on the photon orbit to less than 1 at the ISCO */
+        return 1 + kd_root(energy_above_rest, hole, kd_kerr_ring_of_light(hole), kd_kerr_ring_innermost(hole));
     double s = 1 + sqrt(1 - a);
-    return a >= -1 && !kd_hole_is_charged(hole) ? s * s : NAN;
+    return a >= -1 ? s * s : NAN;
 }
 
 double kd_kerr_omega(const struct kd_hole *hole, double r)

@@ -16,8 +16,8 @@ double kd_kerr_ergosphere(const struct kd_hole *hole, double cos_theta);
  * kd_kerr_ring_excess. */
 double kd_kerr_isco(const struct kd_hole *hole);
 
-/* Circular photon orbit [BPT eq. 2.18] and marginally bound orbit [BPT eq. 2.19]. The latter is NaN for a charged
- * hole. */
+/* Circular photon orbit [BPT eq. 2.18] and marginally bound orbit [BPT eq. 2.19]. With charge they are the
+ * roots of P and of E - 1. */
 double kd_kerr_photon_orbit(const struct kd_hole *hole);
 double kd_kerr_marginally_bound(const struct kd_hole *hole);
 

@@ -8,11 +8,17 @@ double kd_potential(const struct kd_hole *hole, double l, double mu2, double r)
 {
     const double a = hole->a;
     double delta = kd_hole_delta(hole, r);
-    double big = r * (r * (r * r + a * a) + 2 * a * a);
-    return (2 * a * l * r + r * sqrt(fmax(0, delta) * (r * r * l * l + mu2 * big))) / big;
+    const double q2 = hole->q * hole->q;
+    double big = r * (r * (r * r + a * a) + 2 * a * a) - a * a * q2;
+    return (a * l * (2 * r - q2) + r * sqrt(fmax(0, delta) * (r * r * l * l + mu2 * big))) / big;
 }
 
-double kd_potential_critical_impact(const struct kd_hole *hole) { return 6 * cos(acos(-hole->a) / 3) - hole->a; }
+double kd_potential_critical_impact(const struct kd_hole *hole)
+{
+    if (kd_hole_is_charged(hole))
+        return 1 / kd_kerr_omega(hole, kd_kerr_photon_orbit(hole));
+    return 6 * cos(acos(-hole->a) / 3) - hole->a;
+}
 
 static const struct kd_potential_extrema none = { NAN, NAN, NAN, NAN };
 

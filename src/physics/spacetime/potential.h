@@ -2,11 +2,11 @@
  * Motion is possible where E >= V. Double precision, pure, any thread. G = c = M = 1; a and L signed, L > 0 towards
  * +phi.
  *
- *     V = (2 a L r + r sqrt(Delta (r^2 L^2 + mu^2 A))) / A,   A = r^4 + a^2 r^2 + 2 a^2 r
+ *     V = (a L (2r - q^2) + r sqrt(Delta (r^2 L^2 + mu^2 A))) / A,   A = r^4 + a^2 r^2 + a^2 (2r - q^2)
  *
- * the larger root of A E^2 - 4 a r L E - (r^2 - 2r) L^2 - mu^2 r^2 Delta = 0: J. M. Bardeen, W. H. Press & S. A.
- * Teukolsky 1972, ApJ 178, 347, eq. 2.9 with R = 0; C. W. Misner, K. S. Thorne & J. A. Wheeler 1973, eq. 33.32. For
- * a = 0 it is sqrt((1 - 2/r)(mu^2 + L^2/r^2)). Relative error below 1e-14 for a L >= 0. For a L < 0 V has a zero at
+ * the larger root of A E^2 - 2 a (2r - q^2) L E - (r^2 - 2r + q^2) L^2 - mu^2 r^2 Delta = 0: J. M. Bardeen, W. H. Press
+ * & S. A. Teukolsky 1972, ApJ 178, 347, eq. 2.9 with R = 0; C. W. Misner, K. S. Thorne & J. A. Wheeler 1973, eq. 33.32.
+ * For a = 0 it is sqrt((1 - 2/r)(mu^2 + L^2/r^2)). Relative error below 1e-14 for a L >= 0. For a L < 0 V has a zero at
  * the static limit for large |L|, and the error is 1e-15 of either term. */
 #ifndef KD_PHYSICS_SPACETIME_POTENTIAL_H
 #define KD_PHYSICS_SPACETIME_POTENTIAL_H
@@ -24,7 +24,7 @@ struct kd_potential_extrema kd_potential_of_light(const struct kd_hole *hole, do
 struct kd_potential_extrema kd_potential_of_matter(const struct kd_hole *hole, double l);
 
 /* Impact parameter L/E > 0 of the circular photon orbit towards +phi: b_c = 6 cos(acos(-a)/3) - a, S. Chandrasekhar
- * 1983, The Mathematical Theory of Black Holes, ch. 7 eq. 84. */
+ * 1983, The Mathematical Theory of Black Holes, ch. 7 eq. 84. With charge 1/Omega there. */
 double kd_potential_critical_impact(const struct kd_hole *hole);
 
 #endif

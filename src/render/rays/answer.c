@@ -158,6 +158,8 @@ static enum kd_status json_head(const struct kd_rays_answer *answer, struct kd_b
     struct kd_approximation one;
     enum kd_status status;
     KD_TRY(add_number(out, "{\"spin\":", p->spin));
+    if (p->charge != 0)
+        KD_TRY(add_number(out, ",\"charge\":", p->charge));
     KD_TRY(isinf(p->r) ? kd_buffer_printf(out, ",\"observer\":{\"r\":\"infinity\"")
                        : add_number(out, ",\"observer\":{\"r\":", p->r));
     KD_TRY(add_number(out, ",\"inclination_deg\":", p->inclination_deg));

@@ -14,11 +14,14 @@ static enum kd_status check_observer(const struct kd_rays_params *p, struct kd_e
     if (status)
         return status;
     const struct kd_hole hole = kd_rays_hole(p);
+    status = kd_hole_check(&hole, error);
+    if (status)
+        return status;
     double horizon = hole.outer;
     if (!isinf(p->r) && !(p->r > horizon && p->r <= KD_RAYS_FAR))
         return kd_error_field(error, "/observer/r",
-                              "r is %.16g; it must be \"infinity\" or a radius above that of the horizon, %.9g at this "
-                              "spin, up to %g",
+                              "r is %.16g; it must be \"infinity\" or a radius above that of the horizon, %.9g, up "
+                              "to %g",
                               p->r, horizon, KD_RAYS_FAR);
     if (!(p->r > 0))
         return kd_error_field(error, "/observer/r", "r is negative");

@@ -6,7 +6,7 @@
 #include "render/rays/request.h"
 #include "document/document.h"
 
-enum { KD_RAYS_FIELDS = 16 };
+enum { KD_RAYS_FIELDS = 17 };
 extern const struct kd_row kd_rays_fields[KD_RAYS_FIELDS]; /* of struct kd_rays_request */
 extern const struct kd_document kd_rays_document;
 

@@ -111,6 +111,7 @@ void kd_rays_answer_schemas(struct kd_json *json)
     };
     static const struct kd_schema_member answer[] = {
         { "spin", KD_SCHEMA_NUMBER },
+        { "charge", KD_SCHEMA_NUMBER, true },
         { "observer", KD_SCHEMA_REF("RaysObserver") },
         { "orders", KD_SCHEMA_COUNT },
         { "accuracy", KD_SCHEMA_REF("RaysAccuracy") },

@@ -21,6 +21,7 @@ static struct kd_scene scene_of(const struct kd_selftest_ray *ray, const struct 
     struct kd_scene scene;
     kd_scene_smooth(&scene);
     scene.spacetime.spin = ray->spin;
+    scene.spacetime.charge = ray->charge;
     scene.camera.inclination_deg = ray->inclination_deg;
     scene.camera.r = ray->radius;
     scene.image.width = scene.image.height = 1;

@@ -52,6 +52,7 @@ static enum kd_status trace(const struct kd_selftest *test, const struct engine 
 {
     const struct kd_rays_params params = {
         .spin = ray->spin,
+        .charge = ray->charge,
         .r = ray->radius,
         .inclination_deg = ray->inclination_deg,
         .orders = ORDERS,

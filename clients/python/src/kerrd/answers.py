@@ -357,6 +357,7 @@ class OrbitResult(TypedDict):
 
 class OrbitPath(TypedDict):
     spin: float
+    charge: NotRequired[float]
     fate: Literal['bound', 'plunge', 'escape']
     circular: bool
     constants: OrbitConstants
