@@ -88,7 +88,7 @@ export function buildFall(scene) {
       }),
       wide = number(2 * values.dark_radius_deg, 3),
       part = number(100 * values.dark_share, 2);
-    guide?.heard(values.g_behind);
+    guide?.heard(values);
     byId('fall-behind').textContent = `× ${number(values.g_behind, 3)}`;
     byId('fall-sky').textContent = t(
       `× ${number(values.g_least, 3)} to ${number(values.g_greatest, 3)}`,

@@ -17,8 +17,8 @@ const forms = ['video/webm;codecs=vp9,opus', 'video/webm;codecs=vp8,opus', 'vide
 const form = globalThis.MediaRecorder && forms.find(name => MediaRecorder.isTypeSupported(name));
 export const films = Boolean(form) && Boolean(HTMLCanvasElement.prototype.captureStream);
 
-// The captions, each with the radius below which it is shown. hole: values of the quantity kerr; way: of infall, where
-// the fall begins.
+// The captions, each with the radius below which it is shown; one is a function of the black share of the sky. hole:
+// values of the quantity kerr; way: of infall, where the fall begins.
 export function captions({ isco, photon_prograde: circle, horizon }, { r, end }) {
   const inner = end > 0;
   return [
@@ -66,10 +66,11 @@ export function captions({ isco, photon_prograde: circle, horizon }, { r, end })
     ],
     [
       Math.max(0.6 * horizon, (horizon + 2 * end) / 3),
-      t(
-        'You still see the stars: their light falls in after you. The numbers say how much of the sky is black.',
-        'Vedi ancora le stelle: la loro luce ti cade dietro. I numeri dicono quanto del cielo è nero.',
-      ),
+      part =>
+        t(
+          `You still see the stars: their light falls in after you. ${number(100 * part, 2)} % of the sky is black.`,
+          `Vedi ancora le stelle: la loro luce ti cade dietro. È nero il ${number(100 * part, 2)} % del cielo.`,
+        ),
     ],
     [
       inner ? 1.25 * end : 0.15 * horizon,
@@ -165,23 +166,28 @@ function film(text, sound, got, ended) {
 }
 
 // hole, way: as for captions(). records: also makes a film; got: the link to it; ended() is called when it is saved.
-// Returns shown(r, runs), to be called with the radius of each picture and whether it falls; heard(share), with the
-// frequency of starlight from behind; over(), at the end of the fall; end(), when the fall is left.
+// Returns shown(r, runs), to be called with the radius of each picture and whether it falls; heard(sky), with values
+// of the quantity sky, looking back; over(), at the end of the fall; end(), when the fall is left.
 export function begin({ hole, way, records, got, ended }) {
   const all = captions(hole, way),
     words = el('p', { id: 'fall-caption', role: 'status' }),
     sound = tone();
   byId('stage').append(words);
-  let timer = 0;
+  let timer = 0,
+    black = 0;
   const kept = records ? film(() => words.textContent, sound.stream(), got, ended) : null;
   const close = () => (clearTimeout(timer), sound.close(), words.remove());
   return {
     shown(r, runs) {
-      const text = all.findLast(([below]) => r <= below)[1];
+      const caption = all.findLast(([below]) => r <= below)[1],
+        text = typeof caption === 'function' ? caption(black) : caption;
       if (words.textContent !== text) words.textContent = text;
       sound.loud(runs);
     },
-    heard: sound.at,
+    heard({ g_behind, dark_share }) {
+      black = dark_share;
+      sound.at(g_behind);
+    },
     over() {
       sound.loud(false);
       if (kept) timer ||= setTimeout(kept.stop, last_ms);

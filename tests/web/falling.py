@@ -123,6 +123,9 @@ class Falling(Browser):
                 pitch = 440 / (1 + math.sqrt(2 / r))
                 heard = "pitch => tones.some(tone => Math.abs(tone / pitch - 1) < 0.01)"
                 self.assertTrue(daemon.eventually(lambda: page.evaluate(heard, pitch)), pitch)
+        apart = """() => { const [a, b] = ['fall', 'fall-caption'].map(id => document.getElementById(id).getBoundingClientRect());
+            return a.top > b.bottom || a.left > b.right; }"""
+        self.assertTrue(page.evaluate(apart))
         page.click("#fall-guide")
         page.wait_for_selector("#fall-caption", state="detached")
         page.click("#fall-film")
