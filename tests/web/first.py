@@ -118,7 +118,7 @@ class First(Browser):
         wide = page.evaluate(
             'async () => { const image = new Image(); image.src = "web/stills/first.jpg"; await image.decode(); return image.naturalWidth; }'
         )
-        self.assertEqual(wide, 640)
+        self.assertEqual(wide, 960)
         self.shot(page, "first-still")
         waiting, held = held, None
         for route in waiting:
