@@ -55,7 +55,7 @@ static enum kd_status one_frame(struct kd_renderer *renderer, const struct kd_sc
     enum kd_status status = kd_plan_make_for(scene, &needs, &capacity, &plan, error);
     if (status)
         return status;
-    plan.audit /= dragged ? 4 : 1;
+    plan.lens.audit /= dragged ? 4 : 1;
     status = kd_render(renderer, scene, &plan, NULL, NULL, &frame, error);
     if (status)
         return status;

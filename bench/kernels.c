@@ -64,7 +64,7 @@ static enum kd_status visit(struct kd_renderer *renderer, const struct options *
     scene.image.height = o->height;
     kd_renderer_capacity(renderer, &capacity);
     KD_TRY(kd_plan_make(&scene, &capacity, &plan, error));
-    plan.audit = 0;
+    plan.lens.audit = 0;
     KD_TRY(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, error));
     for (size_t i = 0; i < KD_KERNELS_KEPT; i++)
         if (renderer->kernels.entries[i].pipeline && renderer->kernels.entries[i].used > before &&

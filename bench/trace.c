@@ -89,20 +89,20 @@ static void judge(const struct options *o, const struct kd_scene *scene, const s
     double field = scene->camera.field_m, u = cos(scene->camera.inclination_deg * M_PI / 180);
     for (int j = 0; j < n; j++) {
         for (int i = 0; i < n; i++) {
-            int x = (int)((i + 0.5) * plan->width / n), y = (int)((j + 0.5) * plan->height / n);
+            int x = (int)((i + 0.5) * plan->picture.width / n), y = (int)((j + 0.5) * plan->picture.height / n);
             /* The kernel's own arithmetic for the pixel, so that only the tracing is judged. */
-            float step = (float)(field / plan->width), middle = 0.5f * (float)plan->width - 0.5f;
+            float step = (float)(field / plan->picture.width), middle = 0.5f * (float)plan->picture.width - 0.5f;
             double alpha = ((float)x - middle) * step, beta = (middle - (float)y) * step;
             struct ks_path path = ks_trace(ks_from_infinity(scene->spacetime.spin, u, alpha, beta), 2);
-            for (int k = 0; k < 2 && k < path.crossings && (uint32_t)k < plan->orders; k++) {
-                size_t at = (size_t)y * plan->width + (size_t)x;
-                float w = planes[(size_t)k * plan->rays + at];
+            for (int k = 0; k < 2 && k < path.crossings && (uint32_t)k < plan->lens.orders; k++) {
+                size_t at = (size_t)y * plan->picture.width + (size_t)x;
+                float w = planes[(size_t)k * plan->lens.rays + at];
                 if (!(w > 0) || path.r[k] > 1e3 || path.r[k] < isco)
                     continue;
                 r_error[k][count[k]] = fabs(1 / (double)w / path.r[k] - 1);
                 phi_error[k][count[k]++] =
-                    kd_plan_holds(plan, KD_LENS_PHI)
-                        ? turn(planes[(size_t)(k + (int)plan->orders) * plan->rays + at] - path.phi[k])
+                    kd_plan_holds(&plan->lens, KD_LENS_PHI)
+                        ? turn(planes[(size_t)(k + (int)plan->lens.orders) * plan->lens.rays + at] - path.phi[k])
                         : NAN;
             }
         }
@@ -138,10 +138,10 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
     if (status)
         return status;
     snprintf(out->method, sizeof out->method, "%s", m->name);
-    if (plan.path == KD_LENS_LISTED)
-        snprintf(out->method, sizeof out->method, "listed, %s, %u steps, %s", kd_engine_name(plan.setting.engine),
-                 plan.setting.steps, kd_precision_name(plan.setting.precision));
-    float *planes = malloc(sizeof(float) * plan.planes * plan.rays);
+    if (plan.lens.path == KD_LENS_LISTED)
+        snprintf(out->method, sizeof out->method, "listed, %s, %u steps, %s", kd_engine_name(plan.lens.setting.engine),
+                 plan.lens.setting.steps, kd_precision_name(plan.lens.setting.precision));
+    float *planes = malloc(sizeof(float) * plan.lens.planes * plan.lens.rays);
     double *ms = malloc(sizeof(double) * (size_t)o->repeat);
     if (!planes || !ms)
         return kd_error_set(error, KD_ENOMEM, "out of memory for the lens map");
@@ -149,11 +149,11 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
         const double began = kd_clock_ms();
         double *out_ms = &ms[k < 0 ? 0 : k];
         status = kd_render_lens(renderer, &scene, &plan, planes, out_ms, error);
-        if (plan.path == KD_LENS_LISTED) /* the host does a part of these, and copying the map counts too */
+        if (plan.lens.path == KD_LENS_LISTED) /* the host does a part of these, and copying the map counts too */
             *out_ms = kd_clock_ms() - began;
     }
     if (!status) {
-        out->mray_s = (double)plan.rays / quantile(ms, o->repeat, 0.5) * 1e-3;
+        out->mray_s = (double)plan.lens.rays / quantile(ms, o->repeat, 0.5) * 1e-3;
         judge(o, &scene, &plan, planes, out);
     }
     free(planes);

@@ -225,15 +225,16 @@ static enum kd_status check(const struct work *w, struct kd_error *error)
         status =
             kd_job_frame_plan(&w->spec, i, w->spec.first, i * w->spec.every, INFINITY, &capacity, &scene, &plan, error);
         if (!i) {
-            width = kd_plan_shown_width(&plan);
-            height = kd_plan_shown_height(&plan);
+            width = kd_plan_shown_width(&plan.picture);
+            height = kd_plan_shown_height(&plan.picture);
         }
         if (!status && w->kind && w->kind->waits &&
-            (kd_plan_shown_width(&plan) != width || kd_plan_shown_height(&plan) != height))
-            status = kd_error_set(error, KD_EINVAL,
-                                  "frame %u has %u x %u pixels and frame 0 has %u x %u; all frames of a film must have "
-                                  "one size; a .zip may have several",
-                                  i, kd_plan_shown_width(&plan), kd_plan_shown_height(&plan), width, height);
+            (kd_plan_shown_width(&plan.picture) != width || kd_plan_shown_height(&plan.picture) != height))
+            status =
+                kd_error_set(error, KD_EINVAL,
+                             "frame %u has %u x %u pixels and frame 0 has %u x %u; all frames of a film must have "
+                             "one size; a .zip may have several",
+                             i, kd_plan_shown_width(&plan.picture), kd_plan_shown_height(&plan.picture), width, height);
     }
     return status;
 }
@@ -338,7 +339,7 @@ static enum kd_status render(struct work *w, unsigned number, const struct kd_dy
                                                                    .progress = progress, .user = w },
                                             &frame, error)
                         : kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
-    w->traced += (!frame.lens_reused && plan.planes) + frame.others_traced;
+    w->traced += (!frame.lens_reused && plan.lens.planes) + frame.others_traced;
     const struct kd_picture picture = { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), number };
     KD_TRY(kd_encode(w->frames.format, &picture, KD_EFFORT_KEEP, &w->encoder, &file, error));
     KD_TRY(kd_frames_put(&w->frames, number, &file, error));

@@ -169,7 +169,7 @@ static enum kd_status make_picture(struct work *w, const struct kd_integral_requ
     KD_TRY(kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
     KD_TRY(kd_encode(format, &(struct kd_picture) { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), 0 },
                      KD_EFFORT_QUICK, NULL, &file, error));
-    KD_TRY(kd_integral_run_take(&w->run, &file, &scene, &plan, error));
+    KD_TRY(kd_integral_run_take(&w->run, &file, &scene, &plan.report, error));
     kd_integral_run_step(&w->run, INFINITY);
 done:
     kd_integral_name_set(request, w->run.picture, status, error);

@@ -23,7 +23,7 @@ static void add_field(struct kd_json *json, const struct kd_field *field, const 
 static void add_setting(struct kd_json *json, const struct kd_stats *stats)
 {
     const struct kd_section *section = kd_section_find("accuracy");
-    const struct kd_setting *by = &stats->plan->setting;
+    const struct kd_setting *by = &stats->plan->lens.setting;
     for (size_t i = 0; i < section->count; i++) {
         const struct kd_field *field = &kd_fields[section->first + i];
         if (!strcmp(field->name, "engine"))
@@ -53,7 +53,7 @@ static void add_times(struct kd_json *json, const struct kd_stats *stats)
     kd_json_end(json);
     kd_json_number(json, "render_ms", stats->render_ms);
     kd_json_number(json, "encode_ms", stats->encode_ms);
-    kd_json_number(json, "estimate_ms", stats->plan->estimate_ms);
+    kd_json_number(json, "estimate_ms", stats->plan->cost.estimate_ms);
 }
 
 enum kd_status kd_stats_json(const struct kd_stats *stats, struct kd_buffer *out)
@@ -69,8 +69,8 @@ enum kd_status kd_stats_json(const struct kd_stats *stats, struct kd_buffer *out
     kd_json_string(json, "hash", hash);
     kd_json_number(json, "width", stats->frame->width);
     kd_json_number(json, "height", stats->frame->height);
-    kd_json_number(json, "rays", (double)stats->plan->rays);
-    kd_json_number(json, "critical_rays", (double)(kd_plan_rays(stats->plan) - stats->plan->rays));
+    kd_json_number(json, "rays", (double)stats->plan->lens.rays);
+    kd_json_number(json, "critical_rays", (double)(kd_plan_rays(&stats->plan->lens) - stats->plan->lens.rays));
     kd_json_number(json, "exposure", stats->frame->exposure);
     kd_json_number(json, "bytes", (double)stats->bytes);
     if (!isnan(kd_flux_jy(stats->scene, stats->frame)))
@@ -81,7 +81,7 @@ enum kd_status kd_stats_json(const struct kd_stats *stats, struct kd_buffer *out
     add_accuracy(json, stats);
     kd_json_array(json, "approximations");
     struct kd_approximation one;
-    for (size_t i = 0; kd_picture_approximation(stats->plan, &stats->frame->accuracy, i, &one); i++)
+    for (size_t i = 0; kd_picture_approximation(&stats->plan->report, &stats->frame->accuracy, i, &one); i++)
         kd_json_string(json, NULL, one.text);
     kd_json_end(json);
     kd_json_end(json);

@@ -124,7 +124,7 @@ static enum kd_status check(struct work *w, struct kd_error *error)
         uint64_t group;
         status = plan_of(w, i, &scene, &plan, error);
         if (!status && w->kind->frame == &kd_format_cubed)
-            status = kd_cube_compare(&shape, i, &scene, &plan, error);
+            status = kd_cube_compare(&shape, i, &scene, &plan.picture, error);
         if (!status && (kd_plan_lens_group(&scene, &group) || kd_sweep_order_add(&w->order, group, 0)))
             status = kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u scenes", w->sweep->scenes);
     }
@@ -148,7 +148,7 @@ static enum kd_status render(struct work *w, unsigned number, struct kd_error *e
     enum kd_status status;
     KD_TRY(plan_of(w, number, &scene, &plan, error));
     KD_TRY(kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
-    w->traced += !frame.lens_reused && plan.planes;
+    w->traced += !frame.lens_reused && plan.lens.planes;
     w->fluxes[number] = kd_flux_jy(&scene, &frame);
     const struct kd_picture picture = { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), number };
     KD_TRY(kd_encode(w->kind->frame, &picture, KD_EFFORT_KEEP, &w->encoder, &file, error));

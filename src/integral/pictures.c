@@ -78,9 +78,9 @@ static enum kd_status encode_maps(const struct kd_picture *picture, enum kd_effo
                                   struct kd_buffer *out, struct kd_error *error)
 {
     (void)effort, (void)memory;
-    for (size_t i = 0; i < picture->plan->n_layers; i++) {
+    for (size_t i = 0; i < picture->plan->picture.n_layers; i++) {
         char name[KD_LAYER_NAME];
-        kd_layer_name(picture->plan->layers[i], name);
+        kd_layer_name(picture->plan->picture.layers[i], name);
         const struct kd_layer *layer = kd_frame_layer(picture->frame, name);
         if (!layer)
             return kd_error_set(error, KD_EINVAL, "the frame has no layer %s", name);
@@ -118,6 +118,7 @@ enum kd_status kd_integral_plan(const struct kd_integral_request *r, struct kd_s
                                 const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
     enum kd_status status = kd_format_plan(kd_integral_picture_format(r->what), scene, capacity, out, error);
-    out->shape.width = (uint32_t)r->scene->image.width, out->shape.height = (uint32_t)r->scene->image.height;
+    out->light.shape.width = (uint32_t)r->scene->image.width,
+    out->light.shape.height = (uint32_t)r->scene->image.height;
     return status;
 }

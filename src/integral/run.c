@@ -215,10 +215,10 @@ static void tell_once(struct kd_integral_answer *answer, const char *text)
 }
 
 enum kd_status kd_integral_run_take(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene,
-                                    const struct kd_plan *plan, struct kd_error *error)
+                                    const struct kd_plan_report *report, struct kd_error *error)
 {
-    for (size_t i = 0; i < plan->n_approximations; i++) /* pictures of sets may have different ones */
-        tell_once(&run->answer, plan->approximations[i].text);
+    for (size_t i = 0; i < report->n_approximations; i++) /* pictures of sets may have different ones */
+        tell_once(&run->answer, report->approximations[i].text);
     return run->answer.request->what == KD_INTEGRAL_VOLUME ? take_flux(run, file, scene, error)
                                                            : begin_map(run, file, scene, error);
 }

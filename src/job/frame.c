@@ -21,9 +21,9 @@ enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame,
         status = kd_format_plan(spec->series->frame, scene, capacity, plan, &inner);
     if (!status && spec->blur.samples)
         status = kd_blur_plan(spec->blur.samples, spec->blur.shutter, capacity, plan, &inner);
-    if (!status && plan->estimate_ms > 1e3 * most_s)
+    if (!status && plan->cost.estimate_ms > 1e3 * most_s)
         status = kd_error_set(&inner, KD_ETOOBIG, "it would take about %.0f s, more than the %.0f s a frame may take",
-                              plan->estimate_ms * 1e-3, most_s);
+                              plan->cost.estimate_ms * 1e-3, most_s);
     if (!status)
         return KD_OK;
     const bool among_keyframes = !spec->listed && spec->timeline.n_keys > 1;

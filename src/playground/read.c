@@ -86,7 +86,7 @@ static enum kd_status do_one(struct kd_playground *p, enum list what, const cJSO
     if (what == REMOVE) {
         if (!cJSON_IsNumber(item) || !(item->valuedouble >= 1 && item->valuedouble <= UINT32_MAX) ||
             item->valuedouble != floor(item->valuedouble))
-            return kd_error_field(error, pointer, "id must be the number of a body");
+            return kd_error_field(error, pointer, "the number of a body must be whole, 1 to 4294967295");
         status = kd_playground_remove(p, (uint32_t)item->valuedouble, error);
         return status
                    ? kd_error_field(error, pointer, "there is no body %.0f, or it no longer exists", item->valuedouble)

@@ -292,7 +292,8 @@ static bool update(const struct shot *shot, const char *path)
     struct kd_buffer png = { 0 };
     struct kd_error error = { 0 };
     scene.style.exposure = frame.exposure;
-    const struct kd_picture picture = { &frame, &scene, &(struct kd_plan) { 0 }, "reference", 0 };
+    const struct kd_plan none = { 0 };
+    const struct kd_picture picture = { &frame, &scene, &none, "reference", 0 };
     enum kd_status status = kd_png_of_picture(&picture, 8, &png, &error);
     FILE *file = status ? NULL : fopen(path, "wb");
     bool good = file && fwrite(png.data, 1, png.size, file) == png.size;

@@ -98,14 +98,14 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
 {
     struct kd_null_path p = kd_null_trace(ray);
     double gain[KD_NULL_ORDERS], phi_gain[KD_NULL_ORDERS], least = INFINITY;
-    const float *fate = map + (plan->planes - 1) * plan->rays;
+    const float *fate = map + (plan->lens.planes - 1) * plan->lens.rays;
     int found = 0;
-    for (uint32_t k = 0; k < plan->planes; k++)
-        if (!isfinite(map[k * plan->rays])) {
+    for (uint32_t k = 0; k < plan->lens.planes; k++)
+        if (!isfinite(map[k * plan->lens.rays])) {
             row->broken++;
             return;
         }
-    while (found < ORDERS && map[(uint64_t)found * plan->rays] > 0)
+    while (found < ORDERS && map[(uint64_t)found * plan->lens.rays] > 0)
         found++;
     for (int n = 0; n < p.crossings; n++) { /* from the horizon, and from infinity for a ray on its way out */
         double w = 1 / p.crossing[n].r;
@@ -118,15 +118,15 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
         row->unsure++;
         return;
     }
-    row->broken += found != p.crossings || (kd_plan_holds(plan, KD_LENS_SKY) &&
+    row->broken += found != p.crossings || (kd_plan_holds(&plan->lens, KD_LENS_SKY) &&
                                             (*fate == (float)KD_FATE_ESCAPED) != (p.fate == KD_NULL_ESCAPED));
     for (int n = 0; n < p.crossings && n < found; n++) {
         const struct kd_null_crossing *x = &p.crossing[n];
-        double w = map[(uint64_t)n * plan->rays];
+        double w = map[(uint64_t)n * plan->lens.rays];
         t->r[t->n++] = fmax(fabs(1 / w / x->r - 1) - x->error_r, 0) / (1 + gain[n]);
-        if (!kd_plan_holds(plan, KD_LENS_PHI) || x->r < 1.6 * kd_hole(v->spin)->outer)
+        if (!kd_plan_holds(&plan->lens, KD_LENS_PHI) || x->r < 1.6 * kd_hole(v->spin)->outer)
             continue;
-        double phi = map[(uint64_t)(ORDERS + n) * plan->rays];
+        double phi = map[(uint64_t)(ORDERS + n) * plan->lens.rays];
         t->phi = fmax(t->phi, fmax(turn(phi - x->phi) - x->error_phi, 0) / (1 + phi_gain[n]));
     }
 }
@@ -169,11 +169,11 @@ static void look(struct kd_renderer *renderer, const struct camera *v, const str
             judge(v, &plan, planes + k, &ray, weight, &t, &row);
             continue;
         }
-        for (uint32_t n = 0; n < plan.planes; n++)
-            row.broken += !isfinite(planes[n * plan.rays + (uint64_t)k]);
+        for (uint32_t n = 0; n < plan.lens.planes; n++)
+            row.broken += !isfinite(planes[n * plan.lens.rays + (uint64_t)k]);
     }
     extreme_spread(t.r, t.n, &row);
-    row.phi = t.n && kd_plan_holds(&plan, KD_LENS_PHI) ? t.phi : NAN;
+    row.phi = t.n && kd_plan_holds(&plan.lens, KD_LENS_PHI) ? t.phi : NAN;
     extreme_row(&row);
 }
 

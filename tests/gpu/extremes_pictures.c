@@ -145,14 +145,15 @@ static enum kd_status read_back(struct kd_vk *vk, struct kd_vk_buffer *from, uin
 static size_t wrong_light(struct kd_renderer *renderer, const struct kd_plan *plan, bool *lit, struct kd_error *error)
 {
     size_t wrong = 0;
-    for (uint32_t band = 0, row = 0; band < plan->bands; band++, row += plan->band_rows) {
-        uint64_t rows = plan->height - row < plan->band_rows ? plan->height - row : plan->band_rows,
-                 n = 3 * rows * plan->width;
+    for (uint32_t band = 0, row = 0; band < plan->picture.bands; band++, row += plan->picture.band_rows) {
+        uint64_t rows = plan->picture.height - row < plan->picture.band_rows ? plan->picture.height - row
+                                                                             : plan->picture.band_rows,
+                 n = 3 * rows * plan->picture.width;
         float *light = malloc(n * sizeof *light);
         if (!light ||
             read_back(renderer->vk, renderer->store.radiance.buffers[band], n * sizeof *light, light, error)) {
             free(light);
-            return plan->width * plan->height;
+            return plan->picture.width * plan->picture.height;
         }
         for (uint64_t i = 0; i < n; i++) {
             wrong += !isfinite(light[i]) || light[i] < 0;
@@ -187,10 +188,10 @@ static void draw(struct kd_renderer *renderer, const struct picture *picture)
         extreme_row(&row);
         return;
     }
-    row.rays = plan.rays;
+    row.rays = plan.lens.rays;
     row.broken = wrong_light(renderer, &plan, &lit, &error);
     row.broken += !isfinite(frame.exposure) + !isfinite(frame.accuracy.median) + !isfinite(frame.accuracy.worst);
-    row.broken += (picture->lit && !lit) + (picture->binding && plan.bands < 2);
+    row.broken += (picture->lit && !lit) + (picture->binding && plan.picture.bands < 2);
     if (frame.accuracy.crossings)
         row.median = frame.accuracy.median, row.worst = frame.accuracy.worst;
     kd_frame_finish(&frame);

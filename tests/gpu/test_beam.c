@@ -45,12 +45,12 @@ static double show(const struct look *look, uint16_t *out)
     kd_renderer_capacity(renderer, &c);
     OK(kd_scene_validate(&scene, &error));
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_int_equal(plan.beam.cell > 0, look->sigma > 0);
+    assert_int_equal(plan.picture.beam.cell > 0, look->sigma > 0);
     if (look->rows) {
-        plan.band_rows = (uint32_t)look->rows;
-        plan.bands = (plan.height + plan.band_rows - 1) / plan.band_rows;
+        plan.picture.band_rows = (uint32_t)look->rows;
+        plan.picture.bands = (plan.picture.height + plan.picture.band_rows - 1) / plan.picture.band_rows;
     }
-    return show_light(&scene, &plan, look->lit ? (uint32_t)look->lit : plan.height, out);
+    return show_light(&scene, &plan, look->lit ? (uint32_t)look->lit : plan.picture.height, out);
 }
 
 /* Points, thin rings and a ramp, up to the edges: difficult for a coarse grid. */
@@ -270,12 +270,13 @@ static void none_is_nothing(void **state)
     kd_renderer_capacity(renderer, &c);
     OK(kd_plan_make(&off, &c, &without, &error));
     OK(kd_plan_make(&on, &c, &with, &error));
-    assert_true(with.device_bytes > without.device_bytes && with.n_passes == without.n_passes + 1);
+    assert_true(with.cost.device_bytes > without.cost.device_bytes && with.cost.n_passes == without.cost.n_passes + 1);
     on.image.layers = (struct kd_words) { .count = 1, .at = { { KD_LAYER_g, -1 } } };
     off.image.layers = on.image.layers;
     OK(kd_plan_make(&off, &c, &without, &error));
     OK(kd_plan_make(&on, &c, &with, &error));
-    assert_true(with.device_bytes == without.device_bytes && with.n_passes == without.n_passes && !with.beam.cell);
+    assert_true(with.cost.device_bytes == without.cost.device_bytes && with.cost.n_passes == without.cost.n_passes &&
+                !with.picture.beam.cell);
 }
 
 /* A beam of some pixels in a large picture needs more cells than a device can bind. */

@@ -27,11 +27,11 @@ static void show(int width, int height, double bloom, int rows, uint16_t *out)
     kd_renderer_capacity(renderer, &c);
     OK(kd_plan_make(&scene, &c, &plan, &error));
     if (rows) {
-        c.max_binding_bytes = 4ull * (plan.planes > 3 ? plan.planes : 3) * (uint64_t)(width * rows) + 64;
+        c.max_binding_bytes = 4ull * (plan.lens.planes > 3 ? plan.lens.planes : 3) * (uint64_t)(width * rows) + 64;
         OK(kd_plan_make(&scene, &c, &plan, &error));
-        assert_true(plan.bands > 1);
+        assert_true(plan.picture.bands > 1);
     }
-    show_light(&scene, &plan, plan.height, out);
+    show_light(&scene, &plan, plan.picture.height, out);
 }
 
 /* Dim light with bright places up to white, one of them in a corner. */

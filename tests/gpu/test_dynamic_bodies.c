@@ -272,8 +272,8 @@ static void test_dark(void **state)
         kd_renderer_capacity(renderer, &c);
         OK(kd_plan_make(&scene, &c, &plan, &error));
         bool told = false;
-        for (size_t i = 0; i < plan.n_approximations; i++)
-            told |= strstr(plan.approximations[i].text, "they have no radius") != NULL;
+        for (size_t i = 0; i < plan.report.n_approximations; i++)
+            told |= strstr(plan.report.approximations[i].text, "they have no radius") != NULL;
         assert_true(told == (k == 2));
         kd_dynamic_bodies_release(dynamic);
     }
@@ -540,9 +540,9 @@ static void test_off(void **state)
     kd_renderer_capacity(renderer, &c);
     OK(kd_plan_make(&scene, &c, &without, &error));
     OK(kd_plan_make(&shown, &c, &with, &error));
-    assert_memory_equal(without.traits, with.traits, sizeof with.traits);
-    assert_string_equal(without.lens_key, with.lens_key);
-    assert_true(!with.march.steps);
+    assert_memory_equal(without.light.traits, with.light.traits, sizeof with.light.traits);
+    assert_string_equal(without.lens.key, with.lens.key);
+    assert_true(!with.light.march.steps);
     kd_dynamic_bodies_release(dynamic);
 }
 

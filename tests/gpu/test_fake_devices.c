@@ -239,14 +239,15 @@ static void test_large_pictures(void **state)
             if (status == KD_ETOOBIG && sizes[i].width * sizes[i].height > 1 << 28)
                 continue;
             assert_int_equal(status, KD_OK);
-            uint64_t pixels = (uint64_t)plan.width * plan.band_rows, at_curve = plan.critical_part * plan.critical;
-            assert_true((pixels + 3) / 4 <= 65535ull * 64);             /* post */
-            assert_true((uint64_t)plan.band_rows * plan.side <= 65535); /* trace: its rows */
-            assert_true((uint64_t)plan.width * plan.side <= 65535ull * 64);
+            uint64_t pixels = (uint64_t)plan.picture.width * plan.picture.band_rows,
+                     at_curve = plan.lens.critical_part * plan.lens.critical;
+            assert_true((pixels + 3) / 4 <= 65535ull * 64);                          /* post */
+            assert_true((uint64_t)plan.picture.band_rows * plan.lens.side <= 65535); /* trace: its rows */
+            assert_true((uint64_t)plan.picture.width * plan.lens.side <= 65535ull * 64);
             assert_true((at_curve + 63) / 64 <= 65535); /* trace at the critical curve */
-            assert_true(4ull * plan.planes * pixels * plan.side * plan.side + 16 <= UINT32_MAX);
-            assert_true(kd_plan_pixel_bytes(&plan) * pixels <= UINT32_MAX);
-            assert_true((uint64_t)plan.bands * plan.band_rows >= plan.height);
+            assert_true(4ull * plan.lens.planes * pixels * plan.lens.side * plan.lens.side + 16 <= UINT32_MAX);
+            assert_true(kd_plan_pixel_bytes(&plan.light) * pixels <= UINT32_MAX);
+            assert_true((uint64_t)plan.picture.bands * plan.picture.band_rows >= plan.picture.height);
         }
     kd_renderer_destroy(renderer);
 }

@@ -142,16 +142,16 @@ static void judge(const struct kd_scene *scene, unsigned number, struct tally *t
     kd_renderer_capacity(renderer, &capacity);
     OK(kd_scene_validate(scene, &error));
     OK(kd_plan_make_for(scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_SKY }, &capacity, &plan, &error));
-    assert_int_equal(plan.planes, plan.orders + 3);
+    assert_int_equal(plan.lens.planes, plan.lens.orders + 3);
     OK(kd_render_lens(renderer, scene, &plan, planes, NULL, &error));
     truth_of(scene, &truth);
-    const float *fate = planes + RAYS * kd_lens_plane(plan.quantities, plan.orders, KD_LENS_FATE);
+    const float *fate = planes + RAYS * kd_lens_plane(plan.lens.quantities, plan.lens.orders, KD_LENS_FATE);
     for (int i = 0; i < RAYS; i++) {
         int n = 0;
         bool open = fate[i] == KD_FATE_UNDECIDED;
-        while (n < (int)plan.orders && planes[n * RAYS + i] > 0)
+        while (n < (int)plan.lens.orders && planes[n * RAYS + i] > 0)
             n++;
-        open |= n < (int)plan.orders && planes[n * RAYS + i] != 0;
+        open |= n < (int)plan.lens.orders && planes[n * RAYS + i] != 0;
         judged += truth.fate[i] >= 0;
         untold += open && truth.fate[i] >= 0;
         fates += !open && truth.fate[i] >= 0 && (fate[i] == KD_FATE_ESCAPED) != (truth.fate[i] == KD_RAY_ESCAPED);

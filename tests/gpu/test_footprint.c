@@ -80,14 +80,14 @@ static struct kd_plan plan_of(const struct kd_scene *scene, uint64_t binding)
 
 static float *map_of(const struct kd_scene *scene, const struct kd_plan *plan)
 {
-    float *planes = test_malloc(sizeof(float) * plan->planes * plan->rays);
+    float *planes = test_malloc(sizeof(float) * plan->lens.planes * plan->lens.rays);
     OK(kd_render_lens(renderer, scene, plan, planes, NULL, &error));
     return planes;
 }
 
 static const float *plane(const struct kd_plan *plan, const float *planes, uint32_t quantity, uint32_t n)
 {
-    return planes + (kd_lens_plane(plan->quantities, plan->orders, quantity) + n) * plan->rays;
+    return planes + (kd_lens_plane(plan->lens.quantities, plan->lens.orders, quantity) + n) * plan->lens.rays;
 }
 
 /* The photon at (x, y), in steps from the upper left ray. */
@@ -276,7 +276,7 @@ static void test_grid(void **state)
 static const struct kd_lens_map *kept(const struct kd_plan *plan)
 {
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
-        if (!strcmp(renderer->store.maps[i].key, plan->lens_key))
+        if (!strcmp(renderer->store.maps[i].key, plan->lens.key))
             return &renderer->store.maps[i];
     fail_msg("the map is not kept");
     return NULL;
@@ -306,12 +306,12 @@ static void test_slices(void **state)
     static const double rows[] = { 1, 2, 7 };
     for (int i = 0; i < 3; i++) {
         struct kd_frame frame;
-        plan.trace_ns = 40e6 / (rows[i] * WIDTH); /* sets the number of rows a slice */
-        plan.lens_key[0] = (char)('a' + i);       /* not in the cache */
+        plan.cost.trace_ns = 40e6 / (rows[i] * WIDTH); /* sets the number of rows a slice */
+        plan.lens.key[0] = (char)('a' + i);            /* not in the cache */
         OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
         assert_false(frame.lens_reused);
         float *planes = read_buffer(kept(&plan)->bands.buffers[0]);
-        assert_memory_equal(planes, whole, sizeof(float) * plan.planes * plan.rays);
+        assert_memory_equal(planes, whole, sizeof(float) * plan.lens.planes * plan.lens.rays);
         test_free(planes);
         kd_frame_finish(&frame);
     }
@@ -323,13 +323,13 @@ static void test_bands(void **state)
 {
     (void)state;
     const struct kd_scene scene = scene_of(&views[1]);
-    const struct kd_plan one = plan_of(&scene, 0), many = plan_of(&scene, 4ull * one.planes * WIDTH * 10 + 64);
-    assert_true(one.bands == 1 && many.bands == HEIGHT / 10 && many.band_rows == 10);
+    const struct kd_plan one = plan_of(&scene, 0), many = plan_of(&scene, 4ull * one.lens.planes * WIDTH * 10 + 64);
+    assert_true(one.picture.bands == 1 && many.picture.bands == HEIGHT / 10 && many.picture.band_rows == 10);
     float *a = map_of(&scene, &one), *b = map_of(&scene, &many);
     static struct tally t;
     t.n = 0;
     for (uint32_t n = 0; n < ORDERS; n++)
-        for (size_t at = 0; at < one.rays; at++) {
+        for (size_t at = 0; at < one.lens.rays; at++) {
             if (!(plane(&one, a, KD_LENS_W, n)[at] > 0)) /* no crossing, no footprint */
                 continue;
             double x = plane(&one, a, KD_LENS_FOOTPRINT, n)[at], y = plane(&many, b, KD_LENS_FOOTPRINT, n)[at];
@@ -359,26 +359,26 @@ static void test_listed_pixels(void **state)
         struct kd_frame frame;
         scene.image.critical_factor = factors[i];
         const struct kd_plan plan = plan_of(&scene, 0);
-        assert_true(plan.critical == (uint32_t)(factors[i] * factors[i]));
+        assert_true(plan.lens.critical == (uint32_t)(factors[i] * factors[i]));
         OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
         const struct kd_lens_map *map = kept(&plan);
         float *planes = read_buffer(map->critical.buffers[0]);
-        const struct kd_critical_lattice lattice = kd_critical_lattice(plan.critical);
-        size_t stride = plan.critical_part * plan.critical;
+        const struct kd_critical_lattice lattice = kd_critical_lattice(plan.lens.critical);
+        size_t stride = plan.lens.critical_part * plan.lens.critical;
         static struct tally t[ORDERS + 1];
         memset(t, 0, sizeof t);
-        double side = sqrt(plan.critical);
+        double side = sqrt(plan.lens.critical);
         for (size_t k = 0; k < map->pixels.n; k += 11) {
-            uint32_t ray = (uint32_t)(k % plan.critical);
+            uint32_t ray = (uint32_t)(k % plan.lens.critical);
             const struct kd_pixel step = kd_critical_place(&lattice, map->pixels.pixels[k], ray);
-            struct range range = range_at(v, &scene, (step.x + 0.5) / plan.critical - 0.5,
-                                          (step.y + 0.5) / plan.critical - 0.5, 1.5 / side);
+            struct range range = range_at(v, &scene, (step.x + 0.5) / plan.lens.critical - 0.5,
+                                          (step.y + 0.5) / plan.lens.critical - 0.5, 1.5 / side);
             for (int n = 0; n <= ORDERS; n++) {
                 bool sky = n == ORDERS;
-                uint32_t first =
-                    kd_lens_plane(plan.quantities, plan.orders, sky ? KD_LENS_SKY_FOOTPRINT : KD_LENS_FOOTPRINT) +
-                    (sky ? 0 : (uint32_t)n);
-                double got = planes[first * stride + k * plan.critical + ray];
+                uint32_t first = kd_lens_plane(plan.lens.quantities, plan.lens.orders,
+                                               sky ? KD_LENS_SKY_FOOTPRINT : KD_LENS_FOOTPRINT) +
+                                 (sky ? 0 : (uint32_t)n);
+                double got = planes[first * stride + k * plan.lens.critical + ray];
                 range.own.of[n] /= side;
                 range.least.of[n] /= side;
                 range.most.of[n] /= side;
@@ -407,11 +407,11 @@ static void test_plan(void **state)
     OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_PHI | KD_LENS_SKY }, &capacity, &off,
                         &error));
     const struct kd_plan on = plan_of(&scene, 0);
-    assert_int_equal(on.planes, off.planes + 2 * ORDERS + 1);
-    assert_int_equal(on.n_passes, off.n_passes + 1);
-    assert_string_equal(on.passes[2].name, "footprint");
-    for (size_t i = 0; i < off.n_passes; i++)
-        assert_string_not_equal(off.passes[i].name, "footprint");
+    assert_int_equal(on.lens.planes, off.lens.planes + 2 * ORDERS + 1);
+    assert_int_equal(on.cost.n_passes, off.cost.n_passes + 1);
+    assert_string_equal(on.cost.passes[2].name, "footprint");
+    for (size_t i = 0; i < off.cost.n_passes; i++)
+        assert_string_not_equal(off.cost.passes[i].name, "footprint");
 }
 
 int main(void)

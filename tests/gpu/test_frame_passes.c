@@ -35,8 +35,8 @@ static struct kd_frame drawn(const char *json, struct kd_plan *plan)
 
 static bool planned(const struct kd_plan *plan, const char *name)
 {
-    for (size_t i = 0; i < plan->n_passes; i++)
-        if (!strcmp(plan->passes[i].name, name))
+    for (size_t i = 0; i < plan->cost.n_passes; i++)
+        if (!strcmp(plan->cost.passes[i].name, name))
             return true;
     /* "rays": the device's part of a "trace" by listed rays; "kernels": compiled because they were missing */
     return !strcmp(name, "kernels") || !strcmp(name, "upload") || !strcmp(name, "fill") || !strcmp(name, "rays") ||
@@ -49,9 +49,9 @@ static void test_names(void **state)
     for (int k = 0; k < SCENES; k++) {
         struct kd_plan plan;
         struct kd_frame frame = drawn(scenes[k], &plan);
-        for (size_t i = 0; i < plan.n_passes; i++)
-            if (!(timing_of(&frame, plan.passes[i].name) > 0))
-                fail_msg("%s: the pass \"%s\" is planned and did not run", scenes[k], plan.passes[i].name);
+        for (size_t i = 0; i < plan.cost.n_passes; i++)
+            if (!(timing_of(&frame, plan.cost.passes[i].name) > 0))
+                fail_msg("%s: the pass \"%s\" is planned and did not run", scenes[k], plan.cost.passes[i].name);
         for (size_t i = 0; i < frame.n_timings; i++)
             if (!planned(&plan, frame.timings[i].name))
                 fail_msg("%s: \"%s\" ran and is not planned", scenes[k], frame.timings[i].name);
@@ -83,11 +83,11 @@ static void test_learned(void **state)
             renderer->store.maps[3].key[0] = 0;
         renderer->frames = 0; /* every frame updates the estimates */
         frame = drawn(scene, &plan);
-        for (size_t i = 0; i < plan.n_passes; i++) {
-            learns[plan.passes[i].figure] = true;
-            if (plan.passes[i].figure != KD_NS_NONE)
-                last[plan.passes[i].figure] =
-                    timing_of(&frame, plan.passes[i].name) * 1e6 / (double)plan.passes[i].invocations;
+        for (size_t i = 0; i < plan.cost.n_passes; i++) {
+            learns[plan.cost.passes[i].figure] = true;
+            if (plan.cost.passes[i].figure != KD_NS_NONE)
+                last[plan.cost.passes[i].figure] =
+                    timing_of(&frame, plan.cost.passes[i].name) * 1e6 / (double)plan.cost.passes[i].invocations;
         }
         kd_frame_finish(&frame);
     }
@@ -124,9 +124,9 @@ static void test_stars_are_learned(void **state)
 
 static double estimated(const struct kd_plan *plan, const char *pass)
 {
-    for (size_t i = 0; i < plan->n_passes; i++)
-        if (!strcmp(plan->passes[i].name, pass))
-            return plan->passes[i].estimate_ms;
+    for (size_t i = 0; i < plan->cost.n_passes; i++)
+        if (!strcmp(plan->cost.passes[i].name, pass))
+            return plan->cost.passes[i].estimate_ms;
     return 0;
 }
 
@@ -180,10 +180,10 @@ static void test_classes_are_learned(void **state)
     kd_renderer_capacity(renderer, &learned);
     struct kd_frame frame = drawn(larger, &plan);
     kd_frame_finish(&frame);
-    const double known = kd_cost_known(&learned, plan.cost_class, KD_PASS_MARCH);
+    const double known = kd_cost_known(&learned, plan.cost.class, KD_PASS_MARCH);
     print_message("a ray took %.0f ns, and is known to take %.0f\n", took, known);
     assert_true(known > took / 100 && known < 4 * took); /* without the time in which others had the cores */
-    assert_true(fabs(estimated(&plan, "march") - known * 1e-6 * (double)kd_plan_rays(&plan)) < 1e-6 * known);
+    assert_true(fabs(estimated(&plan, "march") - known * 1e-6 * (double)kd_plan_rays(&plan.lens)) < 1e-6 * known);
 }
 
 int main(void)

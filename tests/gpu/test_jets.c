@@ -225,10 +225,10 @@ static void test_scaling(void **state)
     kd_frame_finish(&two);
     kd_renderer_capacity(renderer, &c);
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.march.steps > 0);
+    assert_true(plan.light.march.steps > 0);
     scene.jets.brightness = 0;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_false(plan.march.steps);
+    assert_false(plan.light.march.steps);
 }
 
 static void test_adversarial(void **state)

@@ -237,7 +237,7 @@ static void steps_of_a_pixel(void **state)
     kd_scene_defaults(&scene);
     OK(kd_scene_from_json(&scene, json, strlen(json), &error));
     struct kd_plan plan = planned(&scene);
-    plan.told.on = plan.told.steps = true;
+    plan.report.probe.on = plan.report.probe.steps = true;
     begin_without_kernels();
     compiled(kd_compilation_begin(renderer, &scene, &plan));
     assert_true(has_kernel("rays") && has_kernel("rays, told"));

@@ -355,7 +355,7 @@ static void test_bands(void **state)
     scene.camera.azimuth_deg = 130;
     const struct kd_plan plan = plan_of(&scene, 7200);
 
-    assert_true(plan.bands > 2 && !whole.lens_reused && again.lens_reused && other.lens_reused);
+    assert_true(plan.picture.bands > 2 && !whole.lens_reused && again.lens_reused && other.lens_reused);
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &parts, &error));
     for (size_t i = 0; i < whole.n_layers; i++) {
         size_t bytes = PIXELS * kd_layer_pixel_bytes(&whole.layers[i]);
@@ -380,11 +380,11 @@ static void give_up(const struct kd_plan *plan)
     memcpy(&word, &undecided, 4);
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++) {
         const struct kd_lens_map *map = &renderer->store.maps[i];
-        if (strcmp(map->key, plan->lens_key))
+        if (strcmp(map->key, plan->lens.key))
             continue;
-        uint32_t plane = kd_lens_plane(plan->quantities, plan->orders, KD_LENS_FATE);
-        OK(kd_vk_fill(renderer->vk, "fill", map->bands.buffers[0], 4 * plane * plan->rays, 4 * plan->rays, word,
-                      &error));
+        uint32_t plane = kd_lens_plane(plan->lens.quantities, plan->lens.orders, KD_LENS_FATE);
+        OK(kd_vk_fill(renderer->vk, "fill", map->bands.buffers[0], 4 * plane * plan->lens.rays, 4 * plan->lens.rays,
+                      word, &error));
         OK(kd_vk_submit(renderer->vk, NULL, &error));
         return;
     }
@@ -399,7 +399,7 @@ static void assert_same_picture(const char *json, const char *layers)
     OK(kd_scene_set(&scene, "image.layers", layers, &error));
     for (int given_up = 0; given_up < 2; given_up++) {
         const struct kd_plan plan = plan_of(&scene, 0);
-        if (given_up && (!kd_plan_holds(&plan, KD_LENS_SKY) || scene.sky.model))
+        if (given_up && (!kd_plan_holds(&plan.lens, KD_LENS_SKY) || scene.sky.model))
             break;
         if (given_up)
             give_up(&plan);

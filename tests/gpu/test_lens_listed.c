@@ -23,7 +23,7 @@ static struct lens trace(const struct kd_scene *scene)
     kd_renderer_capacity(renderer, &capacity);
     OK(kd_scene_validate(scene, &error));
     OK(kd_plan_make_for(scene, &needs, &capacity, &lens.plan, &error));
-    lens.planes = test_malloc(sizeof(float) * lens.plan.planes * lens.plan.rays);
+    lens.planes = test_malloc(sizeof(float) * lens.plan.lens.planes * lens.plan.lens.rays);
     OK(kd_render_lens(renderer, scene, &lens.plan, lens.planes, NULL, &error));
     return lens;
 }
@@ -38,11 +38,11 @@ static double quantile(double *values, int n, double q)
  * on the sky. */
 static void compare(const char *what, const struct lens *a, const struct lens *b, double bound, int stray)
 {
-    uint64_t n = a->plan.rays;
-    uint32_t orders = a->plan.orders;
+    uint64_t n = a->plan.lens.rays;
+    uint32_t orders = a->plan.lens.orders;
     double *e[3] = { NULL };
     int count[3] = { 0 }, differ = 0;
-    assert_true(b->plan.planes == a->plan.planes && b->plan.rays == n);
+    assert_true(b->plan.lens.planes == a->plan.lens.planes && b->plan.lens.rays == n);
     for (int k = 0; k < 3; k++)
         e[k] = test_malloc(sizeof(double) * n * orders);
     for (uint64_t i = 0; i < n; i++) {
@@ -115,7 +115,7 @@ static void test_engines_agree(void **state)
         struct kd_scene scene = scene_of(v);
         scene.accuracy.profile = KD_PROFILE_HIGH;
         struct lens single = trace(&scene);
-        assert_int_equal(single.plan.path,
+        assert_int_equal(single.plan.lens.path,
                          views[v].r > 1.05 * kd_kerr_photon_orbit(kd_hole(-fabs(scene.spacetime.spin))) ? KD_LENS_CLOSED
                                                                                                         : KD_LENS_MAP);
         for (size_t k = 0; k < sizeof engines / sizeof *engines; k++) {
@@ -128,9 +128,9 @@ static void test_engines_agree(void **state)
             scene.accuracy.engine = engines[k].engine + 1;
             scene.accuracy.precision = engines[k].precision + 1;
             struct lens other = trace(&scene);
-            assert_true(other.plan.setting.engine == (enum kd_engine)engines[k].engine);
-            snprintf(what, sizeof what, "%s, %s %s", views[v].name, kd_engine_name(other.plan.setting.engine),
-                     kd_precision_name(other.plan.setting.precision));
+            assert_true(other.plan.lens.setting.engine == (enum kd_engine)engines[k].engine);
+            snprintf(what, sizeof what, "%s, %s %s", views[v].name, kd_engine_name(other.plan.lens.setting.engine),
+                     kd_precision_name(other.plan.lens.setting.precision));
             compare(what, &single, &other, engines[k].bound, engines[k].stray);
             test_free(other.planes);
         }
@@ -150,14 +150,14 @@ static void test_slices(void **state)
     struct lens whole = trace(&scene), cut = { .planes = NULL };
     struct kd_capacity capacity;
     kd_renderer_capacity(renderer, &capacity);
-    capacity.max_binding_bytes = 4ull * whole.plan.planes * 40 * 4 * 5 + 64;
+    capacity.max_binding_bytes = 4ull * whole.plan.lens.planes * 40 * 4 * 5 + 64;
     OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, &capacity,
                         &cut.plan, &error));
-    assert_true(cut.plan.bands > 5);
-    cut.plan.trace_ns = 1e7; /* a slice of a row */
-    cut.planes = test_malloc(sizeof(float) * cut.plan.planes * cut.plan.rays);
+    assert_true(cut.plan.picture.bands > 5);
+    cut.plan.cost.trace_ns = 1e7; /* a slice of a row */
+    cut.planes = test_malloc(sizeof(float) * cut.plan.lens.planes * cut.plan.lens.rays);
     OK(kd_render_lens(renderer, &scene, &cut.plan, cut.planes, NULL, &error));
-    assert_memory_equal(whole.planes, cut.planes, sizeof(float) * whole.plan.planes * whole.plan.rays);
+    assert_memory_equal(whole.planes, cut.planes, sizeof(float) * whole.plan.lens.planes * whole.plan.lens.rays);
     test_free(whole.planes);
     test_free(cut.planes);
 }
@@ -241,7 +241,7 @@ static void test_given_up(void **state)
 
     struct kd_lens_map *map = NULL;
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
-        if (!strcmp(renderer->store.maps[i].key, plan.lens_key))
+        if (!strcmp(renderer->store.maps[i].key, plan.lens.key))
             map = &renderer->store.maps[i];
     assert_non_null(map);
     float given_up = -1, undecided = KD_FATE_UNDECIDED;
@@ -249,8 +249,8 @@ static void test_given_up(void **state)
     memcpy(&words[0], &given_up, 4);
     memcpy(&words[1], &undecided, 4);
     OK(kd_vk_fill(renderer->vk, "fill", map->bands.buffers[0], 4 * 40 * 3, 4 * 40, words[0], &error));
-    OK(kd_vk_fill(renderer->vk, "fill", map->bands.buffers[0], 4 * ((plan.planes - 1) * plan.rays + 40 * 20), 4 * 40,
-                  words[1], &error));
+    OK(kd_vk_fill(renderer->vk, "fill", map->bands.buffers[0], 4 * ((plan.lens.planes - 1) * plan.lens.rays + 40 * 20),
+                  4 * 40, words[1], &error));
     OK(kd_vk_submit(renderer->vk, NULL, &error));
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
     assert_true(frame.lens_reused);
@@ -278,29 +278,29 @@ static void test_refused(void **state)
     FAILS(KD_EINVAL, "at least 6e-08", kd_plan_make(&scene, &capacity, &plan, &error));
     scene.accuracy.tolerance = 1e-5;
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
-    assert_true(plan.setting.holds <= 1e-5 && plan.path == KD_LENS_CLOSED);
+    assert_true(plan.lens.setting.holds <= 1e-5 && plan.lens.path == KD_LENS_CLOSED);
     scene.accuracy.tolerance = INFINITY;
     scene.accuracy.precision = KD_PRECISION_F32 + 1;
     scene.accuracy.engine = KD_ENGINE_CLOSED + 1;
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
     scene.sky.model = KD_SKY_GRID;
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
-    assert_int_equal(plan.path, KD_LENS_CLOSED);
+    assert_int_equal(plan.lens.path, KD_LENS_CLOSED);
     scene.camera.r = 3.5;
     FAILS(KD_EINVAL, "beyond the photon orbits", kd_plan_make(&scene, &capacity, &plan, &error));
     scene.camera.r = INFINITY;
     scene.accuracy.precision = 0;
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
-    assert_int_equal(plan.path, KD_LENS_LISTED);
+    assert_int_equal(plan.lens.path, KD_LENS_LISTED);
     scene.camera.r = 1.7;
     scene.camera.observer = KD_OBSERVER_ZAMO;
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
-    assert_true(plan.setting.engine == KD_ENGINE_CLOSED && plan.audit);
+    assert_true(plan.lens.setting.engine == KD_ENGINE_CLOSED && plan.lens.audit);
     if (capacity.float64) {
         scene.accuracy.engine = 0;
         scene.accuracy.precision = KD_PRECISION_F64 + 1;
         OK(kd_plan_make(&scene, &capacity, &plan, &error));
-        assert_true(plan.setting.engine == KD_ENGINE_CLOSED && plan.setting.precision == KD_PRECISION_F64);
+        assert_true(plan.lens.setting.engine == KD_ENGINE_CLOSED && plan.lens.setting.precision == KD_PRECISION_F64);
         scene.accuracy.engine = KD_ENGINE_MINO_RKN6 + 1;
         FAILS(KD_EINVAL, "ergosphere", kd_plan_make(&scene, &capacity, &plan, &error));
     }
@@ -313,8 +313,8 @@ static void test_refused(void **state)
 
 static bool says_noise(const struct kd_plan *plan)
 {
-    for (size_t i = 0; i < plan->n_approximations; i++)
-        if (strstr(plan->approximations[i].text, "sky: noise"))
+    for (size_t i = 0; i < plan->report.n_approximations; i++)
+        if (strstr(plan->report.approximations[i].text, "sky: noise"))
             return true;
     return false;
 }
@@ -345,8 +345,8 @@ static void test_noise_is_named(void **state)
         scene.camera.fov_deg = 60;
         scene.sky.model = KD_SKY_GRID;
         struct lens lens = trace(&scene);
-        const uint64_t n = lens.plan.rays;
-        const float *u = lens.planes + 2 * lens.plan.orders * n, *phi = u + n, *fate = phi + n;
+        const uint64_t n = lens.plan.lens.rays;
+        const float *u = lens.planes + 2 * lens.plan.lens.orders * n, *phi = u + n, *fate = phi + n;
         for (uint64_t i = 0; i + 1 < n; i++) {
             if (i % 160 == 159 || fate[i] != KD_FATE_ESCAPED)
                 continue;

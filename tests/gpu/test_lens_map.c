@@ -85,7 +85,7 @@ static struct lens trace(const struct view *v, const struct kd_needs *needs, int
     kd_renderer_capacity(renderer, &capacity);
     const struct kd_needs followed = { .quantities = needs->quantities, .followed = true };
     OK(kd_plan_make_for(&scene, &followed, &capacity, &lens.plan, &error));
-    lens.planes = test_malloc(sizeof(float) * lens.plan.planes * lens.plan.rays);
+    lens.planes = test_malloc(sizeof(float) * lens.plan.lens.planes * lens.plan.lens.rays);
     OK(kd_render_lens(renderer, &scene, &lens.plan, lens.planes, NULL, &error));
     return lens;
 }
@@ -119,7 +119,7 @@ static void judge(const struct view *v, const struct lens *lens, const struct sa
     double inner = kd_hole_charged(v->a, v->q).outer;
     for (int k = 0; k < GRID * GRID; k++) {
         const struct sample *s = &samples[k];
-        float w = lens->planes[n * (int)lens->plan.rays + k];
+        float w = lens->planes[n * (int)lens->plan.lens.rays + k];
         assert_true(isfinite(w) && w >= 0);
         bool has = s->path.crossings > n;
         if ((w > 0) != has) {
@@ -135,11 +135,11 @@ static void judge(const struct view *v, const struct lens *lens, const struct sa
         double r = s->path.r[n], gain = fabs(log(s->beside.r[n] / r)) / s->nudge;
         radius->errors[radius->count++] = fabs(1 / (double)w / r - 1) / (1 + gain);
         radius->worst = fmax(radius->worst, radius->errors[radius->count - 1]);
-        if (!kd_plan_holds(&lens->plan, KD_LENS_PHI) ||
+        if (!kd_plan_holds(&lens->plan.lens, KD_LENS_PHI) ||
             r < 1.6 * inner) /* Boyer-Lindquist azimuth diverges at the horizon */
             continue;
         double phi_gain = turn(s->beside.phi[n] - s->path.phi[n]) / s->nudge;
-        float phi = lens->planes[(ORDERS + n) * (int)lens->plan.rays + k];
+        float phi = lens->planes[(ORDERS + n) * (int)lens->plan.lens.rays + k];
         azimuth->errors[azimuth->count++] = turn(phi - s->path.phi[n]) / (1 + phi_gain);
         azimuth->worst = fmax(azimuth->worst, azimuth->errors[azimuth->count - 1]);
     }
@@ -212,7 +212,7 @@ static void test_closed_form(void **state)
         for (int phi = 0; phi < 2; phi++) {
             struct lens lens =
                 trace(&views[i], &(struct kd_needs) { .quantities = KD_LENS_W | (phi ? KD_LENS_PHI : 0) }, ORDERS, 0);
-            assert_true(lens.plan.path == KD_LENS_CLOSED);
+            assert_true(lens.plan.lens.path == KD_LENS_CLOSED);
             check(&views[i], &lens, samples[i], 5e-6, 2e-6);
             test_free(lens.planes);
         }
@@ -224,7 +224,7 @@ static void test_integrated(void **state)
     (void)state;
     for (int i = 0; i < VIEWS; i++) {
         struct lens lens = trace(&views[i], &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI }, ORDERS, 16);
-        assert_true(lens.plan.path == KD_LENS_MAP);
+        assert_true(lens.plan.lens.path == KD_LENS_MAP);
         check(&views[i], &lens, samples[i], 5e-6, 2e-6);
         test_free(lens.planes);
     }
@@ -238,8 +238,9 @@ static void check_sky(int steps)
             continue;
         struct lens lens =
             trace(&views[i], &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_SKY }, ORDERS, steps);
-        assert_true(lens.plan.path == (steps ? KD_LENS_MAP : KD_LENS_CLOSED));
-        const float *u = lens.planes + ORDERS * lens.plan.rays, *phi = u + lens.plan.rays, *fate = phi + lens.plan.rays;
+        assert_true(lens.plan.lens.path == (steps ? KD_LENS_MAP : KD_LENS_CLOSED));
+        const float *u = lens.planes + ORDERS * lens.plan.lens.rays, *phi = u + lens.plan.lens.rays,
+                    *fate = phi + lens.plan.lens.rays;
         double worst = 0;
         int compared = 0;
         for (int k = 0; k < GRID * GRID; k++) {
@@ -296,7 +297,7 @@ static void test_in_plane(void **state)
     OK(kd_plan_make_for(&scene,
                         &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY, .followed = true },
                         &capacity, &plan, &error));
-    assert_true(plan.path == KD_LENS_CLOSED && plan.planes == 9);
+    assert_true(plan.lens.path == KD_LENS_CLOSED && plan.lens.planes == 9);
     OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
     int escaped = 0;
     for (int k = 0; k < GRID; k++) {
@@ -350,9 +351,9 @@ static void test_shadow(void **state)
     kd_renderer_capacity(renderer, &capacity);
     OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_SKY, .followed = true }, &capacity, &plan,
                         &error));
-    float *planes = test_malloc(sizeof(float) * plan.planes * plan.rays);
+    float *planes = test_malloc(sizeof(float) * plan.lens.planes * plan.lens.rays);
     OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
-    const float *fate = planes + (plan.planes - 1) * plan.rays;
+    const float *fate = planes + (plan.lens.planes - 1) * plan.lens.rays;
     double captured = 0, undecided_rays = 0, farthest = 0, nearest = INFINITY;
     for (int k = 0; k < n * n; k++) {
         double x = (k % n + 0.5 - n / 2) * 12.0 / n, y = (k / n + 0.5 - n / 2) * 12.0 / n, b = hypot(x, y);
@@ -397,10 +398,10 @@ static void test_charged_shadow(void **state)
         kd_renderer_capacity(renderer, &capacity);
         OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_SKY, .followed = true }, &capacity,
                             &plan, &error));
-        assert_true(plan.planes <= 16);
+        assert_true(plan.lens.planes <= 16);
         OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
         for (int k = 0; k < N; k++) {
-            const float fate = planes[(plan.planes - 1) * N + (size_t)k];
+            const float fate = planes[(plan.lens.planes - 1) * N + (size_t)k];
             captured += fate == KD_FATE_CAPTURED;
             decided += fate != KD_FATE_UNDECIDED;
         }

@@ -173,8 +173,8 @@ static struct kd_frame by_plan(const struct kd_scene *scene, uint32_t times)
     struct kd_frame frame;
     kd_renderer_capacity(renderer, &c);
     OK(kd_plan_make(scene, &c, &plan, &error));
-    plan.march.fine *= times;
-    plan.march.steps *= times > 1 ? 4 : 1;
+    plan.light.march.fine *= times;
+    plan.light.march.steps *= times > 1 ? 4 : 1;
     OK(kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error));
     return frame;
 }
@@ -323,12 +323,12 @@ static void test_plan(void **state)
     OK(kd_plan_make(&scene, &c, &with, &error));
     scene.volume.model = KD_VOLUME_NONE;
     OK(kd_plan_make(&scene, &c, &without, &error));
-    assert_true(with.march.steps >= 8 && with.march.fine >= 2 && !without.march.steps);
-    assert_string_equal(with.lens_key, without.lens_key);
+    assert_true(with.light.march.steps >= 8 && with.light.march.fine >= 2 && !without.light.march.steps);
+    assert_string_equal(with.lens.key, without.lens.key);
     for (int k = 0; k < 2; k++) {
         const struct kd_plan *plan = k ? &without : &with;
-        for (size_t i = 0; i < plan->n_passes; i++)
-            assert_string_not_equal(plan->passes[i].name, k ? "march" : "transfer");
+        for (size_t i = 0; i < plan->cost.n_passes; i++)
+            assert_string_not_equal(plan->cost.passes[i].name, k ? "march" : "transfer");
     }
     scene.volume.model = KD_VOLUME_UNIFORM;
     scene.camera.projection = KD_PROJECTION_RING;

@@ -29,9 +29,9 @@ static struct kd_frame by_plan(const struct kd_scene *scene, uint32_t fine, uint
     struct kd_frame frame;
     kd_renderer_capacity(renderer, &c);
     OK(kd_plan_make(scene, &c, &plan, &error));
-    plan.march.fine *= fine;
-    plan.march.steps *= steps;
-    plan.march.opaque /= fine;
+    plan.light.march.fine *= fine;
+    plan.light.march.steps *= steps;
+    plan.light.march.opaque /= fine;
     OK(kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error));
     return frame;
 }
@@ -190,13 +190,13 @@ static void test_close_rays(void **state)
     struct kd_scene scene = scene_of("thick-disk", "{\"image\":{\"width\":320,\"height\":180}}");
     kd_renderer_capacity(renderer, &c);
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    const uint32_t usual = plan.march.fine;
+    const uint32_t usual = plan.light.march.fine;
     scene.image.width /= 2;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_int_equal(plan.march.fine, usual);
+    assert_int_equal(plan.light.march.fine, usual);
     scene.image.samples = 4;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.march.fine > usual);
+    assert_true(plan.light.march.fine > usual);
     scene.image.samples = 1;
     scene.image.width = 640;
     scene.image.height = 360;
@@ -223,14 +223,15 @@ static void test_sketch(void **state)
     needs.sketch = true;
     OK(kd_plan_make_for(&scene, &needs, &c, &plan, &error));
     bool said = false;
-    for (size_t i = 0; i < plan.n_approximations; i++)
-        said |= !strncmp(plan.approximations[i].text, "volumes: a sketch", 17);
-    assert_true(said && plan.march.sketched && !usual.march.sketched &&
-                plan.n_approximations == usual.n_approximations + 1);
-    assert_true(plan.march.fine < usual.march.fine && plan.march.weight < 0.8 * usual.march.weight);
-    assert_string_equal(plan.lens_key, usual.lens_key);
+    for (size_t i = 0; i < plan.report.n_approximations; i++)
+        said |= !strncmp(plan.report.approximations[i].text, "volumes: a sketch", 17);
+    assert_true(said && plan.light.march.sketched && !usual.light.march.sketched &&
+                plan.report.n_approximations == usual.report.n_approximations + 1);
+    assert_true(plan.light.march.fine < usual.light.march.fine &&
+                plan.light.march.weight < 0.8 * usual.light.march.weight);
+    assert_string_equal(plan.lens.key, usual.lens.key);
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
-    plan.march.fine *= 8;
+    plan.light.march.fine *= 8;
     struct kd_frame fine;
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &fine, &error));
     struct kd_frame all = by_plan(&scene, 8, 1);
@@ -260,7 +261,7 @@ static void test_refused(void **state)
     assert_non_null(strstr(refused.message, "5e-05"));
     scene.accuracy.tolerance = KD_MARCH_HOLDS;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.march.fine > 4);
+    assert_true(plan.light.march.fine > 4);
     scene.accuracy.tolerance = 1e-6;
     scene.disk.height = 0;
     OK(kd_plan_make(&scene, &c, &plan, &error));

@@ -157,9 +157,9 @@ static double beside_alone(const struct kd_scene *scene, uint32_t x, uint32_t y)
     struct kd_frame frame;
     kd_renderer_capacity(renderer, &c);
     OK(kd_plan_make(scene, &c, &plan, &error));
-    plan.told.on = true;
-    plan.told.x = x;
-    plan.told.y = y;
+    plan.report.probe.on = true;
+    plan.report.probe.x = x;
+    plan.report.probe.y = y;
     OK(kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error));
     assert_non_null(frame.told);
     assert_int_equal(frame.accuracy.lost, 0);

@@ -100,7 +100,7 @@ static void map(const struct kd_scene *scene, enum kd_lens_path path, const char
     size_t n = 0, wrong = 0;
     kd_renderer_capacity(renderer, &capacity);
     OK(kd_plan_make_for(scene, &(struct kd_needs) { .quantities = KD_LENS_W }, &capacity, &plan, &error));
-    assert_true(plan.planes <= 4 && plan.path == path);
+    assert_true(plan.lens.planes <= 4 && plan.lens.path == path);
     OK(kd_render_lens(renderer, scene, &plan, planes, NULL, &error));
     for (int k = 0; k < RAYS; k++) {
         double x = place(k % GRID), y = -place(k / GRID), nudge = 1e-6;

@@ -280,8 +280,9 @@ static void maps(void **state)
         qsort(all.errors, all.n, sizeof *all.errors, by_value);
         print_message("%s, a = %g, r = %g, %s: %zu crossings and %zu places in the sky, error %.1e in the median, %.1e "
                       "at most, %zu wrong\n",
-                      seers[i].name, seers[i].spin, seers[i].r, plan.path == KD_LENS_CLOSED ? "closed form" : "steps",
-                      all.n - all.sky, all.sky, all.errors[all.n / 2], all.errors[all.n - 1], all.wrong);
+                      seers[i].name, seers[i].spin, seers[i].r,
+                      plan.lens.path == KD_LENS_CLOSED ? "closed form" : "steps", all.n - all.sky, all.sky,
+                      all.errors[all.n / 2], all.errors[all.n - 1], all.wrong);
         bad += !(all.wrong == 0 && all.n > 200 && all.errors[all.n / 2] < 5e-7 && all.errors[all.n - 1] < 4e-5);
     }
     assert_int_equal(bad, 0);
@@ -318,9 +319,9 @@ static void dark_disk(void **state)
         scene.image.width = ROW;
         scene.image.height = 1;
         OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_SKY }, &capacity, &plan, &error));
-        assert_int_equal(plan.planes, plan.orders + 3);
+        assert_int_equal(plan.lens.planes, plan.lens.orders + 3);
         OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
-        const float *fate = planes + plan.orders * ROW + 2 * ROW;
+        const float *fate = planes + plan.lens.orders * ROW + 2 * ROW;
         int dark = 0, unsure = 0;
         for (int k = 0; k < ROW; k++) {
             dark += fate[k] == (float)KD_FATE_CAPTURED;
@@ -345,7 +346,7 @@ static void look_around(double spin, double inclination, double r, float ends[FA
         const struct kd_scene scene = scene_of(&rain, face);
         struct kd_plan plan;
         OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_SKY }, &capacity, &plan, &error));
-        assert_int_equal(plan.planes, ORDERS + 3);
+        assert_int_equal(plan.lens.planes, ORDERS + 3);
         OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
         for (int k = 0; k < ORDERS * RAYS; k++)
             assert_true(isfinite(planes[k]));

@@ -301,7 +301,7 @@ static void test_slow_light(void **state)
         struct kd_plan plan;
         kd_renderer_capacity(renderer, &c);
         OK(kd_plan_make(&scene, &c, &plan, &error));
-        float *planes = malloc(4 * plan.planes * plan.rays);
+        float *planes = malloc(4 * plan.lens.planes * plan.lens.rays);
         OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
         scene.disk.slow_light = false;
         double off_then = 0, off_now = 0;
@@ -310,7 +310,7 @@ static void test_slow_light(void **state)
             float w = planes[at];
             if (!(w > 1 / 18.0 && w < 1 / 5.0))
                 continue;
-            scene.top.time = 700 - planes[2 * plan.orders * plan.rays + at];
+            scene.top.time = 700 - planes[2 * plan.lens.orders * plan.lens.rays + at];
             struct kd_frame then = rendered(&scene);
             const uint8_t *a = kd_frame_pixels(&slow), *b = kd_frame_pixels(&then), *now = kd_frame_pixels(&fast);
             off_then += abs(a[3 * at + 1] - b[3 * at + 1]);

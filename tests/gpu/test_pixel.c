@@ -189,7 +189,7 @@ static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *
         }
     }
     if (isfinite(scene->camera.r) && !x.motion.within)
-        judge_direction(scene, &x, plan->side, params);
+        judge_direction(scene, &x, plan->lens.side, params);
     for (size_t i = 0; i < x.told->n_places; i++) {
         const struct kd_probed_place *p = &x.told->places[i];
         const struct kd_ray_crossing *c = &x.crossings[p->order];
@@ -214,7 +214,7 @@ static void judge_picture(const struct kd_scene *scene, const struct kd_plan *pl
 {
     struct kd_plan silent = *plan;
     struct kd_frame other;
-    silent.told.on = false;
+    silent.report.probe.on = false;
     OK(kd_render(renderer, scene, &silent, NULL, NULL, &other, &error));
     assert_null(other.told);
     assert_memory_equal(kd_frame_pixels(frame), kd_frame_pixels(&other),
@@ -406,7 +406,7 @@ static void negative_energies(void **state)
     OK(kd_plan_make(&scene, &c, &plan, &error));
     for (uint32_t i = 0; i < WIDTH * HEIGHT && compared < 4; i += 7) {
         struct kd_camera_label label;
-        kd_lens_label(&scene, &plan, i % WIDTH, i / WIDTH, &label);
+        kd_lens_label(&scene, &plan.lens, i % WIDTH, i / WIDTH, &label);
         if (!(label.energy < -0.05) || ++below % 5)
             continue;
         struct kd_plan told;
@@ -482,7 +482,8 @@ static void many_rays(void **state)
                 for (size_t n = 0; n < e.told->n_places; n++) {
                     const struct kd_probed_place *p = &e.told->places[n];
                     const struct kd_ray_crossing *c = &e.crossings[p->order];
-                    if (p->order == 0 && e.end.n_crossings && c->r < 60 && told->rays == plan.side * plan.side)
+                    if (p->order == 0 && e.end.n_crossings && c->r < 60 &&
+                        told->rays == plan.lens.side * plan.lens.side)
                         near("r of the picture over r", 1 / ((double)p->w * c->r), 1, 2e-4);
                 }
             }
@@ -572,17 +573,17 @@ static void from_within(void **state)
 
 static void places(void **state)
 {
-    struct kd_plan plan = { .width = 64, .height = 36 };
+    struct kd_plan plan = { .picture.width = 64, .picture.height = 36 };
     (void)state;
     FAILS(KD_EINVAL, "X below 64 and Y below 36", kd_explain_at("64,0", &plan, &error));
     FAILS(KD_EINVAL, "is \"1\"", kd_explain_at("1", &plan, &error));
     FAILS(KD_EINVAL, "is \"1,2,3\"", kd_explain_at("1,2,3", &plan, &error));
     FAILS(KD_EINVAL, "is \"-1,2\"", kd_explain_at("-1,2", &plan, &error));
     FAILS(KD_EINVAL, "is \"nan,2\"", kd_explain_at("nan,2", &plan, &error));
-    assert_false(plan.told.on);
+    assert_false(plan.report.probe.on);
     OK(kd_explain_at("63.9,35.5", &plan, &error));
-    assert_int_equal(plan.told.x, 63);
-    assert_int_equal(plan.told.y, 35);
+    assert_int_equal(plan.report.probe.x, 63);
+    assert_int_equal(plan.report.probe.y, 35);
 }
 
 /* The volume of that name in an explanation; NULL: none. */
@@ -692,7 +693,7 @@ static void alone(void **state)
         OK(kd_explain_at(at, &plan, &error));
         narrow = scene, less = plan;
         OK(kd_explain_narrow(&c, &narrow, &less, &error));
-        assert_true(less.rays < plan.rays || scene.sky.model); /* stars need a wide margin */
+        assert_true(less.lens.rays < plan.lens.rays || scene.sky.model); /* stars need a wide margin */
         encoded(&scene, &plan, &texts[0]);
         encoded(&narrow, &less, &texts[1]);
         const char *by_itself = (char *)texts[1].data, *whole = (char *)texts[0].data;
@@ -707,7 +708,7 @@ static void alone(void **state)
         OK(kd_scene_set(&scene, "style.exposure", "auto", &error));
         less = plan, narrow = scene;
         OK(kd_explain_narrow(&c, &narrow, &less, &error));
-        assert_int_equal(less.rays, plan.rays);
+        assert_int_equal(less.lens.rays, plan.lens.rays);
     }
 }
 

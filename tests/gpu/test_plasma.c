@@ -530,7 +530,7 @@ static void test_held(void **state)
         needs.reuse_normalisation = i < 2;
         kd_renderer_capacity(renderer, &capacity);
         OK(kd_plan_make_for(&scene, &needs, &capacity, &plan, &error));
-        assert_int_equal(plan.reuse_normalisation, i < 2);
+        assert_int_equal(plan.light.reuse_normalisation, i < 2);
         OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
         *told[i] = frame.density_scale;
         kd_frame_finish(&frame);

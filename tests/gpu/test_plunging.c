@@ -160,13 +160,13 @@ static void test_slopes(void **state)
             scene.accuracy.precision = 1 + (k ? KD_PRECISION_F64 : KD_PRECISION_F32);
             OK(kd_scene_validate(&scene, &error));
             OK(kd_plan_make(&scene, &c, &plan[k], &error));
-            assert_true(kd_plan_holds(&plan[k], KD_LENS_SLOPE) && plan[k].planes == 3 * plan[k].orders);
+            assert_true(kd_plan_holds(&plan[k].lens, KD_LENS_SLOPE) && plan[k].lens.planes == 3 * plan[k].lens.orders);
             bool closed = scene.camera.r > 1.05 * kd_kerr_photon_orbit(kd_hole(-0.3));
-            assert_true(plan[k].path == (k ? KD_LENS_LISTED : closed ? KD_LENS_CLOSED : KD_LENS_MAP));
-            planes[k] = test_malloc(4 * plan[k].planes * plan[k].rays);
+            assert_true(plan[k].lens.path == (k ? KD_LENS_LISTED : closed ? KD_LENS_CLOSED : KD_LENS_MAP));
+            planes[k] = test_malloc(4 * plan[k].lens.planes * plan[k].lens.rays);
             OK(kd_render_lens(renderer, &scene, &plan[k], planes[k], NULL, &error));
         }
-        uint64_t n = plan[0].rays, orders = plan[0].orders;
+        uint64_t n = plan[0].lens.rays, orders = plan[0].lens.orders;
         double isco = kd_kerr_isco(kd_hole(0.3)), worst = 0;
         int signs[2] = { 0 }, far = 0;
         for (uint64_t at = 0; at < orders * n; at++) {
@@ -205,17 +205,17 @@ static void test_off(void **state)
     struct kd_particle_grid grids[4];
     for (int k = 0; k < 4; k++)
         grids[k] = kd_particle_grid(&scenes[k]);
-    assert_true(kd_plan_holds(&plans[0], KD_LENS_SLOPE) && grids[0].plunging == FALLING &&
-                plans[0].planes == 3 * plans[0].orders);
+    assert_true(kd_plan_holds(&plans[0].lens, KD_LENS_SLOPE) && grids[0].plunging == FALLING &&
+                plans[0].lens.planes == 3 * plans[0].lens.orders);
     for (int k = 1; k < 4; k++)
-        assert_true(!kd_plan_holds(&plans[k], KD_LENS_SLOPE) && plans[k].planes == 2 * plans[k].orders &&
-                    strcmp(plans[k].lens_key, plans[0].lens_key));
+        assert_true(!kd_plan_holds(&plans[k].lens, KD_LENS_SLOPE) && plans[k].lens.planes == 2 * plans[k].lens.orders &&
+                    strcmp(plans[k].lens.key, plans[0].lens.key));
     assert_true(!grids[1].plunging && !grids[2].plunging && grids[3].plunging == FALLING);
     assert_true(grids[1].bytes < grids[0].bytes && !grids[1].plunge_rows);
-    assert_int_equal(plans[0].device_bytes - plans[1].device_bytes,
-                     grids[0].bytes - grids[1].bytes + plans[0].lens_bytes - plans[1].lens_bytes +
+    assert_int_equal(plans[0].cost.device_bytes - plans[1].cost.device_bytes,
+                     grids[0].bytes - grids[1].bytes + plans[0].cost.lens_bytes - plans[1].cost.lens_bytes +
                          kd_sample_bytes(&plans[0]) - kd_sample_bytes(&plans[1]));
-    assert_true(plans[0].n_approximations == plans[1].n_approximations + 1);
+    assert_true(plans[0].report.n_approximations == plans[1].report.n_approximations + 1);
 }
 
 int main(void)

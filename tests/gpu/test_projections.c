@@ -98,7 +98,7 @@ static void map(const struct kd_scene *scene, enum kd_lens_path path)
     kd_renderer_capacity(renderer, &capacity);
     OK(kd_scene_validate(scene, &error));
     OK(kd_plan_make_for(scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_SKY }, &capacity, &plan, &error));
-    assert_true(plan.planes == PLANES && plan.path == path);
+    assert_true(plan.lens.planes == PLANES && plan.lens.path == path);
     OK(kd_render_lens(renderer, scene, &plan, planes, NULL, &error));
     for (int k = 0; k < RAYS; k++) {
         const double x = k % WIDTH + 0.5, y = k / WIDTH + 0.5;
@@ -179,7 +179,7 @@ static void inwards(void **state)
         kd_renderer_capacity(renderer, &capacity);
         OK(kd_scene_validate(&scene, &error));
         OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_W }, &capacity, &plan, &error));
-        assert_true(plan.planes == 1 && plan.path == (pass ? KD_LENS_LISTED : KD_LENS_CLOSED));
+        assert_true(plan.lens.planes == 1 && plan.lens.path == (pass ? KD_LENS_LISTED : KD_LENS_CLOSED));
         OK(kd_render_lens(renderer, &scene, &plan, pass ? known : found, NULL, &error));
     }
     for (int k = 0; k < ACROSS * DOWN; k++)

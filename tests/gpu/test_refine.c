@@ -104,10 +104,11 @@ static void test_as_good(void **state)
         struct kd_plan plans[4];
         struct kd_frame one = render(scenes[i], 1, &plans[0]), sixteen = render(scenes[i], 4, &plans[1]);
         struct kd_frame truth = render(scenes[i], 8, &plans[2]), adaptive = render(scenes[i], 0, &plans[3]);
-        uint64_t rays = kd_plan_rays(&plans[3]) + adaptive.accuracy.followed;
+        uint64_t rays = kd_plan_rays(&plans[3].lens) + adaptive.accuracy.followed;
         double by_one = -10 * log10(off(&one, &truth)), by_sixteen = -10 * log10(off(&sixteen, &truth)),
                by_adaptive = -10 * log10(off(&adaptive, &truth));
-        double share = (double)rays / (double)kd_plan_rays(&plans[1]), strange = neither(&adaptive, &one, &sixteen);
+        double share = (double)rays / (double)kd_plan_rays(&plans[1].lens),
+               strange = neither(&adaptive, &one, &sixteen);
         print_message("%s: %.1f dB by one ray, %.2f dB by 16, %.2f dB adaptively with %.1f %% of their rays, %llu "
                       "refined, %llu between, %.2f %% neither\n",
                       scenes[i], by_one, by_sixteen, by_adaptive, 100 * share,
@@ -158,15 +159,15 @@ static void test_same(void **state)
     assert_true(again.lens_reused && again.accuracy.refined == whole.accuracy.refined &&
                 again.accuracy.pixel_error == whole.accuracy.pixel_error);
     assert_memory_equal(kd_frame_pixels(&whole), kd_frame_pixels(&again), 6 * PIXELS);
-    struct kd_frame bands = render_in(&scene, 4 * plan.planes * WIDTH * 32 + 64, &plan);
-    assert_true(plan.bands > 4 && bands.accuracy.refined > whole.accuracy.refined);
+    struct kd_frame bands = render_in(&scene, 4 * plan.lens.planes * WIDTH * 32 + 64, &plan);
+    assert_true(plan.picture.bands > 4 && bands.accuracy.refined > whole.accuracy.refined);
     assert_true(off(&bands, &whole) < 1e-6);
     scene.accuracy.engine = 1 + KD_ENGINE_CLOSED;
     if (has_float64("listed rays")) {
         scene.accuracy.precision = 1 + KD_PRECISION_F64;
         OK(kd_scene_validate(&scene, &error));
         struct kd_frame listed = render_in(&scene, 0, &plan);
-        assert_true(plan.path == KD_LENS_LISTED && listed.accuracy.refined > 0 && listed.accuracy.between > 0);
+        assert_true(plan.lens.path == KD_LENS_LISTED && listed.accuracy.refined > 0 && listed.accuracy.between > 0);
         assert_true(off(&listed, &whole) < 1e-6);
         kd_frame_finish(&listed);
     }
@@ -303,7 +304,7 @@ static void test_planned(void **state)
         scene.image.height = HEIGHT;
         scene.image.samples = 0;
         struct kd_frame frame = render_in(&scene, 0, &plan);
-        const struct kd_plan_pass *pass = plan.passes;
+        const struct kd_plan_pass *pass = plan.cost.passes;
         while (strcmp(pass->name, "refine"))
             pass++;
         const double had = (double)(frame.accuracy.followed + 16 * frame.accuracy.between),

@@ -111,18 +111,18 @@ static void test_bands(void **state)
         struct kd_capacity c = capacity();
         struct kd_plan plan;
         struct kd_frame whole = render_with(&scene, &c, &plan);
-        assert_int_equal(plan.bands, 1);
+        assert_int_equal(plan.picture.bands, 1);
 
-        c.max_binding_bytes = 4ull * plan.planes * 157 * plan.side * plan.side * 7 + 64;
+        c.max_binding_bytes = 4ull * plan.lens.planes * 157 * plan.lens.side * plan.lens.side * 7 + 64;
         struct kd_frame banded = render_with(&scene, &c, &plan);
-        assert_true(plan.bands >= 12 && plan.cacheable);
+        assert_true(plan.picture.bands >= 12 && plan.lens.cacheable);
         assert_same(&whole, &banded);
 
         whole = rendered(&scene);
-        c.memory_bytes = plan.device_bytes + (c.host_memory ? 2 * plan.host_bytes : 0) -
+        c.memory_bytes = plan.cost.device_bytes + (c.host_memory ? 2 * plan.cost.host_bytes : 0) -
                          1; /* room for one band of the lens map only */
         banded = render_with(&scene, &c, &plan);
-        assert_false(plan.cacheable);
+        assert_false(plan.lens.cacheable);
         assert_same(&whole, &banded);
     }
 }
@@ -167,16 +167,16 @@ static void check_lens(const struct kd_scene *scene)
     struct kd_capacity c = capacity();
     struct kd_plan plan;
     OK(kd_plan_make(scene, &c, &plan, &error));
-    float *planes = test_malloc(sizeof(float) * plan.planes * plan.rays);
+    float *planes = test_malloc(sizeof(float) * plan.lens.planes * plan.lens.rays);
     OK(kd_render_lens(renderer, scene, &plan, planes, NULL, &error));
     double horizon = 1 / (1 + sqrt((1 - scene->spacetime.spin) * (1 + scene->spacetime.spin)));
-    for (size_t k = 0; k < plan.planes * plan.rays; k++) {
+    for (size_t k = 0; k < plan.lens.planes * plan.lens.rays; k++) {
         assert_true(isfinite(planes[k]));
-        if (k < plan.orders * plan.rays)
+        if (k < plan.lens.orders * plan.lens.rays)
             assert_true(planes[k] >= 0 && planes[k] <= horizon * (1 + 1e-6));
     }
-    for (size_t k = 0; kd_plan_holds(&plan, KD_LENS_SKY) && k < plan.rays; k++)
-        assert_true(planes[(plan.planes - 1) * plan.rays + k] < 1.5);
+    for (size_t k = 0; kd_plan_holds(&plan.lens, KD_LENS_SKY) && k < plan.lens.rays; k++)
+        assert_true(planes[(plan.lens.planes - 1) * plan.lens.rays + k] < 1.5);
     test_free(planes);
 }
 
@@ -282,12 +282,12 @@ static void test_glances(void **state)
         struct kd_capacity narrow = c;
         OK(kd_plan_make(&scene, &c, &plan, &error));
         if (k % 3 == 1) {
-            narrow.max_binding_bytes = 4ull * plan.planes * 160 * 25 + 64;
+            narrow.max_binding_bytes = 4ull * plan.lens.planes * 160 * 25 + 64;
             OK(kd_plan_make(&scene, &narrow, &plan, &error));
-            assert_true(plan.bands > 2);
+            assert_true(plan.picture.bands > 2);
         }
-        plan.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
-        plan.lens_key[0] = 'x';         /* a key that is not cached */
+        plan.cost.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
+        plan.lens.key[0] = 'x';              /* a key that is not cached */
         struct glances glances = { .want = isinf(scene.style.exposure) ? NULL : &whole };
         OK(kd_render_in_background(renderer, &scene, &plan, NULL, &preview, &glances, &looked, &error));
         assert_in_range(glances.n, k ? 12 : 1, 20); /* a sampled map's slices are blocks of 64 rows */
@@ -345,7 +345,7 @@ static void test_asides(void **state)
                           &error));
     o.r->kernels.limit = KEPT; /* the interleaved pictures evict all kernels of the picture */
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    plan.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
+    plan.cost.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
     for (int i = 0; i < 2; i++) {
         o.scenes[i] = small_scene();
         o.scenes[i].camera.inclination_deg = 52 + i;
@@ -389,7 +389,7 @@ static void test_a_map_that_is_handed_over(void **state)
     struct kd_renderer *fresh;
     scene.image.samples = 0; /* auto */
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.adaptive);
+    assert_true(plan.lens.adaptive);
     OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .passing = true }, &fresh, &error));
     OK(kd_render(fresh, &scene, &plan, NULL, NULL, &here, &error));
     OK(kd_render_in_background(fresh, &scene, &plan, NULL, NULL, NULL, &background, &error));
@@ -537,7 +537,7 @@ static void test_asides_with_particles(void **state)
     struct kd_frame beside, alone;
     scene.disk.model = KD_DISK_PARTICLES;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    plan.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
+    plan.cost.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
     for (int i = 0; i < 2; i++) {
         o.scenes[i] = scene;
         o.scenes[i].top.time = 50 + 50 * i;
@@ -633,37 +633,39 @@ static void test_plan(void **state)
     struct kd_capacity c = capacity();
     struct kd_plan plan;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.path == KD_LENS_CLOSED && kd_plan_is_radii(&plan) && !kd_plan_holds(&plan, KD_LENS_PHI) &&
-                !kd_plan_holds(&plan, KD_LENS_SKY) && plan.planes == 3 && plan.setting.steps == 0);
-    assert_string_equal(plan.passes[1].name, "interpolate");
-    assert_string_equal(plan.passes[4].name, "expose");
+    assert_true(plan.lens.path == KD_LENS_CLOSED && kd_plan_is_radii(&plan.lens) &&
+                !kd_plan_holds(&plan.lens, KD_LENS_PHI) && !kd_plan_holds(&plan.lens, KD_LENS_SKY) &&
+                plan.lens.planes == 3 && plan.lens.setting.steps == 0);
+    assert_string_equal(plan.cost.passes[1].name, "interpolate");
+    assert_string_equal(plan.cost.passes[4].name, "expose");
     scene.style.exposure = 0;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_string_equal(plan.passes[4].name, "post");
+    assert_string_equal(plan.cost.passes[4].name, "post");
     scene.sky.model = KD_SKY_GRID;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.path == KD_LENS_CLOSED && !kd_plan_is_radii(&plan) && kd_plan_holds(&plan, KD_LENS_SKY) &&
-                plan.setting.steps == 0 && plan.planes == 6);
+    assert_true(plan.lens.path == KD_LENS_CLOSED && !kd_plan_is_radii(&plan.lens) &&
+                kd_plan_holds(&plan.lens, KD_LENS_SKY) && plan.lens.setting.steps == 0 && plan.lens.planes == 6);
     scene.accuracy.steps = 8;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.path == KD_LENS_MAP && plan.setting.engine == KD_ENGINE_MINO_RKN6 && plan.setting.steps == 8);
+    assert_true(plan.lens.path == KD_LENS_MAP && plan.lens.setting.engine == KD_ENGINE_MINO_RKN6 &&
+                plan.lens.setting.steps == 8);
     scene.accuracy.steps = 0;
     scene.sky.model = KD_SKY_NONE;
     scene.camera.r = 30;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(kd_plan_is_radii(&plan) && plan.planes == 3);
+    assert_true(kd_plan_is_radii(&plan.lens) && plan.lens.planes == 3);
     scene.camera.r = 3.2;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.path == KD_LENS_MAP && plan.setting.steps > 0 && plan.planes == 3);
+    assert_true(plan.lens.path == KD_LENS_MAP && plan.lens.setting.steps > 0 && plan.lens.planes == 3);
     scene.camera.r = 30;
     scene.sky.model = KD_SKY_GRID;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(kd_plan_holds(&plan, KD_LENS_SKY) && plan.planes == 6);
+    assert_true(kd_plan_holds(&plan.lens, KD_LENS_SKY) && plan.lens.planes == 6);
     scene.sky.model = KD_SKY_NONE;
     scene.disk.model = KD_DISK_NONE;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_int_equal(plan.planes, 0);
-    assert_string_equal(plan.passes[0].name, "transfer");
+    assert_int_equal(plan.lens.planes, 0);
+    assert_string_equal(plan.cost.passes[0].name, "transfer");
     struct kd_frame f = rendered(&scene);
     for (size_t i = 0; i < bytes(&f); i++)
         assert_int_equal(((uint8_t *)kd_frame_pixels(&f))[i], 0);

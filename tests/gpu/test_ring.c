@@ -50,9 +50,9 @@ static float *trace(const struct kd_scene *scene, struct kd_plan *plan)
     kd_renderer_capacity(renderer, &capacity);
     OK(kd_scene_validate(scene, &error));
     OK(kd_plan_make_for(scene, &needs, &capacity, plan, &error));
-    assert_true(plan->planes == ORDERS + 1 && plan->path == KD_LENS_LISTED &&
-                plan->setting.precision == KD_PRECISION_F64);
-    float *planes = test_malloc(sizeof(float) * plan->planes * plan->rays);
+    assert_true(plan->lens.planes == ORDERS + 1 && plan->lens.path == KD_LENS_LISTED &&
+                plan->lens.setting.precision == KD_PRECISION_F64);
+    float *planes = test_malloc(sizeof(float) * plan->lens.planes * plan->lens.rays);
     OK(kd_render_lens(renderer, scene, plan, planes, NULL, &error));
     return planes;
 }
@@ -92,7 +92,7 @@ static void every_edge_is_where_it_belongs(void **state)
             const struct kd_critical_point column = kd_ring_column(&ring, x);
             for (int n = 1; n < ORDERS; n++)
                 for (int s = 0; s < 4; s++) {
-                    int wrong = check_column(&ring, &column, n, sources[s], w + n * plan.rays + x, &skipped);
+                    int wrong = check_column(&ring, &column, n, sources[s], w + n * plan.lens.rays + x, &skipped);
                     if (wrong)
                         fail_msg("a = %g, column %u, order %d, source %g: %d pixels on the wrong side", views[k].spin,
                                  x, n, sources[s], wrong);
@@ -126,8 +126,8 @@ static void each_order_is_a_gamma_further_in(void **state)
             const struct kd_critical_point column = kd_ring_column(&ring, x);
             double gamma = kd_shell_exponents(&column.orbit).gamma;
             for (int n = 3; n + 1 < ORDERS; n++) {
-                double apart =
-                    row * (row_of(w + (n + 1) * plan.rays + x, HEIGHT) - row_of(w + n * plan.rays + x, HEIGHT));
+                double apart = row * (row_of(w + (n + 1) * plan.lens.rays + x, HEIGHT) -
+                                      row_of(w + n * plan.lens.rays + x, HEIGHT));
                 if (!(fabs(apart - gamma) <
                       1.05 * row + 0.02)) /* two roundings to a row; order 3 is not at the limit yet */
                     fail_msg("a = %g, column %u: orders %d and %d are e^-%.4f apart, not e^-%.4f", views[k].spin, x, n,
@@ -158,9 +158,9 @@ static void integrators_see_the_rings_too(void **state)
     scene.accuracy.engine = KD_ENGINE_MINO_RKN6 + 1;
 
     float *v = trace(&scene, &plan);
-    assert_true(closed.setting.engine == KD_ENGINE_CLOSED && plan.setting.engine == KD_ENGINE_MINO_RKN6);
+    assert_true(closed.lens.setting.engine == KD_ENGINE_CLOSED && plan.lens.setting.engine == KD_ENGINE_MINO_RKN6);
     int differ = 0, seen = 0;
-    for (uint64_t i = 0; i < ORDERS * plan.rays; i++) {
+    for (uint64_t i = 0; i < ORDERS * plan.lens.rays; i++) {
         seen += w[i] > 0;
         differ += (w[i] > 0) != (v[i] > 0) || fabs((double)w[i] - v[i]) > 1e-4 * w[i] + 1e-5;
     }
@@ -262,11 +262,11 @@ static void needs_double_precision(void **state)
     kd_renderer_capacity(renderer, &capacity);
     scene.accuracy.tolerance = 1e-4; /* the table's rays are not those of a ring, so its rows do not apply */
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
-    assert_true(plan.setting.engine == KD_ENGINE_CLOSED && plan.setting.holds < 1e-7);
+    assert_true(plan.lens.setting.engine == KD_ENGINE_CLOSED && plan.lens.setting.holds < 1e-7);
     scene.accuracy.engine = KD_ENGINE_MINO_RKN6 + 1;
     if (capacity.float64) {
         OK(kd_plan_make(&scene, &capacity, &plan, &error));
-        assert_true(plan.setting.engine == KD_ENGINE_MINO_RKN6 && plan.setting.precision == KD_PRECISION_F64);
+        assert_true(plan.lens.setting.engine == KD_ENGINE_MINO_RKN6 && plan.lens.setting.precision == KD_PRECISION_F64);
     }
     scene.accuracy.engine = 0;
     scene.accuracy.tolerance = INFINITY;
@@ -284,7 +284,7 @@ static void needs_double_precision(void **state)
     scene.accuracy.engine = 0;
     scene.accuracy.tolerance = INFINITY; /* the closed form needs no table of the device */
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
-    assert_true(plan.setting.engine == KD_ENGINE_CLOSED && plan.setting.precision == KD_PRECISION_F64);
+    assert_true(plan.lens.setting.engine == KD_ENGINE_CLOSED && plan.lens.setting.precision == KD_PRECISION_F64);
 }
 
 int main(void)

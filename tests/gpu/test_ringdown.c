@@ -224,11 +224,11 @@ static void test_said(void **state)
     OK(kd_plan_make(&scene, &c, &off, &error));
     scene.style.ringdown = 0.1;
     OK(kd_plan_make(&scene, &c, &on, &error));
-    assert_int_equal(on.n_approximations, off.n_approximations + 1);
-    assert_string_equal(on.lens_key, off.lens_key);
+    assert_int_equal(on.report.n_approximations, off.report.n_approximations + 1);
+    assert_string_equal(on.lens.key, off.lens.key);
     size_t said = 0;
-    for (size_t i = 0; i < on.n_approximations; i++)
-        said += !strncmp(on.approximations[i].text, "ringdown: ", 10);
+    for (size_t i = 0; i < on.report.n_approximations; i++)
+        said += !strncmp(on.report.approximations[i].text, "ringdown: ", 10);
     assert_int_equal(said, 1);
 }
 

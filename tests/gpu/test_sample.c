@@ -34,7 +34,7 @@ static struct map map_with(const struct kd_scene *scene, const struct kd_needs *
     kd_renderer_capacity(renderer, &c);
     OK(kd_scene_validate(scene, &error));
     OK(kd_plan_one(scene, needs, &c, &map.plan, &error)); /* for a tile without its margin */
-    map.planes = test_calloc(map.plan.planes * map.plan.rays, sizeof *map.planes);
+    map.planes = test_calloc(map.plan.lens.planes * map.plan.lens.rays, sizeof *map.planes);
     OK(kd_render_lens(renderer, scene, &map.plan, map.planes, NULL, &error));
     return map;
 }
@@ -43,19 +43,20 @@ static struct map map_of(const struct kd_scene *scene, uint32_t quantities, bool
 {
     const struct kd_needs needs = { .quantities = quantities, .followed = followed };
     const struct map map = map_with(scene, &needs);
-    assert_true(followed ? map.plan.interpolates == 0 : map.plan.interpolates > 0);
+    assert_true(followed ? map.plan.lens.interpolates == 0 : map.plan.lens.interpolates > 0);
     return map;
 }
 
 static const float *plane(const struct map *m, uint32_t quantity, uint32_t order)
 {
-    return m->planes + (kd_lens_plane(m->plan.quantities, m->plan.orders, quantity) + order) * m->plan.rays;
+    return m->planes +
+           (kd_lens_plane(m->plan.lens.quantities, m->plan.lens.orders, quantity) + order) * m->plan.lens.rays;
 }
 
 static uint32_t crossings(const struct map *m, size_t i)
 {
     uint32_t n = 0;
-    while (n < m->plan.orders && plane(m, KD_LENS_W, n)[i] > 0)
+    while (n < m->plan.lens.orders && plane(m, KD_LENS_W, n)[i] > 0)
         n++;
     return n;
 }
@@ -224,7 +225,7 @@ static void tiles_are_the_bytes_of_the_whole(void **state)
     for (size_t i = 0; i < sizeof tiles / sizeof *tiles; i++) {
         const struct kd_scene tile = kd_scene_tile(&scene, tiles[i]);
         struct map part = map_of(&tile, quantities, false);
-        for (uint32_t p = 0; p < part.plan.planes; p++)
+        for (uint32_t p = 0; p < part.plan.lens.planes; p++)
             for (uint32_t y = 0; y < tiles[i].height; y++)
                 for (uint32_t x = 0; x < tiles[i].width; x++) {
                     const size_t at = (size_t)(y + tiles[i].top) * 300 + x + tiles[i].left,
@@ -232,8 +233,8 @@ static void tiles_are_the_bytes_of_the_whole(void **state)
                     const bool crosses = p % 3 < crossings(&whole, at),
                                escapes = plane(&whole, KD_LENS_FATE, 0)[at] == KD_FATE_ESCAPED;
                     if (p < 3 || (p < 6 ? crosses : escapes || p == 8))
-                        assert_memory_equal(&part.planes[p * part.plan.rays + n],
-                                            &whole.planes[p * whole.plan.rays + at], sizeof(float));
+                        assert_memory_equal(&part.planes[p * part.plan.lens.rays + n],
+                                            &whole.planes[p * whole.plan.lens.rays + at], sizeof(float));
                 }
         test_free(part.planes);
     }
@@ -249,7 +250,7 @@ static void footprints_are_derivatives(void **state)
     struct map a = map_of(&scene, quantities, false), b = map_of(&scene, quantities, true);
     static double off[300 * 200], sky[300 * 200];
     size_t n = 0, m = 0;
-    for (size_t i = 0; i < a.plan.rays; i++) {
+    for (size_t i = 0; i < a.plan.lens.rays; i++) {
         if (crossings(&b, i)) /* only crossings of the direct image, whose second-order differences are small */
             off[n++] = fabs(plane(&a, KD_LENS_FOOTPRINT, 0)[i] / plane(&b, KD_LENS_FOOTPRINT, 0)[i] - 1);
         if (plane(&b, KD_LENS_FATE, 0)[i] == KD_FATE_ESCAPED)
@@ -283,16 +284,16 @@ static void some_scenes_follow_every_ray(void **state)
         if (profiles[i].profile == KD_PROFILE_REFERENCE && !c.float64)
             continue;
         OK(kd_plan_make(&scene, &c, &plan, &error));
-        assert_int_equal(plan.interpolates > 0, profiles[i].interpolates);
+        assert_int_equal(plan.lens.interpolates > 0, profiles[i].interpolates);
     }
     scene.accuracy.profile = KD_PROFILE_BALANCED;
     scene.accuracy.tolerance = 1e-6;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.interpolates == 0);
+    assert_true(plan.lens.interpolates == 0);
     scene.accuracy.tolerance = INFINITY;
     scene.accuracy.engine = KD_ENGINE_MINO_RKN6 + 1;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.interpolates == 0);
+    assert_true(plan.lens.interpolates == 0);
 }
 
 /* The statement of docs/accuracy.md about a picture's tolerance: 99 of 100 crossings of the bulk are within it, all

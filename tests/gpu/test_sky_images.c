@@ -366,13 +366,13 @@ static void memory(void **state)
     kd_renderer_capacity(renderer, &c);
     c.memory_bytes = 300u << 20;
     OK(kd_plan_make(&made_up, &c, &plan, &error));
-    assert_true(plan.making_bytes == 12ull * 2048 * 1024);
+    assert_true(plan.cost.making_bytes == 12ull * 2048 * 1024);
     assert_int_equal(kd_plan_make(&scene, &c, &plan, &why), KD_ETOOBIG);
     OK(kd_plan_make(&none, &c, &plan, &error));
-    assert_int_equal(plan.making_bytes, 0);
+    assert_int_equal(plan.cost.making_bytes, 0);
     c.memory_bytes = 600u << 20;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.making_bytes == 12ull * 4096 * 2048 + 6ull * 8192 * 4096);
+    assert_true(plan.cost.making_bytes == 12ull * 4096 * 2048 + 6ull * 8192 * 4096);
 }
 
 /* A picture's file credits those whose work it contains, and no other file does. */
@@ -383,7 +383,8 @@ static void credit_in_files(void **state)
         struct kd_frame frame = shot(&scene);
         struct kd_buffer file = { 0 };
         struct kd_png png;
-        const struct kd_picture picture = { &frame, &scene, &(struct kd_plan) { 0 }, "here", 0 };
+        const struct kd_plan none = { 0 };
+        const struct kd_picture picture = { &frame, &scene, &none, "here", 0 };
         OK(kd_png_of_picture(&picture, 1, &file, &error));
         OK(kd_png_decode(file.data, file.size, &png, &error));
         const char *text = kd_png_text_find(&png, "Copyright");

@@ -380,7 +380,7 @@ static void test_many(void **state)
         x += alone.spots.flux * alone.spots.x;
     }
     struct kd_plan plan = plan_of(&scene, 0);
-    assert_true(plan.apart);
+    assert_true(plan.light.apart);
     struct kd_light_report all = light(&scene);
     off(all.spots.flux, sum, sum, 1e-6, "fourteen spots");
     off(all.spots.x, x / sum, 10, 1e-6, "their centroid");
@@ -429,7 +429,7 @@ static void test_resolution(void **state)
     assert_memory_equal(&fine.spots, &again.spots, sizeof fine.spots);
     for (uint64_t rows = 7; rows < 300; rows *= 6) {
         struct kd_plan plan = plan_of(&scene, rows * 4 * 6 * 640 + 64);
-        assert_true(plan.bands > 1);
+        assert_true(plan.picture.bands > 1);
         struct kd_light_report cut = light_by(&scene, &plan, NULL);
         same_light(&cut.spots, &fine.spots, 3e-7, "in bands");
     }
@@ -471,17 +471,17 @@ static void test_plans(void **state)
     }
     scene.disk.model = KD_DISK_NOVIKOV_THORNE;
     plan = plan_of(&scene, 0);
-    assert_true(kd_plan_holds(&plan, KD_LENS_PHI) && plan.light && plan.apart);
+    assert_true(kd_plan_holds(&plan.lens, KD_LENS_PHI) && plan.light.photometry && plan.light.apart);
     scene.spots.at[0].brightness = 0;
     plan = plan_of(&scene, 0);
-    assert_true(!kd_plan_holds(&plan, KD_LENS_PHI) && !plan.light && !plan.apart &&
-                !kd_plan_holds(&plan, KD_LENS_DELAY) && plan.planes == plan.orders);
+    assert_true(!kd_plan_holds(&plan.lens, KD_LENS_PHI) && !plan.light.photometry && !plan.light.apart &&
+                !kd_plan_holds(&plan.lens, KD_LENS_DELAY) && plan.lens.planes == plan.lens.orders);
     scene.disk.slow_light = true; /* has nothing to act on */
     plan = plan_of(&scene, 0);
-    assert_false(kd_plan_holds(&plan, KD_LENS_DELAY));
+    assert_false(kd_plan_holds(&plan.lens, KD_LENS_DELAY));
     scene.spots.at[0].brightness = 1;
     plan = plan_of(&scene, 0);
-    assert_true(kd_plan_holds(&plan, KD_LENS_DELAY));
+    assert_true(kd_plan_holds(&plan.lens, KD_LENS_DELAY));
 }
 
 /* Light measured without a picture is the same bit for bit, in one band and in many, and needs none of the picture's
@@ -505,8 +505,8 @@ static void test_unseen(void **state)
             struct kd_needs needs = kd_needs_of(&scene);
             needs.no_image = unseen;
             OK(kd_plan_make_for(&scene, &needs, &c, &plan, &error));
-            assert_true(plan.light && (plan.bands > 1) == bands && (plan.host_bytes == 0) == unseen &&
-                        (plan.bloom.levels == 0) == unseen);
+            assert_true(plan.light.photometry && (plan.picture.bands > 1) == bands &&
+                        (plan.cost.host_bytes == 0) == unseen && (plan.picture.bloom.levels == 0) == unseen);
             OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frames[unseen], &error));
             assert_int_equal(frames[unseen].n_layers, unseen ? 0 : bands ? 1 : 3);
             assert_true(ran(&frames[unseen], "light"));

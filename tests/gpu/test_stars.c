@@ -548,7 +548,7 @@ static void another_sky_meanwhile(void **state)
     o.scene.image.critical_factor = 2; /* has its own map */
     o.plan = plan_of(&o.scene, &c);
     const struct kd_plan plan = plan_of(&scene, &c), plan_turned = plan_of(&turned, &c);
-    assert_true(plan.bands > 1 && plan.cacheable);
+    assert_true(plan.picture.bands > 1 && plan.lens.cacheable);
     OK(kd_render_in_background(renderer, &scene, &plan, render_other, NULL, &o, &first, &error));
     OK(kd_render_in_background(renderer, &turned, &plan_turned, NULL, NULL, NULL, &again, &error));
     struct kd_frame want = shot(&o.scene, &c);
@@ -616,8 +616,9 @@ static void bright_images(void **state)
     needs.radiance = needs.bright = true;
     OK(kd_plan_make_for(&scene, &needs, &c, &plan, &error));
     const struct kd_plan whole = plan_of(&scene, &c);
-    assert_true(!(plan.quantities & KD_LENS_SKY_FOOTPRINT) && (whole.quantities & KD_LENS_SKY_FOOTPRINT));
-    assert_true(plan.bright && !whole.bright && plan.n_approximations == whole.n_approximations + 1);
+    assert_true(!(plan.lens.quantities & KD_LENS_SKY_FOOTPRINT) && (whole.lens.quantities & KD_LENS_SKY_FOOTPRINT));
+    assert_true(plan.light.bright && !whole.light.bright &&
+                plan.report.n_approximations == whole.report.n_approximations + 1);
     struct kd_frame all = seen(&scene);
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &bright, &error));
     struct kd_frame again = seen(&scene);
@@ -669,7 +670,7 @@ static void bright_images_before_spread_light(void **state)
     OK(kd_plan_make_for(&scene, &needs, &c, &plan, &error));
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &bright, &error));
     struct kd_frame again = seen(&scene);
-    assert_true(plan.quantities & KD_LENS_SKY_FOOTPRINT);
+    assert_true(plan.lens.quantities & KD_LENS_SKY_FOOTPRINT);
     assert_true(was_run(&bright, "stars") && bright.lens_reused && was_run(&again, "stars") && again.lens_reused);
     assert_memory_equal(again.layers[1].data, all.layers[1].data, 12ull * WIDTH * HEIGHT);
     kd_frame_finish(&all);

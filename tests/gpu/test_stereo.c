@@ -133,13 +133,14 @@ static void test_plan(void **state)
     OK(kd_plan_make(&scene, &c, &plan, &error));
     one = kd_scene_eye(&scene, -1);
     OK(kd_plan_make(&one, &c, &single, &error));
-    assert_true(plan.eyes == 2 && single.eyes == 0 && plan.estimate_ms > 1.8 * single.estimate_ms &&
-                plan.estimate_ms < 2.2 * single.estimate_ms);
-    assert_int_equal(plan.n_approximations, single.n_approximations + 1);
+    assert_true(plan.picture.eyes == 2 && single.picture.eyes == 0 &&
+                plan.cost.estimate_ms > 1.8 * single.cost.estimate_ms &&
+                plan.cost.estimate_ms < 2.2 * single.cost.estimate_ms);
+    assert_int_equal(plan.report.n_approximations, single.report.n_approximations + 1);
     scene.image.width++;
     struct kd_plan other;
     OK(kd_plan_make(&scene, &c, &other, &error));
-    assert_string_not_equal(plan.lens_key, other.lens_key);
+    assert_string_not_equal(plan.lens.key, other.lens.key);
     const struct kd_needs needs = { .light = true, .no_image = true };
     struct kd_error wrong = { 0 };
     assert_int_equal(kd_plan_make_for(&scene, &needs, &c, &plan, &wrong), KD_EINVAL);

@@ -45,7 +45,7 @@ static struct kd_frame by_format(struct kd_scene scene, const struct kd_format *
     c.memory_bytes = memory_bytes ? memory_bytes : c.memory_bytes;
     OK(kd_scene_validate(&scene, &error));
     OK(kd_format_plan(format, &scene, &c, &plan, &error));
-    *strips = plan.strips;
+    *strips = plan.picture.strips;
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
     return frame;
 }

@@ -292,12 +292,12 @@ static enum kd_status mishap(double time, struct kd_error *error)
 /* Explains a pixel: light of a quarter, the same for the pixel and for all rays, and no emitters. */
 static struct kd_probed_pixel *tell(const struct kd_plan *plan)
 {
-    const uint32_t side = plan->side;
-    struct kd_probed_pixel *told = plan->told.on ? calloc(1, sizeof *told) : NULL;
+    const uint32_t side = plan->lens.side;
+    struct kd_probed_pixel *told = plan->report.probe.on ? calloc(1, sizeof *told) : NULL;
     if (!told)
         return NULL;
     *told = (struct kd_probed_pixel) {
-        .x = plan->told.x, .y = plan->told.y, .rays = side * side, .radiance = { 0.25f, 0.25f, 0.25f }
+        .x = plan->report.probe.x, .y = plan->report.probe.y, .rays = side * side, .radiance = { 0.25f, 0.25f, 0.25f }
     };
     told->each = malloc(told->rays * sizeof *told->each);
     for (uint32_t i = 0; told->each && i < told->rays; i++)
@@ -308,12 +308,12 @@ static struct kd_probed_pixel *tell(const struct kd_plan *plan)
             .light = { 0.25f, 0.25f, 0.25f },
         };
     told->rays = told->each ? told->rays : 0;
-    if (plan->told.steps && (told->steps = calloc(1, sizeof *told->steps))) { /* a start and nothing after it */
-        *told->steps =
-            (struct kd_rays_steps) { .params = { .engine = plan->setting.engine, .steps = plan->setting.steps },
-                                     .n = 1,
-                                     .steps = calloc(1, sizeof *told->steps->steps),
-                                     .same = true };
+    if (plan->report.probe.steps && (told->steps = calloc(1, sizeof *told->steps))) { /* a start and nothing after it */
+        *told->steps = (struct kd_rays_steps) { .params = { .engine = plan->lens.setting.engine,
+                                                            .steps = plan->lens.setting.steps },
+                                                .n = 1,
+                                                .steps = calloc(1, sizeof *told->steps->steps),
+                                                .same = true };
         told->steps->n = told->steps->steps != NULL;
     }
     told->middle = told->each ? told->each[0] : (struct kd_probed_ray) { .steps_a_pixel = side };
@@ -325,15 +325,16 @@ static struct kd_probed_pixel *tell(const struct kd_plan *plan)
 static enum kd_status add_numbers(const struct kd_scene *scene, const struct kd_plan *plan, struct kd_frame *out,
                                   struct kd_error *error)
 {
-    enum kd_status status = plan->radiance ? kd_frame_add_layer(out, "radiance", 3, KD_LAYER_F32, error) : KD_OK;
-    for (size_t i = 0; i < plan->n_layers && !status; i++) {
+    enum kd_status status =
+        plan->picture.radiance ? kd_frame_add_layer(out, "radiance", 3, KD_LAYER_F32, error) : KD_OK;
+    for (size_t i = 0; i < plan->picture.n_layers && !status; i++) {
         char name[KD_LAYER_NAME];
-        kd_layer_name(plan->layers[i], name);
+        kd_layer_name(plan->picture.layers[i], name);
         if ((status = kd_frame_add_layer(out, name, 1, KD_LAYER_F32, error)))
             break;
         float *at = out->layers[out->n_layers - 1].data;
-        for (size_t k = 0; k < (size_t)plan->width * plan->height; k++)
-            at[k] = scene->image.samples == 3 ? 0 : plan->layers[i].order == 1 ? 0.5f : 1;
+        for (size_t k = 0; k < (size_t)plan->picture.width * plan->picture.height; k++)
+            at[k] = scene->image.samples == 3 ? 0 : plan->picture.layers[i].order == 1 ? 0.5f : 1;
     }
     return status;
 }
@@ -361,19 +362,19 @@ static enum kd_status draw(struct kd_renderer *renderer, const struct kd_scene *
     if (!status)
         status = lack(renderer, scene, aside, error);
     if (!status)
-        status = pass_time(scene->top.time * (plan->side > 1 ? 30 : 1), progress, user, error);
-    if (!status && renderer->compiles && plan->width == 192 && plan->height == 120)
+        status = pass_time(scene->top.time * (plan->lens.side > 1 ? 30 : 1), progress, user, error);
+    if (!status && renderer->compiles && plan->picture.width == 192 && plan->picture.height == 120)
         status = compile(progress, user, error);
     if (status)
         return status;
-    *out =
-        (struct kd_frame) { .width = plan->width,
-                            .height = plan->height,
-                            .told = tell(plan),
-                            .exposure = isinf(scene->style.exposure) ? kd_plan_exposure(plan, renderer->bright ? -1 : 1)
-                                                                     : scene->style.exposure };
-    if (plan->told.on &&
-        (!out->told || !out->told->each || (plan->told.steps && (!out->told->steps || !out->told->steps->steps)))) {
+    *out = (struct kd_frame) { .width = plan->picture.width,
+                               .height = plan->picture.height,
+                               .told = tell(plan),
+                               .exposure = isinf(scene->style.exposure)
+                                               ? kd_plan_exposure(&plan->picture, renderer->bright ? -1 : 1)
+                                               : scene->style.exposure };
+    if (plan->report.probe.on && (!out->told || !out->told->each ||
+                                  (plan->report.probe.steps && (!out->told->steps || !out->told->steps->steps)))) {
         kd_frame_finish(out);
         return kd_error_set(error, KD_ENOMEM, "out of memory for the report on a pixel");
     }
@@ -381,7 +382,7 @@ static enum kd_status draw(struct kd_renderer *renderer, const struct kd_scene *
         kd_frame_finish(out);
         return KD_ENOMEM;
     }
-    size_t size = (size_t)plan->width * plan->height * kd_layer_pixel_bytes(&out->layers[0]);
+    size_t size = (size_t)plan->picture.width * plan->picture.height * kd_layer_pixel_bytes(&out->layers[0]);
     renderer->bright = !renderer->bright;
     uint32_t noise = 1;
     for (size_t i = 0; i < size; i++) {
@@ -393,14 +394,14 @@ static enum kd_status draw(struct kd_renderer *renderer, const struct kd_scene *
         return KD_ENOMEM;
     }
     const double t = scene->top.time; /* black at 0 */
-    if (plan->light)
+    if (plan->light.photometry)
         out->light = (struct kd_light_report) {
             .measured = true,
             .all = { t, t > 0 ? 0.5 * t : NAN, -t, 0, 0, 0 },
             .spots = { t / 4, t > 0 ? 3 : NAN, t > 0 ? 0.25 : NAN, 0, 0, 0 },
         };
-    out->lens_reused = !strcmp(renderer->lens_key, plan->lens_key);
-    memcpy(renderer->lens_key, plan->lens_key, sizeof renderer->lens_key);
+    out->lens_reused = !strcmp(renderer->lens_key, plan->lens.key);
+    memcpy(renderer->lens_key, plan->lens.key, sizeof renderer->lens_key);
     if (!out->lens_reused)
         out->timings[out->n_timings++] = (struct kd_timing) { "trace", scene->top.time };
     out->timings[out->n_timings++] = (struct kd_timing) { "total", scene->top.time };
@@ -428,9 +429,9 @@ static bool go_on(void *user, double fraction)
     const struct aside *a = user;
     if (!a->progress(a->user, fraction))
         return false;
-    uint32_t rows = (uint32_t)(fraction * a->plan->height);
+    uint32_t rows = (uint32_t)(fraction * a->plan->picture.height);
     if (a->preview && rows && a->preview->wanted(a->user)) {
-        struct kd_frame frame = { .width = a->plan->width, .height = a->plan->height };
+        struct kd_frame frame = { .width = a->plan->picture.width, .height = a->plan->picture.height };
         if (!kd_frame_add_layer(&frame, "rgb", 3, KD_LAYER_U8, NULL)) {
             memset(kd_frame_pixels(&frame), 0, (size_t)3 * frame.width * frame.height);
             memset(kd_frame_pixels(&frame), 200, (size_t)3 * frame.width * rows);

@@ -73,20 +73,20 @@ static void what_a_report_counts_is_said(void **state)
     static struct kd_plan plan;
     struct kd_accuracy_report report = { .sampled = 768 };
     struct kd_approximation one;
-    plan.approximations[plan.n_approximations++] = kd_plan_sentence(0);
-    assert_true(kd_picture_approximation(&plan, &report, 0, &one));
+    plan.report.approximations[plan.report.n_approximations++] = kd_plan_sentence(0);
+    assert_true(kd_picture_approximation(&plan.report, &report, 0, &one));
     assert_string_equal(one.name, kd_plan_sentence(0).name);
-    assert_false(kd_picture_approximation(&plan, &report, 1, &one));
+    assert_false(kd_picture_approximation(&plan.report, &report, 1, &one));
     report.lost = 1;
-    assert_true(kd_picture_approximation(&plan, &report, 1, &one));
+    assert_true(kd_picture_approximation(&plan.report, &report, 1, &one));
     assert_string_equal(one.name, "light.lost");
     report.undecided = report.differ = 2;
     static const char *const names[] = { "rays.undecided", "rays.differ", "light.lost" };
     for (size_t i = 0; i < 3; i++) {
-        assert_true(kd_picture_approximation(&plan, &report, 1 + i, &one));
+        assert_true(kd_picture_approximation(&plan.report, &report, 1 + i, &one));
         assert_string_equal(one.name, names[i]);
     }
-    assert_false(kd_picture_approximation(&plan, &report, 4, &one));
+    assert_false(kd_picture_approximation(&plan.report, &report, 4, &one));
 }
 
 struct said {

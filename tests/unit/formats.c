@@ -115,9 +115,9 @@ static struct kd_plan planned(const struct kd_format *format, struct kd_scene *s
 static int shows(const struct kd_plan *plan)
 {
     int n = 0;
-    for (size_t i = 0; i < plan->n_passes; i++)
+    for (size_t i = 0; i < plan->cost.n_passes; i++)
         for (int k = 0; k < 3; k++)
-            n += !strcmp(plan->passes[i].name, (const char *[]) { "expose", "post", "readback" }[k]);
+            n += !strcmp(plan->cost.passes[i].name, (const char *[]) { "expose", "post", "readback" }[k]);
     return n;
 }
 
@@ -131,11 +131,11 @@ static void a_plan_is_for_what_is_carried(void **state)
     kd_scene_defaults(&scene);
     assert_true(isinf(scene.style.exposure)); /* "auto" */
     struct kd_plan plan = planned(&kd_format_png, &scene);
-    assert_true(shows(&plan) == 3 && !plan.light && plan.host_bytes && isinf(scene.style.exposure));
+    assert_true(shows(&plan) == 3 && !plan.light.photometry && plan.cost.host_bytes && isinf(scene.style.exposure));
     for (size_t i = 0; i < 2; i++) {
         kd_scene_defaults(&scene);
         plan = planned(light[i], &scene);
-        assert_true(!shows(&plan) && plan.light && !plan.host_bytes && scene.style.exposure == 0);
+        assert_true(!shows(&plan) && plan.light.photometry && !plan.cost.host_bytes && scene.style.exposure == 0);
     }
 }
 

@@ -197,13 +197,14 @@ static void formats_take_what_they_hold(void **state)
     assert_int_equal(kd_format_plan(&kd_format_png, &two, &c, &plan, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/image/layers");
     assert_int_equal(kd_format_plan(&kd_format_png, &one, &c, &plan, &error), KD_OK);
-    assert_true(kd_plan_is_map(&plan) && !plan.radiance && plan.n_layers == 1 && plan.layers[0].order == 1);
+    assert_true(kd_plan_is_map(&plan.picture) && !plan.picture.radiance && plan.picture.n_layers == 1 &&
+                plan.picture.layers[0].order == 1);
     assert_int_equal(kd_format_plan(&kd_format_npy, &two, &c, &plan, &error), KD_OK);
-    assert_true(!kd_plan_is_map(&plan) && plan.radiance && plan.n_layers == 1);
+    assert_true(!kd_plan_is_map(&plan.picture) && plan.picture.radiance && plan.picture.n_layers == 1);
     struct kd_format rows = kd_format_npy;
     rows.carries = KD_CARRIES_LIGHT;
     assert_int_equal(kd_format_plan(&rows, &two, &c, &plan, &error), KD_OK);
-    assert_true(plan.n_layers == 0 && plan.picture && !plan.radiance);
+    assert_true(plan.picture.n_layers == 0 && plan.picture.rgb && !plan.picture.radiance);
 }
 
 /* Layers that are not requested are not in the plan. Requested ones are, in its bytes and its quantities. */
@@ -216,14 +217,14 @@ static void plans_have_what_is_asked_for(void **state)
     struct kd_plan plan, more;
     assert_int_equal(kd_plan_make(&none, &c, &plan, NULL), KD_OK);
     assert_int_equal(kd_plan_make(&some, &c, &more, NULL), KD_OK);
-    assert_int_equal(plan.quantities, KD_LENS_W);
-    assert_int_equal(more.quantities, KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY | KD_LENS_FOOTPRINT);
-    assert_int_equal(plan.n_layers, 0);
-    assert_int_equal(more.n_layers, 3);
-    assert_int_equal(more.host_bytes - plan.host_bytes, 3 * 4 * 1280 * 720);
+    assert_int_equal(plan.lens.quantities, KD_LENS_W);
+    assert_int_equal(more.lens.quantities, KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY | KD_LENS_FOOTPRINT);
+    assert_int_equal(plan.picture.n_layers, 0);
+    assert_int_equal(more.picture.n_layers, 3);
+    assert_int_equal(more.cost.host_bytes - plan.cost.host_bytes, 3 * 4 * 1280 * 720);
     struct kd_scene empty = scene_of("{\"image\":{\"layers\":[\"r\"]},\"disk\":{\"model\":\"none\"}}");
     assert_int_equal(kd_plan_make(&empty, &c, &plan, NULL), KD_OK);
-    assert_int_equal(plan.orders, 3); /* rays are traced although nothing shines */
+    assert_int_equal(plan.lens.orders, 3); /* rays are traced although nothing shines */
 }
 
 /* A synthetic frame gives records in the order of the words, each number at its place. */

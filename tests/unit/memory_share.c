@@ -104,13 +104,13 @@ static void frames_count(void **state)
     kd_scene_defaults(&scene);
     scene.image.width = scene.image.height = 4096;
     assert_int_equal(kd_plan_make(&scene, &c, &plan, &error), KD_OK);
-    c.memory_bytes = plan.device_bytes - 1; /* the lens map in bands */
+    c.memory_bytes = plan.cost.device_bytes - 1; /* the lens map in bands */
     assert_int_equal(kd_plan_make(&scene, &c, &plan, &error), KD_OK);
-    c.memory_bytes = plan.device_bytes;
+    c.memory_bytes = plan.cost.device_bytes;
     assert_int_equal(kd_plan_make(&scene, &c, &plan, &error), KD_OK);
     c.host_memory = true;
     assert_int_equal(kd_plan_make(&scene, &c, &plan, &error), KD_ETOOBIG);
-    c.memory_bytes += 2 * plan.host_bytes;
+    c.memory_bytes += 2 * plan.cost.host_bytes;
     assert_int_equal(kd_plan_make(&scene, &c, &plan, &error), KD_OK);
 }
 

@@ -98,8 +98,8 @@ static void each_is_in_a_plan_and_each_figure_learned(void **state)
         const struct kd_plan plan = k < SCENES ? planned(scenes[k], &c) : with_footprints(&c);
         double sum = 0;
         int last = -1;
-        for (size_t i = 0; i < plan.n_passes; i++) {
-            const struct kd_plan_pass *pass = &plan.passes[i];
+        for (size_t i = 0; i < plan.cost.n_passes; i++) {
+            const struct kd_plan_pass *pass = &plan.cost.passes[i];
             const struct kd_pass *of = kd_pass_find(pass->name);
             assert_non_null(of);
             assert_true(of - kd_passes > last && pass->invocations > 0 && pass->estimate_ms > 0 && pass->kernel);
@@ -107,7 +107,7 @@ static void each_is_in_a_plan_and_each_figure_learned(void **state)
             sum += pass->estimate_ms;
             seen[last] = learned[pass->figure] = true;
         }
-        assert_true(fabs(sum - plan.estimate_ms) < 1e-9 * sum);
+        assert_true(fabs(sum - plan.cost.estimate_ms) < 1e-9 * sum);
     }
     for (int i = 0; i < KD_PASS_COUNT; i++)
         if (!seen[i])
@@ -153,12 +153,12 @@ static void estimates_are_figures(void **state)
         { "transfer", 5000 * 30e-6 }, { "expose", 5000 * 0.25 * 40e-6 }, { "post", 5000 * 40e-6 },
         { "readback", 5000 * 4e-6 },
     };
-    assert_int_equal(plan.n_passes, sizeof expected / sizeof *expected);
-    for (size_t i = 0; i < plan.n_passes; i++) {
-        assert_string_equal(plan.passes[i].name, expected[i].name);
-        assert_true(fabs(plan.passes[i].estimate_ms - expected[i].ms) < 1e-9);
+    assert_int_equal(plan.cost.n_passes, sizeof expected / sizeof *expected);
+    for (size_t i = 0; i < plan.cost.n_passes; i++) {
+        assert_string_equal(plan.cost.passes[i].name, expected[i].name);
+        assert_true(fabs(plan.cost.passes[i].estimate_ms - expected[i].ms) < 1e-9);
     }
-    assert_true(plan.trace_ns == 10);
+    assert_true(plan.cost.trace_ns == 10);
 }
 
 /* A sky of stars has figures of its own, which are not used for anything else. */
@@ -179,8 +179,8 @@ static void stars_have_figures(void **state)
         const struct kd_capacity c = device();
         const struct kd_plan plan = planned(of[k].json, &c);
         bool looked_for = false;
-        for (size_t i = 0; i < plan.n_passes; i++) {
-            const struct kd_plan_pass *pass = &plan.passes[i];
+        for (size_t i = 0; i < plan.cost.n_passes; i++) {
+            const struct kd_plan_pass *pass = &plan.cost.passes[i];
             const bool stars = !strcmp(pass->name, "stars"), light = !strcmp(pass->name, "transfer");
             const enum kd_figure_id own = stars ? KD_NS_RAY_STARS : KD_NS_SAMPLE_STARS;
             looked_for |= stars;
@@ -197,7 +197,7 @@ static void stars_have_figures(void **state)
 static uint64_t class_of(const char *json)
 {
     const struct kd_capacity c = device();
-    return planned(json, &c).cost_class;
+    return planned(json, &c).cost.class;
 }
 
 /* What is learned from one picture is the estimate for others of its class, whatever their size and the side from which
@@ -227,10 +227,11 @@ static void estimates_are_of_a_class(void **state)
     kd_cost_learn(&c, class_of(small), KD_PASS_TRANSFER, 2000); /* 1300 */
     for (size_t i = 0; i < sizeof alike / sizeof *alike; i++) {
         const struct kd_plan plan = planned(alike[i], &c);
-        assert_true(plan.cost_class == class_of(small));
-        for (size_t k = 0; k < plan.n_passes; k++)
-            if (!strcmp(plan.passes[k].name, "transfer"))
-                assert_true(fabs(plan.passes[k].estimate_ms - 1300e-6 * (double)plan.passes[k].invocations) < 1e-9);
+        assert_true(plan.cost.class == class_of(small));
+        for (size_t k = 0; k < plan.cost.n_passes; k++)
+            if (!strcmp(plan.cost.passes[k].name, "transfer"))
+                assert_true(fabs(plan.cost.passes[k].estimate_ms - 1300e-6 * (double)plan.cost.passes[k].invocations) <
+                            1e-9);
     }
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         assert_true(class_of(others[i]) != class_of(small) &&
@@ -251,8 +252,8 @@ static bool says(const char *json, const char *name)
     const struct kd_capacity c = device();
     const struct kd_plan plan = planned(json, &c);
     bool found = false;
-    for (size_t i = 0; i < plan.n_approximations; i++)
-        found |= !strcmp(plan.approximations[i].name, name);
+    for (size_t i = 0; i < plan.report.n_approximations; i++)
+        found |= !strcmp(plan.report.approximations[i].name, name);
     return found;
 }
 

@@ -72,10 +72,10 @@ static void the_file_says_how_it_was_made(void **state)
 {
     (void)state;
     const struct kd_plan plan = {
-        .rays = 12,
-        .setting = { KD_ENGINE_KS_RK4, KD_PRECISION_F64, 64, NAN },
-        .approximations = { { "a.first", "first" }, { "a.second", "second" } },
-        .n_approximations = 2,
+        .lens.rays = 12,
+        .lens.setting = { KD_ENGINE_KS_RK4, KD_PRECISION_F64, 64, NAN },
+        .report.approximations = { { "a.first", "first" }, { "a.second", "second" } },
+        .report.n_approximations = 2,
     };
     struct kd_scene scene;
     struct kd_buffer file = { 0 };

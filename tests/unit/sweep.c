@@ -249,7 +249,7 @@ static void groups_are_those_of_lens_maps(void **state)
             kd_plan_make(&scene, &capacity, &plan, &error))
             fail_msg("%s: %s", changes[i][0], error.message);
         assert_int_equal(kd_plan_lens_group(&scene, &other), KD_OK);
-        const bool key = !strcmp(plan.lens_key, first.lens_key);
+        const bool key = !strcmp(plan.lens.key, first.lens.key);
         same += key;
         if (one == other && !key)
             fail_msg("%s = %s changes the lens map, and not the group", changes[i][0], changes[i][1]);
@@ -266,24 +266,24 @@ static void a_cube_has_one_shape(void **state)
     struct kd_cube_shape shape;
     struct kd_error error = { 0 };
     struct kd_scene scene, other;
-    struct kd_plan plan = { .width = 64, .height = 36 }, pair = plan, wide = plan;
-    pair.eyes = 2;
-    wide.width = 65;
+    struct kd_plan plan = { .picture.width = 64, .picture.height = 36 }, pair = plan, wide = plan;
+    pair.picture.eyes = 2;
+    wide.picture.width = 65;
     (void)state;
     kd_scene_defaults(&scene);
     other = scene;
     assert_int_equal(kd_scene_set(&other, "image.layers", "rgb,r", &error), KD_OK);
-    assert_int_equal(kd_cube_compare(&shape, 0, &scene, &plan, &error), KD_OK);
-    assert_int_equal(kd_cube_compare(&shape, 1, &scene, &plan, &error), KD_OK);
-    assert_int_equal(kd_cube_compare(&shape, 2, &scene, &wide, &error), KD_EINVAL);
+    assert_int_equal(kd_cube_compare(&shape, 0, &scene, &plan.picture, &error), KD_OK);
+    assert_int_equal(kd_cube_compare(&shape, 1, &scene, &plan.picture, &error), KD_OK);
+    assert_int_equal(kd_cube_compare(&shape, 2, &scene, &wide.picture, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/axes");
     assert_non_null(strstr(error.message, "scene 2 has 65 x 36 pixels and scene 0 has 64 x 36"));
-    assert_int_equal(kd_cube_compare(&shape, 3, &scene, &pair, &error), KD_EINVAL);
+    assert_int_equal(kd_cube_compare(&shape, 3, &scene, &pair.picture, &error), KD_EINVAL);
     assert_non_null(strstr(error.message, "scene 3 has 128 x 36 pixels"));
-    assert_int_equal(kd_cube_compare(&shape, 4, &other, &plan, &error), KD_EINVAL);
+    assert_int_equal(kd_cube_compare(&shape, 4, &other, &plan.picture, &error), KD_EINVAL);
     assert_non_null(strstr(error.message, "scene 4 has other layers"));
-    assert_int_equal(kd_cube_compare(&shape, 0, &other, &plan, &error), KD_OK); /* another sweep */
-    assert_int_equal(kd_cube_compare(&shape, 1, &scene, &plan, &error), KD_EINVAL);
+    assert_int_equal(kd_cube_compare(&shape, 0, &other, &plan.picture, &error), KD_OK); /* another sweep */
+    assert_int_equal(kd_cube_compare(&shape, 1, &scene, &plan.picture, &error), KD_EINVAL);
 }
 
 int main(void)

@@ -37,31 +37,31 @@ enum kd_status kd_prepare_asked(struct kd_renderer *r, enum kd_emitter_number nu
     return work_of(r, &r->prepared, number, &r->capacity, out, error);
 }
 
-void kd_prepare_begin(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_plan *plan)
+void kd_prepare_begin(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_plan_light *light)
 {
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        if (kd_emitters[i]->own && kd_emitters[i]->own->begin && plan->traits[i])
+        if (kd_emitters[i]->own && kd_emitters[i]->own->begin && light->traits[i])
             kd_emitters[i]->own->begin(r, scene);
 }
 
-enum kd_status kd_prepare_tell(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_plan *plan,
+enum kd_status kd_prepare_tell(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_plan_light *light,
                                struct kd_emission *out, char *credit, size_t size, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        if (kd_emitters[i]->own && kd_emitters[i]->own->tell && plan->traits[i])
+        if (kd_emitters[i]->own && kd_emitters[i]->own->tell && light->traits[i])
             KD_TRY(kd_emitters[i]->own->tell(r, scene, out, credit, size, error));
 done:
     return status;
 }
 
 enum kd_status kd_prepare(struct kd_renderer *r, struct kd_prepared *prepared, const struct kd_scene *scene,
-                          const struct kd_plan *plan, const struct kd_capacity *c, struct kd_error *error)
+                          const struct kd_plan_light *light, const struct kd_capacity *c, struct kd_error *error)
 {
     struct kd_emitter_buffers_work work;
     enum kd_status status = KD_OK;
     for (int i = 0; i < KD_EMITTER_COUNT; i++) {
-        if (!kd_emitters[i]->own || !plan->traits[i])
+        if (!kd_emitters[i]->own || !light->traits[i])
             continue;
         KD_TRY(work_of(r, prepared, i, c, &work, error));
         KD_TRY(kd_emitters[i]->own->prepare(&work, scene, error));
@@ -70,13 +70,13 @@ done:
     return status;
 }
 
-void kd_prepared_buffers(const struct kd_prepared *prepared, const struct kd_plan *plan,
+void kd_prepared_buffers(const struct kd_prepared *prepared, const struct kd_plan_light *light,
                          struct kd_vk_buffer *out[KD_OWN_COUNT])
 {
     for (int i = 0; i < KD_OWN_COUNT; i++)
         out[i] = NULL;
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        if (prepared->own[i] && plan->traits[i])
+        if (prepared->own[i] && light->traits[i])
             kd_emitters[i]->own->buffers(prepared->own[i], out);
 }
 

@@ -8,7 +8,7 @@
 
 struct kd_capacity;
 struct kd_error;
-struct kd_plan;
+struct kd_plan_light;
 struct kd_renderer;
 struct kd_vk;
 struct kd_vk_buffer;
@@ -17,18 +17,20 @@ struct kd_vk_buffer;
 struct kd_prepared { void *own[KD_EMITTER_COUNT]; };
 
 /* Starts what emitters make on the host, on threads of their own. */
-void kd_prepare_begin(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan);
+void kd_prepare_begin(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan_light *light);
 /* Calls `tell` of all emitters of the scene, after kd_emit_update. */
-enum kd_status kd_prepare_tell(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                               struct kd_emission *out, char *credit, size_t size, struct kd_error *error);
+enum kd_status kd_prepare_tell(struct kd_renderer *renderer, const struct kd_scene *scene,
+                               const struct kd_plan_light *light, struct kd_emission *out, char *credit, size_t size,
+                               struct kd_error *error);
 /* Calls `prepare` of all emitters of the scene. */
 enum kd_status kd_prepare(struct kd_renderer *renderer, struct kd_prepared *prepared, const struct kd_scene *scene,
-                          const struct kd_plan *plan, const struct kd_capacity *capacity, struct kd_error *error);
+                          const struct kd_plan_light *light, const struct kd_capacity *capacity,
+                          struct kd_error *error);
 /* The working set of an emitter that has buffers, for requests other than frames. */
 enum kd_status kd_prepare_asked(struct kd_renderer *renderer, enum kd_emitter_number number,
                                 struct kd_emitter_buffers_work *out, struct kd_error *error);
 /* Buffers for the kernels of light, by number; NULL for emitters that the scene does not have. */
-void kd_prepared_buffers(const struct kd_prepared *prepared, const struct kd_plan *plan,
+void kd_prepared_buffers(const struct kd_prepared *prepared, const struct kd_plan_light *light,
                          struct kd_vk_buffer *out[KD_OWN_COUNT]);
 void kd_prepared_forget(struct kd_prepared *prepared);
 void kd_prepared_finish(struct kd_prepared *prepared, struct kd_vk *vk);

@@ -67,7 +67,7 @@ static void map_finish(struct kd_lens_map *map, struct kd_vk *vk)
 }
 
 /* Evicts cached maps, oldest first, until the plan fits beside the others and the others are within their limit. */
-static void make_room(struct kd_store *store, const struct kd_plan *plan, const struct kd_lens_map *spare)
+static void make_room(struct kd_store *store, const struct kd_plan_cost *cost, const struct kd_lens_map *spare)
 {
     for (;;) {
         uint64_t kept = 0;
@@ -80,7 +80,7 @@ static void make_room(struct kd_store *store, const struct kd_plan *plan, const 
             if (!oldest || m->used < oldest->used)
                 oldest = m;
         }
-        if (!oldest || (kept <= KD_KEPT_MAPS_BYTES && plan->device_bytes + kept <= store->memory_bytes))
+        if (!oldest || (kept <= KD_KEPT_MAPS_BYTES && cost->device_bytes + kept <= store->memory_bytes))
             return;
         map_finish(oldest, store->vk);
     }
@@ -88,13 +88,15 @@ static void make_room(struct kd_store *store, const struct kd_plan *plan, const 
 
 static uint64_t lens_band_bytes(const struct kd_plan *plan)
 {
-    return 4ull * plan->planes * plan->width * plan->side * plan->side * plan->band_rows + 16;
+    return 4ull * plan->lens.planes * plan->picture.width * plan->lens.side * plan->lens.side *
+               plan->picture.band_rows +
+           16;
 }
 
 static bool is_of(const struct kd_lens_map *map, const struct kd_plan *plan)
 {
-    return plan->cacheable && !strcmp(map->key, plan->lens_key) && map->bands.count == plan->bands &&
-           map->bands.band_bytes == lens_band_bytes(plan) && map->critical.count == kd_plan_critical_parts(plan);
+    return plan->lens.cacheable && !strcmp(map->key, plan->lens.key) && map->bands.count == plan->picture.bands &&
+           map->bands.band_bytes == lens_band_bytes(plan) && map->critical.count == kd_plan_critical_parts(&plan->lens);
 }
 
 bool kd_store_has(const struct kd_store *store, const struct kd_plan *plan)
@@ -110,10 +112,12 @@ static enum kd_status make_star_light(struct kd_store *store, const struct kd_pl
                                       struct kd_error *error)
 {
     struct kd_bands *light = &map->star_light;
-    if (!plan->points || (light->count == plan->bands && light->band_bytes == kd_plan_star_bytes(plan)))
+    if (!plan->light.points ||
+        (light->count == plan->picture.bands && light->band_bytes == kd_plan_star_bytes(&plan->picture)))
         return KD_OK;
     map->star_key.lens[0] = 0;
-    return bands_init(light, store->vk, plan->bands, kd_plan_star_bytes(plan), "light of stars", error);
+    return bands_init(light, store->vk, plan->picture.bands, kd_plan_star_bytes(&plan->picture), "light of stars",
+                      error);
 }
 
 /* Makes *buffer if it is NULL; it is never resized. */
@@ -136,23 +140,24 @@ static enum kd_status find_or_make(struct kd_store *store, const struct kd_plan 
             m->used = ++store->clock;
             *out = m;
             *reused = true;
-            make_room(store, plan, m);
+            make_room(store, &plan->cost, m);
             return make_star_light(store, plan, m, error);
         }
         if (m->used < oldest->used)
             oldest = m;
     }
-    make_room(store, plan, oldest);
+    make_room(store, &plan->cost, oldest);
     oldest->key[0] = 0;
     kd_critical_pixels_finish(&oldest->pixels);
     forget_stars(oldest);
     oldest->used = ++store->clock;
     *out = oldest;
     enum kd_status status;
-    KD_TRY(bands_init(&oldest->bands, store->vk, plan->cacheable ? plan->bands : 1, bytes, "lens map", error));
-    KD_TRY(bands_init(&oldest->critical, store->vk, kd_plan_critical_parts(plan), kd_plan_critical_bytes(plan),
-                      "lens map at the critical curve", error));
-    if (!plan->points)
+    KD_TRY(bands_init(&oldest->bands, store->vk, plan->lens.cacheable ? plan->picture.bands : 1, bytes, "lens map",
+                      error));
+    KD_TRY(bands_init(&oldest->critical, store->vk, kd_plan_critical_parts(&plan->lens),
+                      kd_plan_critical_bytes(&plan->lens), "lens map at the critical curve", error));
+    if (!plan->light.points)
         bands_finish(&oldest->star_light, store->vk);
     KD_TRY(make_star_light(store, plan, oldest, error));
 done:
@@ -173,11 +178,11 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
     return status ? status : find_or_make(store, plan, out, reused, error);
 }
 
-void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan *plan)
+void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan_lens *lens)
 {
     (void)store;
-    if (plan->cacheable)
-        memcpy(map->key, plan->lens_key, sizeof map->key);
+    if (lens->cacheable)
+        memcpy(map->key, lens->key, sizeof map->key);
 }
 
 void kd_store_hand_over(struct kd_store *from, struct kd_store *to, const struct kd_plan *plan)
@@ -219,16 +224,17 @@ done:
 }
 
 /* Makes a beam's buffers. They are freed when no longer needed, because they are as large as the picture. */
-static enum kd_status make_beam(struct kd_store *store, const struct kd_plan *plan, struct kd_error *error)
+static enum kd_status make_beam(struct kd_store *store, const struct kd_plan_picture *picture, struct kd_error *error)
 {
-    const struct kd_beam_grid *beam = &plan->beam;
+    const struct kd_beam_grid *beam = &picture->beam;
     enum kd_status status;
     if (!beam->cell) {
         bands_finish(&store->beamed, store->vk);
         return KD_OK;
     }
-    KD_TRY(bands_init(&store->beamed, store->vk, plan->bands,
-                      kd_post_radiance_bytes((uint64_t)plan->width * plan->band_rows), "light by the beam", error));
+    KD_TRY(bands_init(&store->beamed, store->vk, picture->bands,
+                      kd_post_radiance_bytes((uint64_t)picture->width * picture->band_rows), "light by the beam",
+                      error));
     KD_TRY(kd_store_at_least(store->vk, &store->beam_lines, kd_beam_lines_bytes(beam), KD_VK_DEVICE, "rows of cells",
                              error));
     KD_TRY(kd_store_at_least(store->vk, &store->beam_grids, kd_beam_grids_bytes(beam), KD_VK_DEVICE, "cells", error));
@@ -239,33 +245,34 @@ done:
 enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan, int bit_depth, struct kd_error *error)
 {
     struct kd_vk *vk = store->vk;
-    const uint64_t pixels = (uint64_t)plan->width * plan->band_rows, layers = kd_plan_readback_bytes(plan);
+    const uint64_t pixels = (uint64_t)plan->picture.width * plan->picture.band_rows,
+                   layers = kd_plan_readback_bytes(&plan->picture);
     const uint64_t words = kd_post_bytes(pixels, bit_depth) + 4 * KD_POST_COUNTS,
-                   light = kd_plan_pixel_bytes(plan) * pixels, read = kd_post_radiance_bytes(pixels);
+                   light = kd_plan_pixel_bytes(&plan->light) * pixels, read = kd_post_radiance_bytes(pixels);
     enum kd_status status;
     KD_TRY(make_small(store, error));
-    KD_TRY(bands_init(&store->radiance, vk, plan->bands,
+    KD_TRY(bands_init(&store->radiance, vk, plan->picture.bands,
                       (light > read ? light : read) + kd_plan_lost_bytes(kd_plan_lost_most(plan)), "radiance", error));
     KD_TRY(kd_store_at_least(vk, &store->words, words, KD_VK_DEVICE, "pixels", error));
     KD_TRY(kd_store_at_least(vk, &store->readback, layers > words ? layers : words, KD_VK_READBACK,
                              "pixels on the host", error));
-    if (!plan->n_layers)
+    if (!plan->picture.n_layers)
         bands_finish(&store->layers, vk);
     else
-        KD_TRY(
-            bands_init(&store->layers, vk, plan->bands, plan->n_layers * kd_plan_layer_bytes(plan), "layers", error));
-    if (plan->bloom.levels)
-        KD_TRY(kd_store_at_least(vk, &store->bloom, plan->bloom.bytes, KD_VK_DEVICE, "spread light", error));
-    KD_TRY(make_beam(store, plan, error));
-    if (plan->listed_bytes)
-        KD_TRY(kd_store_at_least(vk, &store->listed, plan->listed_bytes, KD_VK_DEVICE, "lens map of listed pixels",
+        KD_TRY(bands_init(&store->layers, vk, plan->picture.bands,
+                          plan->picture.n_layers * kd_plan_layer_bytes(&plan->picture), "layers", error));
+    if (plan->picture.bloom.levels)
+        KD_TRY(kd_store_at_least(vk, &store->bloom, plan->picture.bloom.bytes, KD_VK_DEVICE, "spread light", error));
+    KD_TRY(make_beam(store, &plan->picture, error));
+    if (plan->lens.listed_bytes)
+        KD_TRY(kd_store_at_least(vk, &store->listed, plan->lens.listed_bytes, KD_VK_DEVICE, "lens map of listed pixels",
                                  error));
-    if (plan->light) {
+    if (plan->light.photometry) {
         KD_TRY(kd_store_at_least(vk, &store->light, kd_light_bytes(plan), KD_VK_DEVICE, "light", error));
         KD_TRY(kd_store_at_least(vk, &store->light_host, kd_light_bytes(plan), KD_VK_READBACK, "light on the host",
                                  error));
     }
-    if (plan->points) {
+    if (plan->light.points) {
         KD_TRY(kd_store_at_least(vk, &store->star_pairs, kd_plan_pair_bytes(), KD_VK_DEVICE, "pairs of rays and stars",
                                  error));
         KD_TRY(kd_store_at_least(vk, &store->star_rays, kd_plan_star_ray_bytes(plan), KD_VK_DEVICE,

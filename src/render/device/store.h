@@ -90,7 +90,7 @@ struct kd_store {
  * kd_store_commit makes it findable. Least recently used maps are evicted. */
 enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
                                  bool *reused, struct kd_error *error);
-void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan *plan);
+void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan_lens *lens);
 
 /* Allocates radiance, packed pixels, tables and histogram for a picture of this plan and bit depth. */
 enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan, int bit_depth,

@@ -46,8 +46,8 @@ static void put_pixel(struct kd_json *json, const struct kd_picture *picture, co
 {
     const struct kd_window window = kd_scene_window(picture->scene);
     kd_json_array(json, "pixel");
-    kd_json_number(json, NULL, window.left + picture->plan->told.x);
-    kd_json_number(json, NULL, window.top + picture->plan->told.y);
+    kd_json_number(json, NULL, window.left + picture->plan->report.probe.x);
+    kd_json_number(json, NULL, window.top + picture->plan->report.probe.y);
     kd_json_end(json);
     if (x->eye)
         kd_json_string(json, "eye", x->eye);
@@ -312,7 +312,7 @@ static void put_end(struct kd_json *json, const struct kd_explained *x)
 
 static void put_accuracy(struct kd_json *json, const struct kd_picture *picture, const struct kd_explained *x)
 {
-    const struct kd_setting *by = &picture->plan->setting;
+    const struct kd_setting *by = &picture->plan->lens.setting;
     kd_json_object(json, "accuracy");
     kd_json_string(json, "engine", kd_engine_name(by->engine));
     kd_json_string(json, "precision", kd_precision_name(by->precision));
@@ -364,7 +364,7 @@ static enum kd_status put_each(struct kd_json *json, const struct kd_picture *pi
 /* Writes the engine's steps, or why there are none; writes nothing unless steps were requested. */
 static void put_trace(struct kd_json *json, const struct kd_picture *picture, const struct kd_probed_pixel *told)
 {
-    if (!picture->plan->told.steps)
+    if (!picture->plan->report.probe.steps)
         return;
     if (told->steps) {
         kd_steps_json(json, told->steps);
@@ -397,8 +397,8 @@ static enum kd_status write(const struct kd_picture *picture, const struct kd_ex
     kd_json_number(&json, "weight", x->weight);
     const enum kd_status status = put_each(&json, picture, x->pixel, error);
     kd_json_array(&json, "approximations");
-    for (size_t i = 0; i < picture->plan->n_approximations; i++)
-        kd_json_string(&json, NULL, picture->plan->approximations[i].text);
+    for (size_t i = 0; i < picture->plan->report.n_approximations; i++)
+        kd_json_string(&json, NULL, picture->plan->report.approximations[i].text);
     kd_json_end(&json);
     kd_json_end(&json);
     const enum kd_status written = kd_json_finish_line(&json);

@@ -106,7 +106,7 @@ static void say_why(struct kd_explained *x)
 static void find_shown(const struct kd_picture *picture, struct kd_explained *x)
 {
     const struct kd_frame *f = picture->frame;
-    const uint32_t column = picture->plan->told.x, row = picture->plan->told.y;
+    const uint32_t column = picture->plan->report.probe.x, row = picture->plan->report.probe.y;
     const size_t at = 3 * ((size_t)row * f->width + column);
     for (size_t i = 0; i < 3; i++)
         x->shown[i] = kd_frame_bit_depth(f) == 16 ? ((const uint16_t *)kd_frame_pixels(f))[at + i] / 65535.0
@@ -117,15 +117,16 @@ static void find_shown(const struct kd_picture *picture, struct kd_explained *x)
 static void find_label(const struct kd_picture *picture, struct kd_explained *x)
 {
     const uint32_t steps = x->told->steps_a_pixel;
-    const struct kd_scene counted = steps == picture->plan->side ? x->scene : kd_critical_camera(&x->scene, steps);
-    kd_lens_label(&counted, picture->plan, x->told->x, x->told->y, &x->label);
+    const struct kd_scene counted = steps == picture->plan->lens.side ? x->scene : kd_critical_camera(&x->scene, steps);
+    kd_lens_label(&counted, &picture->plan->lens, x->told->x, x->told->y, &x->label);
 }
 
 /* Computes everything except the path. */
 static enum kd_status explain(const struct kd_picture *picture, const struct kd_probed_ray *ray, struct kd_explained *x,
                               struct kd_error *error)
 {
-    const bool pair = picture->plan->eyes == 2, right = pair && picture->plan->told.x >= picture->frame->width / 2;
+    const bool pair = picture->plan->picture.eyes == 2,
+               right = pair && picture->plan->report.probe.x >= picture->frame->width / 2;
     *x = (struct kd_explained) {
         .pixel = picture->frame->told,
         .told = ray,
@@ -266,29 +267,30 @@ double kd_explained_azimuth(const struct kd_explained *x, double phi)
 
 enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_error *error)
 {
-    const uint32_t width = plan->width * (plan->eyes == 2 ? 2 : 1);
+    const uint32_t width = plan->picture.width * (plan->picture.eyes == 2 ? 2 : 1);
     const size_t n = kd_number_span_typed(text, strlen(text)),
                  m = text[n] == ',' ? kd_number_span_typed(text + n + 1, strlen(text + n + 1)) : 0;
     const double x = n && m ? kd_number_parse(text) : NAN, y = n && m ? kd_number_parse(text + n + 1) : NAN;
-    if (!(x >= 0 && x < width && y >= 0 && y < plan->height) || text[n + 1 + m]) {
+    if (!(x >= 0 && x < width && y >= 0 && y < plan->picture.height) || text[n + 1 + m]) {
         char shown[64];
         kd_text_clip(shown, sizeof shown, text);
         return kd_error_field(
             error, "/at",
             "at is \"%s\"; it must be X,Y in pixels from the upper left corner, X below %u and Y below %u", shown,
-            width, plan->height);
+            width, plan->picture.height);
     }
     kd_plan_follow_all(plan);
-    plan->told.on = true;
-    plan->told.x = (uint32_t)x;
-    plan->told.y = (uint32_t)y;
+    plan->report.probe.on = true;
+    plan->report.probe.x = (uint32_t)x;
+    plan->report.probe.y = (uint32_t)y;
     return KD_OK;
 }
 
 enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan,
                                  struct kd_error *error)
 {
-    const struct kd_scene tile = kd_scene_tile(scene, (struct kd_window) { plan->told.x, plan->told.y, 1, 1 });
+    const struct kd_scene tile =
+        kd_scene_tile(scene, (struct kd_window) { plan->report.probe.x, plan->report.probe.y, 1, 1 });
     struct kd_needs needs = kd_needs_of(scene);
     struct kd_error why = { 0 }; /* it is not an error if the pixel needs the whole picture */
     struct kd_window cut;
@@ -300,13 +302,13 @@ enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_s
     if (status)
         return status;
     *scene = kd_tile_with_margin(&tile, &cut);
-    narrow.cut = (struct kd_window) { 0 }; /* the tile with its margin is rendered as a picture of its own */
+    narrow.picture.cut = (struct kd_window) { 0 }; /* the tile with its margin is rendered as a picture of its own */
     /* the approximations of the picture, not those of the tile */
-    memcpy(narrow.approximations, plan->approximations, sizeof narrow.approximations);
-    narrow.n_approximations = plan->n_approximations;
-    narrow.told = plan->told;
-    narrow.told.x = cut.left;
-    narrow.told.y = cut.top;
+    memcpy(narrow.report.approximations, plan->report.approximations, sizeof narrow.report.approximations);
+    narrow.report.n_approximations = plan->report.n_approximations;
+    narrow.report.probe = plan->report.probe;
+    narrow.report.probe.x = cut.left;
+    narrow.report.probe.y = cut.top;
     *plan = narrow;
     return KD_OK;
 }
@@ -318,6 +320,6 @@ enum kd_status kd_explain_trace(const char *text, struct kd_plan *plan, struct k
     if (strcmp(text, "steps"))
         return kd_error_field(error, "/trace",
                               "trace is \"%s\"; it must be \"steps\", for the engine's steps along the ray", shown);
-    plan->told.steps = true;
+    plan->report.probe.steps = true;
     return KD_OK;
 }

@@ -1,6 +1,6 @@
 /* Explains the light of one pixel. Each of its rays is traced in closed form, and the picture's own kernel reports what
  * each emitter added to that ray (frame/probe.h). The document has both results, the difference between them, and the
- * path of the middle ray for drawing. The plan of the picture names the pixel (kd_plan.told). Any thread.
+ * path of the middle ray for drawing. The plan of the picture names the pixel (kd_plan_report.probe). Any thread.
  *
  * Lengths and times are in M, angles in radians, frequencies as measured by the observer. docs/pixel.md describes the
  * document. */

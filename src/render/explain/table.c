@@ -11,8 +11,8 @@ static enum kd_status put_head(const struct kd_picture *picture, const struct kd
 {
     enum kd_status status;
     const struct kd_window window = kd_scene_window(picture->scene);
-    KD_TRY(
-        kd_buffer_printf(out, "pixel %u, %u", window.left + picture->plan->told.x, window.top + picture->plan->told.y));
+    KD_TRY(kd_buffer_printf(out, "pixel %u, %u", window.left + picture->plan->report.probe.x,
+                            window.top + picture->plan->report.probe.y));
     if (x->eye)
         KD_TRY(kd_buffer_printf(out, " of the %s eye", x->eye));
     KD_TRY(x->pixel->rays > 1
@@ -134,8 +134,8 @@ static enum kd_status put_accuracy(const struct kd_picture *picture, const struc
             kd_buffer_printf(out, "march: %u steps, light looked at in %u places\n", x->told->steps, x->told->samples));
     if (!isnan(x->picture_error))
         KD_TRY(kd_buffer_printf(out, "picture: %s %s, radii off by %.1e at most\n",
-                                kd_engine_name(picture->plan->setting.engine),
-                                kd_precision_name(picture->plan->setting.precision), x->picture_error));
+                                kd_engine_name(picture->plan->lens.setting.engine),
+                                kd_precision_name(picture->plan->lens.setting.precision), x->picture_error));
 done:
     return status;
 }

@@ -17,7 +17,7 @@ static enum kd_status render_here(struct kd_renderer *renderer, const struct kd_
                                   const struct kd_plan *plan, const struct kd_light_sum *others,
                                   kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
 {
-    if (kd_plan_is_parted(plan))
+    if (kd_plan_is_parted(&plan->picture))
         return kd_frame_parted(&(struct kd_parted) { renderer, scene, plan, false, progress, user }, out, error);
     struct kd_scene scaled = *scene;
     double scale = 1;
@@ -97,7 +97,7 @@ static struct kd_background_render *enter_background_render(struct kd_renderer *
         return NULL;
     a->busy = true;
     a->used = ++r->backgrounds_used;
-    make_room_in_background(r, plan->device_bytes);
+    make_room_in_background(r, plan->cost.device_bytes);
     if (!kd_store_has(&a->store, plan))
         kd_store_hand_over(&r->store, &a->store, plan);
     return a;
@@ -108,7 +108,7 @@ static enum kd_status render_background(struct kd_renderer *renderer, const stru
                                         kd_progress_fn progress, const struct kd_preview_hook *preview, void *user,
                                         struct kd_frame *out, struct kd_error *error)
 {
-    if (kd_plan_is_parted(plan))
+    if (kd_plan_is_parted(&plan->picture))
         return kd_frame_parted(&(struct kd_parted) { renderer, scene, plan, true, progress, user }, out, error);
     struct kd_scene scaled = *scene;
     double scale = 1;

@@ -8,12 +8,12 @@
 
 static struct kd_vk_binding lines(struct kd_frame_job *j, bool write)
 {
-    return (struct kd_vk_binding) { j->store->beam_lines, 0, kd_beam_lines_bytes(&j->plan->beam), write };
+    return (struct kd_vk_binding) { j->store->beam_lines, 0, kd_beam_lines_bytes(&j->plan->picture.beam), write };
 }
 
 static struct kd_vk_binding grid(struct kd_frame_job *j, int number, bool write)
 {
-    const uint64_t bytes = kd_beam_cells_bytes(&j->plan->beam);
+    const uint64_t bytes = kd_beam_cells_bytes(&j->plan->picture.beam);
     return (struct kd_vk_binding) { j->store->beam_grids, (uint64_t)number * ((bytes + 255) / 256 * 256), bytes,
                                     write };
 }
@@ -23,10 +23,10 @@ static struct kd_vk_binding grid(struct kd_frame_job *j, int number, bool write)
 static enum kd_status band(struct kd_frame_job *j, uint32_t number, enum kd_kernel kernel, bool texels,
                            uint64_t invocations, struct kd_vk_binding from, struct kd_vk_binding to)
 {
-    const struct kd_beam_grid *b = &j->plan->beam;
+    const struct kd_beam_grid *b = &j->plan->picture.beam;
     const struct kd_spec_beam spec = { .COARSE = b->cell > 1 };
     const struct kd_beam_push push = {
-        .pixels_x = j->plan->width,
+        .pixels_x = j->plan->picture.width,
         .row0 = kd_frame_band_first(j, number),
         .rows = kd_frame_band_lit(j, number),
         .columns = b->columns,
@@ -41,7 +41,7 @@ static enum kd_status band(struct kd_frame_job *j, uint32_t number, enum kd_kern
         kd_passes[KD_PASS_BEAM].name, pipeline, { from, to }, &push, { kd_frame_groups(invocations) }
     };
     KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
-    if (j->plan->bands == 1)
+    if (j->plan->picture.bands == 1)
         return KD_OK;
     KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error)); /* keeps submissions short */
     KD_TRY(kd_frame_report(j, 0));
@@ -53,14 +53,14 @@ done:
 static enum kd_status gather(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
-    const uint64_t pixels = (uint64_t)p->width * p->band_rows, bytes = kd_post_radiance_bytes(pixels);
+    const uint64_t pixels = (uint64_t)p->picture.width * p->picture.band_rows, bytes = kd_post_radiance_bytes(pixels);
     enum kd_status status = KD_OK;
-    if (j->lit < p->height) /* rows that are not written */
+    if (j->lit < p->picture.height) /* rows that are not written */
         KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BEAM].name, j->store->beam_lines, 0,
-                          kd_beam_lines_bytes(&p->beam), 0, j->error));
-    for (uint32_t i = 0; i < p->bands && kd_frame_band_lit(j, i); i++)
+                          kd_beam_lines_bytes(&p->picture.beam), 0, j->error));
+    for (uint32_t i = 0; i < p->picture.bands && kd_frame_band_lit(j, i); i++)
         KD_TRY(band(j, i, KD_KERNEL_BEAM_GATHER, kd_kernels_texels(j->r->vk, pixels),
-                    (uint64_t)p->beam.columns * kd_frame_band_lit(j, i),
+                    (uint64_t)p->picture.beam.columns * kd_frame_band_lit(j, i),
                     (struct kd_vk_binding) { j->store->radiance.buffers[i], 0, bytes, false }, lines(j, true)));
 done:
     return status;
@@ -70,10 +70,10 @@ done:
 static enum kd_status spread(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
-    const bool texels = kd_kernels_texels_of(j->r->vk, kd_beam_lines_bytes(&p->beam));
+    const bool texels = kd_kernels_texels_of(j->r->vk, kd_beam_lines_bytes(&p->picture.beam));
     enum kd_status status = KD_OK;
-    for (uint32_t i = 0; i < p->bands && kd_frame_band_lit(j, i); i++)
-        KD_TRY(band(j, i, KD_KERNEL_BEAM_SPREAD, texels, ((uint64_t)p->width * kd_frame_band_lit(j, i) + 3) / 4,
+    for (uint32_t i = 0; i < p->picture.bands && kd_frame_band_lit(j, i); i++)
+        KD_TRY(band(j, i, KD_KERNEL_BEAM_SPREAD, texels, ((uint64_t)p->picture.width * kd_frame_band_lit(j, i) + 3) / 4,
                     lines(j, false), (struct kd_vk_binding) { j->store->beamed.buffers[i], 0, 0, true }));
 done:
     return status;
@@ -108,7 +108,7 @@ static uint32_t rows_at_once(double weights, uint32_t rows)
 
 static enum kd_status blur(struct kd_frame_job *j, bool rows, struct kd_vk_binding from, struct kd_vk_binding to)
 {
-    const struct kd_beam_grid *b = &j->plan->beam;
+    const struct kd_beam_grid *b = &j->plan->picture.beam;
     const struct kd_spec_beam_blur spec = { .ROWS = rows };
     const uint32_t step = rows_at_once((double)b->columns * (2 * b->reach + 1), b->rows);
     const struct kd_vk_pipeline *pipeline;
@@ -141,7 +141,7 @@ done:
 static enum kd_status spline(struct kd_frame_job *j, struct kd_beam_spline_push push, uint32_t rows,
                              struct kd_vk_binding from, struct kd_vk_binding to)
 {
-    const uint32_t columns = j->plan->beam.columns, step = rows_at_once((double)columns * push.count, rows);
+    const uint32_t columns = j->plan->picture.beam.columns, step = rows_at_once((double)columns * push.count, rows);
     const struct kd_vk_pipeline *pipeline;
     enum kd_status status;
     push.columns = columns;
@@ -163,7 +163,7 @@ done:
  * upper edge of the picture. */
 static enum kd_status down(struct kd_frame_job *j, struct kd_vk_binding from, struct kd_vk_binding to)
 {
-    const struct kd_beam_grid *b = &j->plan->beam;
+    const struct kd_beam_grid *b = &j->plan->picture.beam;
     const struct kd_beam_spline_push push = {
         .length_ = b->height,
         .first_times = b->cell,
@@ -180,7 +180,7 @@ static enum kd_status down(struct kd_frame_job *j, struct kd_vk_binding from, st
 
 static enum kd_status up(struct kd_frame_job *j, struct kd_vk_binding from, struct kd_vk_binding to)
 {
-    const struct kd_beam_grid *b = &j->plan->beam;
+    const struct kd_beam_grid *b = &j->plan->picture.beam;
     const struct kd_beam_spline_push push = {
         .length_ = b->rows,
         .first_times = 1,
@@ -196,9 +196,9 @@ static enum kd_status up(struct kd_frame_job *j, struct kd_vk_binding from, stru
 
 enum kd_status kd_frame_beam(struct kd_frame_job *j)
 {
-    const bool coarse = j->plan->beam.cell > 1;
+    const bool coarse = j->plan->picture.beam.cell > 1;
     enum kd_status status;
-    if (!j->plan->beam.cell)
+    if (!j->plan->picture.beam.cell)
         return KD_OK;
     KD_TRY(gather(j));
     if (coarse) {

@@ -7,7 +7,7 @@
 
 bool kd_frame_has_between(const struct kd_frame_job *j)
 {
-    return j->plan->side == 1 && (j->plan->cacheable || j->plan->bands == 1);
+    return j->plan->lens.side == 1 && (j->plan->lens.cacheable || j->plan->picture.bands == 1);
 }
 
 static enum kd_status dispatch(struct kd_frame_job *j, uint32_t band, uint32_t side, struct kd_vk_buffer *listed,
@@ -15,7 +15,7 @@ static enum kd_status dispatch(struct kd_frame_job *j, uint32_t band, uint32_t s
 {
     const struct kd_plan *p = j->plan;
     const struct kd_spec_between spec = {
-        .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIDE = side ? side : 1, .MARK = !side
+        .QUANTITIES = p->lens.quantities, .ORDERS = p->lens.orders, .SIDE = side ? side : 1, .MARK = !side
     };
     struct kd_vk_dispatch d = {
         kd_passes[KD_PASS_REFINE].name,
@@ -24,10 +24,10 @@ static enum kd_status dispatch(struct kd_frame_job *j, uint32_t band, uint32_t s
         push,
         { kd_frame_groups(push->count), 1 },
     };
-    push->width = p->width;
+    push->width = p->picture.width;
     push->row0 = kd_frame_band_first(j, band);
     push->map_rows = kd_frame_band_rows(j, band);
-    push->map_stride = p->width * p->band_rows;
+    push->map_stride = p->picture.width * p->picture.band_rows;
     enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_BETWEEN, &spec.QUANTITIES,
                                            sizeof spec / 4, &d.pipeline, j->error);
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
@@ -37,11 +37,11 @@ enum kd_status kd_frame_between(struct kd_frame_job *j, const struct kd_frame_pa
 {
     const uint32_t side = part->list->lattice.shift;
     enum kd_status status = KD_OK;
-    for (uint32_t band = 0; band < j->plan->bands; band++) {
+    for (uint32_t band = 0; band < j->plan->picture.bands; band++) {
         uint64_t from, to;
         kd_frame_part_in_band(j, part, band, &from, &to);
         /* Slices are sized by the time that tracing these rays would take. */
-        const uint32_t step = kd_frame_slice(j->plan->trace_ns * part->list->lattice.rays, (uint32_t)part->n);
+        const uint32_t step = kd_frame_slice(j->plan->cost.trace_ns * part->list->lattice.rays, (uint32_t)part->n);
         for (; from < to; from += step) {
             struct kd_between_push push = {
                 .first = (uint32_t)from,
@@ -63,7 +63,7 @@ static enum kd_status mark_part(struct kd_frame_job *j, const struct kd_frame_pa
                                 uint8_t *marks)
 {
     enum kd_status status = kd_frame_upload_pixels(j, part);
-    for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
+    for (uint32_t band = 0; band < j->plan->picture.bands && !status; band++) {
         uint64_t from, to;
         kd_frame_part_in_band(j, part, band, &from, &to);
         struct kd_between_push push = {
@@ -88,7 +88,7 @@ done:
 
 enum kd_status kd_frame_mark_between(struct kd_frame_job *j, const struct kd_critical_pixels *pixels, uint8_t *marks)
 {
-    uint64_t most = j->plan->listed_bytes / 12;
+    uint64_t most = j->plan->lens.listed_bytes / 12;
     most = most < MARKED_AT_ONCE ? most : MARKED_AT_ONCE;
     struct kd_vk_buffer *host = NULL;
     enum kd_status status = KD_OK;

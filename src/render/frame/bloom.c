@@ -12,7 +12,7 @@ static struct kd_vk_binding range(struct kd_frame_job *j, uint64_t offset, uint6
 static enum kd_status brighten_band(struct kd_frame_job *j, uint32_t band)
 {
     const struct kd_plan *p = j->plan;
-    const struct kd_bloom *b = &p->bloom;
+    const struct kd_bloom *b = &p->picture.bloom;
     const uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_lit(j, band),
                    wide = b->block_x < 4 ? 4 : b->block_x;
     const struct kd_spec_bloom_bright spec = { .BLOCK_X = b->block_x,
@@ -21,16 +21,16 @@ static enum kd_status brighten_band(struct kd_frame_job *j, uint32_t band)
     const struct kd_bloom_bright_push push = {
         .gain = (float)exp2(j->frame->exposure),
         .strength = (float)b->strength,
-        .pixels_x = p->width,
+        .pixels_x = p->picture.width,
         .row0 = first,
         .rows = rows,
         .blocks_x = b->blocks_x,
         .block_row0 = first / b->block_y,
         .block_rows = (first + rows + b->block_y - 1) / b->block_y - first / b->block_y,
-        .across = (p->width + wide - 1) / wide,
+        .across = (p->picture.width + wide - 1) / wide,
     };
-    const uint64_t band_pixels = (uint64_t)p->width * p->band_rows;
-    const bool texels = p->width % 4 == 0 && kd_kernels_texels(j->r->vk, band_pixels);
+    const uint64_t band_pixels = (uint64_t)p->picture.width * p->picture.band_rows;
+    const bool texels = p->picture.width % 4 == 0 && kd_kernels_texels(j->r->vk, band_pixels);
     const struct kd_vk_pipeline *pipeline;
     enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_BLOOM_BRIGHT + (texels ? 1 : 0),
                                            &spec.BLOCK_X, sizeof spec / 4, &pipeline, j->error);
@@ -50,12 +50,12 @@ static enum kd_status brighten(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
     enum kd_status status = KD_OK;
-    if (j->lit < p->height) /* blocks that are not written */
-        KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BLOOM].name, j->store->bloom, p->bloom.blocks,
-                          16 * kd_bloom_blocks(&p->bloom), 0, j->error));
-    for (uint32_t band = 0; band < p->bands && kd_frame_band_lit(j, band); band++) {
+    if (j->lit < p->picture.height) /* blocks that are not written */
+        KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BLOOM].name, j->store->bloom, p->picture.bloom.blocks,
+                          16 * kd_bloom_blocks(&p->picture.bloom), 0, j->error));
+    for (uint32_t band = 0; band < p->picture.bands && kd_frame_band_lit(j, band); band++) {
         KD_TRY(brighten_band(j, band));
-        if (p->bands == 1)
+        if (p->picture.bands == 1)
             continue;
         KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error)); /* keeps submissions short */
         KD_TRY(kd_frame_report(j, 0));
@@ -75,10 +75,10 @@ static uint32_t taps(uint32_t pixels, uint32_t cells, uint32_t block, bool aroun
 static enum kd_status gather(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
-    const struct kd_bloom *b = &p->bloom;
+    const struct kd_bloom *b = &p->picture.bloom;
     const struct kd_bloom_gather_push push = {
-        .pixels_x = p->width,
-        .pixels_y = p->height,
+        .pixels_x = p->picture.width,
+        .pixels_y = p->picture.height,
         .blocks_x = b->blocks_x,
         .blocks_y = b->blocks_y,
         .cells_x = b->columns,
@@ -87,9 +87,9 @@ static enum kd_status gather(struct kd_frame_job *j)
         .block_y = b->block_y,
     };
     const struct kd_spec_bloom_gather spec = {
-        .TAPS_X = taps(p->width, b->columns, b->block_x, b->around),
-        .TAPS_Y = taps(p->height, b->rows, b->block_y, false),
-        .RAGGED = p->width % b->block_x || p->height % b->block_y,
+        .TAPS_X = taps(p->picture.width, b->columns, b->block_x, b->around),
+        .TAPS_Y = taps(p->picture.height, b->rows, b->block_y, false),
+        .RAGGED = p->picture.width % b->block_x || p->picture.height % b->block_y,
         .AROUND = b->around,
     };
     const struct kd_vk_pipeline *pipeline;
@@ -110,7 +110,7 @@ static enum kd_status gather(struct kd_frame_job *j)
 static enum kd_status make(struct kd_frame_job *j, enum kd_kernel kernel, uint32_t level, float share,
                            float coarse_share, const struct kd_vk_binding bindings[3])
 {
-    const struct kd_bloom *b = &j->plan->bloom;
+    const struct kd_bloom *b = &j->plan->picture.bloom;
     const struct kd_vk_pipeline *pipeline;
     const struct {
         uint32_t columns, rows;
@@ -133,7 +133,7 @@ static enum kd_status make(struct kd_frame_job *j, enum kd_kernel kernel, uint32
 /* Makes a grid from the next finer one. */
 static enum kd_status down(struct kd_frame_job *j, uint32_t level)
 {
-    const struct kd_bloom *b = &j->plan->bloom;
+    const struct kd_bloom *b = &j->plan->picture.bloom;
     const struct kd_vk_binding bindings[3] = { range(j, b->light[level - 1], kd_bloom_cells(b, level - 1), false),
                                                range(j, b->light[level], kd_bloom_cells(b, level), true) };
     return make(j, KD_KERNEL_BLOOM_DOWN, level, 0, 0, bindings);
@@ -143,7 +143,7 @@ static enum kd_status down(struct kd_frame_job *j, uint32_t level)
  * sum, with weight 0. */
 static enum kd_status up(struct kd_frame_job *j, uint32_t level)
 {
-    const struct kd_bloom *b = &j->plan->bloom;
+    const struct kd_bloom *b = &j->plan->picture.bloom;
     const bool last = level + 1 == b->levels;
     const uint64_t n = kd_bloom_cells(b, level);
     const struct kd_vk_binding bindings[3] = { last ? range(j, b->light[level], n, false)
@@ -154,7 +154,7 @@ static enum kd_status up(struct kd_frame_job *j, uint32_t level)
 
 enum kd_status kd_frame_bloom(struct kd_frame_job *j)
 {
-    const uint32_t levels = j->plan->bloom.levels;
+    const uint32_t levels = j->plan->picture.bloom.levels;
     enum kd_status status;
     if (!levels)
         return KD_OK;

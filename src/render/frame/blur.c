@@ -9,39 +9,39 @@ enum { SUM = 3 * sizeof(double), LIGHT = 3 * sizeof(float) };
 /* Requests the linear light on the host. */
 static void bring_light(struct kd_plan *plan)
 {
-    plan->radiance = true;
-    plan->device_bytes += 2 * kd_plan_readback_bytes(plan);
+    plan->picture.radiance = true;
+    plan->cost.device_bytes += 2 * kd_plan_readback_bytes(&plan->picture);
 }
 
 enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_capacity *capacity, struct kd_plan *plan,
                             struct kd_error *error)
 {
-    if (plan->eyes == 2)
+    if (plan->picture.eyes == 2)
         return kd_error_field(error, "/camera/stereo",
                               "camera.stereo is \"pair\"; with motion_blur it must be \"none\"");
-    if (plan->cut.width)
+    if (plan->picture.cut.width)
         return kd_error_field(error, "/image/tile/width",
                               "image.tile.width is %u; with motion_blur it must be 0: the whole picture",
-                              plan->cut.width);
-    if (plan->strips)
+                              plan->picture.cut.width);
+    if (plan->picture.strips)
         return kd_error_set(error, KD_ETOOBIG,
                             "the picture fits on the device only in %u strips, but motion_blur needs one piece: lower "
                             "image.width and image.height",
-                            plan->strips);
-    if (!plan->picture || plan->n_layers)
+                            plan->picture.strips);
+    if (!plan->picture.rgb || plan->picture.n_layers)
         return kd_error_field(error, "/image/layers",
                               "image.layers names maps of numbers; with motion_blur it must be \"rgb\", because only "
                               "light can be averaged");
     bring_light(plan);
-    plan->blur.samples = samples;
-    plan->blur.shutter = shutter;
-    plan->host_bytes += (uint64_t)(SUM + LIGHT) * plan->width * plan->height;
-    plan->estimate_ms *= samples;
-    if (capacity->host_bytes && plan->host_bytes > capacity->host_bytes)
+    plan->picture.blur.samples = samples;
+    plan->picture.blur.shutter = shutter;
+    plan->cost.host_bytes += (uint64_t)(SUM + LIGHT) * plan->picture.width * plan->picture.height;
+    plan->cost.estimate_ms *= samples;
+    if (capacity->host_bytes && plan->cost.host_bytes > capacity->host_bytes)
         return kd_error_set(
             error, KD_ETOOBIG,
             "the picture with motion blur needs %.3g GB of this machine's memory; only %.3g GB are free",
-            1e-9 * (double)plan->host_bytes, 1e-9 * (double)capacity->host_bytes);
+            1e-9 * (double)plan->cost.host_bytes, 1e-9 * (double)capacity->host_bytes);
     return KD_OK;
 }
 
@@ -80,12 +80,12 @@ static enum kd_status add(const struct kd_blurred *b, struct part *part, unsigne
     kd_renderer_capacity(b->renderer, &capacity);
     KD_TRY(b->blur->scene(b->blur, sample, &scene, error));
     KD_TRY(kd_plan_make(&scene, &capacity, &plan, error));
-    if (plan.width != b->plan->width || plan.height != b->plan->height || plan.eyes != b->plan->eyes || !plan.picture ||
-        plan.n_layers)
+    if (plan.picture.width != b->plan->picture.width || plan.picture.height != b->plan->picture.height ||
+        plan.picture.eyes != b->plan->picture.eyes || !plan.picture.rgb || plan.picture.n_layers)
         KD_TRY(kd_error_field(error, "/image",
                               "the picture changes its size or kind while the shutter is open; with motion_blur both "
                               "must stay the same"));
-    if (plan.strips || plan.cut.width)
+    if (plan.picture.strips || plan.picture.cut.width)
         KD_TRY(kd_error_set(error, KD_ETOOBIG,
                             "a picture of the blurred frame no longer fits on the device in one piece"));
     bring_light(&plan);
@@ -95,7 +95,7 @@ static enum kd_status add(const struct kd_blurred *b, struct part *part, unsigne
     for (size_t i = 0; i < (size_t)3 * frame.width * frame.height; i++)
         sum->sum[i] += light[i];
     sum->n++;
-    sum->traced += !frame.lens_reused && plan.planes;
+    sum->traced += !frame.lens_reused && plan.lens.planes;
 done:
     kd_frame_finish(&frame);
     return status;
@@ -106,7 +106,7 @@ enum kd_status kd_render_blurred(const struct kd_blurred *b, struct kd_frame *ou
     static const struct kd_preview_hook looks = { wanted, seen };
     struct part part = { b, 0 };
     const unsigned n = b->blur->samples;
-    struct kd_light_sum others = { calloc((size_t)b->plan->width * b->plan->height, SUM) };
+    struct kd_light_sum others = { calloc((size_t)b->plan->picture.width * b->plan->picture.height, SUM) };
     enum kd_status status =
         others.sum ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for the light of a blurred picture");
     for (; part.done < n - 1 && !status; part.done++)

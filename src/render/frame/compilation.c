@@ -65,7 +65,7 @@ struct kd_compilation *kd_compilation_begin(struct kd_renderer *r, const struct 
     c->dynamic = (struct kd_dynamic_bodies *)scene->dynamic.at;
     kd_dynamic_bodies_keep(c->dynamic);
     c->plan = *plan;
-    c->plan.audit = 0; /* a device that computes nothing has nothing to audit */
+    c->plan.lens.audit = 0; /* a device that computes nothing has nothing to audit */
     return c;
 }
 

@@ -12,8 +12,8 @@ static enum kd_status measure(struct kd_frame_job *j)
     enum kd_status status;
     KD_TRY(kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_EXPOSE, NULL, 0, &expose, j->error));
     KD_TRY(kd_vk_fill(vk, kd_passes[KD_PASS_EXPOSE].name, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, 0, j->error));
-    for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band); band++) {
-        uint32_t pixels = j->plan->width * kd_frame_band_lit(j, band);
+    for (uint32_t band = 0; band < j->plan->picture.bands && kd_frame_band_lit(j, band); band++) {
+        uint32_t pixels = j->plan->picture.width * kd_frame_band_lit(j, band);
         const uint32_t push[] = { pixels, pixels > 1 << 17 ? 7 : 1 };
         uint32_t n = kd_frame_groups(pixels / push[1] / 64 + 1); /* each invocation counts about 64 pixels */
         const struct kd_vk_dispatch d = {
@@ -69,8 +69,8 @@ enum kd_status kd_frame_expose(struct kd_frame_job *j)
     enum kd_status status = measure(j);
     if (!status) {
         const double stops =
-            auto_exposure(kd_vk_buffer_map(j->store->counts), scene->style.tone_map, j->plan->beam.cell);
-        j->frame->exposure = kd_plan_exposure(j->plan, fmin(stops, kd_scene_exposure_most(scene)));
+            auto_exposure(kd_vk_buffer_map(j->store->counts), scene->style.tone_map, j->plan->picture.beam.cell);
+        j->frame->exposure = kd_plan_exposure(&j->plan->picture, fmin(stops, kd_scene_exposure_most(scene)));
     }
     return status;
 }

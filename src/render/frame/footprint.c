@@ -5,11 +5,11 @@ enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *j, const struct kd
                                          const struct kd_vk_pipeline **out)
 {
     *out = NULL;
-    if (!kd_plan_has_footprints(j->plan))
+    if (!kd_plan_has_footprints(&j->plan->lens))
         return KD_OK;
     const struct kd_critical_neighbours n =
         l && l->generator ? kd_critical_neighbours(l) : (struct kd_critical_neighbours) { 0 };
-    struct kd_spec_footprint spec = { .QUANTITIES = j->plan->quantities, .ORDERS = j->plan->orders };
+    struct kd_spec_footprint spec = { .QUANTITIES = j->plan->lens.quantities, .ORDERS = j->plan->lens.orders };
     if (l) {
         spec.CRITICAL = l->rays;
         spec.GENERATOR = l->generator;
@@ -38,7 +38,7 @@ static enum kd_status dispatch(struct kd_frame_job *j, const struct kd_footprint
 
 enum kd_status kd_frame_footprint(struct kd_frame_job *j, const struct kd_footprint_area *area)
 {
-    if (!kd_plan_has_footprints(j->plan) || area->push.first == area->push.end)
+    if (!kd_plan_has_footprints(&j->plan->lens) || area->push.first == area->push.end)
         return KD_OK;
     const uint32_t n = area->push.end - area->push.first;
     struct kd_vk_dispatch d = { .groups = { kd_frame_groups(area->lattice ? n : area->push.width),
@@ -51,7 +51,7 @@ enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *j, const struct k
 {
     struct kd_footprint_area alone = *area, held = *area;
     struct kd_vk_dispatch d = { .counts = j->store->sample, .counts_at = 16 * KD_STAGE_ALONE };
-    if (!kd_plan_has_footprints(j->plan))
+    if (!kd_plan_has_footprints(&j->plan->lens))
         return KD_OK;
     alone.push.alone = 1;
     alone.push.origin_x = (uint32_t)j->store->alone_x;

@@ -18,15 +18,16 @@ static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacit
     enum kd_status status;
     /* A quarter of the memory is for the renderer's cached maps, so that background renders fit beside these. A
      * background render keeps its own lens map only. */
-    j->store->memory_bytes = j->background ? j->plan->device_bytes : c->memory_bytes / 4;
+    j->store->memory_bytes = j->background ? j->plan->cost.device_bytes : c->memory_bytes / 4;
     KD_TRY(kd_store_lens_map(j->store, j->plan, &j->lens, reused, j->error));
-    KD_TRY(kd_store_frame(j->store, j->plan, j->plan->adaptive ? 16 : kd_frame_bit_depth(j->frame), j->error));
-    kd_emit_update(r->emit, j->scene, j->plan->width * j->plan->band_rows);
-    KD_TRY(kd_prepare_tell(r, j->scene, j->plan, &r->emit->data.emission, j->frame->credit, KD_CREDIT, j->error));
+    KD_TRY(kd_store_frame(j->store, j->plan, j->plan->lens.adaptive ? 16 : kd_frame_bit_depth(j->frame), j->error));
+    kd_emit_update(r->emit, j->scene, j->plan->picture.width * j->plan->picture.band_rows);
+    KD_TRY(
+        kd_prepare_tell(r, j->scene, &j->plan->light, &r->emit->data.emission, j->frame->credit, KD_CREDIT, j->error));
     KD_TRY(kd_store_send(j->store, &r->emit->data, j->error));
-    if (j->plan->points) {
+    if (j->plan->light.points) {
         kd_frame_begin_stars(j);
-        if (!j->plan->bright)
+        if (!j->plan->light.bright)
             kd_frame_find_rim(j);
     }
     KD_TRY(kd_frame_send_cameras(j));
@@ -47,47 +48,47 @@ done:
 }
 
 /* The lattices of rays that a picture uses: on the grid, at the critical curve, and those of refinement. */
-static size_t lattices_of(const struct kd_plan *p, struct kd_critical_lattice out[5])
+static size_t lattices_of(const struct kd_plan_lens *lens, struct kd_critical_lattice out[5])
 {
     size_t n = 0;
     out[n++] = (struct kd_critical_lattice) { 0 };
-    if (p->critical)
-        out[n++] = kd_critical_lattice(p->critical);
-    if (!p->adaptive)
+    if (lens->critical)
+        out[n++] = kd_critical_lattice(lens->critical);
+    if (!lens->adaptive)
         return n;
     out[n++] = kd_critical_grid(KD_PLAN_ADAPTIVE_SIDE);
     out[n++] = kd_critical_grid(KD_PLAN_TRUTH_SIDE);
-    if (p->critical_dense)
-        out[n++] = kd_critical_lattice(p->critical_dense);
+    if (lens->critical_dense)
+        out[n++] = kd_critical_lattice(lens->critical_dense);
     return n;
 }
 
 enum kd_status kd_frame_ask_kernels(struct kd_frame_job *j)
 {
     struct kd_critical_lattice lattices[5];
-    const size_t n = lattices_of(j->plan, lattices), kept = j->plan->critical ? 2 : 1;
+    const size_t n = lattices_of(&j->plan->lens, lattices), kept = j->plan->lens.critical ? 2 : 1;
     const struct kd_vk_pipeline *later;
     const bool there = kd_store_has(j->store, j->plan);
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < n; i++) {
-        if (j->plan->planes && !(there && i < kept)) {
+        if (j->plan->lens.planes && !(there && i < kept)) {
             KD_TRY(kd_frame_trace_kernel(j, &lattices[i], &later));
             KD_TRY(kd_frame_footprint_kernel(j, i ? &lattices[i] : NULL, &later));
         }
-        if (!j->plan->no_image)
+        if (!j->plan->picture.no_image)
             KD_TRY(kd_frame_light_kernel(j, &lattices[i], KD_MAKES_PICTURE, &later));
     }
-    for (size_t i = 0; i < j->plan->n_layers; i++)
+    for (size_t i = 0; i < j->plan->picture.n_layers; i++)
         KD_TRY(kd_frame_light_kernel(j, &lattices[0], (int)i, &later));
-    if (j->plan->interpolates > 0 && !there)
+    if (j->plan->lens.interpolates > 0 && !there)
         KD_TRY(kd_frame_sample_kernels(j));
-    if (j->plan->told.on && (j->plan->planes || j->plan->march.steps))
+    if (j->plan->report.probe.on && (j->plan->lens.planes || j->plan->light.march.steps))
         KD_TRY(kd_frame_light_kernel(j, &lattices[0], KD_MAKES_TOLD, &later));
-    if (j->plan->told.on)
+    if (j->plan->report.probe.on)
         KD_TRY(kd_frame_probe_ask(j));
-    if (j->plan->points)
+    if (j->plan->light.points)
         KD_TRY(kd_frame_star_kernels(j));
-    if (!j->plan->no_image)
+    if (!j->plan->picture.no_image)
         KD_TRY(kd_frame_post_kernel(j, &later));
 done:
     return status;
@@ -111,12 +112,12 @@ static enum kd_status judge_map(struct kd_frame_job *j)
     double start = kd_clock_ms();
     enum kd_status status;
     KD_TRY(kd_audit(j->r, j->scene, j->plan, j->lens, &j->lens->accuracy, j->error));
-    if (j->plan->audit)
+    if (j->plan->lens.audit)
         j->audit_ms = kd_clock_ms() - start;
     j->lens->accuracy.undecided = j->undecided;
     j->lens->accuracy.traced = j->traced;
     j->lens->accuracy.interpolated = j->interpolated;
-    kd_store_commit(j->store, j->lens, j->plan);
+    kd_store_commit(j->store, j->lens, &j->plan->lens);
 done:
     return status;
 }
@@ -135,19 +136,20 @@ static void report_accuracy(struct kd_frame_job *j)
     j->frame->accuracy.volume_error_worst = own.volume_error_worst;
 }
 
-static const struct kd_plan_pass *pass_of(const struct kd_plan *plan, enum kd_pass_id id)
+static const struct kd_plan_pass *pass_of(const struct kd_plan_cost *cost, enum kd_pass_id id)
 {
-    for (size_t i = 0; i < plan->n_passes; i++)
-        if (!strcmp(plan->passes[i].name, kd_passes[id].name))
-            return &plan->passes[i];
+    for (size_t i = 0; i < cost->n_passes; i++)
+        if (!strcmp(cost->passes[i].name, kd_passes[id].name))
+            return &cost->passes[i];
     return NULL;
 }
 
 /* The number of rows traced and lit in the time that refinement is estimated to take. */
 static double rows_of_refining(const struct kd_frame_job *j, double rows)
 {
-    const struct kd_plan_pass *refine = pass_of(j->plan, KD_PASS_REFINE), *trace = pass_of(j->plan, KD_PASS_TRACE);
-    const struct kd_plan_pass *light = pass_of(j->plan, kd_plan_light_pass(j->plan));
+    const struct kd_plan_pass *refine = pass_of(&j->plan->cost, KD_PASS_REFINE),
+                              *trace = pass_of(&j->plan->cost, KD_PASS_TRACE);
+    const struct kd_plan_pass *light = pass_of(&j->plan->cost, kd_plan_light_pass(&j->plan->light));
     const double ms = (trace ? trace->estimate_ms : 0) + (light ? light->estimate_ms : 0);
     return refine && ms > 0 ? rows * refine->estimate_ms / ms : 0;
 }
@@ -155,7 +157,7 @@ static double rows_of_refining(const struct kd_frame_job *j, double rows)
 /* Refines the picture. Pixels are chosen at the exposure that the picture would have now. */
 static enum kd_status refine(struct kd_frame_job *j)
 {
-    const struct kd_plan_pass *pass = pass_of(j->plan, KD_PASS_REFINE);
+    const struct kd_plan_pass *pass = pass_of(&j->plan->cost, KD_PASS_REFINE);
     enum kd_status status;
     KD_TRY(kd_frame_beam(j));
     KD_TRY(kd_frame_expose(j));
@@ -171,9 +173,9 @@ done:
 static enum kd_status forget_lost(struct kd_frame_job *j)
 {
     enum kd_status status = KD_OK;
-    for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
+    for (uint32_t band = 0; band < j->plan->picture.bands && !status; band++) {
         struct kd_vk_buffer *light = j->store->radiance.buffers[band];
-        status = kd_frame_forget_lost(j, light, kd_passes[kd_plan_light_pass(j->plan)].name);
+        status = kd_frame_forget_lost(j, light, kd_passes[kd_plan_light_pass(&j->plan->light)].name);
     }
     return status;
 }
@@ -184,32 +186,32 @@ static enum kd_status run(struct kd_frame_job *j)
     bool reused = false;
     enum kd_status status;
     kd_renderer_capacity(j->r, &c);
-    kd_prepare_begin(j->r, j->scene, j->plan);
+    kd_prepare_begin(j->r, j->scene, &j->plan->light);
     KD_TRY(make_kernels(j));
     KD_TRY(make_ready(j, &c, &reused));
     j->frame->lens_reused = reused;
-    j->refine_rows = j->plan->adaptive ? rows_of_refining(j, j->plan->height * (!reused + 1.0)) : 0;
-    j->weight = (double)j->plan->height * (!reused + 1 + !j->plan->no_image) + j->refine_rows;
-    KD_TRY(kd_prepare(j->r, j->prepared, j->scene, j->plan, &c, j->error));
+    j->refine_rows = j->plan->lens.adaptive ? rows_of_refining(j, j->plan->picture.height * (!reused + 1.0)) : 0;
+    j->weight = (double)j->plan->picture.height * (!reused + 1 + !j->plan->picture.no_image) + j->refine_rows;
+    KD_TRY(kd_prepare(j->r, j->prepared, j->scene, &j->plan->light, &c, j->error));
     KD_TRY(forget_lost(j));
     KD_TRY(kd_frame_light(j, reused));
-    if (j->plan->adaptive)
+    if (j->plan->lens.adaptive)
         KD_TRY(refine(j));
     KD_TRY(kd_frame_probe_pixel(j));
     if (j->others)
         KD_TRY(kd_frame_mean(j));
-    if (j->plan->light)
+    if (j->plan->light.photometry)
         KD_TRY(kd_frame_add_light(j));
-    if (!j->plan->no_image)
+    if (!j->plan->picture.no_image)
         KD_TRY(kd_frame_show(j));
     KD_TRY(kd_frame_layers(j));
-    if (j->plan->light)
+    if (j->plan->light.photometry)
         KD_TRY(kd_frame_read_light(j));
     KD_TRY(kd_frame_march_error(j));
     if (!reused)
         KD_TRY(judge_map(j));
     report_accuracy(j);
-    if (j->plan->adaptive && !j->others)
+    if (j->plan->lens.adaptive && !j->others)
         KD_TRY(kd_frame_residual(j));
 done:
     return status;
@@ -219,9 +221,9 @@ static enum kd_status add_layers(const struct kd_frame_job *job, struct kd_frame
 {
     const enum kd_layer_type type = job->scene->image.bit_depth == 16 ? KD_LAYER_U16 : KD_LAYER_U8;
     enum kd_status status;
-    if (!job->plan->no_image)
+    if (!job->plan->picture.no_image)
         KD_TRY(kd_frame_add_layer(frame, "rgb", 3, type, job->error));
-    KD_TRY(kd_frame_add_layers(frame, job->plan, job->error));
+    KD_TRY(kd_frame_add_layers(frame, &job->plan->picture, job->error));
 done:
     return status;
 }
@@ -236,7 +238,7 @@ static void begin_anew(struct kd_frame_job *job)
 
 static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
 {
-    struct kd_frame frame = { .width = job->plan->width, .height = job->plan->height };
+    struct kd_frame frame = { .width = job->plan->picture.width, .height = job->plan->picture.height };
     enum kd_status status;
     job->frame = &frame;
     KD_TRY(add_layers(job, &frame));

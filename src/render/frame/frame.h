@@ -70,15 +70,17 @@ struct kd_light_sum {
     unsigned n, traced; /* traced: lens maps that were traced for these pictures */
 };
 /* As kd_render (or kd_render_in_background if `background`), for a picture whose light is averaged with that of others;
- * called by frame/blur.h. plan->radiance must be true, and plan->eyes 1. The error of refined pixels is not measured.
+ * called by frame/blur.h. plan->picture.radiance must be true, and plan->picture.eyes 1. The error of refined pixels is
+ * not measured.
  */
 enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               const struct kd_light_sum *others, bool background, kd_progress_fn progress,
                               const struct kd_preview_hook *preview, void *user, struct kd_frame *out,
                               struct kd_error *error);
 
-/* Renders only the lens map: plan->planes planes of plan->rays floats each, rows from the top, in the order that
- * shaders/comp/lens_map.comp describes. planes: room for planes * rays floats. *trace_ms (may be NULL): device time. */
+/* Renders only the lens map: plan->lens.planes planes of plan->lens.rays floats each, rows from the top, in the order
+ * that shaders/comp/lens_map.comp describes. planes: room for planes * rays floats. *trace_ms (may be NULL): device
+ * time. */
 enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               float *planes, double *trace_ms, struct kd_error *error);
 

@@ -53,12 +53,12 @@ enum kd_status kd_frame_report(struct kd_frame_job *job, double rows);
 
 static inline uint32_t kd_frame_band_first(const struct kd_frame_job *j, uint32_t band)
 {
-    return band * j->plan->band_rows;
+    return band * j->plan->picture.band_rows;
 }
 static inline uint32_t kd_frame_band_rows(const struct kd_frame_job *j, uint32_t band)
 {
-    uint32_t left = j->plan->height - kd_frame_band_first(j, band);
-    return left < j->plan->band_rows ? left : j->plan->band_rows;
+    uint32_t left = j->plan->picture.height - kd_frame_band_first(j, band);
+    return left < j->plan->picture.band_rows ? left : j->plan->picture.band_rows;
 }
 /* The rows of a band whose light is complete. */
 static inline uint32_t kd_frame_band_lit(const struct kd_frame_job *j, uint32_t band)
@@ -69,11 +69,11 @@ static inline uint32_t kd_frame_band_lit(const struct kd_frame_job *j, uint32_t 
 /* The displayed light of a band: its radiance, or the radiance after the beam. */
 static inline struct kd_vk_buffer *kd_frame_band_light(const struct kd_frame_job *j, uint32_t band)
 {
-    return j->plan->beam.cell ? j->store->beamed.buffers[band] : j->store->radiance.buffers[band];
+    return j->plan->picture.beam.cell ? j->store->beamed.buffers[band] : j->store->radiance.buffers[band];
 }
 static inline struct kd_vk_buffer *kd_frame_band_lens(const struct kd_frame_job *j, uint32_t band)
 {
-    return j->lens->bands.buffers[j->plan->cacheable ? band : 0];
+    return j->lens->bands.buffers[j->plan->lens.cacheable ? band : 0];
 }
 static inline uint32_t kd_frame_groups(uint64_t items)
 {
@@ -190,7 +190,8 @@ enum kd_status kd_frame_post_kernel(struct kd_frame_job *job, const struct kd_vk
 enum kd_status kd_frame_show(struct kd_frame_job *job);
 /* kd_frame_add_layers allocates the layers of a plan after the picture; the other copies them to the host as far as
  * light is complete. A single requested layer replaces the picture, in false colour. */
-enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan *plan, struct kd_error *error);
+enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan_picture *picture,
+                                   struct kd_error *error);
 enum kd_status kd_frame_layers(struct kd_frame_job *job);
 
 #endif

@@ -8,14 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan *plan, struct kd_error *error)
+enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan_picture *picture,
+                                   struct kd_error *error)
 {
     enum kd_status status = KD_OK;
-    if (plan->radiance)
+    if (picture->radiance)
         status = kd_frame_add_layer(frame, "radiance", 3, KD_LAYER_F32, error);
-    for (size_t i = 0; i < plan->n_layers && !status; i++) {
+    for (size_t i = 0; i < picture->n_layers && !status; i++) {
         char name[KD_LAYER_NAME];
-        kd_layer_name(plan->layers[i], name);
+        kd_layer_name(picture->layers[i], name);
         status = kd_frame_add_layer(frame, name, 1, KD_LAYER_F32, error);
     }
     return status;
@@ -26,8 +27,8 @@ static enum kd_status read_band(struct kd_frame_job *j, uint32_t band, struct kd
                                 const struct kd_layer *to)
 {
     struct kd_vk *vk = j->r->vk;
-    size_t pixel = kd_layer_pixel_bytes(to), bytes = pixel * j->plan->width * kd_frame_band_lit(j, band);
-    size_t first = pixel * j->plan->width * kd_frame_band_first(j, band);
+    size_t pixel = kd_layer_pixel_bytes(to), bytes = pixel * j->plan->picture.width * kd_frame_band_lit(j, band);
+    size_t first = pixel * j->plan->picture.width * kd_frame_band_first(j, band);
     enum kd_status status;
     KD_TRY(kd_vk_copy(vk, "readback", j->store->readback, 0, from, offset, bytes, j->error));
     KD_TRY(kd_vk_submit(vk, NULL, j->error));
@@ -42,12 +43,12 @@ static enum kd_status read_all(struct kd_frame_job *j)
     const struct kd_plan *p = j->plan;
     struct kd_layer *layer = &j->frame->layers[1];
     enum kd_status status = KD_OK;
-    for (uint32_t band = 0; band < p->bands && kd_frame_band_lit(j, band) && !status; band++) {
-        if (p->radiance)
+    for (uint32_t band = 0; band < p->picture.bands && kd_frame_band_lit(j, band) && !status; band++) {
+        if (p->picture.radiance)
             status = read_band(j, band, j->store->radiance.buffers[band], 0, layer);
-        for (size_t i = 0; i < p->n_layers && !status; i++)
-            status = read_band(j, band, j->store->layers.buffers[band], i * kd_plan_layer_bytes(p),
-                               &layer[i + (p->radiance ? 1 : 0)]);
+        for (size_t i = 0; i < p->picture.n_layers && !status; i++)
+            status = read_band(j, band, j->store->layers.buffers[band], i * kd_plan_layer_bytes(&p->picture),
+                               &layer[i + (p->picture.radiance ? 1 : 0)]);
     }
     return status;
 }
@@ -108,7 +109,7 @@ static void paint(const struct kd_canvas *to, uint32_t rows, const float *values
 static enum kd_status show(struct kd_frame_job *j)
 {
     const struct kd_layer *layer = &j->frame->layers[1];
-    const struct kd_layer_kind *kind = &kd_layer_kinds[j->plan->layers[0].kind];
+    const struct kd_layer_kind *kind = &kd_layer_kinds[j->plan->picture.layers[0].kind];
     const struct kd_canvas canvas = { kd_frame_pixels(j->frame), j->frame->width, j->frame->height,
                                       kd_frame_bit_depth(j->frame) };
     struct kd_map_table *table = malloc(sizeof *table);
@@ -137,10 +138,10 @@ static enum kd_status show(struct kd_frame_job *j)
 static enum kd_status check_light(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
-    const size_t all = (size_t)p->width * j->lit;
-    for (size_t i = 0; i < p->n_layers; i++) {
-        const struct kd_layer *layer = &j->frame->layers[1 + i + (p->radiance ? 1 : 0)];
-        const struct kd_layer_kind *kind = &kd_layer_kinds[p->layers[i].kind];
+    const size_t all = (size_t)p->picture.width * j->lit;
+    for (size_t i = 0; i < p->picture.n_layers; i++) {
+        const struct kd_layer *layer = &j->frame->layers[1 + i + (p->picture.radiance ? 1 : 0)];
+        const struct kd_layer_kind *kind = &kd_layer_kinds[p->picture.layers[i].kind];
         size_t n = 0;
         for (size_t k = 0; k < all && kind->of == KD_OF_LIGHT; k++)
             n += isinf(((const float *)layer->data)[k]) != 0;
@@ -157,9 +158,9 @@ static enum kd_status check_light(struct kd_frame_job *j)
 enum kd_status kd_frame_layers(struct kd_frame_job *j)
 {
     enum kd_status status = kd_frame_gather(j);
-    if (!status && (j->plan->n_layers || j->plan->radiance))
+    if (!status && (j->plan->picture.n_layers || j->plan->picture.radiance))
         status = read_all(j);
     if (!status)
         status = check_light(j);
-    return !status && kd_plan_is_map(j->plan) ? show(j) : status;
+    return !status && kd_plan_is_map(&j->plan->picture) ? show(j) : status;
 }

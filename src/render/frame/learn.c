@@ -12,7 +12,7 @@ static void learn(struct kd_capacity *c, const struct kd_frame_job *job, const s
     if (!(ms > 0 && pass->invocations >= 4096)) /* a small picture measures only the overhead */
         return;
     if (!job->r->probing)
-        kd_cost_learn(c, job->plan->cost_class, (enum kd_pass_id)(kd_pass_find(pass->name) - kd_passes), ns);
+        kd_cost_learn(c, job->plan->cost.class, (enum kd_pass_id)(kd_pass_find(pass->name) - kd_passes), ns);
     if (pass->figure == KD_NS_NONE)
         return;
     if (pass->figure == KD_NS_RAY_MARCH && job->scene->volume.model == KD_VOLUME_GRID)
@@ -39,8 +39,8 @@ void kd_frame_learn_begin(struct kd_frame_job *job)
 {
     enum { OFTEN = 8 };
     const double LONG_MS = 100;
-    job->teaches =
-        !on_the_host(job->r) || job->r->probing || job->plan->estimate_ms > LONG_MS || job->r->frames++ % OFTEN == 0;
+    job->teaches = !on_the_host(job->r) || job->r->probing || job->plan->cost.estimate_ms > LONG_MS ||
+                   job->r->frames++ % OFTEN == 0;
     if (job->teaches && on_the_host(job->r))
         job->waiting = kd_cpu_pressure_now();
 }
@@ -54,8 +54,8 @@ void kd_frame_learn(struct kd_frame_job *job, const struct kd_frame *frame)
         return;
     const double share = on_the_host(renderer) ? kd_cpu_pressure_share(&job->waiting) : 1;
     pthread_mutex_lock(&renderer->lock);
-    for (size_t i = 0; i < plan->n_passes; i++)
-        learn(c, job, &plan->passes[i], share * timing(frame, plan->passes[i].name));
-    c->measured = c->measured || (uint64_t)plan->width * plan->height >= 4096;
+    for (size_t i = 0; i < plan->cost.n_passes; i++)
+        learn(c, job, &plan->cost.passes[i], share * timing(frame, plan->cost.passes[i].name));
+    c->measured = c->measured || (uint64_t)plan->picture.width * plan->picture.height >= 4096;
     pthread_mutex_unlock(&renderer->lock);
 }

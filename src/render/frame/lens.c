@@ -24,9 +24,9 @@ static uint32_t rows_of_slice(const struct kd_frame_job *j, uint32_t band, uint3
 {
     const struct kd_plan *p = j->plan;
     const uint32_t left = kd_frame_band_rows(j, band) - row, rows = kd_frame_slice(ns_per_row, left);
-    if (!maps || !(p->interpolates > 0))
+    if (!maps || !(p->lens.interpolates > 0))
         return rows;
-    const uint32_t most = p->sample_rows, block = KD_CELL_BLOCK / p->side ? KD_CELL_BLOCK / p->side : 1,
+    const uint32_t most = p->lens.sample_rows, block = KD_CELL_BLOCK / p->lens.side ? KD_CELL_BLOCK / p->lens.side : 1,
                    first = kd_scene_window(j->scene).top + kd_frame_band_first(j, band) + row,
                    end = (first + (rows < most ? rows : most)) / block * block;
     const uint32_t n = end > first ? end - first : block - first % block, held = n < most ? n : most;
@@ -48,13 +48,13 @@ enum kd_status kd_frame_trace_kernel(struct kd_frame_job *j, const struct kd_cri
 {
     const struct kd_plan *p = j->plan;
     *out = NULL;
-    if (p->path == KD_LENS_LISTED)
+    if (p->lens.path == KD_LENS_LISTED)
         return KD_OK;
-    const uint32_t rays = l->rays || !(p->interpolates > 0) ? l->rays : KD_RAYS_BY_PLACE;
-    if (p->path == KD_LENS_CLOSED) {
+    const uint32_t rays = l->rays || !(p->lens.interpolates > 0) ? l->rays : KD_RAYS_BY_PLACE;
+    if (p->lens.path == KD_LENS_CLOSED) {
         const struct kd_spec_lens_closed spec = {
-            .QUANTITIES = p->quantities,
-            .ORDERS = p->orders,
+            .QUANTITIES = p->lens.quantities,
+            .ORDERS = p->lens.orders,
             .SIGHT = kd_camera_sight(j->scene),
             .CRITICAL = rays,
             .GENERATOR = l->generator,
@@ -64,31 +64,32 @@ enum kd_status kd_frame_trace_kernel(struct kd_frame_job *j, const struct kd_cri
                               j->error);
     }
     const struct kd_spec_lens_map spec = {
-        .QUANTITIES = p->quantities,
-        .ORDERS = p->orders,
-        .STEPS = p->setting.steps,
-        .METHOD = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6,
+        .QUANTITIES = p->lens.quantities,
+        .ORDERS = p->lens.orders,
+        .STEPS = p->lens.setting.steps,
+        .METHOD = p->lens.setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6,
         .SIGHT = kd_camera_sight(j->scene),
         .CRITICAL = rays,
         .GENERATOR = l->generator,
         .SHIFT = l->shift,
-        .INGOING = p->ingoing,
+        .INGOING = p->lens.ingoing,
     };
     return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, &spec.QUANTITIES, sizeof spec / 4, out,
                           j->error);
 }
 
-static bool is_layer_of(const struct kd_plan *p, int makes, enum kd_layer_of of)
+static bool is_layer_of(const struct kd_plan_picture *picture, int makes, enum kd_layer_of of)
 {
-    return makes >= 0 && kd_layer_kinds[p->layers[makes].kind].of == of;
+    return makes >= 0 && kd_layer_kinds[picture->layers[makes].kind].of == of;
 }
 
 /* Whether the march makes this light or layer. Layers of a crossing need the march because a body may hide the
  * crossing. */
 static bool marches(const struct kd_plan *p, int makes)
 {
-    return p->march.steps && makes != KD_MAKES_RAYS &&
-           (makes < 0 || is_layer_of(p, makes, KD_OF_LIGHT) || (p->meets && is_layer_of(p, makes, KD_OF_CROSSING)));
+    return p->light.march.steps && makes != KD_MAKES_RAYS &&
+           (makes < 0 || is_layer_of(&p->picture, makes, KD_OF_LIGHT) ||
+            (p->light.meets && is_layer_of(&p->picture, makes, KD_OF_CROSSING)));
 }
 
 uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes)
@@ -108,9 +109,9 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
         : march     ? KD_KERNEL_LAYERS_MARCH
                     : KD_KERNEL_LAYERS;
     struct kd_spec_transfer spec = {
-        .QUANTITIES = p->quantities,
-        .ORDERS = p->orders,
-        .SIDE = p->side,
+        .QUANTITIES = p->lens.quantities,
+        .ORDERS = p->lens.orders,
+        .SIDE = p->lens.side,
         .SIGHT = kd_camera_sight(j->scene),
         .CRITICAL = l->rays,
         .GENERATOR = l->generator,
@@ -119,14 +120,14 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
         .CHARGED = kd_hole_is_charged(kd_scene_hole(j->scene)),
     };
     if (march)
-        spec.INGOING = p->ingoing;
+        spec.INGOING = p->lens.ingoing;
     if (makes == KD_MAKES_PICTURE || makes == KD_MAKES_PIECES)
-        spec.STOKES = p->stokes_words > 0;
+        spec.STOKES = p->light.stokes_words > 0;
     if (makes >= 0)
-        spec.LAYER = (uint32_t)p->layers[makes].kind;
-    if (makes >= 0 && p->layers[makes].order >= 0)
-        spec.ORDER = (uint32_t)p->layers[makes].order;
-    memcpy(spec.traits, p->traits, sizeof spec.traits);
+        spec.LAYER = (uint32_t)p->picture.layers[makes].kind;
+    if (makes >= 0 && p->picture.layers[makes].order >= 0)
+        spec.ORDER = (uint32_t)p->picture.layers[makes].order;
+    memcpy(spec.traits, p->light.traits, sizeof spec.traits);
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
@@ -136,16 +137,16 @@ struct slice { uint32_t band, first, count; };
 /* Whether the transfer kernel processes columns of pixels, and leaves pixels without light as they are. */
 static bool in_columns(const struct kd_plan *p)
 {
-    return p->side == 1 && !(p->ends && kd_plan_is_spread(p)) && !p->march.steps;
+    return p->lens.side == 1 && !(p->lens.ends && kd_plan_is_spread(&p->light)) && !p->light.march.steps;
 }
 
 enum kd_status kd_frame_send_cameras(struct kd_frame_job *j)
 {
-    const struct kd_scene critical = kd_critical_camera(j->scene, j->plan->critical ? j->plan->critical : 1);
+    const struct kd_scene critical = kd_critical_camera(j->scene, j->plan->lens.critical ? j->plan->lens.critical : 1);
     const struct kd_scene dense = kd_critical_camera(j->scene, KD_PLAN_ADAPTIVE_SIDE),
                           truth = kd_critical_camera(j->scene, KD_PLAN_TRUTH_SIDE);
     const struct kd_scene dense_critical =
-        kd_critical_camera(j->scene, j->plan->critical_dense ? j->plan->critical_dense : 1);
+        kd_critical_camera(j->scene, j->plan->lens.critical_dense ? j->plan->lens.critical_dense : 1);
     const struct kd_scene whole = kd_scene_whole(j->scene);
     const struct kd_camera_block cameras[] = {
         [KD_CAMERA_GRID] = kd_camera_block(j->scene), [KD_CAMERA_CRITICAL] = kd_camera_block(&critical),
@@ -164,12 +165,12 @@ static struct kd_slice slice_of(const struct kd_frame_job *j, uint32_t band)
 {
     const struct kd_plan *p = j->plan;
     return (struct kd_slice) {
-        .band0 = kd_frame_band_first(j, band) * p->side,
-        .stride = p->width * p->side * p->band_rows * p->side,
-        .steps = p->march.steps,
-        .fine = p->march.fine,
-        .opaque = (float)p->march.opaque,
-        .unseen = (float)p->march.unseen,
+        .band0 = kd_frame_band_first(j, band) * p->lens.side,
+        .stride = p->picture.width * p->lens.side * p->picture.band_rows * p->lens.side,
+        .steps = p->light.march.steps,
+        .fine = p->light.march.fine,
+        .opaque = (float)p->light.march.opaque,
+        .unseen = (float)p->light.march.unseen,
         .lost_most = kd_plan_lost_most(p),
     };
 }
@@ -180,13 +181,14 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
     const bool rays = makes == KD_MAKES_RAYS, columns = makes == KD_MAKES_PICTURE && in_columns(j->plan);
     const struct kd_plan *p = j->plan;
     struct kd_slice push = slice_of(j, s->band);
-    push.row0 = s->first * p->side;
-    push.rows = s->count * p->side;
+    push.row0 = s->first * p->lens.side;
+    push.rows = s->count * p->lens.side;
     d->push = &push;
-    d->groups[0] = kd_frame_groups(rays ? (uint64_t)p->width * p->side : p->width);
+    d->groups[0] = kd_frame_groups(rays ? (uint64_t)p->picture.width * p->lens.side : p->picture.width);
     d->groups[1] = rays ? push.rows : columns ? (s->count + KD_TRANSFER_ROWS - 1) / KD_TRANSFER_ROWS : s->count;
     enum kd_status status = KD_OK;
-    for (const uint32_t turns = kd_frame_turns(p, p->side * p->side, makes); push.ray < turns && !status; push.ray++)
+    for (const uint32_t turns = kd_frame_turns(p, p->lens.side * p->lens.side, makes); push.ray < turns && !status;
+         push.ray++)
         status = kd_vk_dispatch(j->r->vk, d, j->error);
     return status;
 }
@@ -194,7 +196,7 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
 enum kd_status kd_frame_list_rays(struct kd_frame_job *j, const struct kd_lens_rows *rows)
 {
     /* the march before is slow, and waiting for it must not count as time for these rays */
-    enum kd_status status = j->plan->march.steps ? kd_vk_wait(j->r->vk, 0, j->error) : KD_OK;
+    enum kd_status status = j->plan->light.march.steps ? kd_vk_wait(j->r->vk, 0, j->error) : KD_OK;
     double start = kd_clock_ms();
     if (!status)
         status = kd_lens_listed(j->r, j->scene, j->plan, rows, &j->undecided, j->error);
@@ -205,13 +207,13 @@ enum kd_status kd_frame_list_rays(struct kd_frame_job *j, const struct kd_lens_r
 static enum kd_status list_slice(struct kd_frame_job *j, const struct slice *s)
 {
     const struct kd_plan *p = j->plan;
-    uint64_t width = (uint64_t)p->width * p->side;
+    uint64_t width = (uint64_t)p->picture.width * p->lens.side;
     const struct kd_lens_rows rows = {
-        .first = s->first * p->side,
-        .count = s->count * p->side,
+        .first = s->first * p->lens.side,
+        .count = s->count * p->lens.side,
         .to = kd_frame_band_lens(j, s->band),
-        .offset = (s->first - kd_frame_band_first(j, s->band)) * p->side * width,
-        .stride = width * p->band_rows * p->side,
+        .offset = (s->first - kd_frame_band_first(j, s->band)) * p->lens.side * width,
+        .stride = width * p->picture.band_rows * p->lens.side,
     };
     return kd_frame_list_rays(j, &rows);
 }
@@ -232,9 +234,9 @@ struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *j, const struct 
 /* pipeline: from kd_frame_trace_kernel. */
 static enum kd_status trace_slice(struct kd_frame_job *j, const struct slice *s, const struct kd_vk_pipeline *pipeline)
 {
-    if (j->plan->path == KD_LENS_LISTED)
+    if (j->plan->lens.path == KD_LENS_LISTED)
         return list_slice(j, s);
-    if (j->plan->interpolates > 0)
+    if (j->plan->lens.interpolates > 0)
         return kd_frame_sample(j, s->band, s->first, s->count);
     struct kd_vk_dispatch d = kd_frame_trace(j, pipeline, kd_frame_band_lens(j, s->band), KD_CAMERA_GRID);
     return record(j, s, &d, KD_MAKES_RAYS);
@@ -245,7 +247,7 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
 {
     struct kd_vk_buffer *own[KD_OWN_COUNT];
     struct kd_vk_dispatch d = {
-        kd_passes[makes < 0 ? kd_plan_light_pass(j->plan) : KD_PASS_LAYERS].name,
+        kd_passes[makes < 0 ? kd_plan_light_pass(&j->plan->light) : KD_PASS_LAYERS].name,
         pipeline,
         { { lens, 0, 0, false },
           { j->store->transfer, 0, sizeof(struct kd_emission), false },
@@ -255,15 +257,15 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
         NULL,
         { 0 },
     };
-    kd_prepared_buffers(j->prepared, j->plan, own);
+    kd_prepared_buffers(j->prepared, &j->plan->light, own);
     own[KD_OWN_point_light] =
-        j->plan->points ? j->lens->star_light.buffers[band] : NULL; /* made by stars.c, band by band */
-    for (int i = 0; i < KD_OWN_COUNT; i++)                          /* unused bindings need some buffer */
+        j->plan->light.points ? j->lens->star_light.buffers[band] : NULL; /* made by stars.c, band by band */
+    for (int i = 0; i < KD_OWN_COUNT; i++)                                /* unused bindings need some buffer */
         d.bindings[KD_OWN_BINDING + i].buffer = own[i] ? own[i] : j->store->transfer;
     if (makes >= 0) {
         d.bindings[3].buffer = j->store->layers.buffers[band];
-        d.bindings[3].offset = (uint64_t)makes * kd_plan_layer_bytes(j->plan);
-        d.bindings[3].size = kd_plan_layer_bytes(j->plan);
+        d.bindings[3].offset = (uint64_t)makes * kd_plan_layer_bytes(&j->plan->picture);
+        d.bindings[3].size = kd_plan_layer_bytes(&j->plan->picture);
         if (marches(j->plan, makes))
             d.bindings[KD_LIGHT_BINDING] = (struct kd_vk_binding) { j->store->radiance.buffers[band], 0, 0, false };
     }
@@ -274,9 +276,9 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
  * at the upper edge: rows without them are held back until more are traced or the band ends. */
 static struct slice complete(const struct kd_frame_job *j, const struct slice *s)
 {
-    if (!kd_plan_has_footprints(j->plan))
+    if (!kd_plan_has_footprints(&j->plan->lens))
         return *s;
-    uint32_t first = kd_frame_band_first(j, s->band), end = s->first + s->count, back = j->plan->side == 1 ? 2 : 1;
+    uint32_t first = kd_frame_band_first(j, s->band), end = s->first + s->count, back = j->plan->lens.side == 1 ? 2 : 1;
     uint32_t from = s->first > first + back ? s->first - back : first, to = end > first + back ? end - back : first;
     return (struct slice) { s->band, from, (end == first + kd_frame_band_rows(j, s->band) ? end : to) - from };
 }
@@ -286,18 +288,18 @@ static struct slice complete(const struct kd_frame_job *j, const struct slice *s
 static enum kd_status footprint_slice(struct kd_frame_job *j, const struct slice *s, const struct slice *traced)
 {
     const struct kd_plan *p = j->plan;
-    const uint32_t first = kd_frame_band_first(j, s->band), width = p->width * p->side;
+    const uint32_t first = kd_frame_band_first(j, s->band), width = p->picture.width * p->lens.side;
     struct kd_footprint_area area = {
         .lens = kd_frame_band_lens(j, s->band),
         .push = { .width = width,
-                  .rows = kd_frame_band_rows(j, s->band) * p->side,
-                  .first = (s->first - first) * p->side,
-                  .end = (s->first + s->count - first) * p->side,
-                  .stride = width * p->band_rows * p->side },
+                  .rows = kd_frame_band_rows(j, s->band) * p->lens.side,
+                  .first = (s->first - first) * p->lens.side,
+                  .end = (s->first + s->count - first) * p->lens.side,
+                  .stride = width * p->picture.band_rows * p->lens.side },
     };
-    if (!(p->interpolates > 0))
+    if (!(p->lens.interpolates > 0))
         return kd_frame_footprint(j, &area);
-    return kd_frame_footprint_sampled(j, &area, first * p->side, (traced->first - first) * p->side);
+    return kd_frame_footprint_sampled(j, &area, first * p->lens.side, (traced->first - first) * p->lens.side);
 }
 
 /* Traces a slice, settles the rays left open, and completes the rows that are then ready. */
@@ -309,7 +311,7 @@ static enum kd_status map_slice(struct kd_frame_job *j, const struct slice *trac
     KD_TRY(kd_frame_forget_open(j, NULL));
     KD_TRY(trace_slice(j, traced, trace));
     KD_TRY(kd_frame_settle(j, NULL, traced->band));
-    if (j->plan->interpolates > 0)
+    if (j->plan->lens.interpolates > 0)
         kd_frame_count_sampled(j, traced->count);
     KD_TRY(footprint_slice(j, whole, traced));
 done:
@@ -321,18 +323,19 @@ static enum kd_status darken(struct kd_frame_job *j, const struct slice *s)
 {
     const struct kd_plan *p = j->plan;
     struct kd_vk_buffer *radiance = j->store->radiance.buffers[s->band];
-    uint64_t first = (uint64_t)p->width * (s->first - kd_frame_band_first(j, s->band)),
-             n = (uint64_t)p->width * s->count;
+    uint64_t first = (uint64_t)p->picture.width * (s->first - kd_frame_band_first(j, s->band)),
+             n = (uint64_t)p->picture.width * s->count;
     enum kd_status status = KD_OK;
     if (!in_columns(p) || !s->count)
         return KD_OK;
     KD_TRY(kd_vk_fill(j->r->vk, "transfer", radiance, 12 * first, 12 * n, 0, j->error));
-    if (p->apart)
-        KD_TRY(kd_vk_fill(j->r->vk, "transfer", radiance, 12ull * p->width * p->band_rows + 4 * first, 4 * n, 0,
-                          j->error));
-    for (uint32_t i = 0; i < p->stokes_words; i++)
+    if (p->light.apart)
+        KD_TRY(kd_vk_fill(j->r->vk, "transfer", radiance, 12ull * p->picture.width * p->picture.band_rows + 4 * first,
+                          4 * n, 0, j->error));
+    for (uint32_t i = 0; i < p->light.stokes_words; i++)
         KD_TRY(kd_vk_fill(j->r->vk, "transfer", radiance,
-                          4ull * ((p->apart ? 4 : 3) + i) * p->width * p->band_rows + 4 * first, 4 * n, 0, j->error));
+                          4ull * ((p->light.apart ? 4 : 3) + i) * p->picture.width * p->picture.band_rows + 4 * first,
+                          4 * n, 0, j->error));
 done:
     return status;
 }
@@ -342,8 +345,8 @@ static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s)
 {
     const struct kd_vk_pipeline *transfer;
     enum kd_status status = darken(j, s);
-    for (int makes = KD_MAKES_PICTURE; s->count && makes < (int)j->plan->n_layers && !status; makes++) {
-        if (makes >= 0 && kd_plan_gathers(j->plan, j->plan->layers[makes].kind))
+    for (int makes = KD_MAKES_PICTURE; s->count && makes < (int)j->plan->picture.n_layers && !status; makes++) {
+        if (makes >= 0 && kd_plan_gathers(&j->plan->light, j->plan->picture.layers[makes].kind))
             continue;
         status = kd_frame_light_kernel(j, &on_grid, makes, &transfer);
         if (status)
@@ -360,11 +363,11 @@ enum kd_status kd_frame_gather(struct kd_frame_job *j)
     const struct kd_vk_pipeline *pipeline;
     const struct kd_plan *p = j->plan;
     enum kd_status status = KD_OK;
-    for (int makes = 0; makes < (int)p->n_layers; makes++) {
-        if (!kd_plan_gathers(p, p->layers[makes].kind))
+    for (int makes = 0; makes < (int)p->picture.n_layers; makes++) {
+        if (!kd_plan_gathers(&p->light, p->picture.layers[makes].kind))
             continue;
         KD_TRY(kd_frame_light_kernel(j, &on_grid, makes, &pipeline));
-        for (uint32_t band = 0; band < p->bands && kd_frame_band_lit(j, band); band++) {
+        for (uint32_t band = 0; band < p->picture.bands && kd_frame_band_lit(j, band); band++) {
             const struct slice s = { band, kd_frame_band_first(j, band), kd_frame_band_lit(j, band) };
             struct kd_vk_dispatch d =
                 kd_frame_transfer(j, pipeline, kd_frame_band_lens(j, band), band, KD_CAMERA_GRID, makes);
@@ -381,7 +384,7 @@ static enum kd_status follow_lost(struct kd_frame_job *j, uint32_t band)
     const struct kd_vk_dispatch d =
         kd_frame_transfer(j, NULL, kd_frame_band_lens(j, band), band, KD_CAMERA_GRID, KD_MAKES_PICTURE);
     const struct kd_slice push = slice_of(j, band);
-    const uint32_t turns = kd_frame_turns(j->plan, j->plan->side * j->plan->side, KD_MAKES_PICTURE);
+    const uint32_t turns = kd_frame_turns(j->plan, j->plan->lens.side * j->plan->lens.side, KD_MAKES_PICTURE);
     return kd_frame_follow_lost(j, &d, &push, &on_grid, turns);
 }
 
@@ -390,7 +393,7 @@ static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool nee
 {
     const struct kd_plan *p = j->plan;
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
-    const double ns_per_row = ns * p->width * p->side * p->side;
+    const double ns_per_row = ns * p->picture.width * p->lens.side * p->lens.side;
     enum kd_status status = KD_OK;
     for (uint32_t row = 0, step; row < rows && !status; row += step) {
         step = rows_of_slice(j, band, row, ns_per_row, needed);
@@ -418,8 +421,8 @@ static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed)
     const struct kd_frame_list list = {
         .pixels = &j->lens->pixels,
         .camera = KD_CAMERA_CRITICAL,
-        .lattice = kd_critical_lattice(j->plan->critical),
-        .most = j->plan->critical_part,
+        .lattice = kd_critical_lattice(j->plan->lens.critical),
+        .most = j->plan->lens.critical_part,
         .buffers = j->lens->critical.buffers,
         .layers = true,
     };
@@ -431,7 +434,7 @@ static enum kd_status map_band(struct kd_frame_job *j, uint32_t band, double ns)
 {
     const struct kd_plan *p = j->plan;
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
-    const double ns_per_row = ns * p->width * p->side * p->side;
+    const double ns_per_row = ns * p->picture.width * p->lens.side * p->lens.side;
     enum kd_status status = KD_OK;
     for (uint32_t row = 0, step; row < rows && !status; row += step) {
         step = rows_of_slice(j, band, row, ns_per_row, true);
@@ -451,14 +454,14 @@ static enum kd_status light_bands(struct kd_frame_job *j, bool needed, double tr
     const struct kd_plan *p = j->plan;
     double ns = transfer_ns + (needed ? kd_plan_map_ns(p) : 0);
     enum kd_status status = KD_OK;
-    for (uint32_t band = 0; p->points && needed && p->cacheable && band < p->bands; band++)
+    for (uint32_t band = 0; p->light.points && needed && p->lens.cacheable && band < p->picture.bands; band++)
         KD_TRY(map_band(j, band, kd_plan_map_ns(p)));
-    for (uint32_t band = 0; band < p->bands; band++) {
-        if (p->points && needed && !p->cacheable)
+    for (uint32_t band = 0; band < p->picture.bands; band++) {
+        if (p->light.points && needed && !p->lens.cacheable)
             KD_TRY(map_band(j, band, kd_plan_map_ns(p)));
-        if (p->points)
+        if (p->light.points)
             KD_TRY(kd_frame_stars(j, band));
-        KD_TRY(light_band(j, band, needed && !p->points, p->points ? transfer_ns : ns));
+        KD_TRY(light_band(j, band, needed && !p->light.points, p->light.points ? transfer_ns : ns));
         KD_TRY(kd_frame_probe(j, band));
         KD_TRY(kd_frame_sample_march(j, band));
     }
@@ -471,10 +474,10 @@ enum kd_status kd_frame_light(struct kd_frame_job *j, bool reused)
     struct kd_capacity c;
     kd_renderer_capacity(j->r, &c);
     const struct kd_plan *p = j->plan;
-    bool needed = !reused && p->planes;
+    bool needed = !reused && p->lens.planes;
     enum kd_status status = KD_OK;
-    KD_TRY(light_bands(j, needed, kd_plan_light_ns(p, &c)));
-    if (p->critical)
+    KD_TRY(light_bands(j, needed, kd_plan_light_ns(&p->light, &c)));
+    if (p->lens.critical)
         KD_TRY(light_at_curve(j, !reused));
 done:
     return status;
@@ -485,15 +488,15 @@ static enum kd_status read_band(struct kd_frame_job *j, uint32_t band, struct kd
 {
     const struct kd_plan *p = j->plan;
     struct kd_vk *vk = j->r->vk;
-    uint64_t row = (uint64_t)p->width * p->side * p->side, stride = row * p->band_rows;
+    uint64_t row = (uint64_t)p->picture.width * p->lens.side * p->lens.side, stride = row * p->picture.band_rows;
     uint64_t first = row * kd_frame_band_first(j, band), rays = row * kd_frame_band_rows(j, band);
     enum kd_status status = KD_OK;
-    for (uint32_t plane = 0; plane < p->planes; plane++) {
+    for (uint32_t plane = 0; plane < p->lens.planes; plane++) {
         KD_TRY(
             kd_vk_copy(vk, "readback", host, 0, kd_frame_band_lens(j, band), 4 * plane * stride, 4 * rays, j->error));
         KD_TRY(kd_vk_submit(vk, NULL, j->error));
         KD_TRY(kd_vk_wait(vk, 0, j->error));
-        memcpy(planes + plane * p->rays + first, kd_vk_buffer_map(host), 4 * rays);
+        memcpy(planes + plane * p->lens.rays + first, kd_vk_buffer_map(host), 4 * rays);
     }
 done:
     return status;
@@ -515,12 +518,13 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
     kd_vk_times_reset(renderer->vk);
     enum kd_status status;
     KD_TRY(kd_store_lens_map(&renderer->store, plan, &job.lens, &reused, error));
-    KD_TRY(kd_vk_buffer_create(renderer->vk, 4ull * plan->width * plan->side * plan->side * plan->band_rows,
+    KD_TRY(kd_vk_buffer_create(renderer->vk,
+                               4ull * plan->picture.width * plan->lens.side * plan->lens.side * plan->picture.band_rows,
                                KD_VK_READBACK, "lens map on the host", &host, error));
     KD_TRY(kd_frame_send_cameras(&job));
-    for (uint32_t band = 0; band < plan->bands; band++) {
+    for (uint32_t band = 0; band < plan->picture.bands; band++) {
         uint32_t rows = kd_frame_band_rows(&job, band);
-        const double ns_per_row = kd_plan_map_ns(plan) * plan->width * plan->side * plan->side;
+        const double ns_per_row = kd_plan_map_ns(plan) * plan->picture.width * plan->lens.side * plan->lens.side;
         for (uint32_t done = 0, step; done < rows && !status; done += step) {
             step = rows_of_slice(&job, band, done, ns_per_row, true);
             const struct slice s = { band, kd_frame_band_first(&job, band) + done, step };

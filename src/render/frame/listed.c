@@ -22,11 +22,11 @@ struct kd_frame_part kd_frame_part_of(const struct kd_frame_job *j, const struct
     if (part.n > list->pixels->n - part.first)
         part.n = list->pixels->n - part.first;
     part.push.stride = (uint32_t)(list->most * list->lattice.rays);
-    part.push.list = j->plan->planes * part.push.stride;
-    part.push.steps = j->plan->march.steps;
-    part.push.fine = j->plan->march.fine;
-    part.push.opaque = (float)j->plan->march.opaque;
-    part.push.unseen = (float)j->plan->march.unseen;
+    part.push.list = j->plan->lens.planes * part.push.stride;
+    part.push.steps = j->plan->light.march.steps;
+    part.push.fine = j->plan->light.march.fine;
+    part.push.opaque = (float)j->plan->light.march.opaque;
+    part.push.unseen = (float)j->plan->light.march.unseen;
     part.push.lost_most = kd_plan_lost_most(j->plan);
     return part;
 }
@@ -98,7 +98,8 @@ enum kd_status kd_frame_upload_pixels(struct kd_frame_job *j, const struct kd_fr
 
 static enum kd_status list_part(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
-    const uint32_t rays = part->list->lattice.rays, step = kd_frame_slice(j->plan->trace_ns * rays, (uint32_t)part->n);
+    const uint32_t rays = part->list->lattice.rays,
+                   step = kd_frame_slice(j->plan->cost.trace_ns * rays, (uint32_t)part->n);
     enum kd_status status = KD_OK;
     for (uint64_t from = 0; from < part->n; from += step) {
         const struct kd_lens_rows rows = {
@@ -124,7 +125,7 @@ static enum kd_status trace_and_settle(struct kd_frame_job *j, const struct kd_f
     enum kd_status status;
     d.pass = pass_of(part, KD_PASS_TRACE);
     KD_TRY(kd_frame_forget_open(j, part));
-    KD_TRY(run_part(j, part, 0, part->n, &d, KD_MAKES_RAYS, j->plan->trace_ns));
+    KD_TRY(run_part(j, part, 0, part->n, &d, KD_MAKES_RAYS, j->plan->cost.trace_ns));
     KD_TRY(kd_frame_settle(j, part, 0));
 done:
     return status;
@@ -139,9 +140,9 @@ static enum kd_status footprint_part(struct kd_frame_job *j, const struct kd_fra
         .push = { .rows = (uint32_t)part->n, .list = part->push.list, .stride = part->push.stride },
     };
     const uint32_t rays = (uint32_t)(part->n * part->list->lattice.rays),
-                   step = kd_frame_slice(j->plan->trace_ns, rays);
+                   step = kd_frame_slice(j->plan->cost.trace_ns, rays);
     enum kd_status status = KD_OK;
-    for (uint32_t from = 0; kd_plan_has_footprints(j->plan) && from < rays; from += step) {
+    for (uint32_t from = 0; kd_plan_has_footprints(&j->plan->lens) && from < rays; from += step) {
         area.push.first = from;
         area.push.end = from + (rays - from < step ? rays - from : step);
         KD_TRY(kd_frame_footprint(j, &area));
@@ -155,11 +156,11 @@ done:
 static enum kd_status trace_part(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
     enum kd_status status = kd_frame_upload_pixels(j, part);
-    if (status || !j->plan->planes) /* if all light is marched, the march traces its own rays */
+    if (status || !j->plan->lens.planes) /* if all light is marched, the march traces its own rays */
         return status;
     if (part->list->between)
         return kd_frame_between(j, part);
-    if (j->plan->path == KD_LENS_LISTED)
+    if (j->plan->lens.path == KD_LENS_LISTED)
         return list_part(j, part);
     return trace_and_settle(j, part);
 }
@@ -168,11 +169,11 @@ static enum kd_status trace_part(struct kd_frame_job *j, const struct kd_frame_p
 static enum kd_status transfer_part(struct kd_frame_job *j, struct kd_frame_part *part, int makes, double ns)
 {
     enum kd_status status = KD_OK;
-    for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
+    for (uint32_t band = 0; band < j->plan->picture.bands && !status; band++) {
         uint64_t from, to;
         kd_frame_part_in_band(j, part, band, &from, &to);
         struct kd_vk_dispatch d = kd_frame_transfer(j, NULL, part->lens, band, part->list->camera, makes);
-        d.pass = makes < 0 ? pass_of(part, kd_plan_light_pass(j->plan)) : d.pass;
+        d.pass = makes < 0 ? pass_of(part, kd_plan_light_pass(&j->plan->light)) : d.pass;
         part->push.band0 = kd_frame_band_first(j, band);
         status = run_part(j, part, from, to, &d, makes, ns);
         if (!status && makes == KD_MAKES_PICTURE)
@@ -193,10 +194,10 @@ enum kd_status kd_frame_light_list(struct kd_frame_job *j, const struct kd_frame
             KD_TRY(trace_part(j, &part));
             KD_TRY(footprint_part(j, &part));
         }
-        for (int makes = KD_MAKES_PICTURE; makes < (list->layers ? (int)j->plan->n_layers : 0); makes++)
+        for (int makes = KD_MAKES_PICTURE; makes < (list->layers ? (int)j->plan->picture.n_layers : 0); makes++)
             if (makes == KD_MAKES_PICTURE ||
-                (kd_layer_kinds[j->plan->layers[makes].kind].of == KD_OF_LIGHT && !j->plan->march.steps))
-                KD_TRY(transfer_part(j, &part, makes, kd_plan_light_ns(j->plan, &c)));
+                (kd_layer_kinds[j->plan->picture.layers[makes].kind].of == KD_OF_LIGHT && !j->plan->light.march.steps))
+                KD_TRY(transfer_part(j, &part, makes, kd_plan_light_ns(&j->plan->light, &c)));
         KD_TRY(kd_frame_probe_listed(j, &part));
     }
 done:

@@ -19,13 +19,13 @@ static enum kd_status sample(struct kd_frame_job *j, uint32_t band, const struct
 {
     static const struct kd_critical_lattice on_grid; /* all 0: the grid */
     const struct kd_plan *p = j->plan;
-    const struct kd_march_sample *s = &p->march.sample;
+    const struct kd_march_sample *s = &p->light.march.sample;
     const uint32_t first = kd_frame_band_first(j, band), from = above(s, first),
                    rows = above(s, first + kd_frame_band_rows(j, band)) - from;
     const struct kd_slice push = {
-        .row0 = (s->first[1] + from * s->every[1]) * p->side,
-        .band0 = first * p->side,
-        .stride = p->width * p->side * p->band_rows * p->side,
+        .row0 = (s->first[1] + from * s->every[1]) * p->lens.side,
+        .band0 = first * p->lens.side,
+        .stride = p->picture.width * p->lens.side * p->picture.band_rows * p->lens.side,
         .steps = march->steps,
         .fine = march->fine,
         .opaque = (float)march->opaque,
@@ -57,7 +57,7 @@ done:
 
 enum kd_status kd_frame_sample_march(struct kd_frame_job *j, uint32_t band)
 {
-    const struct kd_march *march = &j->plan->march, finer = kd_march_finer(*march);
+    const struct kd_march *march = &j->plan->light.march, finer = kd_march_finer(*march);
     const uint32_t n = pixels_of(&march->sample);
     enum kd_status status = KD_OK;
     if (!march->steps || !n)
@@ -107,7 +107,7 @@ static uint32_t compare(const float *light, const float *finer, uint32_t n, doub
 enum kd_status kd_frame_march_error(struct kd_frame_job *j)
 {
     struct kd_accuracy_report *to = &j->frame->accuracy;
-    const uint32_t n = pixels_of(&j->plan->march.sample);
+    const uint32_t n = pixels_of(&j->plan->light.march.sample);
     double off[KD_MARCH_SAMPLED];
     if (!j->marched)
         return KD_OK;

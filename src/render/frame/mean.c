@@ -13,10 +13,11 @@ enum kd_status kd_frame_mean(struct kd_frame_job *j)
 {
     struct kd_vk *vk = j->r->vk;
     struct kd_vk_buffer *staging = NULL;
-    const uint64_t row = (uint64_t)3 * j->plan->width, band_bytes = sizeof(float) * row * j->plan->band_rows;
+    const uint64_t row = (uint64_t)3 * j->plan->picture.width,
+                   band_bytes = sizeof(float) * row * j->plan->picture.band_rows;
     enum kd_status status;
     KD_TRY(kd_vk_buffer_create(vk, band_bytes, KD_VK_UPLOAD, "mean light on the host", &staging, j->error));
-    for (uint32_t band = 0; band < j->plan->bands; band++) {
+    for (uint32_t band = 0; band < j->plan->picture.bands; band++) {
         const uint64_t n = row * kd_frame_band_rows(j, band);
         float *light = kd_vk_buffer_map(staging);
         KD_TRY(kd_vk_copy(vk, "readback", j->store->readback, 0, j->store->radiance.buffers[band], 0, sizeof(float) * n,

@@ -140,13 +140,13 @@ done:
 }
 
 /* The scene reduced to what the flux depends on. */
-static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan *plan)
+static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan_light *light)
 {
     struct kd_scene bare = kd_scene_whole(scene), plain;
     kd_scene_defaults(&plain);
     bare.image = plain.image;
-    bare.image.width = plan->shape.width ? (int32_t)plan->shape.width : scene->image.width;
-    bare.image.height = plan->shape.height ? (int32_t)plan->shape.height : scene->image.height;
+    bare.image.width = light->shape.width ? (int32_t)light->shape.width : scene->image.width;
+    bare.image.height = light->shape.height ? (int32_t)light->shape.height : scene->image.height;
     bare.image.samples = bare.image.critical_factor = 1;
     bare.style = plain.style;
     bare.style.bloom = bare.style.beam_uas = 0;
@@ -199,7 +199,7 @@ static struct search search_of(struct kd_renderer *renderer, const struct kd_sce
                                struct kd_error *error)
 {
     return (struct search) { .r = renderer,
-                             .scene = bare(scene, plan),
+                             .scene = bare(scene, &plan->light),
                              .target = scene->volume.normalise_to_jy,
                              .slope = THIN,
                              .error = error };
@@ -215,7 +215,7 @@ enum kd_status kd_frame_normalise_ask(struct kd_renderer *renderer, const struct
     struct kd_normal wanted;
     enum kd_status status;
     KD_TRY(keys_of(&s, &wanted));
-    for (size_t i = 0; i < 2 && !(known(&renderer->normalised, &wanted, plan->reuse_normalisation) > 0); i++) {
+    for (size_t i = 0; i < 2 && !(known(&renderer->normalised, &wanted, plan->light.reuse_normalisation) > 0); i++) {
         struct kd_scene own;
         struct kd_plan by;
         KD_TRY(plan_of(&s, sides[i], 0, &own, &by));
@@ -241,7 +241,7 @@ enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene 
     if (!(*density_of(scene) > 0))
         return refuse(&s, "there is no matter, and the flux is", 0);
     KD_TRY(keys_of(&s, &found));
-    found.scale = known(cache, &found, plan->reuse_normalisation);
+    found.scale = known(cache, &found, plan->light.reuse_normalisation);
     if (!(found.scale > 0)) {
         s.most = log(DENSEST / *density_of(scene));
         KD_TRY(search(&s, &found.scale));

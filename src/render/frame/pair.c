@@ -28,17 +28,17 @@ static enum kd_status render_eye(const struct kd_parted *pair, int side, double 
     enum kd_status status;
     if (side > 0 && isinf(eye.style.exposure))
         eye.style.exposure = exposure;
-    needs.quantities |= pair->plan->quantities;
-    needs.light |= pair->plan->light;
-    needs.radiance = pair->plan->radiance;
+    needs.quantities |= pair->plan->lens.quantities;
+    needs.light |= pair->plan->light.photometry;
+    needs.radiance = pair->plan->picture.radiance;
     kd_renderer_capacity(pair->renderer, &capacity);
     KD_TRY(kd_plan_make_for(&eye, &needs, &capacity, &plan, error));
-    plan.audit = plan.audit < pair->plan->audit ? plan.audit : pair->plan->audit;
-    plan.exposure_from = pair->plan->exposure_from;
-    plan.exposure_share = pair->plan->exposure_share;
-    if (pair->plan->told.on && (pair->plan->told.x < plan.width) == (side < 0)) {
-        plan.told = pair->plan->told;
-        plan.told.x -= side < 0 ? 0 : plan.width;
+    plan.lens.audit = plan.lens.audit < pair->plan->lens.audit ? plan.lens.audit : pair->plan->lens.audit;
+    plan.picture.exposure_from = pair->plan->picture.exposure_from;
+    plan.picture.exposure_share = pair->plan->picture.exposure_share;
+    if (pair->plan->report.probe.on && (pair->plan->report.probe.x < plan.picture.width) == (side < 0)) {
+        plan.report.probe = pair->plan->report.probe;
+        plan.report.probe.x -= side < 0 ? 0 : plan.picture.width;
     }
     status = kd_frame_render_part(pair, &eye, &plan, go_on, &half, out, error);
 done:

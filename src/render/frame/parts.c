@@ -56,5 +56,7 @@ enum kd_status kd_frame_render_part(const struct kd_parted *p, const struct kd_s
 
 enum kd_status kd_frame_parted(const struct kd_parted *p, struct kd_frame *out, struct kd_error *error)
 {
-    return (p->plan->eyes == 2 ? kd_frame_pair : p->plan->strips ? kd_frame_strips : kd_frame_tile)(p, out, error);
+    return (p->plan->picture.eyes == 2 ? kd_frame_pair
+            : p->plan->picture.strips  ? kd_frame_strips
+                                       : kd_frame_tile)(p, out, error);
 }

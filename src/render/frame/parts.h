@@ -17,9 +17,9 @@ struct kd_parted {
 
 /* Whether a plan consists of parts. kd_render_parts renders such a plan into *out, the whole picture. In a pair the
  * left eye's picture is on the left, and both pictures have its exposure. */
-static inline bool kd_plan_is_parted(const struct kd_plan *plan)
+static inline bool kd_plan_is_parted(const struct kd_plan_picture *picture)
 {
-    return plan->eyes == 2 || plan->cut.width || plan->strips;
+    return picture->eyes == 2 || picture->cut.width || picture->strips;
 }
 enum kd_status kd_frame_parted(const struct kd_parted *parted, struct kd_frame *out, struct kd_error *error);
 

@@ -11,26 +11,26 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
     const struct kd_plan *p = j->plan;
     const struct kd_vk_pipeline *light;
     bool finite = !isinf(j->scene->camera.r);
-    const uint64_t sums = kd_light_bytes(p) / p->bands; /* the sums are bound band by band, because all may exceed one
-                                                         * binding */
-    const struct kd_spec_photometry spec = { .SEPARATE_PHOTOMETRY = p->apart,
+    const uint64_t sums = kd_light_bytes(p) / p->picture.bands; /* the sums are bound band by band, because all may
+                                                                 * exceed one binding */
+    const struct kd_spec_photometry spec = { .SEPARATE_PHOTOMETRY = p->light.apart,
                                              .FINITE = finite,
-                                             .STOKES = p->stokes_words > 0,
-                                             .STOKES_APART = kd_plan_stokes_apart(p) };
-    const uint32_t per_band = kd_light_groups(p->width * p->band_rows);
+                                             .STOKES = p->light.stokes_words > 0,
+                                             .STOKES_APART = kd_plan_stokes_apart(&p->light) };
+    const uint32_t per_band = kd_light_groups(p->picture.width * p->picture.band_rows);
     enum kd_status status;
     KD_TRY(kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_PHOTOMETRY, &spec.SEPARATE_PHOTOMETRY, sizeof spec / 4,
                           &light, j->error));
-    for (uint32_t band = 0; band < p->bands; band++) {
+    for (uint32_t band = 0; band < p->picture.bands; band++) {
         const struct kd_light_push push = {
-            .pixels_x = p->width,
-            .pixels = p->width * kd_frame_band_rows(j, band),
+            .pixels_x = p->picture.width,
+            .pixels = p->picture.width * kd_frame_band_rows(j, band),
             .row0 = kd_frame_band_first(j, band),
-            .spots = 3 * p->width * p->band_rows,
-            .stokes = (p->apart ? 4 : 3) * p->width * p->band_rows,
-            .plane = p->width * p->band_rows,
-            .middle_x = (float)(0.5 * (p->width - 1)),
-            .middle_y = (float)(0.5 * (p->height - 1)),
+            .spots = 3 * p->picture.width * p->picture.band_rows,
+            .stokes = (p->light.apart ? 4 : 3) * p->picture.width * p->picture.band_rows,
+            .plane = p->picture.width * p->picture.band_rows,
+            .middle_x = (float)(0.5 * (p->picture.width - 1)),
+            .middle_y = (float)(0.5 * (p->picture.height - 1)),
             .step_ = (float)(finite ? kd_camera_pixel(j->scene) : 0),
         };
         const struct kd_vk_dispatch d = {

@@ -67,7 +67,7 @@ enum kd_status kd_frame_follow_lost(struct kd_frame_job *j, const struct kd_vk_d
     struct kd_vk_dispatch d = *base;
     uint32_t counts[KD_LOST_WAITING];
     enum kd_status status = KD_OK;
-    if (!j->plan->march.steps)
+    if (!j->plan->light.march.steps)
         return KD_OK;
     KD_TRY(read_counts(j, base, counts));
     uint32_t listed = counts[KD_LOST_LISTED - 1];
@@ -92,6 +92,6 @@ done:
 enum kd_status kd_frame_forget_lost(struct kd_frame_job *j, struct kd_vk_buffer *light, const char *pass)
 {
     const struct kd_vk_dispatch base = { .pass = pass, .bindings = { [3] = { light, 0, 0, true } } };
-    return j->plan->march.steps ? forget(j, &base, KD_LOST_WAITING, KD_LOST_WAITING)
-                                : forget(j, &base, KD_LOST_GIVEN_UP, 1);
+    return j->plan->light.march.steps ? forget(j, &base, KD_LOST_WAITING, KD_LOST_WAITING)
+                                      : forget(j, &base, KD_LOST_GIVEN_UP, 1);
 }

@@ -63,10 +63,10 @@ static enum kd_status kernel_of(struct kd_frame_job *j, const struct look *look,
         .ACES = j->scene->style.tone_map == KD_TONE_ACES,
         .NEUTRAL = j->scene->style.tone_map == KD_TONE_NEUTRAL,
         .WIDE = look->wide,
-        .TOGETHER = kd_bloom_together(look->bloom, j->plan->width),
+        .TOGETHER = kd_bloom_together(look->bloom, j->plan->picture.width),
         .AROUND = look->bloom->around,
     };
-    const uint64_t band_pixels = (uint64_t)j->plan->width * j->plan->band_rows;
+    const uint64_t band_pixels = (uint64_t)j->plan->picture.width * j->plan->picture.band_rows;
     const enum kd_kernel kernel =
         kd_kernel_post(kd_kernels_texels(vk, band_pixels) && kd_kernels_cells_as_texels(vk, look->bloom),
                        look->bloom->levels, has_heat(j, look));
@@ -104,14 +104,14 @@ static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
     const size_t pixel_bytes = look->wide ? 6 : 3;
     const struct kd_bloom *bloom = look->bloom;
     const struct kd_vk_binding cells = { s->bloom, bloom->sums[0], 16ull * kd_bloom_cells(bloom, 0), false };
-    const uint64_t band_pixels = (uint64_t)j->plan->width * j->plan->band_rows;
+    const uint64_t band_pixels = (uint64_t)j->plan->picture.width * j->plan->picture.band_rows;
     const uint64_t counts = kd_post_bytes(band_pixels, look->wide ? 16 : 8);
     enum kd_status status = KD_OK;
     if (has_heat(j, look) && !s->palette)
         KD_TRY(make_palette(j));
     if (!look->bare)
         frame->accuracy.lost = 0;
-    for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band); band++) {
+    for (uint32_t band = 0; band < j->plan->picture.bands && kd_frame_band_lit(j, band); band++) {
         KD_TRY(kernel_of(j, look, &post));
         uint32_t pixels = frame->width * kd_frame_band_lit(j, band);
         uint32_t first = frame->width * kd_frame_band_first(j, band);
@@ -154,7 +154,7 @@ static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
             frame->accuracy.lost += counted(s, counts);
         KD_TRY(kd_frame_report(j, look->bare ? 0 : kd_frame_band_rows(j, band)));
     }
-    if (!look->bare && scene->style.colour_bar && !kd_plan_is_map(j->plan))
+    if (!look->bare && scene->style.colour_bar && !kd_plan_is_map(&j->plan->picture))
         draw_scales(j);
 done:
     return status;
@@ -162,14 +162,14 @@ done:
 
 enum kd_status kd_frame_post(struct kd_frame_job *j)
 {
-    const struct look look = { kd_frame_bit_depth(j->frame) == 16, j->scene->style.dither, false, &j->plan->bloom,
-                               kd_frame_pixels(j->frame) };
+    const struct look look = { kd_frame_bit_depth(j->frame) == 16, j->scene->style.dither, false,
+                               &j->plan->picture.bloom, kd_frame_pixels(j->frame) };
     return post_as(j, &look);
 }
 
 enum kd_status kd_frame_post_kernel(struct kd_frame_job *j, const struct kd_vk_pipeline **out)
 {
-    const struct look look = { .wide = j->scene->image.bit_depth == 16, .bloom = &j->plan->bloom };
+    const struct look look = { .wide = j->scene->image.bit_depth == 16, .bloom = &j->plan->picture.bloom };
     return kernel_of(j, &look, out);
 }
 

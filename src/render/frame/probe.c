@@ -160,7 +160,7 @@ static enum kd_status follow(struct kd_frame_job *j, const struct source *s, str
 {
     const struct kd_vk_pipeline *pipeline;
     enum kd_status status;
-    if (!j->plan->planes && !j->plan->march.steps) /* nothing emits light */
+    if (!j->plan->lens.planes && !j->plan->light.march.steps) /* nothing emits light */
         return KD_OK;
     KD_TRY(kd_frame_light_kernel(j, s->lattice, KD_MAKES_TOLD, &pipeline));
     struct kd_vk_dispatch d = kd_frame_transfer(j, pipeline, s->lens, s->band, s->camera, KD_MAKES_PICTURE);
@@ -200,7 +200,7 @@ static struct kd_probed_ray ray_at(uint32_t steps_a_pixel, uint32_t x, uint32_t 
 static enum kd_status follow_grid(struct kd_frame_job *j, struct source *s)
 {
     struct kd_probed_pixel *told = j->frame->told;
-    const uint32_t side = j->plan->side, middle = (side - 1) / 2;
+    const uint32_t side = j->plan->lens.side, middle = (side - 1) / 2;
     enum kd_status status = make_room(j, side * side);
     for (uint32_t i = 0; i < side * side && !status; i++) {
         struct kd_probed_ray *ray = &told->each[i];
@@ -218,24 +218,24 @@ enum kd_status kd_frame_probe(struct kd_frame_job *j, uint32_t band)
     static const struct kd_critical_lattice on_grid; /* all 0: the grid */
     const struct kd_plan *p = j->plan;
     const uint32_t first = kd_frame_band_first(j, band);
-    if (!p->told.on || p->told.y < first || p->told.y >= first + kd_frame_band_rows(j, band))
+    if (!p->report.probe.on || p->report.probe.y < first || p->report.probe.y >= first + kd_frame_band_rows(j, band))
         return KD_OK;
     struct source s = {
         .lattice = &on_grid,
         .lens = kd_frame_band_lens(j, band),
         .band = band,
         .camera = KD_CAMERA_GRID,
-        .push = { .band0 = first * p->side,
-                  .stride = p->width * p->side * p->band_rows * p->side,
-                  .steps = p->march.steps,
-                  .fine = p->march.fine,
-                  .opaque = (float)p->march.opaque,
-                  .unseen = (float)p->march.unseen },
+        .push = { .band0 = first * p->lens.side,
+                  .stride = p->picture.width * p->lens.side * p->picture.band_rows * p->lens.side,
+                  .steps = p->light.march.steps,
+                  .fine = p->light.march.fine,
+                  .opaque = (float)p->light.march.opaque,
+                  .unseen = (float)p->light.march.unseen },
     };
     enum kd_status status = KD_OK;
     if (!j->frame->told && !(j->frame->told = calloc(1, sizeof *j->frame->told)))
         return kd_error_set(j->error, KD_ENOMEM, "out of memory for the report on a pixel");
-    j->frame->told->x = p->told.x, j->frame->told->y = p->told.y;
+    j->frame->told->x = p->report.probe.x, j->frame->told->y = p->report.probe.y;
     KD_TRY(kd_vk_buffer_create(j->r->vk, SIZE, KD_VK_READBACK, "light of a ray", &s.records, j->error));
     KD_TRY(follow_grid(j, &s));
 done:
@@ -262,7 +262,7 @@ enum kd_status kd_frame_probe_listed(struct kd_frame_job *j, const struct kd_fra
         return KD_OK;
     struct source s = { .lattice = lattice,
                         .lens = part->lens,
-                        .band = told->y / j->plan->band_rows,
+                        .band = told->y / j->plan->picture.band_rows,
                         .camera = part->list->camera,
                         .push = part->push };
     s.push.row0 = (uint32_t)at;
@@ -288,7 +288,7 @@ static enum kd_status say_no_steps(struct kd_probed_pixel *told, const char *why
     return KD_OK;
 }
 
-static struct kd_rays_params params_of_steps(const struct kd_scene *scene, const struct kd_plan *plan)
+static struct kd_rays_params params_of_steps(const struct kd_scene *scene, const struct kd_plan_lens *lens)
 {
     return (struct kd_rays_params) {
         .spin = scene->spacetime.spin,
@@ -296,27 +296,27 @@ static struct kd_rays_params params_of_steps(const struct kd_scene *scene, const
         .r = scene->camera.r,
         .inclination_deg = scene->camera.inclination_deg,
         .orders = (uint32_t)scene->accuracy.orders,
-        .engine = plan->setting.engine,
-        .precision = plan->setting.precision,
-        .steps = plan->setting.steps,
+        .engine = lens->setting.engine,
+        .precision = lens->setting.precision,
+        .steps = lens->setting.steps,
     };
 }
 
 enum kd_status kd_frame_probe_ask(struct kd_frame_job *j)
 {
-    const struct kd_rays_params params = params_of_steps(j->scene, j->plan);
-    return j->plan->told.steps ? kd_rays_steps_ask(j->r, &params) : KD_OK;
+    const struct kd_rays_params params = params_of_steps(j->scene, &j->plan->lens);
+    return j->plan->report.probe.steps ? kd_rays_steps_ask(j->r, &params) : KD_OK;
 }
 
 /* Records the engine's steps along the middle ray, from its labels. */
 static enum kd_status tell_steps(struct kd_frame_job *j)
 {
     struct kd_probed_pixel *told = j->frame->told;
-    const struct kd_setting *by = &j->plan->setting;
-    const struct kd_scene *scene = j->scene, counted = told->middle.steps_a_pixel == j->plan->side
+    const struct kd_setting *by = &j->plan->lens.setting;
+    const struct kd_scene *scene = j->scene, counted = told->middle.steps_a_pixel == j->plan->lens.side
                                                            ? *scene
                                                            : kd_critical_camera(scene, told->middle.steps_a_pixel);
-    const struct kd_rays_params params = params_of_steps(scene, j->plan);
+    const struct kd_rays_params params = params_of_steps(scene, &j->plan->lens);
     struct kd_camera_label label;
     struct kd_error error = { 0 };
     if (by->engine == KD_ENGINE_CLOSED)
@@ -325,7 +325,7 @@ static enum kd_status tell_steps(struct kd_frame_job *j)
     if (scene->camera.r <= kd_scene_hole(scene)->outer)
         return say_no_steps(told, "the observer is inside the horizon, where rays have no alpha and beta: use the "
                                   "path, which has its own steps");
-    kd_lens_label(&counted, j->plan, told->middle.x, told->middle.y, &label);
+    kd_lens_label(&counted, &j->plan->lens, told->middle.x, told->middle.y, &label);
     const double alpha_beta[] = { label.alpha, label.beta };
     const bool outward = label.outward && isfinite(scene->camera.r);
     if (!(told->steps = calloc(1, sizeof *told->steps)))
@@ -351,8 +351,8 @@ enum kd_status kd_frame_probe_pixel(struct kd_frame_job *j)
     enum kd_status status = KD_OK;
     if (!told)
         return KD_OK;
-    const uint32_t band = told->y / j->plan->band_rows;
-    const uint64_t pixel = (uint64_t)(told->y - kd_frame_band_first(j, band)) * j->plan->width + told->x;
+    const uint32_t band = told->y / j->plan->picture.band_rows;
+    const uint64_t pixel = (uint64_t)(told->y - kd_frame_band_first(j, band)) * j->plan->picture.width + told->x;
     told->whole = true;
     KD_TRY(kd_vk_buffer_create(j->r->vk, sizeof told->radiance, KD_VK_READBACK, "light of a pixel", &host, j->error));
     KD_TRY(kd_vk_copy(j->r->vk, "readback", host, 0, j->store->radiance.buffers[band], 12 * pixel,
@@ -360,7 +360,7 @@ enum kd_status kd_frame_probe_pixel(struct kd_frame_job *j)
     KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
     KD_TRY(kd_vk_wait(j->r->vk, 0, j->error));
     memcpy(told->radiance, kd_vk_buffer_map(host), sizeof told->radiance);
-    if (j->plan->told.steps)
+    if (j->plan->report.probe.steps)
         KD_TRY(tell_steps(j));
 done:
     kd_vk_buffer_destroy(j->r->vk, host);

@@ -26,7 +26,7 @@ static void finish(struct work *w)
 
 static enum kd_status init(struct kd_frame_job *j, struct work *w)
 {
-    const size_t pixels = (size_t)j->plan->width * j->plan->height;
+    const size_t pixels = (size_t)j->plan->picture.width * j->plan->picture.height;
     *w = (struct work) { malloc(6 * pixels), malloc(6 * pixels) };
     j->kinds = calloc(pixels, 1);
     return w->now && w->before && j->kinds
@@ -37,7 +37,7 @@ static enum kd_status init(struct kd_frame_job *j, struct work *w)
 static void take(struct kd_frame_job *j, const struct kd_critical_pixels *list, uint8_t kind)
 {
     for (size_t i = 0; i < list->n; i++)
-        j->kinds[list->pixels[i].y * (size_t)j->plan->width + list->pixels[i].x] = kind;
+        j->kinds[list->pixels[i].y * (size_t)j->plan->picture.width + list->pixels[i].x] = kind;
 }
 
 /* The pixels of a round by the source of their rays, row by row: pixels at the critical curve, which have more rays
@@ -66,10 +66,10 @@ static enum kd_status light(struct kd_frame_job *j, int way, const struct kd_cri
         .pass = kd_passes[KD_PASS_REFINE].name,
     };
     if (way == AT_CURVE) {
-        list.lattice = kd_critical_lattice(p->critical_dense);
+        list.lattice = kd_critical_lattice(p->lens.critical_dense);
         list.camera = KD_CAMERA_DENSE_CRITICAL;
     }
-    list.most = kd_plan_listed_most(p, list.lattice.rays);
+    list.most = kd_plan_listed_most(&p->lens, list.lattice.rays);
     return kd_frame_light_list(j, &list, true);
 }
 
@@ -79,7 +79,7 @@ static enum kd_status part(struct kd_frame_job *j, const struct kd_choice *c, co
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < c->list.n && !status; i++) {
         const struct kd_pixel p = c->list.pixels[i];
-        const bool at_curve = j->kinds[p.y * (size_t)j->plan->width + p.x] == KD_REFINED_NOT_AT_CURVE;
+        const bool at_curve = j->kinds[p.y * (size_t)j->plan->picture.width + p.x] == KD_REFINED_NOT_AT_CURVE;
         status = kd_choice_add(&to->of[at_curve ? AT_CURVE : marks[i] ? BETWEEN : FOLLOWED], p, c->scores[i], j->error);
     }
     return status;
@@ -95,11 +95,11 @@ static enum kd_status one_round(struct kd_frame_job *j, const struct kd_choice *
     KD_TRY(status);
     KD_TRY(kd_frame_mark_between(j, &c->list, marks));
     KD_TRY(part(j, c, marks, by));
-    if (j->plan->critical_dense)
-        kd_choose_largest(&by->of[AT_CURVE], *left / 2 / j->plan->critical_dense);
-    *left -= by->of[AT_CURVE].list.n * j->plan->critical_dense;
-    kd_choose_largest(&by->of[FOLLOWED], *left / j->plan->adaptive);
-    *left -= by->of[FOLLOWED].list.n * j->plan->adaptive;
+    if (j->plan->lens.critical_dense)
+        kd_choose_largest(&by->of[AT_CURVE], *left / 2 / j->plan->lens.critical_dense);
+    *left -= by->of[AT_CURVE].list.n * j->plan->lens.critical_dense;
+    kd_choose_largest(&by->of[FOLLOWED], *left / j->plan->lens.adaptive);
+    *left -= by->of[FOLLOWED].list.n * j->plan->lens.adaptive;
     for (int way = 0; way < WAYS; way++) {
         KD_TRY(light(j, way, &by->of[way].list));
         take(j, &by->of[way].list, kind_of[way]);
@@ -114,13 +114,14 @@ done:
 static enum kd_status rounds(struct kd_frame_job *j, struct work *w)
 {
     const double off = j->scene->image.pixel_error;
-    const struct kd_shown now = { w->now, j->kinds, KD_REFINED_AT_CURVE, j->plan->width, j->plan->height };
-    const uint64_t most = kd_plan_followed_most(j->plan);
+    const struct kd_shown now = { w->now, j->kinds, KD_REFINED_AT_CURVE, j->plan->picture.width,
+                                  j->plan->picture.height };
+    const uint64_t most = kd_plan_followed_most(&j->plan->lens);
     uint64_t left = most;
     struct ways by = { 0 };
     struct kd_choice choice = { 0 };
     enum kd_status status = KD_OK;
-    if (j->plan->critical)
+    if (j->plan->lens.critical)
         take(j, &j->lens->pixels, KD_REFINED_NOT_AT_CURVE);
     KD_TRY(kd_frame_bare(j, w->now));
     KD_TRY(kd_choose_bent(&now, off, &choice, j->error));
@@ -150,11 +151,11 @@ static enum kd_status rehearse(struct kd_frame_job *j)
     const struct kd_critical_pixels one = { &pixel, 1 };
     uint8_t mark;
     enum kd_status status;
-    if (j->plan->critical)
+    if (j->plan->lens.critical)
         take(j, &j->lens->pixels, KD_REFINED_NOT_AT_CURVE);
     KD_TRY(kd_frame_mark_between(j, &one, &mark));
     for (int way = 0; way < WAYS; way++)
-        if ((way != AT_CURVE || j->plan->critical_dense) && (way != BETWEEN || kd_frame_has_between(j)))
+        if ((way != AT_CURVE || j->plan->lens.critical_dense) && (way != BETWEEN || kd_frame_has_between(j)))
             KD_TRY(light(j, way, &one));
 done:
     return status;

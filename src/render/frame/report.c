@@ -10,8 +10,8 @@
 
 static enum kd_status preview(struct kd_frame_job *j)
 {
-    size_t row = j->plan->width * kd_layer_pixel_bytes(&j->frame->layers[0]);
-    memset((char *)kd_frame_pixels(j->frame) + row * j->lit, 0, row * (j->plan->height - j->lit));
+    size_t row = j->plan->picture.width * kd_layer_pixel_bytes(&j->frame->layers[0]);
+    memset((char *)kd_frame_pixels(j->frame) + row * j->lit, 0, row * (j->plan->picture.height - j->lit));
     j->looking = true;
     enum kd_status status;
     KD_TRY(kd_frame_show(j));
@@ -92,7 +92,7 @@ enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
         return status;
     if (!go_on)
         return kd_error_set(j->error, KD_ECANCELLED, "the render was cancelled");
-    bool part = j->preview && !j->plan->no_image && !j->looking && j->lit && j->lit < j->plan->height;
+    bool part = j->preview && !j->plan->picture.no_image && !j->looking && j->lit && j->lit < j->plan->picture.height;
     return part && j->preview->wanted(j->user) ? preview(j) : KD_OK;
 }
 

@@ -86,7 +86,7 @@ static size_t chosen(uint64_t n, uint64_t at[OF_EACH])
 
 static void draw(const struct kd_frame_job *j, struct sample of_place[PLACES])
 {
-    const size_t width = j->plan->width, pixels = width * j->plan->height;
+    const size_t width = j->plan->picture.width, pixels = width * j->plan->picture.height;
     uint64_t of[KINDS] = { 0 }, seen[KINDS] = { 0 }, at[KINDS][OF_EACH];
     size_t k[KINDS] = { 0 }, next[KINDS] = { 0 };
     for (size_t i = 0; i < pixels; i++)
@@ -112,9 +112,9 @@ static enum kd_status read_sample(struct kd_frame_job *j, const struct sample *s
 {
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < s->n && !status; i++) {
-        const uint32_t band = s->pixels[i].y / j->plan->band_rows;
+        const uint32_t band = s->pixels[i].y / j->plan->picture.band_rows;
         const uint64_t at =
-            12 * ((uint64_t)(s->pixels[i].y - kd_frame_band_first(j, band)) * j->plan->width + s->pixels[i].x);
+            12 * ((uint64_t)(s->pixels[i].y - kd_frame_band_first(j, band)) * j->plan->picture.width + s->pixels[i].x);
         status = kd_vk_copy(j->r->vk, kd_passes[KD_PASS_REFINE].name, host, 12 * i, j->store->radiance.buffers[band],
                             at, 12, j->error);
     }
@@ -135,10 +135,10 @@ static enum kd_status light_sample(struct kd_frame_job *j, const struct sample *
         .pass = kd_passes[KD_PASS_REFINE].name,
     };
     if (place == AT_CURVE) {
-        truth.lattice = kd_critical_lattice(j->plan->critical_dense);
+        truth.lattice = kd_critical_lattice(j->plan->lens.critical_dense);
         truth.camera = KD_CAMERA_DENSE_CRITICAL;
     }
-    truth.most = kd_plan_listed_most(j->plan, truth.lattice.rays);
+    truth.most = kd_plan_listed_most(&j->plan->lens, truth.lattice.rays);
     return kd_frame_light_list(j, &truth, true);
 }
 
@@ -181,7 +181,7 @@ enum kd_status kd_frame_residual(struct kd_frame_job *j)
         sum += compare(j, s, kd_vk_buffer_map(host[0]), kd_vk_buffer_map(host[1]), &to->pixel_error_worst);
         to->pixel_sampled += (uint32_t)s->n;
     }
-    to->pixel_error = sqrt(sum / ((double)j->plan->width * j->plan->height));
+    to->pixel_error = sqrt(sum / ((double)j->plan->picture.width * j->plan->picture.height));
 done:
     kd_vk_buffer_destroy(j->r->vk, host[0]);
     kd_vk_buffer_destroy(j->r->vk, host[1]);

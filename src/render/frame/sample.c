@@ -9,22 +9,24 @@
 
 static enum kd_status cells_kernel(struct kd_frame_job *j, const struct kd_vk_pipeline **out)
 {
-    const struct kd_spec_sample spec = { .QUANTITIES = j->plan->quantities, .ORDERS = j->plan->orders };
+    const struct kd_spec_sample spec = { .QUANTITIES = j->plan->lens.quantities, .ORDERS = j->plan->lens.orders };
     return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_CELLS, &spec.QUANTITIES, sizeof spec / 4, out,
                           j->error);
 }
 
 static enum kd_status fill_kernel(struct kd_frame_job *j, bool of_sky, const struct kd_vk_pipeline **out)
 {
-    const struct kd_spec_fill spec = { .QUANTITIES = j->plan->quantities, .ORDERS = j->plan->orders, .OF_SKY = of_sky };
+    const struct kd_spec_fill spec = { .QUANTITIES = j->plan->lens.quantities,
+                                       .ORDERS = j->plan->lens.orders,
+                                       .OF_SKY = of_sky };
     return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_FILL + (kd_kernels_map_as_texels(j->r->vk) ? 1 : 0),
                           &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
 /* Whether smooth cells are filled with crossings, or with the ends of rays. */
-static bool fills(const struct kd_plan *plan, bool of_sky)
+static bool fills(const struct kd_plan_lens *lens, bool of_sky)
 {
-    return of_sky ? kd_plan_holds(plan, KD_LENS_SKY) : plan->orders > 0;
+    return of_sky ? kd_plan_holds(lens, KD_LENS_SKY) : lens->orders > 0;
 }
 
 enum kd_status kd_frame_sample_kernels(struct kd_frame_job *j)
@@ -32,7 +34,7 @@ enum kd_status kd_frame_sample_kernels(struct kd_frame_job *j)
     const struct kd_vk_pipeline *later;
     enum kd_status status = cells_kernel(j, &later);
     for (int of_sky = 0; of_sky < 2 && !status; of_sky++)
-        if (fills(j->plan, of_sky))
+        if (fills(&j->plan->lens, of_sky))
             status = fill_kernel(j, of_sky, &later);
     return status;
 }
@@ -108,7 +110,7 @@ static enum kd_status trace(struct run *run, uint32_t stage)
     const struct kd_slice push = {
         .band0 = run->push.band0,
         .stride = alone ? run->push.stride : run->grid.room,
-        .list = j->plan->planes * run->grid.room,
+        .list = j->plan->lens.planes * run->grid.room,
         .stage = stage,
         .origin_x = run->push.origin_x,
         .origin_y = run->push.origin_y,
@@ -152,13 +154,13 @@ static enum kd_status fill_nothing(struct run *run)
     uint32_t word;
     enum kd_status status = KD_OK;
     memcpy(&word, &captured, sizeof word);
-    for (uint32_t n = 0; n < p->orders && !status; n++)
+    for (uint32_t n = 0; n < p->lens.orders && !status; n++)
         status =
             kd_vk_fill(run->j->r->vk, name(KD_PASS_INTERPOLATE), run->lens, n * plane + first, bytes, 0, run->j->error);
-    if (!status && kd_plan_holds(p, KD_LENS_FATE))
+    if (!status && kd_plan_holds(&p->lens, KD_LENS_FATE))
         status = kd_vk_fill(run->j->r->vk, name(KD_PASS_INTERPOLATE), run->lens,
-                            kd_lens_plane(p->quantities, p->orders, KD_LENS_FATE) * plane + first, bytes, word,
-                            run->j->error);
+                            kd_lens_plane(p->lens.quantities, p->lens.orders, KD_LENS_FATE) * plane + first, bytes,
+                            word, run->j->error);
     return status;
 }
 
@@ -166,11 +168,11 @@ enum kd_status kd_frame_sample(struct kd_frame_job *j, uint32_t band, uint32_t f
 {
     const struct kd_plan *p = j->plan;
     const struct kd_window window = kd_scene_window(j->scene);
-    const uint32_t row0 = first * p->side, rows = count * p->side;
+    const uint32_t row0 = first * p->lens.side, rows = count * p->lens.side;
     struct run run = {
         .j = j,
         .lens = kd_frame_band_lens(j, band),
-        .grid = kd_sample_grid(p, window.left * p->side, window.top * p->side, row0, rows),
+        .grid = kd_sample_grid(p, window.left * p->lens.side, window.top * p->lens.side, row0, rows),
         .camera = { j->store->cameras, KD_CAMERA_GRID * KD_CAMERA_BYTES, KD_CAMERA_BYTES, false },
     };
     run.push = (struct kd_sample_push) {
@@ -178,13 +180,13 @@ enum kd_status kd_frame_sample(struct kd_frame_job *j, uint32_t band, uint32_t f
         .origin_y = (uint32_t)run.grid.origin_y,
         .blocks_x = run.grid.blocks_x,
         .blocks_y = run.grid.blocks_y,
-        .width = p->width * p->side,
+        .width = p->picture.width * p->lens.side,
         .rows = rows,
         .row0 = row0,
-        .band0 = kd_frame_band_first(j, band) * p->side,
-        .stride = p->width * p->side * p->band_rows * p->side,
+        .band0 = kd_frame_band_first(j, band) * p->lens.side,
+        .stride = p->picture.width * p->lens.side * p->picture.band_rows * p->lens.side,
         .room = run.grid.room,
-        .tolerance = (float)p->interpolates,
+        .tolerance = (float)p->lens.interpolates,
     };
     enum kd_status status;
     KD_TRY(make_buffers(&run));
@@ -202,7 +204,7 @@ enum kd_status kd_frame_sample(struct kd_frame_job *j, uint32_t band, uint32_t f
             KD_TRY(submit_new(j));
     }
     for (int of_sky = 0; of_sky < 2; of_sky++)
-        if (fills(p, of_sky)) {
+        if (fills(&p->lens, of_sky)) {
             KD_TRY(submit_new(j));
             KD_TRY(fill(&run, of_sky));
         }
@@ -215,7 +217,7 @@ done:
 void kd_frame_count_sampled(struct kd_frame_job *j, uint32_t count)
 {
     const uint32_t *head = kd_vk_buffer_map(j->store->sample_head);
-    const uint64_t rays = (uint64_t)count * j->plan->width * j->plan->side * j->plan->side;
+    const uint64_t rays = (uint64_t)count * j->plan->picture.width * j->plan->lens.side * j->plan->lens.side;
     for (uint32_t stage = 0; stage < KD_SAMPLE_STAGES; stage++)
         j->traced += head[4 * stage + 3];
     j->interpolated += rays - head[4 * KD_STAGE_ALONE + 3];

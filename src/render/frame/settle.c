@@ -26,8 +26,9 @@ static const char *pass_of(const struct kd_frame_part *part)
 
 enum kd_status kd_frame_forget_open(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
-    return j->plan->path != KD_LENS_LISTED ? kd_vk_fill(j->r->vk, pass_of(part), j->store->undecided, 0, 4, 0, j->error)
-                                           : KD_OK;
+    return j->plan->lens.path != KD_LENS_LISTED
+               ? kd_vk_fill(j->r->vk, pass_of(part), j->store->undecided, 0, 4, 0, j->error)
+               : KD_OK;
 }
 
 static uint32_t places_of(const struct kd_frame_job *j)
@@ -54,14 +55,14 @@ static enum kd_status follow(struct kd_frame_job *j, const struct open_rays *ope
 {
     const struct kd_plan *p = j->plan;
     uint32_t *words = kd_vk_buffer_map(host);
-    const uint32_t push[3] = { open->n, p->planes, open->stride };
+    const uint32_t push[3] = { open->n, p->lens.planes, open->stride };
     struct kd_vk_dispatch d = {
         pass, NULL, { { open->lens, 0, 0, true }, { device, 0, 0, false } }, push, { kd_frame_groups(open->n) }
     };
     enum kd_status status;
     memcpy(words, open->places, 4ull * open->n);
     KD_TRY(kd_lens_again(j->scene, p, open->labels, open->n, (float *)words + open->n, &j->undecided, j->error));
-    KD_TRY(kd_vk_copy(j->r->vk, "upload", device, 0, host, 0, 4ull * open->n * (1 + p->planes), j->error));
+    KD_TRY(kd_vk_copy(j->r->vk, "upload", device, 0, host, 0, 4ull * open->n * (1 + p->lens.planes), j->error));
     KD_TRY(kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_SETTLE, NULL, 0, &d.pipeline, j->error));
     KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
 done:
@@ -70,7 +71,7 @@ done:
 
 static enum kd_status send(struct kd_frame_job *j, const struct open_rays *open, const char *pass)
 {
-    const uint64_t bytes = 4ull * open->n * (1 + j->plan->planes);
+    const uint64_t bytes = 4ull * open->n * (1 + j->plan->lens.planes);
     struct kd_vk_buffer *host = NULL, *device = NULL;
     enum kd_status status;
     KD_TRY(kd_vk_buffer_create(j->r->vk, bytes, KD_VK_UPLOAD, "rays that were settled", &host, j->error));
@@ -90,8 +91,8 @@ static void label(const struct kd_frame_job *j, struct open_rays *open, const st
     const struct kd_critical_lattice *l = part ? &part->list->lattice : NULL;
     const struct kd_scene camera = part ? kd_critical_camera(j->scene, kd_critical_steps(l)) : *j->scene;
     const struct kd_camera_exact exact = kd_camera_exact(&camera);
-    const uint32_t width = part ? l->rays : j->plan->width * j->plan->side,
-                   row0 = part ? 0 : kd_frame_band_first(j, band) * j->plan->side;
+    const uint32_t width = part ? l->rays : j->plan->picture.width * j->plan->lens.side,
+                   row0 = part ? 0 : kd_frame_band_first(j, band) * j->plan->lens.side;
     for (uint32_t i = 0; i < open->n; i++) {
         struct kd_pixel at = { open->places[i] % width, row0 + open->places[i] / width };
         if (part)
@@ -108,7 +109,7 @@ static enum kd_status settle(struct kd_frame_job *j, const struct kd_frame_part 
     struct open_rays open = {
         .lens = part ? part->lens : kd_frame_band_lens(j, band),
         .n = found < most ? found : most,
-        .stride = part ? part->push.stride : p->width * p->side * p->band_rows * p->side,
+        .stride = part ? part->push.stride : p->picture.width * p->lens.side * p->picture.band_rows * p->lens.side,
     };
     enum kd_status status = KD_OK;
     if (open.n > READ_AT_ONCE)
@@ -129,7 +130,7 @@ done:
 
 enum kd_status kd_frame_settle(struct kd_frame_job *j, const struct kd_frame_part *part, uint32_t band)
 {
-    if (j->plan->path == KD_LENS_LISTED)
+    if (j->plan->lens.path == KD_LENS_LISTED)
         return KD_OK;
     const uint32_t most = places_of(j);
     enum kd_status status = read_list(j, most < READ_AT_ONCE ? most : READ_AT_ONCE);

@@ -28,7 +28,7 @@ struct part {
 enum rays { NO_RIM, BESIDE_RIM, OF_RIM };
 
 /* Whether the rim is searched. A search for bright images only leaves it out. */
-static bool has_rim(const struct kd_frame_job *j) { return j->lens->rim.there && !j->plan->bright; }
+static bool has_rim(const struct kd_frame_job *j) { return j->lens->rim.there && !j->plan->light.bright; }
 
 static enum rays rays_of(const struct kd_frame_job *j, const struct part *part)
 {
@@ -40,14 +40,14 @@ static enum kd_status kernel(struct kd_frame_job *j, enum rays rays, enum kd_ker
 {
     const struct kd_plan *p = j->plan;
     const struct kd_spec_stars spec = {
-        .QUANTITIES = p->quantities,
-        .ORDERS = p->orders,
-        .SIDE = p->side,
+        .QUANTITIES = p->lens.quantities,
+        .ORDERS = p->lens.orders,
+        .SIDE = p->lens.side,
         .SIGHT = kd_camera_sight(j->scene),
         .VISIBLE = j->scene->disk.band == KD_BAND_VISIBLE,
         .TILE = tile,
         .RIM = rays,
-        .BRIGHT = p->bright && (kernel == KD_KERNEL_STAR_TILES || kernel == KD_KERNEL_STAR_TILES_TEXELS),
+        .BRIGHT = p->light.bright && (kernel == KD_KERNEL_STAR_TILES || kernel == KD_KERNEL_STAR_TILES_TEXELS),
     };
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
@@ -61,7 +61,7 @@ static bool reads_texels(const struct kd_frame_job *j, uint64_t stars)
 /* The number of stars is not known yet, so the catalogue's is assumed, the largest possible one. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *j)
 {
-    const bool rim = kd_rim_may_be(j->scene) && !j->plan->bright, texels = reads_texels(j, 1u << 17);
+    const bool rim = kd_rim_may_be(j->scene) && !j->plan->light.bright, texels = reads_texels(j, 1u << 17);
     const enum kd_kernel tiles = texels ? KD_KERNEL_STAR_TILES_TEXELS : KD_KERNEL_STAR_TILES,
                          find = texels ? KD_KERNEL_STAR_SEARCH_TEXELS : KD_KERNEL_STAR_SEARCH,
                          images = texels ? KD_KERNEL_STAR_IMAGES_TEXELS : KD_KERNEL_STAR_IMAGES;
@@ -198,7 +198,7 @@ static struct kd_stars_push push_of(const struct kd_frame_job *j)
         .room = KD_PLAN_PAIRS,
         .tiles = kd_plan_star_tiles(j->plan),
         .stars = sky->n,
-        .least = j->plan->bright ? (float)KD_STAR_LEAST_BRIGHT : (float)KD_STAR_LEAST,
+        .least = j->plan->light.bright ? (float)KD_STAR_LEAST_BRIGHT : (float)KD_STAR_LEAST,
         .none = (float)r->none,
         .full = (float)r->full,
         .ahead_x = (float)r->ahead[0],
@@ -227,23 +227,23 @@ static void set_light(struct kd_stars_push *push, const struct kd_frame_job *j, 
 static enum kd_status rows_of(struct kd_frame_job *j, uint32_t from, uint32_t first, uint32_t end, uint32_t to)
 {
     const struct kd_plan *p = j->plan;
-    const uint32_t width = p->width * p->side;
+    const uint32_t width = p->picture.width * p->lens.side;
     const struct kd_window window = kd_scene_window(j->scene);
     struct part part = { .lens = kd_frame_band_lens(j, from),
                          .push = push_of(j),
                          .light = j->lens->star_light.buffers[to] };
     part.push.width = part.push.right = width;
-    part.push.rows = kd_frame_band_rows(j, from) * p->side;
-    part.push.stride = width * p->band_rows * p->side;
-    part.push.row0 = (window.top + kd_frame_band_first(j, from)) * p->side;
-    part.push.column0 = window.left * p->side;
+    part.push.rows = kd_frame_band_rows(j, from) * p->lens.side;
+    part.push.stride = width * p->picture.band_rows * p->lens.side;
+    part.push.row0 = (window.top + kd_frame_band_first(j, from)) * p->lens.side;
+    part.push.column0 = window.left * p->lens.side;
     set_light(&part.push, j, to);
     uint32_t step = KD_PLAN_STAR_RAYS / width;
     step = step > KD_STAR_TILE ? step / KD_STAR_TILE * KD_STAR_TILE : step ? step : 1; /* a multiple of the tile */
     enum kd_status status = KD_OK;
-    for (uint32_t row = first * p->side; row < end * p->side && !status; row += step) {
+    for (uint32_t row = first * p->lens.side; row < end * p->lens.side && !status; row += step) {
         part.push.first = row;
-        part.push.end = end * p->side - row < step ? end * p->side : row + step;
+        part.push.end = end * p->lens.side - row < step ? end * p->lens.side : row + step;
         KD_TRY(stars_of(j, &part));
         KD_TRY(submit(j));
     }
@@ -296,16 +296,16 @@ static enum kd_status spread_over(struct kd_frame_job *j, uint32_t band)
     const uint32_t rows = kd_frame_band_rows(j, band);
     enum kd_status status;
     KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_STARS].name, j->lens->star_light.buffers[band], 0,
-                      24ull * p->width * rows, 0, j->error));
+                      24ull * p->picture.width * rows, 0, j->error));
     if (has_rim(j))
         KD_TRY(kd_frame_trace_rim(j));
     KD_TRY(rim_of(j, band));
     KD_TRY(rows_of(j, band, 0, rows, band));
-    if (p->cacheable && band > 0)
+    if (p->lens.cacheable && band > 0)
         KD_TRY(rows_of(j, band - 1,
                        kd_frame_band_rows(j, band - 1) > SPILL ? kd_frame_band_rows(j, band - 1) - SPILL : 0,
                        kd_frame_band_rows(j, band - 1), band));
-    if (p->cacheable && band + 1 < p->bands)
+    if (p->lens.cacheable && band + 1 < p->picture.bands)
         KD_TRY(rows_of(j, band + 1, 0,
                        kd_frame_band_rows(j, band + 1) < SPILL ? kd_frame_band_rows(j, band + 1) : SPILL, band));
 done:
@@ -317,8 +317,8 @@ static struct kd_star_key key_of(const struct kd_frame_job *j)
 {
     struct kd_star_key key;
     memset(&key, 0, sizeof key); /* keys are compared byte by byte */
-    memcpy(key.lens, j->plan->lens_key, sizeof key.lens);
-    key.bright = j->plan->bright;
+    memcpy(key.lens, j->plan->lens.key, sizeof key.lens);
+    key.bright = j->plan->light.bright;
     key.visible = j->scene->disk.band == KD_BAND_VISIBLE;
     key.sky = j->scene->sky;
     key.block = j->r->emit->data.emission.sky; /* includes the sky's orientation */
@@ -336,7 +336,7 @@ void kd_frame_begin_stars(struct kd_frame_job *j)
 enum kd_status kd_frame_stars(struct kd_frame_job *j, uint32_t band)
 {
     enum kd_status status = j->stars_kept ? KD_OK : spread_over(j, band);
-    if (!status && !j->stars_kept && band + 1 == j->plan->bands)
+    if (!status && !j->stars_kept && band + 1 == j->plan->picture.bands)
         memcpy(&j->lens->star_key, &j->star_key, sizeof j->star_key);
     return status;
 }

@@ -19,16 +19,16 @@ enum kd_status kd_frame_tile(const struct kd_parted *p, struct kd_frame *out, st
 {
     const struct kd_scene wide = kd_tile_with_margin(p->scene, NULL);
     struct kd_plan all = *p->plan;
-    all.cut = (struct kd_window) { 0 };
-    all.told.x += p->plan->cut.left;
-    all.told.y += p->plan->cut.top;
+    all.picture.cut = (struct kd_window) { 0 };
+    all.report.probe.x += p->plan->picture.cut.left;
+    all.report.probe.y += p->plan->picture.cut.top;
     const enum kd_status status = kd_frame_render_part(p, &wide, &all, p->progress, p->user, out, error);
     if (status)
         return status;
     for (size_t i = 0; i < out->n_layers; i++)
-        cut_layer(&out->layers[i], out->width, &p->plan->cut);
-    out->width = p->plan->cut.width;
-    out->height = p->plan->cut.height;
+        cut_layer(&out->layers[i], out->width, &p->plan->picture.cut);
+    out->width = p->plan->picture.cut.width;
+    out->height = p->plan->picture.cut.height;
     return KD_OK;
 }
 
@@ -51,14 +51,15 @@ static enum kd_status render_strip(const struct kd_parted *p, const struct kd_sc
     struct kd_capacity capacity;
     struct kd_plan plan;
     enum kd_status status;
-    needs.quantities |= p->plan->quantities;
-    needs.radiance = p->plan->numbers;
+    needs.quantities |= p->plan->lens.quantities;
+    needs.radiance = p->plan->picture.numbers;
     kd_renderer_capacity(p->renderer, &capacity);
     KD_TRY(kd_plan_make_for(strip, &needs, &capacity, &plan, error));
-    plan.shape = p->plan->shape;
-    if (p->plan->told.on && p->plan->told.y >= first && p->plan->told.y - first < (uint32_t)strip->tile.height) {
-        plan.told = p->plan->told;
-        plan.told.y -= first;
+    plan.light.shape = p->plan->light.shape;
+    if (p->plan->report.probe.on && p->plan->report.probe.y >= first &&
+        p->plan->report.probe.y - first < (uint32_t)strip->tile.height) {
+        plan.report.probe = p->plan->report.probe;
+        plan.report.probe.y -= first;
     }
     status = kd_frame_render_part(p, strip, &plan, go_on, (void *)share, out, error);
 done:
@@ -91,18 +92,19 @@ static void put_rows(const struct kd_frame *strip, uint32_t first, struct kd_fra
 
 enum kd_status kd_frame_strips(const struct kd_parted *p, struct kd_frame *out, struct kd_error *error)
 {
-    const uint32_t n = p->plan->strips, strips = kd_tile_strips(p->scene, n);
+    const uint32_t n = p->plan->picture.strips, strips = kd_tile_strips(p->scene, n);
     struct kd_frame frame = { 0 }, part = { 0 };
     uint32_t rows = 0;
     enum kd_status status = KD_OK;
     for (uint32_t i = 0; i < strips; i++) {
         const struct kd_scene strip = kd_tile_strip(p->scene, n, i);
-        const struct share share = { p, (double)rows / p->plan->height, (double)strip.tile.height / p->plan->height };
+        const struct share share = { p, (double)rows / p->plan->picture.height,
+                                     (double)strip.tile.height / p->plan->picture.height };
         KD_TRY(render_strip(p, &strip, rows, &share, &part, error));
         if (i)
             kd_frame_probe_both(&frame, &part);
         else
-            KD_TRY(begin(&part, p->plan->height, &frame, error));
+            KD_TRY(begin(&part, p->plan->picture.height, &frame, error));
         put_rows(&part, rows, &frame);
         rows += part.height;
         if (part.told) { /* only one strip has the description of the plan's pixel */

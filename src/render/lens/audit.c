@@ -29,13 +29,14 @@ static uint32_t spread(uint32_t k, uint32_t n, uint32_t size) { return (uint32_t
 static enum kd_status read_rows(struct kd_renderer *r, const struct kd_plan *plan, const struct kd_lens_map *map,
                                 const struct sample *s, struct kd_error *error)
 {
-    uint32_t band_rows = plan->band_rows * plan->side;
+    uint32_t band_rows = plan->picture.band_rows * plan->lens.side;
     uint64_t row = 4ull * s->width, stride = row * band_rows;
     enum kd_status status;
     for (uint32_t k = 0; k < s->rows; k++) {
         uint32_t y = spread(k, s->rows, s->height), band = y / band_rows;
         for (uint32_t n = 0; n < s->planes; n++) {
-            uint32_t plane = n < plan->orders ? n : kd_lens_plane(plan->quantities, plan->orders, KD_LENS_FATE);
+            uint32_t plane =
+                n < plan->lens.orders ? n : kd_lens_plane(plan->lens.quantities, plan->lens.orders, KD_LENS_FATE);
             KD_TRY(kd_vk_copy(r->vk, "readback", s->host, (k * s->planes + n) * row, map->bands.buffers[band],
                               plane * stride + (y % band_rows) * row, row, error));
         }
@@ -60,16 +61,16 @@ static bool other_fate(float fate, const struct kd_ray_end *end)
 
 /* Compares the map's radii and fates with those of the list. The planes hold w of `orders` crossings at intervals of
  * `width`. */
-static void compare(const struct kd_plan *plan, const struct sample *s, const uint32_t *place, uint32_t n, double inner,
-                    struct kd_accuracy_report *out)
+static void compare(const struct kd_plan_lens *lens, const struct sample *s, const uint32_t *place, uint32_t n,
+                    double inner, struct kd_accuracy_report *out)
 {
     const float *rows = kd_vk_buffer_map(s->host);
     uint32_t count = 0;
     for (uint32_t i = 0; i < n; i++) {
         const float *w = rows + place[i];
-        for (uint32_t k = 0; k < plan->orders; k++, w += s->width) {
+        for (uint32_t k = 0; k < lens->orders; k++, w += s->width) {
             bool has = k < s->ends[i].n_crossings;
-            double r = has ? s->crossings[i * plan->orders + k].r : 1 / *w;
+            double r = has ? s->crossings[i * lens->orders + k].r : 1 / *w;
             if (!(r > inner && r < 1e3))
                 continue;
             if (has && *w > 0)
@@ -77,7 +78,7 @@ static void compare(const struct kd_plan *plan, const struct sample *s, const ui
             else
                 out->differ++;
         }
-        out->differ += s->planes > plan->orders && other_fate(*w, &s->ends[i]);
+        out->differ += s->planes > lens->orders && other_fate(*w, &s->ends[i]);
     }
     qsort(s->errors, count, sizeof *s->errors, by_value);
     out->sampled = n;
@@ -96,7 +97,7 @@ static enum kd_status run(struct kd_renderer *r, const struct kd_scene *scene, c
         for (uint32_t i = 0; i < s->columns; i++, n++) {
             uint32_t x = spread(i, s->columns, s->width), y = spread(j, s->rows, s->height);
             struct kd_camera_label label;
-            kd_lens_label(scene, plan, x, y, &label);
+            kd_lens_label(scene, &plan->lens, x, y, &label);
             s->rays[2 * n] = label.alpha;
             s->rays[2 * n + 1] = label.beta;
             s->outward[n] = label.outward;
@@ -106,7 +107,7 @@ static enum kd_status run(struct kd_renderer *r, const struct kd_scene *scene, c
     enum kd_status status;
     KD_TRY(read_rows(r, plan, map, s, error));
     KD_TRY(kd_lens_trace(r, scene, plan, &closed, &labels, s->crossings, s->ends, error));
-    compare(plan, s, place, n, kd_kerr_isco(kd_scene_hole(scene)), out);
+    compare(&plan->lens, s, place, n, kd_kerr_isco(kd_scene_hole(scene)), out);
 done:
     return status;
 }
@@ -114,18 +115,19 @@ done:
 enum kd_status kd_audit(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                         const struct kd_lens_map *map, struct kd_accuracy_report *out, struct kd_error *error)
 {
-    struct sample s = { .width = plan->width * plan->side, .height = plan->height * plan->side };
+    struct sample s = { .width = plan->picture.width * plan->lens.side,
+                        .height = plan->picture.height * plan->lens.side };
     *out = (struct kd_accuracy_report) { 0 };
-    if (!plan->audit)
+    if (!plan->lens.audit)
         return KD_OK;
     s.rows = s.height < ROWS ? s.height : ROWS;
-    s.columns = s.width < plan->audit / ROWS ? s.width : plan->audit / ROWS;
-    s.planes = plan->orders + kd_plan_holds(plan, KD_LENS_FATE);
+    s.columns = s.width < plan->lens.audit / ROWS ? s.width : plan->lens.audit / ROWS;
+    s.planes = plan->lens.orders + kd_plan_holds(&plan->lens, KD_LENS_FATE);
     size_t n = (size_t)s.rows * s.columns;
     s.rays = malloc(2 * n * sizeof *s.rays);
-    s.crossings = malloc(n * plan->orders * sizeof *s.crossings);
+    s.crossings = malloc(n * plan->lens.orders * sizeof *s.crossings);
     s.ends = malloc(n * sizeof *s.ends);
-    s.errors = malloc(n * plan->orders * sizeof *s.errors);
+    s.errors = malloc(n * plan->lens.orders * sizeof *s.errors);
     enum kd_status status;
     if (!s.rays || !s.crossings || !s.ends || !s.errors)
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the audit"));

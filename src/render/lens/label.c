@@ -2,10 +2,10 @@
 
 #include "render/view/ring.h"
 
-void kd_lens_label(const struct kd_scene *scene, const struct kd_plan *plan, uint32_t x, uint32_t y,
+void kd_lens_label(const struct kd_scene *scene, const struct kd_plan_lens *lens, uint32_t x, uint32_t y,
                    struct kd_camera_label *out)
 {
-    if (plan->ring) {
+    if (lens->ring) {
         const struct kd_ring ring = kd_ring_of(scene);
         const struct kd_critical_point column = kd_ring_column(&ring, x);
         *out = kd_ring_label(&ring, &column, y);

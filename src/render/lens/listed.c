@@ -38,7 +38,7 @@ static void finish(struct work *w)
 static enum kd_status init(struct work *w, const struct kd_scene *scene, const struct kd_plan *plan, size_t n,
                            struct kd_error *error)
 {
-    uint32_t orders = plan->orders ? plan->orders : 1; /* engines need at least one */
+    uint32_t orders = plan->lens.orders ? plan->lens.orders : 1; /* engines need at least one */
     *w = (struct work) { .plan = plan, .n = n, .twist = kd_camera_twist(scene) };
     w->alpha_beta = malloc(2 * n * sizeof *w->alpha_beta);
     w->energy = malloc(n * sizeof *w->energy);
@@ -51,7 +51,7 @@ static enum kd_status init(struct work *w, const struct kd_scene *scene, const s
     return kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays", n);
 }
 
-static struct kd_rays_params params_of(const struct kd_scene *scene, const struct kd_plan *plan,
+static struct kd_rays_params params_of(const struct kd_scene *scene, const struct kd_plan_lens *lens,
                                        const struct kd_setting *by)
 {
     return (struct kd_rays_params) {
@@ -59,7 +59,7 @@ static struct kd_rays_params params_of(const struct kd_scene *scene, const struc
         .charge = scene->spacetime.charge,
         .r = scene->camera.r,
         .inclination_deg = scene->camera.inclination_deg,
-        .orders = plan->orders ? plan->orders : 1,
+        .orders = lens->orders ? lens->orders : 1,
         .engine = by->engine,
         .precision = by->precision,
         .steps = by->steps,
@@ -70,7 +70,7 @@ enum kd_status kd_lens_trace(struct kd_renderer *renderer, const struct kd_scene
                              const struct kd_setting *by, const struct kd_ray_labels *rays,
                              struct kd_ray_crossing *crossings, struct kd_ray_end *ends, struct kd_error *error)
 {
-    const struct kd_rays_params params = params_of(scene, plan, by);
+    const struct kd_rays_params params = params_of(scene, &plan->lens, by);
     if (by->engine == KD_ENGINE_CLOSED)
         return kd_rays_closed(&params, rays, false, crossings, ends, NULL, NULL, error);
     return kd_rays_device(renderer, &params, rays, crossings, ends, NULL, NULL, error);
@@ -82,7 +82,9 @@ static void fill_radii(const struct work *w, uint32_t order, float *to)
     for (size_t i = 0; i < w->n; i++) {
         const struct kd_ray_end *end = &w->ends[i];
         bool open = end->fate == KD_RAY_UNDECIDED;
-        to[i] = order < end->n_crossings ? (float)(1 / w->crossings[i * w->plan->orders + order].r) : open ? -1 : 0;
+        to[i] = order < end->n_crossings ? (float)(1 / w->crossings[i * w->plan->lens.orders + order].r)
+                : open                   ? -1
+                                         : 0;
     }
 }
 
@@ -90,7 +92,7 @@ static void fill_radii(const struct work *w, uint32_t order, float *to)
 static void fill_azimuths(const struct work *w, uint32_t order, float *to)
 {
     for (size_t i = 0; i < w->n; i++) {
-        double phi = order < w->ends[i].n_crossings ? w->crossings[i * w->plan->orders + order].phi : 0;
+        double phi = order < w->ends[i].n_crossings ? w->crossings[i * w->plan->lens.orders + order].phi : 0;
         to[i] = (float)((w->energy[i] < 0 ? -phi : phi) + w->twist);
     }
 }
@@ -98,21 +100,23 @@ static void fill_azimuths(const struct work *w, uint32_t order, float *to)
 static void fill_delays(const struct work *w, uint32_t order, float *to)
 {
     for (size_t i = 0; i < w->n; i++)
-        to[i] = order < w->ends[i].n_crossings ? (float)w->crossings[i * w->plan->orders + order].delay : 0;
+        to[i] = order < w->ends[i].n_crossings ? (float)w->crossings[i * w->plan->lens.orders + order].delay : 0;
 }
 
 /* Fills a plane with slopes, which the light of falling gas and emission angles depend on. */
 static void fill_slopes(const struct work *w, const struct kd_scene *scene, uint32_t order, float *to)
 {
-    const struct kd_rays_params params = params_of(scene, w->plan, &w->plan->setting);
+    const struct kd_rays_params params = params_of(scene, &w->plan->lens, &w->plan->lens.setting);
     for (size_t i = 0; i < w->n; i++) {
         const struct kd_ray_end *end = &w->ends[i];
-        double r = w->crossings[i * w->plan->orders + order].r;
+        double r = w->crossings[i * w->plan->lens.orders + order].r;
         const double slope =
             order < end->n_crossings
                 ? fabs(w->energy[i]) * kd_rays_slope(&params, w->alpha_beta + 2 * i, w->outward[i], end, order, r)
                 : 0;
-        to[i] = (float)(!w->inwards ? slope : w->inwards[i * w->plan->orders + order] ? fabs(slope) : -fabs(slope));
+        to[i] = (float)(!w->inwards                                    ? slope
+                        : w->inwards[i * w->plan->lens.orders + order] ? fabs(slope)
+                                                                       : -fabs(slope));
     }
 }
 
@@ -134,10 +138,10 @@ static void fill(const struct work *w, const struct kd_scene *scene, float *plan
     const struct kd_plan *plan = w->plan;
     float *of[32] = { 0 }; /* planes by the bit of a quantity; NULL: the map does not have it */
     for (uint32_t bit = 0; bit < 32; bit++)
-        if (plan->quantities >> bit & 1)
-            of[bit] = planes + w->n * kd_lens_plane(plan->quantities, plan->orders, 1u << bit);
+        if (plan->lens.quantities >> bit & 1)
+            of[bit] = planes + w->n * kd_lens_plane(plan->lens.quantities, plan->lens.orders, 1u << bit);
 #define OF(quantity) of[__builtin_ctz(quantity)]
-    for (uint32_t k = 0; k < plan->orders; k++) {
+    for (uint32_t k = 0; k < plan->lens.orders; k++) {
         fill_radii(w, k, OF(KD_LENS_W) + k * w->n);
         if (OF(KD_LENS_PHI))
             fill_azimuths(w, k, OF(KD_LENS_PHI) + k * w->n);
@@ -159,11 +163,11 @@ static enum kd_status upload(struct kd_renderer *r, const struct kd_scene *scene
     struct kd_vk_buffer *staging;
     uint64_t bytes = 4 * (uint64_t)w->n;
     enum kd_status status =
-        kd_vk_buffer_create(r->vk, bytes * w->plan->planes, KD_VK_UPLOAD, "listed lens map", &staging, error);
+        kd_vk_buffer_create(r->vk, bytes * w->plan->lens.planes, KD_VK_UPLOAD, "listed lens map", &staging, error);
     if (status)
         return status;
     fill(w, scene, kd_vk_buffer_map(staging));
-    for (uint32_t k = 0; k < w->plan->planes; k++)
+    for (uint32_t k = 0; k < w->plan->lens.planes; k++)
         KD_TRY(kd_vk_copy(r->vk, "upload", rows->to, 4 * (rows->offset + k * rows->stride), staging, k * bytes, bytes,
                           error));
     KD_TRY(kd_vk_submit(r->vk, NULL, error));
@@ -220,18 +224,18 @@ enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scen
                               const struct kd_lens_rows *rows, uint64_t *undecided, struct kd_error *error)
 {
     struct work w;
-    uint32_t width = rows->pixels ? rows->lattice->rays : plan->width * plan->side;
+    uint32_t width = rows->pixels ? rows->lattice->rays : plan->picture.width * plan->lens.side;
     enum kd_status status = init(&w, scene, plan, (size_t)width * rows->count, error);
     if (status)
         return status;
     if (rows->pixels)
         make_critical(scene, rows, width, &w);
-    else if (plan->ring)
+    else if (plan->lens.ring)
         make_ring(scene, rows, &w);
     else
         make_rays(scene, rows, width, &w);
     const struct kd_ray_labels labels = { w.alpha_beta, w.outward, w.n };
-    KD_TRY(kd_lens_trace(renderer, scene, plan, &plan->setting, &labels, w.crossings, w.ends, error));
+    KD_TRY(kd_lens_trace(renderer, scene, plan, &plan->lens.setting, &labels, w.crossings, w.ends, error));
     KD_TRY(upload(renderer, scene, &w, rows, error));
     for (size_t i = 0; i < w.n; i++)
         *undecided += w.ends[i].fate == KD_RAY_UNDECIDED;
@@ -248,7 +252,7 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
     const double horizon = at.hole.outer;
-    const uint32_t orders = w->plan->orders ? w->plan->orders : 1;
+    const uint32_t orders = w->plan->lens.orders ? w->plan->lens.orders : 1;
     const bool reversed = w->energy[i] < 0;
     const struct kd_null_ray ray = {
         .hole = at.hole,
@@ -287,7 +291,7 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
  * where closed forms do not apply. */
 static enum kd_status trace_within(struct work *w, const struct kd_scene *scene, struct kd_error *error)
 {
-    const size_t orders = w->plan->orders ? w->plan->orders : 1;
+    const size_t orders = w->plan->lens.orders ? w->plan->lens.orders : 1;
     struct kd_null_place *places = malloc(PLACES * sizeof *places);
     w->inwards = calloc(w->n * orders, sizeof *w->inwards);
     for (size_t i = 0; places && w->inwards && i < w->n; i++)

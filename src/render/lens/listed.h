@@ -15,14 +15,14 @@ struct kd_lens_rows {
     uint64_t offset, stride;                   /* index of the first ray in a plane; rays in a plane */
 };
 
-/* Writes plan->planes planes as lens_map.comp does, with three differences: -1 stands for a crossing that the engine
- * did not complete, delays come before the slopes, and for a ring alpha comes before the sky. *undecided grows by the
- * number of rays given up. Submits the upload and waits for it. */
+/* Writes plan->lens.planes planes as lens_map.comp does, with three differences: -1 stands for a crossing that the
+ * engine did not complete, delays come before the slopes, and for a ring alpha comes before the sky. *undecided grows
+ * by the number of rays given up. Submits the upload and waits for it. */
 enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               const struct kd_lens_rows *rows, uint64_t *undecided, struct kd_error *error);
 
 struct kd_camera_label;
-/* Fills plan->planes planes of n numbers each, except footprints, by tracing rays in double on the host: in closed
+/* Fills plan->lens.planes planes of n numbers each, except footprints, by tracing rays in double on the host: in closed
  * form, or by steps for an observer inside the horizon. *undecided grows by the number of rays that are on the
  * critical curve to the last digit. */
 enum kd_status kd_lens_again(const struct kd_scene *scene, const struct kd_plan *plan,

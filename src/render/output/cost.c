@@ -9,36 +9,37 @@
 static double trace_ms(const struct kd_plan *plan)
 {
     double ms = 0;
-    for (size_t i = 0; i < plan->n_passes && plan->cacheable; i++)
-        ms += strcmp(plan->passes[i].name, kd_passes[KD_PASS_TRACE].name) ? 0 : plan->passes[i].estimate_ms;
+    for (size_t i = 0; i < plan->cost.n_passes && plan->lens.cacheable; i++)
+        ms += strcmp(plan->cost.passes[i].name, kd_passes[KD_PASS_TRACE].name) ? 0 : plan->cost.passes[i].estimate_ms;
     return ms;
 }
 
 /* Bytes of the numbers of the frame's layers, 4 each. */
-static double file_bytes(const struct kd_series *series, const struct kd_scene *scene, const struct kd_plan *plan)
+static double file_bytes(const struct kd_series *series, const struct kd_scene *scene,
+                         const struct kd_plan_picture *picture)
 {
     const struct kd_words *layers = &scene->image.layers;
     double numbers = 0;
     for (int i = 0; i < layers->count && series && series->frame->carries & KD_CARRIES_LAYERS; i++)
-        numbers +=
-            (layers->at[i].word == KD_LAYER_rgb ? 3. : 1.) * kd_plan_shown_width(plan) * kd_plan_shown_height(plan);
+        numbers += (layers->at[i].word == KD_LAYER_rgb ? 3. : 1.) * kd_plan_shown_width(picture) *
+                   kd_plan_shown_height(picture);
     return 4 * numbers;
 }
 
 enum kd_status kd_cost_add(struct kd_cost *cost, const struct kd_series *series, const struct kd_sweep *sweep,
                            const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error)
 {
-    const uint64_t host = plan->host_bytes + plan->making_bytes;
+    const uint64_t host = plan->cost.host_bytes + plan->cost.making_bytes;
     uint64_t group;
-    if (series && series->swept && kd_cube_compare(&cost->shape, cost->frames, scene, plan, error))
+    if (series && series->swept && kd_cube_compare(&cost->shape, cost->frames, scene, &plan->picture, error))
         return error->status;
     cost->frames++;
-    cost->file_bytes += file_bytes(series, scene, plan);
-    cost->device_bytes = plan->device_bytes > cost->device_bytes ? plan->device_bytes : cost->device_bytes;
+    cost->file_bytes += file_bytes(series, scene, &plan->picture);
+    cost->device_bytes = plan->cost.device_bytes > cost->device_bytes ? plan->cost.device_bytes : cost->device_bytes;
     cost->host_bytes = host > cost->host_bytes ? host : cost->host_bytes;
-    cost->rays += kd_plan_rays(plan);
-    cost->ms += plan->estimate_ms;
-    cost->guessed |= !plan->measured;
+    cost->rays += kd_plan_rays(&plan->lens);
+    cost->ms += plan->cost.estimate_ms;
+    cost->guessed |= !plan->report.measured;
     if (!sweep)
         return KD_OK;
     cost->trace_ms += trace_ms(plan);

@@ -43,10 +43,10 @@ enum kd_status kd_cube_check(const struct kd_sweep *sweep, struct kd_error *erro
 }
 
 enum kd_status kd_cube_compare(struct kd_cube_shape *shape, unsigned number, const struct kd_scene *scene,
-                               const struct kd_plan *plan, struct kd_error *error)
+                               const struct kd_plan_picture *picture, struct kd_error *error)
 {
     const struct kd_words *layers = &scene->image.layers;
-    const unsigned width = kd_plan_shown_width(plan), height = kd_plan_shown_height(plan);
+    const unsigned width = kd_plan_shown_width(picture), height = kd_plan_shown_height(picture);
     if (!number)
         *shape = (struct kd_cube_shape) { width, height, *layers };
     if (shape->width != width || shape->height != height)

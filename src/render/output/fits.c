@@ -23,7 +23,7 @@ static enum kd_status put_notes(struct kd_buffer *cards, const struct kd_picture
     KD_TRY(kd_fits_text(cards, "KDDEVICE", picture->device, NULL));
     KD_TRY(kd_fits_text(cards, "KDACCUR", notes->accuracy, NULL));
     struct kd_approximation one;
-    for (size_t i = 0; kd_picture_approximation(picture->plan, &picture->frame->accuracy, i, &one); i++) {
+    for (size_t i = 0; kd_picture_approximation(&picture->plan->report, &picture->frame->accuracy, i, &one); i++) {
         char key[32];
         snprintf(key, sizeof key, "KDAPPR%zu", i + 1);
         KD_TRY(kd_fits_text(cards, key, one.text, NULL));

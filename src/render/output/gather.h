@@ -63,7 +63,7 @@ struct kd_cube_shape {
     struct kd_words layers;
 };
 enum kd_status kd_cube_compare(struct kd_cube_shape *shape, unsigned number, const struct kd_scene *scene,
-                               const struct kd_plan *plan, struct kd_error *error);
+                               const struct kd_plan_picture *picture, struct kd_error *error);
 size_t kd_cube_holds(const struct kd_gather_source *source); /* memory needed to make a cube */
 
 struct kd_gather {

@@ -8,13 +8,14 @@
 
 #define PLAYGROUND "playground" /* a member that no scene has */
 
-void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT])
+void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan_lens *lens,
+                      char out[KD_ACCURACY_TEXT])
 {
     int n = snprintf(
         out, KD_ACCURACY_TEXT, "rays=%llu engine=%s precision=%s steps=%u critical_rays=%llu undecided=%llu sampled=%u",
-        (unsigned long long)plan->rays, kd_engine_name(plan->setting.engine),
-        kd_precision_name(plan->setting.precision), plan->setting.steps,
-        (unsigned long long)(kd_plan_rays(plan) - plan->rays), (unsigned long long)report->undecided, report->sampled);
+        (unsigned long long)lens->rays, kd_engine_name(lens->setting.engine),
+        kd_precision_name(lens->setting.precision), lens->setting.steps,
+        (unsigned long long)(kd_plan_rays(lens) - lens->rays), (unsigned long long)report->undecided, report->sampled);
     if (report->interpolated)
         n += snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " interpolated=%llu",
                       (unsigned long long)report->interpolated);
@@ -97,7 +98,7 @@ bool kd_measured_approximation(const struct kd_accuracy_report *report, size_t i
     return false;
 }
 
-bool kd_picture_approximation(const struct kd_plan *plan, const struct kd_accuracy_report *report, size_t index,
+bool kd_picture_approximation(const struct kd_plan_report *plan, const struct kd_accuracy_report *report, size_t index,
                               struct kd_approximation *out)
 {
     if (index >= plan->n_approximations)
@@ -111,7 +112,8 @@ static enum kd_status join_approximations(const struct kd_picture *picture, stru
 {
     enum kd_status status = kd_buffer_append(out, "", 0); /* makes `out` a string even without approximations */
     struct kd_approximation one;
-    for (size_t i = 0; !status && kd_picture_approximation(picture->plan, &picture->frame->accuracy, i, &one); i++)
+    for (size_t i = 0; !status && kd_picture_approximation(&picture->plan->report, &picture->frame->accuracy, i, &one);
+         i++)
         status = kd_buffer_printf(out, "%s%s", i ? "\n" : "", one.text);
     return status;
 }
@@ -139,12 +141,12 @@ static enum kd_status put_scene(const struct kd_picture *picture, struct kd_note
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error)
 {
     *out = (struct kd_notes) { 0 };
-    kd_accuracy_text(&picture->frame->accuracy, picture->plan, out->accuracy);
+    kd_accuracy_text(&picture->frame->accuracy, &picture->plan->lens, out->accuracy);
     kd_fall_clock_text(picture->scene, out->clock);
     kd_flux_text(picture->scene, picture->frame, out->flux);
-    if (picture->plan->blur.samples)
-        snprintf(out->blur, sizeof out->blur, "samples=%u shutter=%.9g", picture->plan->blur.samples,
-                 picture->plan->blur.shutter);
+    if (picture->plan->picture.blur.samples)
+        snprintf(out->blur, sizeof out->blur, "samples=%u shutter=%.9g", picture->plan->picture.blur.samples,
+                 picture->plan->picture.blur.shutter);
     enum kd_status status;
     KD_TRY(put_scene(picture, out));
     KD_TRY(join_approximations(picture, &out->approximations));

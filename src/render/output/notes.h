@@ -11,7 +11,8 @@
 /* One line: "rays=921600 engine=mino-rkn6 precision=f32 steps=8 undecided=0 sampled=768 crossings=927 differ=0
  * median=1.6e-07 worst=2.0e-05"; without the last four if nothing was sampled. */
 #define KD_ACCURACY_TEXT 384
-void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT]);
+void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan_lens *lens,
+                      char out[KD_ACCURACY_TEXT]);
 /* Writes the same accuracy as members of a JSON object, without rays, engine, precision and steps. median, worst: names
  * for the two errors of radii. */
 void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median,
@@ -21,7 +22,7 @@ void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *
  * all that there are. Returns false if there are fewer. */
 bool kd_measured_approximation(const struct kd_accuracy_report *report, size_t index, struct kd_approximation *out);
 /* The same of all approximations of a picture: first those of its plan, then the measured ones. */
-bool kd_picture_approximation(const struct kd_plan *plan, const struct kd_accuracy_report *report, size_t index,
+bool kd_picture_approximation(const struct kd_plan_report *plan, const struct kd_accuracy_report *report, size_t index,
                               struct kd_approximation *out);
 
 /* "samples=16 shutter=0.5": the light is the mean of 16 pictures at equal time steps within half of a frame's time

@@ -49,7 +49,7 @@ static enum kd_status put_notes(struct kd_zip *zip, const struct kd_picture *pic
     kd_json_string(&json, "device", picture->device);
     kd_json_string(&json, "accuracy", notes->accuracy);
     kd_json_array(&json, "approximations");
-    for (size_t i = 0; kd_picture_approximation(picture->plan, &picture->frame->accuracy, i, &one); i++)
+    for (size_t i = 0; kd_picture_approximation(&picture->plan->report, &picture->frame->accuracy, i, &one); i++)
         kd_json_string(&json, NULL, one.text);
     kd_json_end(&json);
     kd_json_object(&json, "units");

@@ -46,8 +46,9 @@ static uint64_t add_field(uint64_t hash, const struct kd_scene *scene, const str
 
 uint64_t kd_cost_class(const struct kd_plan *plan, const struct kd_scene *scene)
 {
-    const uint32_t way[] = { plan->quantities,       plan->orders,      plan->bright,        plan->light,
-                             plan->interpolates > 0, plan->march.steps, (uint32_t)plan->path };
+    const uint32_t way[] = { plan->lens.quantities,    plan->lens.orders,           plan->light.bright,
+                             plan->light.photometry,   plan->lens.interpolates > 0, plan->light.march.steps,
+                             (uint32_t)plan->lens.path };
     uint64_t hash = kd_hash(KD_HASH_BEGIN, way, sizeof way);
     for (size_t s = 0; s < KD_SECTION_COUNT; s++) {
         const size_t elements = kd_section_size(scene, &kd_sections[s]);

@@ -27,14 +27,14 @@ done:
 enum kd_status kd_plan_lens_key(struct kd_plan *plan, const struct kd_scene *scene)
 {
     struct kd_buffer text = { 0 };
-    const struct kd_setting *by = &plan->setting;
+    const struct kd_setting *by = &plan->lens.setting;
     enum kd_status status;
     KD_TRY(kd_buffer_printf(&text, "lens %u %u, rays %d x %d x %d, %d times and %u at the curve, by %d %d %u %d %a, ",
-                            plan->quantities, plan->orders, scene->image.width, scene->image.height, (int)plan->side,
-                            scene->image.critical_factor, plan->critical, (int)by->engine, (int)by->precision,
-                            by->steps, (int)plan->path, plan->interpolates));
+                            plan->lens.quantities, plan->lens.orders, scene->image.width, scene->image.height,
+                            (int)plan->lens.side, scene->image.critical_factor, plan->lens.critical, (int)by->engine,
+                            (int)by->precision, by->steps, (int)plan->lens.path, plan->lens.interpolates));
     KD_TRY(write_view(scene, &text));
-    kd_sha256(text.data, text.size, plan->lens_key);
+    kd_sha256(text.data, text.size, plan->lens.key);
 done:
     kd_buffer_finish(&text);
     return status;

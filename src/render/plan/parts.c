@@ -11,19 +11,21 @@
 /* Adds the resources of a picture that is made after this one. */
 static void add(struct kd_plan *plan, const struct kd_plan *next)
 {
-    for (size_t i = 0; i < next->n_passes; i++) {
-        const struct kd_plan_pass *pass = &next->passes[i];
+    for (size_t i = 0; i < next->cost.n_passes; i++) {
+        const struct kd_plan_pass *pass = &next->cost.passes[i];
         size_t k = 0;
-        while (k < plan->n_passes && strcmp(plan->passes[k].name, pass->name))
+        while (k < plan->cost.n_passes && strcmp(plan->cost.passes[k].name, pass->name))
             k++;
-        if (k == plan->n_passes)
-            plan->passes[plan->n_passes++] = (struct kd_plan_pass) { pass->name, pass->kernel, 0, 0, pass->figure };
-        plan->passes[k].invocations += pass->invocations;
-        plan->passes[k].estimate_ms += pass->estimate_ms;
+        if (k == plan->cost.n_passes)
+            plan->cost.passes[plan->cost.n_passes++] =
+                (struct kd_plan_pass) { pass->name, pass->kernel, 0, 0, pass->figure };
+        plan->cost.passes[k].invocations += pass->invocations;
+        plan->cost.passes[k].estimate_ms += pass->estimate_ms;
     }
-    plan->estimate_ms += next->estimate_ms;
-    plan->device_bytes = plan->device_bytes > next->device_bytes ? plan->device_bytes : next->device_bytes;
-    plan->cacheable = plan->cacheable && next->cacheable;
+    plan->cost.estimate_ms += next->cost.estimate_ms;
+    plan->cost.device_bytes =
+        plan->cost.device_bytes > next->cost.device_bytes ? plan->cost.device_bytes : next->cost.device_bytes;
+    plan->lens.cacheable = plan->lens.cacheable && next->lens.cacheable;
 }
 
 static enum kd_status name_lens(struct kd_plan *plan, const struct kd_scene *scene, struct kd_error *error)
@@ -45,8 +47,9 @@ static enum kd_status make_pair(const struct kd_scene *scene, const struct kd_ne
     KD_TRY(kd_plan_make_for(&left, needs, capacity, &plan, error));
     KD_TRY(kd_plan_make_for(&right, needs, capacity, &next, error));
     add(&plan, &next);
-    plan.host_bytes = 2 * (plan.host_bytes + next.host_bytes); /* memory for each picture, and for both together */
-    plan.eyes = 2;
+    plan.cost.host_bytes =
+        2 * (plan.cost.host_bytes + next.cost.host_bytes); /* memory for each picture, and for both together */
+    plan.picture.eyes = 2;
     kd_plan_say(&plan, scene);
     KD_TRY(name_lens(&plan, scene, error));
     *out = plan;
@@ -70,7 +73,7 @@ static enum kd_status make_tile(const struct kd_scene *scene, const struct kd_ne
     const struct kd_needs own = of_tile(needs);
     const enum kd_status status = kd_plan_one(&wide, &own, capacity, out, error);
     if (!status)
-        out->cut = cut;
+        out->picture.cut = cut;
     return status;
 }
 
@@ -96,7 +99,7 @@ static enum kd_status plan_strips(const struct kd_scene *scene, const struct kd_
     enum kd_status status;
     struct kd_scene strip = kd_tile_strip(scene, n, 0);
     KD_TRY(make_tile(&strip, needs, c, &sum, error));
-    const uint64_t host = sum.host_bytes / sum.height * kd_scene_window(scene).height;
+    const uint64_t host = sum.cost.host_bytes / sum.picture.height * kd_scene_window(scene).height;
     if (!rest_of(c, host, &rest))
         KD_TRY(kd_error_set(error, KD_ETOOBIG, "the whole picture does not fit on the host"));
     KD_TRY(make_tile(&strip, needs, &rest, &sum, error));
@@ -104,17 +107,17 @@ static enum kd_status plan_strips(const struct kd_scene *scene, const struct kd_
         strip = kd_tile_strip(scene, n, i);
         KD_TRY(make_tile(&strip, needs, &rest, &next, error));
         add(&sum, &next);
-        sum.rays += next.rays;
-        sum.critical_pixels += next.critical_pixels;
+        sum.lens.rays += next.lens.rays;
+        sum.lens.critical_pixels += next.lens.critical_pixels;
     }
     const struct kd_window window = kd_scene_window(scene);
-    sum.strips = n;
-    sum.width = window.width;
-    sum.height = window.height;
-    sum.cut = (struct kd_window) { 0 };
-    sum.host_bytes += host;
-    sum.cacheable = false;
-    sum.audit = 0;
+    sum.picture.strips = n;
+    sum.picture.width = window.width;
+    sum.picture.height = window.height;
+    sum.picture.cut = (struct kd_window) { 0 };
+    sum.cost.host_bytes += host;
+    sum.lens.cacheable = false;
+    sum.lens.audit = 0;
     *out = sum;
 done:
     return status;

@@ -26,9 +26,9 @@ static double ns_listed(const struct kd_setting *by, const struct kd_capacity *c
 
 static struct kd_pass_cost trace(const struct kd_plan *plan, const struct kd_capacity *c)
 {
-    const struct kd_setting *by = &plan->setting;
-    const enum kd_figure_id figure = kd_plan_is_radii(plan) ? KD_NS_RAY_RADIUS : KD_NS_RAY_FULL;
-    switch (plan->path) {
+    const struct kd_setting *by = &plan->lens.setting;
+    const enum kd_figure_id figure = kd_plan_is_radii(&plan->lens) ? KD_NS_RAY_RADIUS : KD_NS_RAY_FULL;
+    switch (plan->lens.path) {
     case KD_LENS_CLOSED: return (struct kd_pass_cost) { "lens_closed.comp", c->ns[figure], figure };
     case KD_LENS_MAP: return (struct kd_pass_cost) { "lens_map.comp", c->ns[figure], figure };
     case KD_LENS_LISTED: break;
@@ -44,33 +44,37 @@ static struct kd_pass_cost trace(const struct kd_plan *plan, const struct kd_cap
 static struct kd_pass_cost refine(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const double ns = c->ns[KD_NS_RAY_REFINED];
-    return plan->march.steps ? (struct kd_pass_cost) { "transfer.comp", ns + kd_plan_light_ns(plan, c), KD_NS_NONE }
-                             : (struct kd_pass_cost) { "transfer.comp", ns, KD_NS_RAY_REFINED };
+    return plan->light.march.steps
+               ? (struct kd_pass_cost) { "transfer.comp", ns + kd_plan_light_ns(&plan->light, c), KD_NS_NONE }
+               : (struct kd_pass_cost) { "transfer.comp", ns, KD_NS_RAY_REFINED };
 }
 
 static struct kd_pass_cost transfer(const struct kd_plan *plan, const struct kd_capacity *c)
 {
-    return (struct kd_pass_cost) { "transfer.comp", kd_plan_light_ns(plan, c), kd_plan_light_figure(plan) };
+    return (struct kd_pass_cost) { "transfer.comp", kd_plan_light_ns(&plan->light, c),
+                                   kd_plan_light_figure(&plan->light) };
 }
 
 /* One figure serves all volumes. It is measured only on volumes of the usual weight. */
 static struct kd_pass_cost march(const struct kd_plan *plan, const struct kd_capacity *c)
 {
-    const bool usual = fabs(plan->march.weight - 1) < 1e-9;
-    return (struct kd_pass_cost) { "transfer.comp", kd_plan_light_ns(plan, c), usual ? KD_NS_RAY_MARCH : KD_NS_NONE };
+    const bool usual = fabs(plan->light.march.weight - 1) < 1e-9;
+    return (struct kd_pass_cost) { "transfer.comp", kd_plan_light_ns(&plan->light, c),
+                                   usual ? KD_NS_RAY_MARCH : KD_NS_NONE };
 }
 
 /* Each ray of the sample is followed as in the picture, and again with KD_MARCH_FINER times as many stretches. */
 static struct kd_pass_cost march_error(const struct kd_plan *plan, const struct kd_capacity *c)
 {
-    return (struct kd_pass_cost) { "transfer.comp", (1 + KD_MARCH_FINER) * kd_plan_light_ns(plan, c), KD_NS_NONE };
+    return (struct kd_pass_cost) { "transfer.comp", (1 + KD_MARCH_FINER) * kd_plan_light_ns(&plan->light, c),
+                                   KD_NS_NONE };
 }
 
 /* Interpolating a ray from its cell's nodes takes, on lavapipe, a quarter of the time of tracing the ray for radii
  * only, and a tenth for all quantities. */
 static struct kd_pass_cost interpolate(const struct kd_plan *plan, const struct kd_capacity *c)
 {
-    const double ns = kd_plan_is_radii(plan) ? 0.25 * c->ns[KD_NS_RAY_RADIUS] : 0.1 * c->ns[KD_NS_RAY_FULL];
+    const double ns = kd_plan_is_radii(&plan->lens) ? 0.25 * c->ns[KD_NS_RAY_RADIUS] : 0.1 * c->ns[KD_NS_RAY_FULL];
     return (struct kd_pass_cost) { "lens_fill.comp", ns, KD_NS_NONE };
 }
 
@@ -84,27 +88,29 @@ static struct kd_pass_cost audit(const struct kd_plan *plan, const struct kd_cap
  * post takes 5.3 ns. */
 static struct kd_pass_cost bloom(const struct kd_plan *plan, const struct kd_capacity *c)
 {
-    const double cells = kd_bloom_cells(&plan->bloom, 0) / ((double)plan->width * plan->height);
+    const double cells = kd_bloom_cells(&plan->picture.bloom, 0) / ((double)plan->picture.width * plan->picture.height);
     return (struct kd_pass_cost) { "bloom_bright.comp", (0.4 + 7.8 * cells) * c->ns[KD_NS_PIXEL_POST], KD_NS_NONE };
 }
 
 /* With bloom the post pass also reads cells; its time then does not update the figure. */
 static struct kd_pass_cost post(const struct kd_plan *plan, const struct kd_capacity *c)
 {
-    const double more = !plan->bloom.levels ? 1 : kd_bloom_together(&plan->bloom, plan->width) ? 2 : 2.7;
+    const double more = !plan->picture.bloom.levels                                    ? 1
+                        : kd_bloom_together(&plan->picture.bloom, plan->picture.width) ? 2
+                                                                                       : 2.7;
     return (struct kd_pass_cost) { "post.comp", more * c->ns[KD_NS_PIXEL_POST],
-                                   plan->bloom.levels ? KD_NS_NONE : KD_NS_PIXEL_POST };
+                                   plan->picture.bloom.levels ? KD_NS_NONE : KD_NS_PIXEL_POST };
 }
 
 /* Measured by lavapipe: gathering and interpolation take three times as long as post. Each weight of the two blurs, and
  * of two more sums if cells are large, takes a seventh of post's time. */
 static struct kd_pass_cost beam(const struct kd_plan *plan, const struct kd_capacity *c)
 {
-    const struct kd_beam_grid *b = &plan->beam;
+    const struct kd_beam_grid *b = &plan->picture.beam;
     const double weights =
         2.0 * (2 * b->reach + 1) * b->columns * b->rows + (b->cell > 1 ? 6.0 * b->columns * b->height : 0);
     return (struct kd_pass_cost) { "beam_gather.comp",
-                                   (3.2 + 0.15 * weights / ((double)plan->width * plan->height)) *
+                                   (3.2 + 0.15 * weights / ((double)plan->picture.width * plan->picture.height)) *
                                        c->ns[KD_NS_PIXEL_POST],
                                    KD_NS_NONE };
 }
@@ -114,14 +120,14 @@ static struct kd_pass_cost beam(const struct kd_plan *plan, const struct kd_capa
     { \
         return (void)plan, (void)scene, n; \
     }
-INVOCATIONS(traced, plan->planes ? kd_plan_followed(plan) : 0)
-INVOCATIONS(interpolated, plan->interpolates > 0 ? plan->rays : 0)
-INVOCATIONS(footprints, kd_plan_has_footprints(plan) ? kd_plan_followed(plan) : 0)
-INVOCATIONS(audited, plan->audit)
-INVOCATIONS(lit, plan->march.steps ? 0 : kd_plan_rays(plan))
-INVOCATIONS(marched, plan->march.steps ? kd_plan_rays(plan) : 0)
-INVOCATIONS(sampled, plan->march.steps ? plan->march.sample.columns * plan->march.sample.rows : 0)
-INVOCATIONS(starred, plan->points ? plan->rays / (plan->bright ? KD_PLAN_BRIGHT : 1) : 0)
+INVOCATIONS(traced, plan->lens.planes ? kd_plan_followed(&plan->lens) : 0)
+INVOCATIONS(interpolated, plan->lens.interpolates > 0 ? plan->lens.rays : 0)
+INVOCATIONS(footprints, kd_plan_has_footprints(&plan->lens) ? kd_plan_followed(&plan->lens) : 0)
+INVOCATIONS(audited, plan->lens.audit)
+INVOCATIONS(lit, plan->light.march.steps ? 0 : kd_plan_rays(&plan->lens))
+INVOCATIONS(marched, plan->light.march.steps ? kd_plan_rays(&plan->lens) : 0)
+INVOCATIONS(sampled, plan->light.march.steps ? plan->light.march.sample.columns * plan->light.march.sample.rows : 0)
+INVOCATIONS(starred, plan->light.points ? plan->lens.rays / (plan->light.bright ? KD_PLAN_BRIGHT : 1) : 0)
 
 /* Whether the disk is streaked: turbulent gas or particles. */
 static bool is_streaked(const struct kd_scene *scene)
@@ -135,22 +141,22 @@ static bool is_streaked(const struct kd_scene *scene)
  * here as 0.79 and 0.91; they interpolate 34 000 and 308 000 pixels, estimated as 31 000 and 307 000. */
 static uint64_t refined(const struct kd_plan *plan, const struct kd_scene *scene)
 {
-    const uint64_t curve = 3 * plan->critical_pixels * plan->critical_dense / 4, elsewhere = plan->rays / 300,
-                   between = plan->rays / (is_streaked(scene) ? 3 : 30);
-    return plan->adaptive ? curve + elsewhere * plan->adaptive +
-                                between * KD_PLAN_ADAPTIVE_SIDE * KD_PLAN_ADAPTIVE_SIDE + KD_PLAN_SAMPLED
-                          : 0;
+    const uint64_t curve = 3 * plan->lens.critical_pixels * plan->lens.critical_dense / 4,
+                   elsewhere = plan->lens.rays / 300, between = plan->lens.rays / (is_streaked(scene) ? 3 : 30);
+    return plan->lens.adaptive ? curve + elsewhere * plan->lens.adaptive +
+                                     between * KD_PLAN_ADAPTIVE_SIDE * KD_PLAN_ADAPTIVE_SIDE + KD_PLAN_SAMPLED
+                               : 0;
 }
 
-INVOCATIONS(pixels, (uint64_t)plan->width * plan->height)
-INVOCATIONS(layered, plan->n_layers *pixels(plan, scene))
-INVOCATIONS(added_up, plan->light ? pixels(plan, scene) : 0)
-INVOCATIONS(shown, plan->no_image ? 0 : pixels(plan, scene))
+INVOCATIONS(pixels, (uint64_t)plan->picture.width * plan->picture.height)
+INVOCATIONS(layered, plan->picture.n_layers *pixels(plan, scene))
+INVOCATIONS(added_up, plan->light.photometry ? pixels(plan, scene) : 0)
+INVOCATIONS(shown, plan->picture.no_image ? 0 : pixels(plan, scene))
 /* The post pass also runs for refinement, which examines the whole picture before its first round and after each
  * round. */
-INVOCATIONS(posted, shown(plan, scene) * (plan->adaptive ? 1 + KD_PLAN_REFINING_LOOKS : 1))
-INVOCATIONS(spread, plan->bloom.levels ? shown(plan, scene) : 0)
-INVOCATIONS(beamed, plan->beam.cell ? shown(plan, scene) : 0)
+INVOCATIONS(posted, shown(plan, scene) * (plan->lens.adaptive ? 1 + KD_PLAN_REFINING_LOOKS : 1))
+INVOCATIONS(spread, plan->picture.bloom.levels ? shown(plan, scene) : 0)
+INVOCATIONS(beamed, plan->picture.beam.cell ? shown(plan, scene) : 0)
 INVOCATIONS(exposed, isinf(scene->style.exposure) ? shown(plan, scene) : 0)
 #define KD_P(emitter, ...) INVOCATIONS(own_##emitter, kd_emit_invocations(scene, KD_EMITTER_##emitter))
 KD_EMIT_PASSES

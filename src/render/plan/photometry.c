@@ -12,11 +12,15 @@ uint32_t kd_light_groups(uint32_t pixels)
     return (pixels + each - 1) / each;
 }
 
-uint32_t kd_light_sums(const struct kd_plan *plan) { return plan->stokes_words ? KD_LIGHT_SUMS_STOKES : KD_LIGHT_SUMS; }
+uint32_t kd_light_sums(const struct kd_plan_light *light)
+{
+    return light->stokes_words ? KD_LIGHT_SUMS_STOKES : KD_LIGHT_SUMS;
+}
 
 uint64_t kd_light_bytes(const struct kd_plan *plan)
 {
-    return 4ull * kd_light_sums(plan) * KD_GROUP_SIZE * kd_light_groups(plan->width * plan->band_rows) * plan->bands;
+    return 4ull * kd_light_sums(&plan->light) * KD_GROUP_SIZE *
+           kd_light_groups(plan->picture.width * plan->picture.band_rows) * plan->picture.bands;
 }
 
 struct sums {
@@ -74,10 +78,10 @@ double kd_light_evpa(const struct kd_light *light)
 
 struct kd_light_report kd_light_of(const struct kd_scene *scene, const struct kd_plan *plan, const float *sums)
 {
-    const uint32_t each = kd_light_sums(plan);
+    const uint32_t each = kd_light_sums(&plan->light);
     const size_t n = kd_light_bytes(plan) / (4 * each);
-    const bool plane = plan->traits[KD_EMITTER_polarization] & KD_TRAIT_PRESENT,
-               volume = plan->traits[KD_EMITTER_stokes] & KD_TRAIT_PRESENT;
+    const bool plane = plan->light.traits[KD_EMITTER_polarization] & KD_TRAIT_PRESENT,
+               volume = plan->light.traits[KD_EMITTER_stokes] & KD_TRAIT_PRESENT;
     const struct kd_camera_exact camera = kd_camera_exact(scene);
     double side = kd_scene_side(scene), pixel = kd_camera_pixel(scene), area = pixel * pixel;
     struct sums all = { 0 }, spots = { 0 };

@@ -21,6 +21,7 @@
 #include <stdint.h>
 
 struct kd_plan;
+struct kd_plan_light;
 
 struct kd_light {
     double flux;
@@ -29,7 +30,7 @@ struct kd_light {
 };
 
 struct kd_light_report {
-    bool measured;              /* whether the plan requested it (kd_plan.light) */
+    bool measured;              /* whether the plan requested it (kd_plan_light.photometry) */
     bool polarized, circular;   /* whether there are Q and U; whether there is V */
     struct kd_light all, spots; /* for the whole picture; for the contribution of its hot spots */
 };
@@ -42,7 +43,7 @@ double kd_light_evpa(const struct kd_light *light);
 /* kd_light_groups: workgroups of photometry.comp for the pixels of a band. kd_light_sums: sums of one invocation.
  * kd_light_bytes: bytes of all sums (every band has as many as the first). */
 uint32_t kd_light_groups(uint32_t pixels);
-uint32_t kd_light_sums(const struct kd_plan *plan);
+uint32_t kd_light_sums(const struct kd_plan_light *light);
 uint64_t kd_light_bytes(const struct kd_plan *plan);
 
 /* Flux, centroid and polarisation from the sums of photometry.comp, which have kd_light_bytes bytes. Pure. */

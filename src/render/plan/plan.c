@@ -29,33 +29,34 @@ _Static_assert(KD_PLAN_EMITTERS >= KD_EMITTER_COUNT, "all of them");
     }
 WHEN(crossings, kd_emit_at_crossings(scene))
 WHEN(volumes, kd_emit_along(scene))
-WHEN(sketched, plan->march.sketched)
-WHEN(bright, plan->bright)
-WHEN(few_rays, (plan->orders > 1 || kd_emit_along(scene)) && !plan->ring && !plan->critical && plan->side < 4)
-WHEN(adapted, plan->adaptive)
-WHEN(not_adapted, kd_scene_adapts(scene) && !plan->adaptive)
-WHEN(film, scene->style.tone_map == KD_TONE_ACES && !plan->numbers && !kd_plan_is_map(plan))
-WHEN(neutral, scene->style.tone_map == KD_TONE_NEUTRAL && !plan->numbers && !kd_plan_is_map(plan))
-WHEN(bloom, plan->bloom.levels && !plan->numbers && !kd_plan_is_map(plan))
-WHEN(beam, plan->beam.cell && !plan->numbers)
-WHEN(near_beam, plan->beam.cell && !plan->numbers && isfinite(scene->camera.r))
+WHEN(sketched, plan->light.march.sketched)
+WHEN(bright, plan->light.bright)
+WHEN(few_rays,
+     (plan->lens.orders > 1 || kd_emit_along(scene)) && !plan->lens.ring && !plan->lens.critical && plan->lens.side < 4)
+WHEN(adapted, plan->lens.adaptive)
+WHEN(not_adapted, kd_scene_adapts(scene) && !plan->lens.adaptive)
+WHEN(film, scene->style.tone_map == KD_TONE_ACES && !plan->picture.numbers && !kd_plan_is_map(&plan->picture))
+WHEN(neutral, scene->style.tone_map == KD_TONE_NEUTRAL && !plan->picture.numbers && !kd_plan_is_map(&plan->picture))
+WHEN(bloom, plan->picture.bloom.levels && !plan->picture.numbers && !kd_plan_is_map(&plan->picture))
+WHEN(beam, plan->picture.beam.cell && !plan->picture.numbers)
+WHEN(near_beam, plan->picture.beam.cell && !plan->picture.numbers && isfinite(scene->camera.r))
 WHEN(near_flux, kd_scene_is_radio_alone(scene) && isfinite(scene->camera.r))
-WHEN(heat, scene->style.palette == KD_PALETTE_HEAT && !kd_scene_is_radio_alone(scene) && !plan->numbers &&
-               !kd_plan_is_map(plan))
-WHEN(normalised, scene->volume.normalise_to_jy > 0 && !plan->reuse_normalisation)
-WHEN(held, plan->reuse_normalisation)
-WHEN(maps, plan->n_layers > 0)
-WHEN(cut, plan->points && plan->bands > 1 && !plan->cacheable)
-WHEN(coloured, kd_plan_is_map(plan) && !plan->numbers)
+WHEN(heat, scene->style.palette == KD_PALETTE_HEAT && !kd_scene_is_radio_alone(scene) && !plan->picture.numbers &&
+               !kd_plan_is_map(&plan->picture))
+WHEN(normalised, scene->volume.normalise_to_jy > 0 && !plan->light.reuse_normalisation)
+WHEN(held, plan->light.reuse_normalisation)
+WHEN(maps, plan->picture.n_layers > 0)
+WHEN(cut, plan->light.points && plan->picture.bands > 1 && !plan->lens.cacheable)
+WHEN(coloured, kd_plan_is_map(&plan->picture) && !plan->picture.numbers)
 WHEN(charged, scene->spacetime.charge != 0)
-WHEN(projected, plan->ring)
-WHEN(rounded, !plan->ring && !kd_scene_is_flat(scene))
-WHEN(interpolated, plan->interpolates > 0)
-WHEN(single, plan->setting.precision == KD_PRECISION_F32 && plan->path != KD_LENS_LISTED)
-WHEN(single_listed, plan->setting.precision == KD_PRECISION_F32 && plan->path == KD_LENS_LISTED)
-WHEN(twice, plan->setting.precision == KD_PRECISION_F64)
-WHEN(paired, plan->eyes == 2 && scene->camera.stereo)
-WHEN(compared, plan->setting.engine >= KD_ENGINE_KS_EULER)
+WHEN(projected, plan->lens.ring)
+WHEN(rounded, !plan->lens.ring && !kd_scene_is_flat(scene))
+WHEN(interpolated, plan->lens.interpolates > 0)
+WHEN(single, plan->lens.setting.precision == KD_PRECISION_F32 && plan->lens.path != KD_LENS_LISTED)
+WHEN(single_listed, plan->lens.setting.precision == KD_PRECISION_F32 && plan->lens.path == KD_LENS_LISTED)
+WHEN(twice, plan->lens.setting.precision == KD_PRECISION_F64)
+WHEN(paired, plan->picture.eyes == 2 && scene->camera.stereo)
+WHEN(compared, plan->lens.setting.engine >= KD_ENGINE_KS_EULER)
 
 static const struct sentence {
     const char *name, *text;
@@ -168,14 +169,14 @@ struct kd_approximation kd_plan_sentence(size_t index)
 static void say(void *user, struct kd_approximation approximation)
 {
     struct kd_plan *plan = user;
-    if (plan->n_approximations < KD_PLAN_MAX_APPROXIMATIONS) /* never exceeded: tests/unit/emitters.c */
-        plan->approximations[plan->n_approximations++] = approximation;
+    if (plan->report.n_approximations < KD_PLAN_MAX_APPROXIMATIONS) /* never exceeded: tests/unit/emitters.c */
+        plan->report.approximations[plan->report.n_approximations++] = approximation;
 }
 
 void kd_plan_say(struct kd_plan *plan, const struct kd_scene *scene)
 {
-    plan->n_approximations = 0;
-    kd_emit_sentences(scene, &plan->setting, say, plan);
+    plan->report.n_approximations = 0;
+    kd_emit_sentences(scene, &plan->lens.setting, say, plan);
     for (int i = 0; i < SENTENCES; i++)
         if (sentences[i].in_force(plan, scene))
             say(plan, kd_plan_sentence((size_t)i));
@@ -183,24 +184,19 @@ void kd_plan_say(struct kd_plan *plan, const struct kd_scene *scene)
 
 static void passes(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c)
 {
-    plan->cost_class = kd_cost_class(plan, scene);
-    plan->trace_ns = kd_pass_cost(&kd_passes[KD_PASS_TRACE], plan, c).ns;
+    plan->cost.class = kd_cost_class(plan, scene);
+    plan->cost.trace_ns = kd_pass_cost(&kd_passes[KD_PASS_TRACE], plan, c).ns;
     for (int i = 0; i < KD_PASS_COUNT; i++) {
         const struct kd_pass_cost cost = kd_pass_cost(&kd_passes[i], plan, c);
         uint64_t n = kd_passes[i].invocations(plan, scene);
         if (!n)
             continue;
-        const double known = kd_cost_known(c, plan->cost_class, (enum kd_pass_id)i);
+        const double known = kd_cost_known(c, plan->cost.class, (enum kd_pass_id)i);
         double ms = (double)n * (known > 0 ? known : cost.ns) * 1e-6;
-        plan->passes[plan->n_passes++] = (struct kd_plan_pass) { kd_passes[i].name, cost.kernel, n, ms, cost.figure };
-        plan->estimate_ms += ms;
+        plan->cost.passes[plan->cost.n_passes++] =
+            (struct kd_plan_pass) { kd_passes[i].name, cost.kernel, n, ms, cost.figure };
+        plan->cost.estimate_ms += ms;
     }
-}
-
-double kd_plan_exposure(const struct kd_plan *plan, double stops)
-{
-    double share = plan->exposure_share;
-    return share > 0 ? plan->exposure_from + share * (stops - plan->exposure_from) : stops;
 }
 
 /* relative precision of a lens map, which keeps w = 1/r in 32 bits */
@@ -271,13 +267,13 @@ static bool within_horizon(const struct kd_scene *scene) { return scene->camera.
 static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *scene,
                                   const struct kd_accuracy_request *asked_accuracy, struct kd_error *error)
 {
-    struct kd_setting *by = &plan->setting;
+    struct kd_setting *by = &plan->lens.setting;
     if (kd_emit_slow_along(scene))
         return kd_error_field(error, "/disk/slow_light",
                               "disk.slow_light is true; inside the horizon, at camera.r %.9g, it must be false, "
                               "because coordinate time does not define the light's delay there",
                               scene->camera.r);
-    if (plan->path != KD_LENS_MAP)
+    if (plan->lens.path != KD_LENS_MAP)
         return kd_error_field(error, "/accuracy/engine",
                               "accuracy.engine is \"%s\" in %s; inside the horizon, at camera.r %.9g, it must be a "
                               "Mino engine in f32, without the light's delay",
@@ -292,20 +288,20 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
                              struct kd_error *error)
 {
     struct kd_accuracy_request asked_accuracy = kd_accuracy_request_of(scene);
-    struct kd_setting *by = &plan->setting;
+    struct kd_setting *by = &plan->lens.setting;
     /* whether lens_closed.comp can trace the picture */
-    bool closed_form = scene->camera.r > beyond_orbits(scene) && !kd_plan_holds(plan, KD_LENS_DELAY);
+    bool closed_form = scene->camera.r > beyond_orbits(scene) && !kd_plan_holds(&plan->lens, KD_LENS_DELAY);
     bool closed32 = asked_accuracy.engine == KD_ENGINE_CLOSED && asked_accuracy.precision == KD_PRECISION_F32;
     if (asked_accuracy.tolerance < KEPT)
         return too_fine(asked_accuracy.tolerance, c, error);
-    enum kd_status status = plan->ring ? ring(&asked_accuracy, error) : KD_OK;
+    enum kd_status status = plan->lens.ring ? ring(&asked_accuracy, error) : KD_OK;
     if (!status)
         status = kd_setting_of(&asked_accuracy, c->accuracy, c->float64, by, error);
     if (status)
         return status;
     if (isfinite(scene->accuracy.tolerance) && isinf(asked_accuracy.tolerance))
         by->holds = KEPT;
-    if (plan->ring && by->precision == KD_PRECISION_F32)
+    if (plan->lens.ring && by->precision == KD_PRECISION_F32)
         return kd_error_field(error, "/accuracy/tolerance",
                               "accuracy.tolerance is %.3g; in the ring projection it must be \"profile\", because this "
                               "device lacks the f64 that a tolerance needs",
@@ -317,7 +313,7 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
                               beyond_orbits(scene));
     if (closed_form && by->precision == KD_PRECISION_F32 && (closed32 || asked_accuracy.engine < 0) &&
         !asked_accuracy.steps) {
-        plan->path = KD_LENS_CLOSED;
+        plan->lens.path = KD_LENS_CLOSED;
         by->engine = KD_ENGINE_CLOSED;
         by->steps = 0;
         return KD_OK;
@@ -328,16 +324,16 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
     }
     bool map = (by->engine == KD_ENGINE_MINO_RKN4 || by->engine == KD_ENGINE_MINO_RKN6) &&
                by->precision == KD_PRECISION_F32 &&
-               !kd_plan_holds(plan, KD_LENS_DELAY); /* delay is available for listed rays only */
-    plan->path = map ? KD_LENS_MAP : KD_LENS_LISTED;
-    plan->ingoing = scene->camera.observer == KD_OBSERVER_INFALL && isfinite(scene->camera.r);
+               !kd_plan_holds(&plan->lens, KD_LENS_DELAY); /* delay is available for listed rays only */
+    plan->lens.path = map ? KD_LENS_MAP : KD_LENS_LISTED;
+    plan->lens.ingoing = scene->camera.observer == KD_OBSERVER_INFALL && isfinite(scene->camera.r);
     if (within_horizon(scene))
         return from_within(plan, scene, &asked_accuracy, error);
-    if (kd_plan_holds(plan, KD_LENS_DELAY) && !outside(scene) && !scene->disk.slow_light)
+    if (kd_plan_holds(&plan->lens, KD_LENS_DELAY) && !outside(scene) && !scene->disk.slow_light)
         return kd_error_field(error, "/image/layers",
                               "image.layers has delay, which is not computed inside the ergosphere, at camera.r %.9g",
                               scene->camera.r);
-    if (kd_plan_holds(plan, KD_LENS_DELAY) && !outside(scene))
+    if (kd_plan_holds(&plan->lens, KD_LENS_DELAY) && !outside(scene))
         return kd_error_field(error, "/disk/slow_light",
                               "disk.slow_light is true; inside the ergosphere, at camera.r %.9g, it must be false",
                               scene->camera.r);
@@ -347,19 +343,19 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
 /* Number of polarisation numbers that are stored after the radiance of a pixel. */
 static uint32_t stokes_words(const struct kd_plan *plan)
 {
-    const bool plane = plan->traits[KD_EMITTER_polarization] & KD_TRAIT_PRESENT,
-               volume = plan->traits[KD_EMITTER_stokes] & KD_TRAIT_PRESENT;
-    bool kept = plan->light && (plane || volume);
-    for (size_t i = 0; i < plan->n_layers; i++)
-        kept |= kd_plan_gathers(plan, plan->layers[i].kind);
-    return kept ? KD_PLAN_STOKES + (plan->apart && plane ? 2 : 0) : 0;
+    const bool plane = plan->light.traits[KD_EMITTER_polarization] & KD_TRAIT_PRESENT,
+               volume = plan->light.traits[KD_EMITTER_stokes] & KD_TRAIT_PRESENT;
+    bool kept = plan->light.photometry && (plane || volume);
+    for (size_t i = 0; i < plan->picture.n_layers; i++)
+        kept |= kd_plan_gathers(&plan->light, plan->picture.layers[i].kind);
+    return kept ? KD_PLAN_STOKES + (plan->light.apart && plane ? 2 : 0) : 0;
 }
 
-bool kd_plan_is_spread(const struct kd_plan *plan)
+bool kd_plan_is_spread(const struct kd_plan_light *light)
 {
     uint32_t all = 0;
-    for (size_t i = 0; i < sizeof plan->traits / sizeof *plan->traits; i++)
-        all |= plan->traits[i];
+    for (size_t i = 0; i < sizeof light->traits / sizeof *light->traits; i++)
+        all |= light->traits[i];
     return all & KD_TRAIT_SPREAD;
 }
 
@@ -368,67 +364,68 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
                               const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
     struct kd_plan plan = { 0 };
-    plan.width = kd_scene_window(scene).width;
-    plan.height = kd_scene_window(scene).height;
-    plan.side = (uint32_t)kd_scene_side(scene);
-    plan.rays = (uint64_t)plan.width * plan.height * plan.side * plan.side;
+    plan.picture.width = kd_scene_window(scene).width;
+    plan.picture.height = kd_scene_window(scene).height;
+    plan.lens.side = (uint32_t)kd_scene_side(scene);
+    plan.lens.rays = (uint64_t)plan.picture.width * plan.picture.height * plan.lens.side * plan.lens.side;
     if (!needs->no_image)
-        plan.bloom =
-            kd_bloom_of(plan.width, plan.height, scene->style.bloom, kd_camera_sight(scene) == KD_SIGHT_SPHERE);
-    plan.light = needs->light;
-    plan.no_image = needs->no_image;
-    plan.numbers = needs->radiance;
-    plan.reuse_normalisation = needs->reuse_normalisation && scene->volume.normalise_to_jy > 0;
-    plan.ring = scene->camera.projection == KD_PROJECTION_RING;
-    kd_emit_traits(scene, plan.traits);
-    plan.apart = kd_emit_separate_photometry(scene);
-    plan.points = kd_emit_points(scene);
-    plan.bright = plan.points && needs->bright;
-    plan.quantities = needs->quantities;
-    plan.quantities |= plan.quantities & KD_LENS_SHAPE ? KD_LENS_FOOTPRINT : 0;
+        plan.picture.bloom = kd_bloom_of(plan.picture.width, plan.picture.height, scene->style.bloom,
+                                         kd_camera_sight(scene) == KD_SIGHT_SPHERE);
+    plan.light.photometry = needs->light;
+    plan.picture.no_image = needs->no_image;
+    plan.picture.numbers = needs->radiance;
+    plan.light.reuse_normalisation = needs->reuse_normalisation && scene->volume.normalise_to_jy > 0;
+    plan.lens.ring = scene->camera.projection == KD_PROJECTION_RING;
+    kd_emit_traits(scene, plan.light.traits);
+    plan.light.apart = kd_emit_separate_photometry(scene);
+    plan.light.points = kd_emit_points(scene);
+    plan.light.bright = plan.light.points && needs->bright;
+    plan.lens.quantities = needs->quantities;
+    plan.lens.quantities |= plan.lens.quantities & KD_LENS_SHAPE ? KD_LENS_FOOTPRINT : 0;
     /* footprints are differences of azimuths, too */
-    plan.quantities |= plan.quantities & KD_LENS_FOOTPRINT ? KD_LENS_PHI : 0;
-    plan.quantities |= plan.quantities & KD_LENS_SKY_FOOTPRINT ? KD_LENS_SKY : 0;
+    plan.lens.quantities |= plan.lens.quantities & KD_LENS_FOOTPRINT ? KD_LENS_PHI : 0;
+    plan.lens.quantities |= plan.lens.quantities & KD_LENS_SKY_FOOTPRINT ? KD_LENS_SKY : 0;
     /* Without a disk a ray still passes from crossing to crossing in long strides before it escapes. */
-    plan.orders = needs->quantities ? (uint32_t)scene->accuracy.orders : 0;
-    plan.ends = kd_emit_at_ends(scene) && kd_plan_holds(&plan, KD_LENS_SKY);
-    plan.n_layers = kd_layers_of(scene, plan.layers, &plan.picture);
-    plan.n_layers = needs->no_image ? 0 : plan.n_layers;
-    if (plan.bright && !plan.n_layers &&
-        !kd_plan_is_spread(&plan)) /* for bright images the differences that are computed in their search are enough */
-        plan.quantities &= ~(uint32_t)KD_LENS_SKY_FOOTPRINT;
-    plan.radiance = needs->radiance && plan.picture && !needs->no_image;
-    if (!needs->no_image && !kd_plan_is_map(&plan))
-        plan.beam = kd_beam_of(scene);
-    plan.quantities |= plan.orders ? KD_LENS_W | (plan.ring ? KD_LENS_ALPHA : 0) : 0;
-    if (plan.light && !kd_scene_is_flat(scene))
+    plan.lens.orders = needs->quantities ? (uint32_t)scene->accuracy.orders : 0;
+    plan.lens.ends = kd_emit_at_ends(scene) && kd_plan_holds(&plan.lens, KD_LENS_SKY);
+    plan.picture.n_layers = kd_layers_of(scene, plan.picture.layers, &plan.picture.rgb);
+    plan.picture.n_layers = needs->no_image ? 0 : plan.picture.n_layers;
+    if (plan.light.bright && !plan.picture.n_layers &&
+        !kd_plan_is_spread(
+            &plan.light)) /* for bright images the differences that are computed in their search are enough */
+        plan.lens.quantities &= ~(uint32_t)KD_LENS_SKY_FOOTPRINT;
+    plan.picture.radiance = needs->radiance && plan.picture.rgb && !needs->no_image;
+    if (!needs->no_image && !kd_plan_is_map(&plan.picture))
+        plan.picture.beam = kd_beam_of(scene);
+    plan.lens.quantities |= plan.lens.orders ? KD_LENS_W | (plan.lens.ring ? KD_LENS_ALPHA : 0) : 0;
+    if (plan.light.photometry && !kd_scene_is_flat(scene))
         return kd_error_field(
             error, "/camera/projection",
             "camera.projection is \"ring\", \"equirectangular\" or \"fulldome\"; for a measurement of light it must be "
             "\"plane\" or \"pinhole\", because areas of the others are not to scale");
     enum kd_status status;
-    if (plan.ring && (kd_emit_along(scene) || kd_emit_met(scene)))
+    if (plan.lens.ring && (kd_emit_along(scene) || kd_emit_met(scene)))
         return kd_error_field(error, "/camera/projection",
                               "camera.projection is \"ring\"; with volumes or bodies it must be another");
     KD_TRY(kd_layers_check(scene, error));
-    KD_TRY(kd_plan_beam_fits(&plan, capacity, error));
+    KD_TRY(kd_plan_beam_fits(&plan.picture, capacity, error));
     KD_TRY(choose(&plan, scene, capacity, error));
     if (kd_emit_along(scene) && scene->accuracy.tolerance < KD_MARCH_HOLDS)
         KD_TRY(kd_error_field(
             error, "/accuracy/tolerance",
             "accuracy.tolerance is %.3g; for light through volumes, in 32 bits, it must be at least %.3g",
             scene->accuracy.tolerance, KD_MARCH_HOLDS));
-    plan.meets = kd_emit_met(scene);
-    if (kd_emit_along(scene) || plan.meets)
-        plan.march = kd_march_of(scene, &plan.setting);
-    plan.stokes_words = stokes_words(&plan);
+    plan.light.meets = kd_emit_met(scene);
+    if (kd_emit_along(scene) || plan.light.meets)
+        plan.light.march = kd_march_of(scene, &plan.lens.setting);
+    plan.light.stokes_words = stokes_words(&plan);
     if (needs->sketch && kd_emit_along(scene))
-        plan.march = kd_march_sketch(plan.march, scene);
-    plan.planes = kd_lens_planes(plan.quantities, plan.orders);
-    plan.interpolates = needs->followed ? 0 : kd_sample_tolerance(&plan, scene);
+        plan.light.march = kd_march_sketch(plan.light.march, scene);
+    plan.lens.planes = kd_lens_planes(plan.lens.quantities, plan.lens.orders);
+    plan.lens.interpolates = needs->followed ? 0 : kd_sample_tolerance(&plan, scene);
     kd_plan_adapt(&plan, scene, capacity);
-    plan.measured = capacity->measured;
-    plan.accuracy_measured = capacity->accuracy_measured;
+    plan.report.measured = capacity->measured;
+    plan.report.accuracy_measured = capacity->accuracy_measured;
     *out = plan;
     KD_TRY(kd_plan_bands(out, scene, capacity, error));
 done:
@@ -443,11 +440,11 @@ enum kd_status kd_plan_one(const struct kd_scene *scene, const struct kd_needs *
     /* limits first, because listing the pixels of a picture that is too large takes long */
     KD_TRY(outline(scene, needs, capacity, &plan, error));
     KD_TRY(kd_plan_critical(&plan, scene, capacity, error));
-    if (plan.critical)
+    if (plan.lens.critical)
         KD_TRY(kd_plan_bands(&plan, scene, capacity, error));
-    plan.audit = plan.cacheable && plan.orders && !within_horizon(scene)
-                     ? KD_AUDIT_RAYS
-                     : 0; /* used outside by the closed form's test */
+    plan.lens.audit = plan.lens.cacheable && plan.lens.orders && !within_horizon(scene)
+                          ? KD_AUDIT_RAYS
+                          : 0; /* used outside by the closed form's test */
     passes(&plan, scene, capacity);
     kd_plan_say(&plan, scene);
     if (kd_plan_lens_key(&plan, scene))

@@ -24,8 +24,8 @@ static uint64_t least(uint64_t a, uint64_t b) { return a < b ? a : b; }
 
 uint64_t kd_plan_open_most(const struct kd_plan *plan)
 {
-    const uint64_t band = (uint64_t)plan->width * plan->band_rows * plan->side * plan->side,
-                   part = (uint64_t)plan->critical_part * plan->critical;
+    const uint64_t band = (uint64_t)plan->picture.width * plan->picture.band_rows * plan->lens.side * plan->lens.side,
+                   part = (uint64_t)plan->lens.critical_part * plan->lens.critical;
     return least(band > part ? band : part, KD_GIVEN_MOST);
 }
 
@@ -34,8 +34,8 @@ uint64_t kd_plan_open_most(const struct kd_plan *plan)
  * below the limit, with a few hundred groups. */
 static uint64_t rows_of_groups(const struct kd_plan *plan, const struct kd_capacity *c)
 {
-    uint64_t rows = groups_y(c) / plan->side, in_line = groups_x(c) * KD_GROUP_SIZE;
-    return least(rows, in_line * KD_POST_PIXELS / plan->width);
+    uint64_t rows = groups_y(c) / plan->lens.side, in_line = groups_x(c) * KD_GROUP_SIZE;
+    return least(rows, in_line * KD_POST_PIXELS / plan->picture.width);
 }
 
 /* Checks that everything fits. On the host a picture exists twice, as pixels and as the encoded file. */
@@ -43,11 +43,11 @@ static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_ba
                            struct kd_error *error)
 {
     const char *where = "device", *by = c->memory_by ? c->memory_by : "the device";
-    uint64_t host = 2 * plan->host_bytes + plan->making_bytes, bytes = c->host_memory ? fixed + host : fixed,
+    uint64_t host = 2 * plan->cost.host_bytes + plan->cost.making_bytes, bytes = c->host_memory ? fixed + host : fixed,
              most = c->memory_bytes;
-    plan->cacheable = bytes + plan->lens_bytes <= most;
-    plan->device_bytes = fixed + (plan->cacheable ? plan->lens_bytes : one_band);
-    bytes += plan->device_bytes - fixed;
+    plan->lens.cacheable = bytes + plan->cost.lens_bytes <= most;
+    plan->cost.device_bytes = fixed + (plan->lens.cacheable ? plan->cost.lens_bytes : one_band);
+    bytes += plan->cost.device_bytes - fixed;
     if (bytes <= most && !c->host_memory && c->host_bytes && host > c->host_bytes) {
         where = "host";
         by = "the free memory of the host";
@@ -63,18 +63,20 @@ static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_ba
 }
 
 /* Bytes of a beam: its rows of cells and its grids. */
-static uint64_t beam_bytes(const struct kd_plan *plan)
+static uint64_t beam_bytes(const struct kd_plan_picture *picture)
 {
-    if (!plan->beam.cell)
+    if (!picture->beam.cell)
         return 0;
-    return 12ull * plan->width * plan->height + kd_beam_lines_bytes(&plan->beam) + kd_beam_grids_bytes(&plan->beam);
+    return 12ull * picture->width * picture->height + kd_beam_lines_bytes(&picture->beam) +
+           kd_beam_grids_bytes(&picture->beam);
 }
 
-enum kd_status kd_plan_beam_fits(const struct kd_plan *plan, const struct kd_capacity *c, struct kd_error *error)
+enum kd_status kd_plan_beam_fits(const struct kd_plan_picture *picture, const struct kd_capacity *c,
+                                 struct kd_error *error)
 {
-    const uint64_t lines = kd_beam_lines_bytes(&plan->beam), grids = kd_beam_grids_bytes(&plan->beam),
+    const uint64_t lines = kd_beam_lines_bytes(&picture->beam), grids = kd_beam_grids_bytes(&picture->beam),
                    bytes = lines > grids ? lines : grids;
-    if (!plan->beam.cell || bytes <= buffer_bytes(c))
+    if (!picture->beam.cell || bytes <= buffer_bytes(c))
         return KD_OK;
     return kd_error_set(error, KD_ETOOBIG,
                         "at this picture size style.beam_uas needs a buffer of %llu bytes; on this device it must be "
@@ -85,44 +87,48 @@ enum kd_status kd_plan_beam_fits(const struct kd_plan *plan, const struct kd_cap
 enum kd_status kd_plan_bands(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
                              struct kd_error *error)
 {
-    uint64_t row_lens = 4ull * plan->planes * plan->width * plan->side * plan->side;
-    uint64_t row_light = (kd_plan_pixel_bytes(plan) + (plan->march.steps ? 4 : 0)) * plan->width,
-             row_out = plan->no_image ? 0 : (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
+    uint64_t row_lens = 4ull * plan->lens.planes * plan->picture.width * plan->lens.side * plan->lens.side;
+    uint64_t row_light = (kd_plan_pixel_bytes(&plan->light) + (plan->light.march.steps ? 4 : 0)) * plan->picture.width,
+             row_out = plan->picture.no_image ? 0 : (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->picture.width;
     /* refinement chooses pixels by values of 16 bits */
-    uint64_t row_shown = plan->adaptive ? 6ull * plan->width : row_out;
-    uint64_t row_layers = 4ull * plan->n_layers * plan->width;
+    uint64_t row_shown = plan->lens.adaptive ? 6ull * plan->picture.width : row_out;
+    uint64_t row_layers = 4ull * plan->picture.n_layers * plan->picture.width;
     uint64_t widest = row_lens > row_light ? row_lens : row_light;
     widest = row_layers > widest ? row_layers : widest;
-    uint64_t row_points = plan->points ? 24ull * plan->width : 0;
+    uint64_t row_points = plan->light.points ? 24ull * plan->picture.width : 0;
     widest = row_points > widest ? row_points : widest;
-    const uint64_t going_on = plan->march.steps ? kd_plan_lost_bytes(1) : 0;
-    uint64_t rows = (buffer_bytes(c) - 64 - going_on - 256 * plan->n_layers) / widest, fit = rows_of_groups(plan, c);
+    const uint64_t going_on = plan->light.march.steps ? kd_plan_lost_bytes(1) : 0;
+    uint64_t rows = (buffer_bytes(c) - 64 - going_on - 256 * plan->picture.n_layers) / widest,
+             fit = rows_of_groups(plan, c);
     if (rows < 1)
         return kd_error_set(error, KD_ETOOBIG,
                             "one row of the picture needs %llu bytes; on this device it must be at most %llu",
                             (unsigned long long)widest, (unsigned long long)buffer_bytes(c));
-    if (fit < 1 || (uint64_t)plan->width * plan->side > groups_x(c) * KD_GROUP_SIZE)
+    if (fit < 1 || (uint64_t)plan->picture.width * plan->lens.side > groups_x(c) * KD_GROUP_SIZE)
         return kd_error_set(error, KD_ETOOBIG,
                             "one row of the picture has %llu rays, too many for %llu workgroups of %d on this device",
-                            (unsigned long long)plan->width * plan->side, (unsigned long long)groups_x(c),
+                            (unsigned long long)plan->picture.width * plan->lens.side, (unsigned long long)groups_x(c),
                             KD_GROUP_SIZE);
     rows = least(rows, fit);
-    plan->band_rows = (uint32_t)(rows < plan->height ? rows : plan->height);
-    plan->bands = (plan->height + plan->band_rows - 1) / plan->band_rows;
+    plan->picture.band_rows = (uint32_t)(rows < plan->picture.height ? rows : plan->picture.height);
+    plan->picture.bands = (plan->picture.height + plan->picture.band_rows - 1) / plan->picture.band_rows;
     kd_sample_fit(plan, buffer_bytes(c));
-    uint64_t at_curve = kd_plan_critical_parts(plan) * kd_plan_critical_bytes(plan);
-    plan->lens_bytes = row_lens * plan->height + at_curve;
-    plan->making_bytes = kd_emit_making_bytes(scene);
-    plan->host_bytes = (row_out + row_layers + (plan->adaptive ? 12ull * plan->width : 0) +
-                        (plan->radiance ? 12ull * plan->width : 0)) *
-                       plan->height;
-    uint64_t fixed = plan->listed_bytes + kd_sample_bytes(plan) + 8 * (1 + kd_plan_open_most(plan)) +
-                     kd_emit_device_bytes(scene) + row_light * plan->height + going_on * plan->bands +
-                     2 * (row_shown * plan->band_rows + 64) + (1 << 20) + plan->bloom.bytes + beam_bytes(plan) +
-                     (plan->light ? 2 * kd_light_bytes(plan) : 0) + row_points * plan->height +
-                     (plan->points ? kd_plan_pair_bytes() + kd_plan_star_ray_bytes(plan) + kd_rim_bytes_most() : 0) +
-                     plan->n_layers * kd_plan_layer_bytes(plan) * plan->bands + kd_plan_readback_bytes(plan);
-    uint64_t one_band = row_lens * plan->band_rows + at_curve;
+    uint64_t at_curve = kd_plan_critical_parts(&plan->lens) * kd_plan_critical_bytes(&plan->lens);
+    plan->cost.lens_bytes = row_lens * plan->picture.height + at_curve;
+    plan->cost.making_bytes = kd_emit_making_bytes(scene);
+    plan->cost.host_bytes = (row_out + row_layers + (plan->lens.adaptive ? 12ull * plan->picture.width : 0) +
+                             (plan->picture.radiance ? 12ull * plan->picture.width : 0)) *
+                            plan->picture.height;
+    uint64_t fixed =
+        plan->lens.listed_bytes + kd_sample_bytes(plan) + 8 * (1 + kd_plan_open_most(plan)) +
+        kd_emit_device_bytes(scene) + row_light * plan->picture.height + going_on * plan->picture.bands +
+        2 * (row_shown * plan->picture.band_rows + 64) + (1 << 20) + plan->picture.bloom.bytes +
+        beam_bytes(&plan->picture) + (plan->light.photometry ? 2 * kd_light_bytes(plan) : 0) +
+        row_points * plan->picture.height +
+        (plan->light.points ? kd_plan_pair_bytes() + kd_plan_star_ray_bytes(plan) + kd_rim_bytes_most() : 0) +
+        plan->picture.n_layers * kd_plan_layer_bytes(&plan->picture) * plan->picture.bands +
+        kd_plan_readback_bytes(&plan->picture);
+    uint64_t one_band = row_lens * plan->picture.band_rows + at_curve;
     return fits(plan, fixed, one_band, c, error);
 }
 
@@ -130,34 +136,38 @@ enum kd_status kd_plan_critical(struct kd_plan *plan, const struct kd_scene *sce
                                 struct kd_error *error)
 {
     struct kd_critical_pixels list;
-    const uint64_t side = least(plan->side * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
+    const uint64_t side = least(plan->lens.side * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
     const uint64_t dense = least(KD_PLAN_ADAPTIVE_SIDE * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
-    if (plan->ring || side <= plan->side ||
-        !(plan->orders > 1 || plan->ends || plan->march.steps)) /* the direct image is not thin anywhere */
+    if (plan->lens.ring || side <= plan->lens.side ||
+        !(plan->lens.orders > 1 || plan->lens.ends ||
+          plan->light.march.steps)) /* the direct image is not thin anywhere */
         return KD_OK;
     enum kd_status status = kd_critical_cache(scene, &list, error);
-    uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->planes * side * side + 2));
+    uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->lens.planes * side * side + 2));
     kd_critical_pixels_finish(&list);
     if (status || !n)
         return status;
     most = least(most, groups_x(c) * KD_GROUP_SIZE / (side * side));
-    most = least(most, (1ull << 32) / (4 * (plan->planes * side * side + 2))); /* the kernel counts in 32 bits */
+    most = least(most, (1ull << 32) / (4 * (plan->lens.planes * side * side + 2))); /* the kernel counts in 32 bits */
     if (!most)
         return KD_OK;
-    plan->critical = (uint32_t)(side * side);
-    plan->critical_dense = plan->adaptive ? (uint32_t)(dense * dense) : 0;
-    plan->critical_pixels = n;
-    plan->critical_part = n < most ? n : most;
+    plan->lens.critical = (uint32_t)(side * side);
+    plan->lens.critical_dense = plan->lens.adaptive ? (uint32_t)(dense * dense) : 0;
+    plan->lens.critical_pixels = n;
+    plan->lens.critical_part = n < most ? n : most;
     return KD_OK;
 }
 
 void kd_plan_adapt(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c)
 {
-    if (!kd_scene_adapts(scene) || plan->ring || plan->no_image || !plan->picture || !plan->planes)
+    if (!kd_scene_adapts(scene) || plan->lens.ring || plan->picture.no_image || !plan->picture.rgb ||
+        !plan->lens.planes)
         return;
-    plan->adaptive = KD_PLAN_ADAPTIVE_SIDE * KD_PLAN_ADAPTIVE_SIDE;
-    plan->listed_bytes = least(least(4ull * plan->rays * (plan->planes * plan->adaptive + 2), KD_PLAN_LISTED_BYTES),
-                               buffer_bytes(c) - 64);
-    if (!kd_plan_listed_most(plan, KD_CRITICAL_SIDE * KD_CRITICAL_SIDE)) /* the buffer has no room for even one pixel */
-        plan->listed_bytes = 4ull * (plan->planes * KD_CRITICAL_SIDE * KD_CRITICAL_SIDE + 2);
+    plan->lens.adaptive = KD_PLAN_ADAPTIVE_SIDE * KD_PLAN_ADAPTIVE_SIDE;
+    plan->lens.listed_bytes =
+        least(least(4ull * plan->lens.rays * (plan->lens.planes * plan->lens.adaptive + 2), KD_PLAN_LISTED_BYTES),
+              buffer_bytes(c) - 64);
+    if (!kd_plan_listed_most(&plan->lens,
+                             KD_CRITICAL_SIDE * KD_CRITICAL_SIDE)) /* the buffer has no room for even one pixel */
+        plan->lens.listed_bytes = 4ull * (plan->lens.planes * KD_CRITICAL_SIDE * KD_CRITICAL_SIDE + 2);
 }

@@ -6,7 +6,8 @@
 #include "render/plan/plan.h"
 
 /* KD_ETOOBIG: the rows or the grids of a beam exceed one binding. */
-enum kd_status kd_plan_beam_fits(const struct kd_plan *plan, const struct kd_capacity *c, struct kd_error *error);
+enum kd_status kd_plan_beam_fits(const struct kd_plan_picture *picture, const struct kd_capacity *c,
+                                 struct kd_error *error);
 /* Plans extra rays for refined pixels. There are none if the plan's rays are a ring round the critical curve, where
  * image orders are wide already. One buffer serves all parts in turn. */
 void kd_plan_adapt(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c);

@@ -27,7 +27,7 @@ static uint32_t blocks(int64_t origin, int64_t end) { return (uint32_t)((end - o
 struct kd_sample_grid kd_sample_grid(const struct kd_plan *plan, uint32_t left, uint32_t top, uint32_t row0,
                                      uint32_t rows)
 {
-    const int64_t width = (int64_t)plan->width * plan->side, y = (int64_t)top + row0;
+    const int64_t width = (int64_t)plan->picture.width * plan->lens.side, y = (int64_t)top + row0;
     struct kd_sample_grid grid = {
         .origin_x = (int32_t)(block_of(left) - left),
         .origin_y = (int32_t)(block_of(y) - top),
@@ -41,13 +41,13 @@ struct kd_sample_grid kd_sample_grid(const struct kd_plan *plan, uint32_t left, 
     grid.alone = grid.places + grid.room;
     grid.list_bytes = 4 * (grid.alone + (uint64_t)width * rows);
     grid.index_bytes = 4 * (even + 2ull * LAST * LAST * n);
-    grid.node_bytes = 4ull * (plan->planes + KD_NODE_OWN) * grid.room;
+    grid.node_bytes = 4ull * (plan->lens.planes + KD_NODE_OWN) * grid.room;
     return grid;
 }
 
 static struct kd_sample_grid largest(const struct kd_plan *plan, uint32_t rows)
 {
-    return kd_sample_grid(plan, KD_CELL_BLOCK - 1, KD_CELL_BLOCK - 1, 0, rows * plan->side);
+    return kd_sample_grid(plan, KD_CELL_BLOCK - 1, KD_CELL_BLOCK - 1, 0, rows * plan->lens.side);
 }
 
 static bool fits(const struct kd_plan *plan, uint32_t rows, uint64_t bytes)
@@ -58,22 +58,22 @@ static bool fits(const struct kd_plan *plan, uint32_t rows, uint64_t bytes)
 
 void kd_sample_fit(struct kd_plan *plan, uint64_t bytes)
 {
-    const uint64_t row = (uint64_t)plan->width * plan->side * plan->side,
+    const uint64_t row = (uint64_t)plan->picture.width * plan->lens.side * plan->lens.side,
                    rows = RAYS_AT_ONCE / row > 1 ? RAYS_AT_ONCE / row : 1;
     /* as many rows as the bits of a place can number */
-    const uint64_t held = (MOST_ROWS - 2 * KD_CELL_BLOCK) / plan->side;
-    plan->sample_rows = (uint32_t)least_of(least_of(rows, held), plan->band_rows);
-    while (plan->sample_rows > 1 && !fits(plan, plan->sample_rows, bytes))
-        plan->sample_rows /= 2;
+    const uint64_t held = (MOST_ROWS - 2 * KD_CELL_BLOCK) / plan->lens.side;
+    plan->lens.sample_rows = (uint32_t)least_of(least_of(rows, held), plan->picture.band_rows);
+    while (plan->lens.sample_rows > 1 && !fits(plan, plan->lens.sample_rows, bytes))
+        plan->lens.sample_rows /= 2;
     if (!fits(plan, 1, BOUND_EVERYWHERE))
-        plan->interpolates = 0;
+        plan->lens.interpolates = 0;
 }
 
 uint64_t kd_sample_bytes(const struct kd_plan *plan)
 {
-    if (!(plan->interpolates > 0))
+    if (!(plan->lens.interpolates > 0))
         return 0;
-    const struct kd_sample_grid most = largest(plan, plan->sample_rows);
+    const struct kd_sample_grid most = largest(plan, plan->lens.sample_rows);
     return most.list_bytes + most.index_bytes + most.node_bytes;
 }
 
@@ -88,8 +88,9 @@ double kd_sample_tolerance(const struct kd_plan *plan, const struct kd_scene *sc
                                          [KD_PROFILE_HIGH] = 0,
                                          [KD_PROFILE_REFERENCE] = 0 };
     const struct kd_accuracy_request asked_accuracy = kd_accuracy_request_of(scene);
-    if (plan->path == KD_LENS_LISTED || !plan->planes || asked_accuracy.engine >= 0 || asked_accuracy.steps ||
-        asked_accuracy.precision >= 0 || (uint64_t)plan->width * plan->side > MOST_COLUMNS - 2 * KD_CELL_BLOCK)
+    if (plan->lens.path == KD_LENS_LISTED || !plan->lens.planes || asked_accuracy.engine >= 0 || asked_accuracy.steps ||
+        asked_accuracy.precision >= 0 ||
+        (uint64_t)plan->picture.width * plan->lens.side > MOST_COLUMNS - 2 * KD_CELL_BLOCK)
         return 0;
     if (isfinite(asked_accuracy.tolerance))
         return asked_accuracy.tolerance >= HOLDS ? by_profile[KD_PROFILE_BALANCED] : 0;
@@ -99,11 +100,11 @@ double kd_sample_tolerance(const struct kd_plan *plan, const struct kd_scene *sc
 void kd_plan_follow_all(struct kd_plan *plan)
 {
     char text[96];
-    if (!(plan->interpolates > 0))
+    if (!(plan->lens.interpolates > 0))
         return;
-    plan->interpolates = 0;
-    const int n = snprintf(text, sizeof text, "%s, every ray followed", plan->lens_key);
-    kd_sha256(text, (size_t)n, plan->lens_key);
-    for (size_t i = 0; i < plan->n_passes; i++)
-        plan->passes[i].figure = KD_NS_NONE;
+    plan->lens.interpolates = 0;
+    const int n = snprintf(text, sizeof text, "%s, every ray followed", plan->lens.key);
+    kd_sha256(text, (size_t)n, plan->lens.key);
+    for (size_t i = 0; i < plan->cost.n_passes; i++)
+        plan->cost.passes[i].figure = KD_NS_NONE;
 }

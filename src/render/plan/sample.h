@@ -18,9 +18,9 @@ struct kd_sample_grid {
 struct kd_sample_grid kd_sample_grid(const struct kd_plan *plan, uint32_t left, uint32_t top, uint32_t row0,
                                      uint32_t rows);
 
-/* Sets plan->sample_rows such that no buffer exceeds `bytes`, the limit of a binding. If a picture is so wide that
+/* Sets plan->lens.sample_rows such that no buffer exceeds `bytes`, the limit of a binding. If a picture is so wide that
  * some device could not bind one row of pixels, every ray is traced on all devices, so that its bytes are the same
- * everywhere. plan->band_rows must be set. */
+ * everywhere. plan->picture.band_rows must be set. */
 void kd_sample_fit(struct kd_plan *plan, uint64_t bytes);
 /* Bytes of all three buffers for sample_rows; 0 if every ray is traced. */
 uint64_t kd_sample_bytes(const struct kd_plan *plan);

@@ -30,7 +30,7 @@ static enum kd_status draw(const struct kd_selftest *test, const struct kd_capac
     KD_TRY(kd_plan_make(&scene, capacity, &plan, test->error));
     KD_TRY(kd_render(test->renderer, &scene, &plan, NULL, NULL, out, test->error));
     if (bands)
-        *bands = plan.bands;
+        *bands = plan.picture.bands;
 done:
     return status;
 }

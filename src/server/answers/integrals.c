@@ -62,11 +62,11 @@ static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_er
             kd_integral_name_set(&job->request, i, status, error);
             return status;
         }
-        ms += plan.estimate_ms * n / sizes +
-              (double)plan.n_layers * plan.width * plan.height * (double)job->request.u.n * NS_A_PRODUCT * 1e-6 *
-                  (i ? 1 : kd_integral_evaluations(&job->request)) *
+        ms += plan.cost.estimate_ms * n / sizes +
+              (double)plan.picture.n_layers * plan.picture.width * plan.picture.height * (double)job->request.u.n *
+                  NS_A_PRODUCT * 1e-6 * (i ? 1 : kd_integral_evaluations(&job->request)) *
                   (job->request.what == KD_INTEGRAL_SETS ? (double)job->request.sets->n : 1);
-        *bytes += 4 * (1 + plan.n_layers) * (size_t)plan.width * plan.height;
+        *bytes += 4 * (1 + plan.picture.n_layers) * (size_t)plan.picture.width * plan.picture.height;
     }
     if (ms > server->longest_s * 1e3)
         return kd_error_set(error, KD_ETOOBIG,
@@ -129,7 +129,7 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
     };
     memcpy(job->picture.claim.client, request->client, sizeof job->picture.claim.client);
     KD_TRY(kd_integral_plan(&job->request, &job->picture.scene, &capacity, &job->picture.plan, error));
-    job->planned_ms += job->picture.plan.estimate_ms;
+    job->planned_ms += job->picture.plan.cost.estimate_ms;
     /* begin() estimated all sets by their first picture, but a set may change what a picture costs. */
     if (job->request.what == KD_INTEGRAL_SETS && job->planned_ms > request->server->longest_s * 1e3)
         KD_TRY(
@@ -151,7 +151,8 @@ static enum kd_status piece(struct job *job, double until_ms, enum kd_slice_resu
     if (job->stage == NEW)
         KD_TRY(begin(job, error));
     else if (job->stage == RENDERS)
-        KD_TRY(kd_integral_run_take(&job->run, &job->picture.file, &job->picture.scene, &job->picture.plan, error));
+        KD_TRY(
+            kd_integral_run_take(&job->run, &job->picture.file, &job->picture.scene, &job->picture.plan.report, error));
     if (job->stage != NEW && kd_integral_run_step(&job->run, until_ms)) {
         job->stage = SUMS;
         return KD_OK;

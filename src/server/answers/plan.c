@@ -92,7 +92,8 @@ static enum MHD_Result plan_scene(struct kd_request *request)
     struct kd_planned *planned = kd_planned_of(request, &result);
     if (!planned)
         return result;
-    planned->plan.kernels_ms = kd_render_queue_kernels_ms(request->server->renders, &planned->drawn, &planned->plan);
+    planned->plan.cost.kernels_ms =
+        kd_render_queue_kernels_ms(request->server->renders, &planned->drawn, &planned->plan);
     return kd_reply_json(request, kd_plan_to_json(&planned->plan, &json), &json, request->route->answer);
 }
 

@@ -87,7 +87,7 @@ static enum kd_status push_to_device(struct kd_rays_job *job, struct kd_error *e
     };
     memcpy(job->device.claim.client, job->task.request->client, sizeof job->device.claim.client);
     job->turn = FIRST_TURN;
-    job->device.plan.estimate_ms =
+    job->device.plan.cost.estimate_ms =
         (double)job->answer.n * job->answer.params.orders * capacity.ns[KD_NS_RAY_FULL] * 1e-6;
     kd_render_queue_push(renders, &job->device);
     return KD_OK;

@@ -234,7 +234,7 @@ void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job)
 static void count_map(struct kd_job *job, const struct kd_render_job *render)
 {
     const unsigned traced =
-        render->status ? 0 : (!render->frame.lens_reused && render->plan.planes) + render->frame.others_traced;
+        render->status ? 0 : (!render->frame.lens_reused && render->plan.lens.planes) + render->frame.others_traced;
     if (!traced)
         return;
     job->record.traced += traced;

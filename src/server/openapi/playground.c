@@ -77,7 +77,8 @@ static void add_properties(struct kd_json *json, bool patch)
         add_raw(json, "add", BODIES("PlaygroundBody"));
         add_raw(json, "change", BODIES("PlaygroundBodyChange"));
         add_raw(json, "remove",
-                "{\"type\":\"array\",\"maxItems\":4096,\"items\":{\"type\":\"integer\",\"minimum\":1}}");
+                "{\"type\":\"array\",\"maxItems\":4096,\"items\":{\"type\":\"integer\",\"minimum\":1,"
+                "\"maximum\":4294967295}}");
         return;
     }
     add_preset(json);

@@ -15,7 +15,7 @@ static bool is_large(const struct kd_render_queue *queue, const struct kd_render
 {
     struct kd_capacity c;
     kd_renderer_capacity(queue->renderer, &c);
-    return job->plan.device_bytes > c.memory_bytes / LARGE;
+    return job->plan.cost.device_bytes > c.memory_bytes / LARGE;
 }
 
 /* Whether the picture fits in memory beside the large pictures in lanes. A picture that needs nearly all memory starts
@@ -25,10 +25,10 @@ static bool fits(const struct kd_render_queue *queue, const struct kd_render_job
     struct kd_capacity c;
     kd_renderer_capacity(queue->renderer, &c);
     return !queue->lane_bytes || !is_large(queue, job) ||
-           queue->lane_bytes + job->plan.device_bytes <= c.memory_bytes / 4 * 3;
+           queue->lane_bytes + job->plan.cost.device_bytes <= c.memory_bytes / 4 * 3;
 }
 
-static bool is_brief(const struct kd_render_job *job) { return job->plan.estimate_ms <= BRIEF_MS; }
+static bool is_brief(const struct kd_render_job *job) { return job->plan.cost.estimate_ms <= BRIEF_MS; }
 
 /* Finds a lane for a long picture; NULL: none yet. A client has at most one lane for each class, not counting brief
  * pictures. */
@@ -115,7 +115,7 @@ static void begin(struct kd_render_queue *queue, struct kd_render_job *job)
     if (!lane)
         return;
     lane->job = job;
-    lane->bytes = is_large(queue, job) ? job->plan.device_bytes : 0;
+    lane->bytes = is_large(queue, job) ? job->plan.cost.device_bytes : 0;
     queue->lane_bytes += lane->bytes;
 }
 
@@ -163,7 +163,7 @@ static bool between_slices(void *user, double fraction)
     struct kd_render_queue *queue = job->queue;
     pthread_mutex_lock(&queue->lock);
     charge(queue, job);
-    job->claim.left_ms = job->plan.estimate_ms * (1 - fraction);
+    job->claim.left_ms = job->plan.cost.estimate_ms * (1 - fraction);
     if (choose(queue) != job)
         kd_render_give_way(queue, job);
     kd_pulse_beat(&queue->pulse);
@@ -180,7 +180,7 @@ static bool go_on(void *user, double fraction)
 {
     struct kd_render_job *job = user;
     pthread_mutex_lock(&job->queue->lock);
-    job->claim.left_ms = job->plan.estimate_ms * (1 - fraction);
+    job->claim.left_ms = job->plan.cost.estimate_ms * (1 - fraction);
     kd_pulse_beat(&job->queue->pulse);
     pthread_mutex_unlock(&job->queue->lock);
     if (job->progress)

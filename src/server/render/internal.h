@@ -77,7 +77,7 @@ struct kd_render_job *kd_render_list_take(struct kd_render_list *list, struct kd
 
 static inline size_t kd_render_frame_bytes(const struct kd_render_job *job)
 {
-    return job->run ? 0 : (size_t)job->plan.host_bytes;
+    return job->run ? 0 : (size_t)job->plan.cost.host_bytes;
 }
 
 static inline bool kd_render_has_begun(const struct kd_render_job *job) { return job->stage >= KD_RENDER_WORKS; }

@@ -14,9 +14,9 @@
 #include <string.h>
 
 /* Ratio of rays along the side of a pixel at the critical curve to those along the side of any other pixel. */
-static unsigned critical_side(const struct kd_plan *plan)
+static unsigned critical_side(const struct kd_plan_lens *lens)
 {
-    return plan->critical ? (unsigned)lround(sqrt(plan->critical)) / plan->side : 1;
+    return lens->critical ? (unsigned)lround(sqrt(lens->critical)) / lens->side : 1;
 }
 
 static void describe_quality(struct kd_live_frame *frame, const struct kd_render_job *job)
@@ -24,8 +24,9 @@ static void describe_quality(struct kd_live_frame *frame, const struct kd_render
     const struct kd_plan *p = &job->plan;
     snprintf(frame->quality, sizeof frame->quality,
              "width=%u height=%u samples=%u critical=%u orders=%u engine=%s precision=%s steps=%u sketch=%d bright=%d",
-             p->width, p->height, p->side, critical_side(p), p->orders, kd_engine_name(p->setting.engine),
-             kd_precision_name(p->setting.precision), p->setting.steps, p->march.sketched, p->bright);
+             p->picture.width, p->picture.height, p->lens.side, critical_side(&p->lens), p->lens.orders,
+             kd_engine_name(p->lens.setting.engine), kd_precision_name(p->lens.setting.precision),
+             p->lens.setting.steps, p->light.march.sketched, p->light.bright);
 }
 
 static void describe_timing(struct kd_live_frame *frame, const struct kd_render_job *job)
@@ -41,16 +42,16 @@ static void add_quality(struct kd_json *json, const struct kd_render_job *job, c
 {
     const struct kd_plan *p = &job->plan;
     kd_json_object(json, "quality");
-    kd_json_number(json, "width", p->width);
-    kd_json_number(json, "height", p->height);
-    kd_json_number(json, "samples", p->side);
-    kd_json_number(json, "critical", critical_side(p));
-    kd_json_number(json, "orders", p->orders);
-    kd_json_string(json, "engine", kd_engine_name(p->setting.engine));
-    kd_json_string(json, "precision", kd_precision_name(p->setting.precision));
-    kd_json_number(json, "steps", p->setting.steps);
-    kd_json_bool(json, "sketch", p->march.sketched);
-    kd_json_bool(json, "bright", p->bright);
+    kd_json_number(json, "width", p->picture.width);
+    kd_json_number(json, "height", p->picture.height);
+    kd_json_number(json, "samples", p->lens.side);
+    kd_json_number(json, "critical", critical_side(&p->lens));
+    kd_json_number(json, "orders", p->lens.orders);
+    kd_json_string(json, "engine", kd_engine_name(p->lens.setting.engine));
+    kd_json_string(json, "precision", kd_precision_name(p->lens.setting.precision));
+    kd_json_number(json, "steps", p->lens.setting.steps);
+    kd_json_bool(json, "sketch", p->light.march.sketched);
+    kd_json_bool(json, "bright", p->light.bright);
     kd_json_bool(json, "final", note->final);
     kd_json_end(json);
 }
@@ -65,11 +66,11 @@ static void add_passes(struct kd_json *json, const struct kd_render_job *job)
     kd_json_end(json);
 }
 
-static void add_accuracy(struct kd_json *json, const struct kd_accuracy_report *report, const struct kd_plan *plan)
+static void add_accuracy(struct kd_json *json, const struct kd_accuracy_report *report, const struct kd_plan_lens *lens)
 {
     kd_json_object(json, "accuracy");
-    kd_json_number(json, "rays", (double)plan->rays);
-    kd_json_number(json, "critical_rays", (double)(kd_plan_rays(plan) - plan->rays));
+    kd_json_number(json, "rays", (double)lens->rays);
+    kd_json_number(json, "critical_rays", (double)(kd_plan_rays(lens) - lens->rays));
     kd_accuracy_members(json, report, "median", "worst");
     kd_json_end(json);
 }
@@ -173,11 +174,11 @@ static enum kd_status describe_event(struct kd_live_frame *frame, const struct k
     add_quality(json, job, note);
     add_passes(json, job);
     kd_json_bool(json, "lens_map_reused", job->frame.lens_reused);
-    add_accuracy(json, &job->frame.accuracy, &job->plan);
+    add_accuracy(json, &job->frame.accuracy, &job->plan.lens);
     add_simulation(json, &job->scene);
     add_isco(json, &job->scene);
     add_orbits(json, &job->scene);
-    if (job->frame.light.measured && job->plan.apart)
+    if (job->frame.light.measured && job->plan.light.apart)
         add_lights(json, &job->frame.light);
     if (!isnan(kd_flux_jy(&job->scene, &job->frame)))
         kd_json_number(json, "flux_jy", kd_flux_jy(&job->scene, &job->frame));
@@ -201,7 +202,7 @@ struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct
     frame->last = note->last;
     frame->files[frame->n_files++] = (struct kd_live_file) { job->format, job->lossy, job->file, job->encode_ms };
     job->file = (struct kd_buffer) { 0 };
-    kd_accuracy_text(&job->frame.accuracy, &job->plan, frame->accuracy);
+    kd_accuracy_text(&job->frame.accuracy, &job->plan.lens, frame->accuracy);
     kd_fall_clock_text(&job->scene, frame->clock);
     kd_flux_text(&job->scene, &job->frame, frame->flux);
     describe_quality(frame, job);
@@ -209,7 +210,7 @@ struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct
     enum kd_status status;
     KD_TRY(describe_event(frame, job, note));
     struct kd_approximation one;
-    for (size_t i = 0; kd_picture_approximation(&job->plan, &job->frame.accuracy, i, &one); i++)
+    for (size_t i = 0; kd_picture_approximation(&job->plan.report, &job->frame.accuracy, i, &one); i++)
         KD_TRY(kd_reply_item(&frame->approximations, one.name));
     frame->sentences = (uint32_t)kd_hash(KD_HASH_BEGIN, frame->approximations.data, frame->approximations.size);
 done:

@@ -274,13 +274,13 @@ static bool wants_lane(const struct kd_render_job *job)
     case KD_CLASS_JOB: return !job->run;
     case KD_CLASS_LIVE:
     case KD_CLASS_IDLE: return false;
-    default: return !job->run && job->plan.estimate_ms > KD_MOMENT_MS;
+    default: return !job->run && job->plan.cost.estimate_ms > KD_MOMENT_MS;
     }
 }
 
 void kd_render_stand_in_line(struct kd_render_job *job)
 {
-    job->claim.left_ms = job->plan.estimate_ms;
+    job->claim.left_ms = job->plan.cost.estimate_ms;
     job->kernels = KD_KERNELS_UNKNOWN;
     job->stage = wants_lane(job) ? KD_RENDER_WAITS_FOR_LANE : KD_RENDER_WAITS;
 }

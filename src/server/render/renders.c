@@ -56,7 +56,7 @@ static void add_approximations(struct MHD_Response *response, const struct kd_pl
     struct kd_buffer list = { 0 };
     struct kd_approximation one;
     enum kd_status status = KD_OK;
-    for (size_t i = 0; kd_picture_approximation(plan, report, i, &one); i++)
+    for (size_t i = 0; kd_picture_approximation(&plan->report, report, i, &one); i++)
         KD_TRY(kd_reply_item(&list, one.name));
     if (list.data)
         MHD_add_response_header(response, "Kerrd-Approximations", (const char *)list.data);
@@ -95,7 +95,7 @@ static struct MHD_Response *describe(struct kd_request *request, struct MHD_Resp
 static void add_accuracy(struct MHD_Response *response, const struct kd_render_job *job)
 {
     char text[KD_ACCURACY_TEXT], flux[KD_FLUX_TEXT];
-    kd_accuracy_text(&job->frame.accuracy, &job->plan, text);
+    kd_accuracy_text(&job->frame.accuracy, &job->plan.lens, text);
     MHD_add_response_header(response, "Kerrd-Accuracy", text);
     kd_flux_text(&job->scene, &job->frame, flux);
     if (*flux)
@@ -184,14 +184,14 @@ static unsigned retry_after(struct kd_server *server)
     return s < 1 ? 1 : s > 120 ? 120 : (unsigned)s;
 }
 
-static bool admitted(struct kd_request *request, const struct kd_plan *plan, struct kd_problem *problem,
+static bool admitted(struct kd_request *request, const struct kd_plan_cost *cost, struct kd_problem *problem,
                      struct kd_error *error)
 {
     struct kd_server *server = request->server;
 
-    if (plan->estimate_ms > server->longest_s * 1e3) {
+    if (cost->estimate_ms > server->longest_s * 1e3) {
         kd_error_set(error, KD_ETOOBIG, "this picture would take about %.0f s; it must be at most %u s",
-                     plan->estimate_ms * 1e-3, server->longest_s);
+                     cost->estimate_ms * 1e-3, server->longest_s);
         *problem = kd_problem_from(error);
         return false;
     }
@@ -205,7 +205,7 @@ static bool admitted(struct kd_request *request, const struct kd_plan *plan, str
     enum kd_status status;
     KD_TRY(kd_render_queue_admit(server->renders, request->client, &quota, error));
     /* The size is known only after encoding; it is smaller than that of the pixels. */
-    if (kd_bytes_take(server->replies, request->client, 0, plan->host_bytes, &quota))
+    if (kd_bytes_take(server->replies, request->client, 0, cost->host_bytes, &quota))
         KD_TRY(kd_error_set(error, KD_EBUSY,
                             quota ? "too many bytes of your pictures are waiting to be read (limit for one client)"
                                   : "too many bytes of pictures are waiting to be read"));
@@ -247,8 +247,9 @@ static enum kd_status tag(struct kd_request *request, struct kd_planned *planned
 {
     const struct kd_plan *plan = &planned->plan;
     char at[36] = "";
-    if (plan->told.on)
-        snprintf(at, sizeof at, "-%u-%u%s", plan->told.x, plan->told.y, plan->told.steps ? "-steps" : "");
+    if (plan->report.probe.on)
+        snprintf(at, sizeof at, "-%u-%u%s", plan->report.probe.x, plan->report.probe.y,
+                 plan->report.probe.steps ? "-steps" : "");
     const char *name = request->format == kd_formats[0] ? "" : request->format->name;
     enum kd_status status = kd_scene_hash(&planned->scene, planned->hash);
     if (!status)
@@ -305,7 +306,7 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
                                       &(struct kd_accuracy_report) { 0 }));
     if (narrow(request, planned, &error))
         return kd_reply_error(request, &error);
-    if (!admitted(request, plan, &problem, &error))
+    if (!admitted(request, &plan->cost, &problem, &error))
         return kd_reply_problem(request, &problem);
     return submit(request, planned);
 }

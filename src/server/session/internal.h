@@ -73,7 +73,7 @@ bool kd_session_on_its_way(const struct kd_session *session, double now);
 /* Begins a frame if a viewer waits, the picture would differ, and the queue has room. In run.c. */
 void kd_session_pump(struct kd_session *session);
 /* Sets the expected cost of frames to that of the plan, until a frame has been measured. */
-void kd_session_expect(struct kd_session *session, const struct kd_plan *plan);
+void kd_session_expect(struct kd_session *session, const struct kd_plan_cost *cost);
 /* Cancels the frame that is being rendered if it is a refinement: it would take long and is obsolete. */
 void kd_session_drop_refinement(struct kd_session *session);
 void kd_session_drop(struct kd_session *session); /* cancels the frame that is being rendered, if any */

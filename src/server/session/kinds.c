@@ -113,7 +113,7 @@ static void add(struct kd_session *s, unsigned lossy)
         .claim.class = KD_CLASS_LIVE, .socket = -1, .effort = KD_EFFORT_LIVE, .keeps = true, .done = done
     };
     added->job.frame = s->latest->picture; /* the frame still owns the pixels */
-    added->job.plan.host_bytes = (uint64_t)3 * added->job.frame.width * added->job.frame.height;
+    added->job.plan.cost.host_bytes = (uint64_t)3 * added->job.frame.width * added->job.frame.height;
     set_kind(&added->job, lossy);
     s->adding = true;
     s->references++;

@@ -43,8 +43,8 @@ static void fail(struct kd_session *s, const struct kd_error *error)
  * particles in each frame. Unslowed it would make the picture flicker. */
 static void follow_exposure(const struct kd_session *s, double now, struct kd_plan *plan)
 {
-    plan->exposure_from = s->exposure;
-    plan->exposure_share = -expm1(-fmax(now - s->exposed_ms, 1) / EXPOSURE_MS);
+    plan->picture.exposure_from = s->exposure;
+    plan->picture.exposure_share = -expm1(-fmax(now - s->exposed_ms, 1) / EXPOSURE_MS);
 }
 
 /* Makes a frame for the render queue. NULL: it cannot be made; *error says why. */
@@ -87,7 +87,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
         free(live);
         return NULL;
     }
-    live->job.plan.audit /= decision->audit;
+    live->job.plan.lens.audit /= decision->audit;
     if (!decision->refining && s->exposed_revision == s->revision &&
         (kd_emit_moves(scene) || s->dynamic || kd_session_on_its_way(s, now)))
         follow_exposure(s, now, &live->job.plan);
@@ -174,13 +174,13 @@ static void share_device(struct kd_session *s, double now)
     kd_governor_share(&s->governor, kd_budget_share(&s->all->budget, &s->demand, now));
 }
 
-void kd_session_expect(struct kd_session *s, const struct kd_plan *plan)
+void kd_session_expect(struct kd_session *s, const struct kd_plan_cost *cost)
 {
     share_device(s, kd_clock_ms());
-    struct kd_frame_cost traced = { .total_ms = plan->estimate_ms },
-                         reused = { .total_ms = plan->estimate_ms, .lens_reused = true };
-    for (size_t i = 0; i < plan->n_passes; i++) {
-        const struct kd_plan_pass *pass = &plan->passes[i];
+    struct kd_frame_cost traced = { .total_ms = cost->estimate_ms },
+                         reused = { .total_ms = cost->estimate_ms, .lens_reused = true };
+    for (size_t i = 0; i < cost->n_passes; i++) {
+        const struct kd_plan_pass *pass = &cost->passes[i];
         add_cost(&traced, pass->name, pass->estimate_ms);
         if (kd_pass_find(pass->name)->when == KD_EACH_MAP)
             reused.total_ms -= pass->estimate_ms;

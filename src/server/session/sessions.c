@@ -81,19 +81,19 @@ static struct kd_scene scene_now(const struct kd_session *s, double now)
 
 enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error)
 {
-    if (plan->n_layers + plan->picture > 1)
+    if (plan->picture.n_layers + plan->picture.rgb > 1)
         return kd_error_field(error, "/image/layers",
                               "image.layers has %zu layers; in a session, which shows one picture, it must have one",
-                              plan->n_layers + plan->picture);
-    if (plan->cut.width)
+                              plan->picture.n_layers + plan->picture.rgb);
+    if (plan->picture.cut.width)
         return kd_error_field(
             error, "/image/tile/width",
             "image.tile.width is %u; in a session, which shows whole pictures of any size, it must be 0",
-            plan->cut.width);
-    if (plan->estimate_ms <= all->params.longest_s * 1e3)
+            plan->picture.cut.width);
+    if (plan->cost.estimate_ms <= all->params.longest_s * 1e3)
         return KD_OK;
     return kd_error_set(error, KD_ETOOBIG, "a frame of this scene would take about %.0f s; it must be at most %u s",
-                        plan->estimate_ms * 1e-3, all->params.longest_s);
+                        plan->cost.estimate_ms * 1e-3, all->params.longest_s);
 }
 
 static enum kd_status make_plan(struct kd_sessions *all, const struct kd_scene *scene, struct kd_plan *plan,
@@ -124,7 +124,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
     s->scene = *scene;
     s->revision = 1;
     s->since_ms = s->used_ms = s->patched_ms = kd_clock_ms();
-    memcpy(s->lens_key, plan->lens_key, sizeof s->lens_key);
+    memcpy(s->lens_key, plan->lens.key, sizeof s->lens_key);
     kd_governor_init(&s->governor, kd_governor_params(.target_ms = TARGET_MS));
     if (pace)
         kd_governor_least(&s->governor, pace->least, pace->patience_ms);
@@ -151,7 +151,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
     all->first = s;
     all->count++;
     kd_budget_enter(&all->budget, &s->demand);
-    kd_session_expect(s, plan);
+    kd_session_expect(s, &plan->cost);
     kd_session_pump(s);
     pthread_mutex_unlock(&all->lock);
     *out = s;
@@ -241,9 +241,9 @@ static void change(struct kd_session *s, double now, const struct kd_scene *scen
     s->revision++;
     s->patched_ms = now;
     s->failed = KD_OK;
-    kd_governor_changed(&s->governor, now, scene, strcmp(s->lens_key, plan->lens_key) != 0);
-    kd_session_expect(s, plan);
-    memcpy(s->lens_key, plan->lens_key, sizeof s->lens_key);
+    kd_governor_changed(&s->governor, now, scene, strcmp(s->lens_key, plan->lens.key) != 0);
+    kd_session_expect(s, &plan->cost);
+    memcpy(s->lens_key, plan->lens.key, sizeof s->lens_key);
     kd_session_drop_refinement(s);
     kd_session_pump(s);
 }

@@ -1,0 +1,36 @@
+/* What a device allows, and its measured speed. A plan is made for a capacity. Plain data; any thread. */
+#ifndef KD_RENDER_PLAN_CAPACITY_H
+#define KD_RENDER_PLAN_CAPACITY_H
+
+#include "render/accuracy/engine.h"
+#include "render/plan/pass.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define KD_COST_CLASSES 16
+
+struct kd_capacity {
+    uint64_t max_binding_bytes, memory_bytes; /* limit of one storage-buffer binding; limit of all device memory
+                                               * together */
+    const char *memory_by;                    /* what determines memory_bytes, for messages; NULL: the device */
+    bool host_memory;                         /* device memory is host memory, so pixels on the host count as well */
+    uint64_t host_bytes;                      /* otherwise, memory for pixels on the host; 0: unknown */
+    uint64_t max_allocation_bytes;            /* limit of one buffer; 0: 2^30, the least that Vulkan 1.2 guarantees */
+    /* workgroups of one dispatch; 0: 65535, the least that Vulkan guarantees */
+    uint32_t max_groups_x, max_groups_y;
+    double ns[KD_FIGURE_COUNT]; /* cost of an item, KD_NS_... of pass.h */
+    struct kd_class_cost {
+        uint64_t class, learned; /* the class of cost_class.h, 0: unused; the count of measurements when this class was
+                                  * last updated */
+        double ns[KD_PASS_COUNT];
+    } classes[KD_COST_CLASSES];               /* cost of an item in pictures of a class */
+    uint64_t learned;                         /* number of measurements of classes so far */
+    bool measured;                            /* false: the figures are defaults for this type of device */
+    bool float64;                             /* whether the device has double precision */
+    unsigned cores;                           /* cores of the host, on which the closed form in double runs */
+    const struct kd_accuracy_table *accuracy; /* the device's or a built-in one; valid as long as the renderer */
+    bool accuracy_measured;                   /* false: built in */
+};
+
+#endif

@@ -1,0 +1,109 @@
+/* The rays of a plan: their number, how they are traced, and the lens map that they fill. Plain data and pure
+ * functions; any thread. */
+#ifndef KD_RENDER_PLAN_LENS_MAP_H
+#define KD_RENDER_PLAN_LENS_MAP_H
+
+#include "lens.h"
+#include "render/accuracy/engine.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+struct kd_plan_lens {
+    uint32_t side; /* rays along each side of a pixel */
+    uint64_t rays; /* rays of the grid */
+    /* rays of each pixel at the critical curve (view/critical_pixels.h); 0: as any other pixel */
+    uint32_t critical;
+    uint32_t critical_dense;  /* rays of each such pixel after refinement (frame/refine.c); 0: no refinement there */
+    uint64_t critical_pixels; /* number of these pixels */
+    uint64_t critical_part;   /* how many of these pixels fit one buffer of their lens map */
+    uint32_t adaptive;        /* rays of a pixel after refinement (frame/refine.c); 0: no refinement */
+    uint64_t listed_bytes;    /* size of the buffer for the lens map of refined pixels, filled part by part */
+    enum kd_lens_path {
+        KD_LENS_CLOSED, /* lens_closed.comp: closed forms, for observers outside the photon orbits */
+        KD_LENS_MAP,    /* lens_map.comp: by integration steps */
+        KD_LENS_LISTED, /* as listed rays (render/rays/rays.h), by any engine in either precision */
+    } path;
+    /* tolerated relative error of a map interpolated between nodes (plan/sample.h); 0: every ray is traced */
+    double interpolates;
+    uint32_t sample_rows;      /* rows of pixels whose map is interpolated at once, at most */
+    struct kd_setting setting; /* engine, precision and steps per half period (0: closed form) */
+    bool ring;                 /* rays are listed, round the critical curve */
+    bool ingoing;              /* the observer falls, in coordinates that are regular at the outer horizon */
+    bool ends;                 /* some emitters shine at the ends of rays, and the lens map holds these ends */
+    uint32_t quantities;       /* KD_LENS_... quantities of the lens map */
+    uint32_t orders;           /* crossings of a ray that are recorded */
+    uint32_t planes;           /* 4-byte values a ray in the lens map */
+    bool cacheable;            /* the whole lens map fits in memory and can be cached */
+    uint32_t audit; /* rays of the lens map that are traced again in closed form, at most KD_AUDIT_RAYS; 0: none */
+    char key[65];   /* hash of everything that the lens map depends on */
+};
+
+#define KD_AUDIT_RAYS 768 /* at most, on a grid of 16 x 48 */
+
+/* Number of buffers for the lens map of the pixels at the critical curve. kd_plan_critical_bytes: bytes of one. */
+static inline uint32_t kd_plan_critical_parts(const struct kd_plan_lens *lens)
+{
+    return lens->critical ? (uint32_t)((lens->critical_pixels + lens->critical_part - 1) / lens->critical_part) : 0;
+}
+static inline uint64_t kd_plan_critical_bytes(const struct kd_plan_lens *lens)
+{
+    return 4ull * lens->critical_part * (lens->planes * lens->critical + 2);
+}
+
+/* If image.samples is "auto", a pixel may have KD_PLAN_ADAPTIVE_SIDE^2 rays. */
+#define KD_PLAN_ADAPTIVE_SIDE 4
+#define KD_PLAN_TRUTH_SIDE 8       /* side of the grid of rays that measure the remaining error of a pixel, */
+#define KD_PLAN_SAMPLED_OF_EACH 48 /* on this many pixels of each of four kinds */
+#define KD_PLAN_SAMPLED (4 * KD_PLAN_SAMPLED_OF_EACH * KD_PLAN_TRUTH_SIDE * KD_PLAN_TRUTH_SIDE)
+#define KD_PLAN_ROUNDS 6                            /* rounds of choosing pixels, at most */
+#define KD_PLAN_REFINING_LOOKS (1 + KD_PLAN_ROUNDS) /* number of times that the displayed picture is examined */
+#define KD_PLAN_LISTED_BYTES (15u << 20)            /* fewer rays than 65535 workgroups have */
+
+/* Pixels, with `rays` rays each, whose lens map fits the buffer of listed pixels. */
+static inline uint64_t kd_plan_listed_most(const struct kd_plan_lens *lens, uint32_t rays)
+{
+    return lens->listed_bytes / (4ull * (lens->planes * rays + 2));
+}
+
+static inline bool kd_plan_holds(const struct kd_plan_lens *lens, uint32_t quantities)
+{
+    return (lens->quantities & quantities) == quantities;
+}
+
+static inline bool kd_plan_has_footprints(const struct kd_plan_lens *lens)
+{
+    return lens->quantities & (KD_LENS_FOOTPRINT | KD_LENS_SKY_FOOTPRINT);
+}
+
+/* Whether the lens map is the cheapest kind: crossing radii only, by the closed form. */
+static inline bool kd_plan_is_radii(const struct kd_plan_lens *lens)
+{
+    return lens->path == KD_LENS_CLOSED && !(lens->quantities & ~(uint32_t)KD_LENS_W);
+}
+
+/* All rays that are traced or interpolated. */
+static inline uint64_t kd_plan_rays(const struct kd_plan_lens *lens)
+{
+    return lens->rays + lens->critical * lens->critical_pixels;
+}
+
+/* If the map is interpolated, this many times the square root of the number of the grid's rays are traced: those along
+ * edges of orders and fates, and in between the fewer, the denser the rays are. Measured on four presets, one of them
+ * from 320 x 180 to 4K (docs/accuracy.md): 117 to 154. */
+#define KD_PLAN_FOLLOWED 130
+static inline uint64_t kd_plan_followed(const struct kd_plan_lens *lens)
+{
+    const double rays = (double)lens->rays, most = fmin(rays, KD_PLAN_FOLLOWED * sqrt(rays));
+    return lens->interpolates > 0 ? (uint64_t)most + lens->critical * lens->critical_pixels : kd_plan_rays(lens);
+}
+
+/* Limit for the rays traced by refinement: a quarter of the rays of a picture that has 16 in each pixel. */
+static inline uint64_t kd_plan_followed_most(const struct kd_plan_lens *lens)
+{
+    const uint64_t uniform = lens->adaptive * lens->rays + lens->critical_dense * lens->critical_pixels;
+    return uniform / 4 - lens->rays - lens->critical * lens->critical_pixels;
+}
+
+#endif

@@ -1,0 +1,26 @@
+/* What a plan reports with its picture: approximations, the sources of its estimates, and a description of one pixel.
+ * Plain data; any thread. */
+#ifndef KD_RENDER_PLAN_REPORT_H
+#define KD_RENDER_PLAN_REPORT_H
+
+#include "render/emit/approximation.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define KD_PLAN_MAX_APPROXIMATIONS 121 /* a test compares it with the number of approximations */
+
+struct kd_plan_report {
+    bool measured, accuracy_measured; /* as in the capacity */
+    struct kd_approximation approximations[KD_PLAN_MAX_APPROXIMATIONS];
+    size_t n_approximations;
+    /* Set by the caller: the light of the middle ray of this pixel is described (frame/probe.h); with `steps` also the
+     * engine's steps. */
+    struct {
+        bool on, steps;
+        uint32_t x, y;
+    } probe;
+};
+
+#endif
