@@ -3,7 +3,7 @@
 const beat_ms = 1000; // between two requests for the state of the lesson
 const again_ms = 2000; // after a request that failed
 const quality = 80, // of moving pictures
-  fine = 92; // of a picture at rest: a tenth of the bytes of an exact one
+  fine = 92; // of a picture at rest: less than a third of the bytes of an exact one
 
 const id = /[0-9a-f]{16}/.exec(location.hash)?.[0],
   lang = navigator.language?.startsWith('it') ? 'it' : 'en',
