@@ -1,25 +1,24 @@
 #include "vk/barrier.h"
 
-#include "vk/device.h"
-
-static void emit(struct kd_vk *vk, VkCommandBuffer commands, const struct kd_vk_barrier *barrier)
+static void emit(const struct kd_vk_functions *fn, VkCommandBuffer commands, const struct kd_vk_barrier *barrier)
 {
     const VkMemoryBarrier memory = { .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                      .srcAccessMask = barrier->src_access,
                                      .dstAccessMask = barrier->dst_access };
-    vk->fn.CmdPipelineBarrier(commands, barrier->src_stages, barrier->dst_stages, 0, 1, &memory, 0, NULL, 0, NULL);
+    fn->CmdPipelineBarrier(commands, barrier->src_stages, barrier->dst_stages, 0, 1, &memory, 0, NULL, 0, NULL);
 }
 
-void kd_vk_barrier_before(struct kd_vk *vk, VkCommandBuffer commands, const struct kd_vk_access *accesses, size_t n)
+void kd_vk_barrier_before(const struct kd_vk_functions *fn, struct kd_vk_hazards *hazards, VkCommandBuffer commands,
+                          const struct kd_vk_access *accesses, size_t n)
 {
     struct kd_vk_barrier barrier;
-    if (kd_vk_hazards_add(&vk->hazards, accesses, n, &barrier))
-        emit(vk, commands, &barrier);
+    if (kd_vk_hazards_add(hazards, accesses, n, &barrier))
+        emit(fn, commands, &barrier);
 }
 
-void kd_vk_barrier_to_host(struct kd_vk *vk, VkCommandBuffer commands)
+void kd_vk_barrier_to_host(const struct kd_vk_functions *fn, struct kd_vk_hazards *hazards, VkCommandBuffer commands)
 {
     struct kd_vk_barrier barrier;
-    if (kd_vk_hazards_to_host(&vk->hazards, &barrier))
-        emit(vk, commands, &barrier);
+    if (kd_vk_hazards_to_host(hazards, &barrier))
+        emit(fn, commands, &barrier);
 }

@@ -4,11 +4,10 @@
 
 #include "vk/hazard.h"
 
-struct kd_vk;
-
 /* Called before a command with these accesses is recorded. */
-void kd_vk_barrier_before(struct kd_vk *vk, VkCommandBuffer commands, const struct kd_vk_access *accesses, size_t n);
+void kd_vk_barrier_before(const struct kd_vk_functions *fn, struct kd_vk_hazards *hazards, VkCommandBuffer commands,
+                          const struct kd_vk_access *accesses, size_t n);
 /* Called before a command buffer ends. */
-void kd_vk_barrier_to_host(struct kd_vk *vk, VkCommandBuffer commands);
+void kd_vk_barrier_to_host(const struct kd_vk_functions *fn, struct kd_vk_hazards *hazards, VkCommandBuffer commands);
 
 #endif

@@ -2,8 +2,10 @@
 #ifndef KD_VK_BUFFER_H
 #define KD_VK_BUFFER_H
 
+#include "vk/mapped.h"
 #include "vk/memory.h"
 #include "vk/retire.h"
+#include "vk/view.h"
 #include "vk/vk.h"
 
 struct kd_vk_buffer {
@@ -12,9 +14,8 @@ struct kd_vk_buffer {
     struct kd_vk_slice slice;
     uint64_t id, size;
     enum kd_vk_memory memory;
-    struct kd_vk_buffer *next_mapped; /* next buffer in the list kd_vk.mapped */
-    uint64_t read, written, seen;     /* used by mapped.h */
-    struct kd_vk_view *views;         /* cached texel views (view.h) */
+    struct kd_vk_mapped mapped;
+    struct kd_vk_views views; /* cached texel views */
     char name[64];
 };
 

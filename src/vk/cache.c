@@ -5,7 +5,6 @@
 #include "base/log.h"
 #include "base/read.h"
 #include "base/replace.h"
-#include "vk/device.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -24,9 +23,9 @@ static const char magic[8] = "kdpipe1";
 #define FILE_MAX ((size_t)256 << 20) /* drivers store some MiB; a larger file is not ours */
 
 /* Whether the data belong to this device and driver, by Vulkan's VkPipelineCacheHeaderVersionOne. */
-static bool header_fits(const struct kd_vk *vk, const uint8_t *data, size_t size)
+static bool header_fits(const struct kd_vk_core *core, const uint8_t *data, size_t size)
 {
-    const VkPhysicalDeviceProperties *device = &vk->physical.properties;
+    const VkPhysicalDeviceProperties *device = &core->physical.properties;
     uint32_t words[4];
     if (size < sizeof words + VK_UUID_SIZE)
         return false;
@@ -37,9 +36,9 @@ static bool header_fits(const struct kd_vk *vk, const uint8_t *data, size_t size
 }
 
 /* Makes the path of the cache file. Returns NULL if no file is wanted, or if there is no folder for it. */
-static char *path_of(const struct kd_vk *vk, const char *dir)
+static char *path_of(const struct kd_vk_core *core, const char *dir)
 {
-    const VkPhysicalDeviceProperties *device = &vk->physical.properties;
+    const VkPhysicalDeviceProperties *device = &core->physical.properties;
     const char *xdg = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
     char base[2048], uuid[2 * VK_UUID_SIZE + 1], *path = NULL;
     int n;
@@ -62,7 +61,7 @@ static char *path_of(const struct kd_vk *vk, const char *dir)
 }
 
 /* Returns the driver's data in the file, or NULL if it is damaged. */
-static const uint8_t *open_envelope(const struct kd_vk *vk, const struct kd_buffer *file, size_t *size)
+static const uint8_t *open_envelope(const struct kd_vk_core *core, const struct kd_buffer *file, size_t *size)
 {
     struct envelope envelope;
     if (file->size < sizeof envelope)
@@ -71,21 +70,21 @@ static const uint8_t *open_envelope(const struct kd_vk *vk, const struct kd_buff
     const uint8_t *data = file->data + sizeof envelope;
     *size = file->size - sizeof envelope;
     if (memcmp(envelope.magic, magic, sizeof magic) || envelope.bytes != *size ||
-        envelope.hash != kd_hash(KD_HASH_BEGIN, data, *size) || !header_fits(vk, data, *size))
+        envelope.hash != kd_hash(KD_HASH_BEGIN, data, *size) || !header_fits(core, data, *size))
         return NULL;
     return data;
 }
 
-enum kd_status kd_vk_cache_init(struct kd_vk *vk, const char *dir, struct kd_error *error)
+enum kd_status kd_vk_cache_init(struct kd_vk_cache *cache, const struct kd_vk_core *core, const char *dir,
+                                struct kd_error *error)
 {
     enum kd_status status = KD_OK;
-    struct kd_vk_cache *cache = &vk->cache;
     struct kd_buffer file = { 0 };
     VkPipelineCacheCreateInfo info = { .sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO };
 
-    cache->path = path_of(vk, dir);
+    cache->path = path_of(core, dir);
     if (cache->path && kd_read_file(AT_FDCWD, cache->path, 0, FILE_MAX, &file)) {
-        info.pInitialData = open_envelope(vk, &file, &info.initialDataSize);
+        info.pInitialData = open_envelope(core, &file, &info.initialDataSize);
         if (info.pInitialData)
             cache->hash = kd_hash(KD_HASH_BEGIN, info.pInitialData, info.initialDataSize);
         else
@@ -93,22 +92,21 @@ enum kd_status kd_vk_cache_init(struct kd_vk *vk, const char *dir, struct kd_err
     }
     if (!info.pInitialData)
         info.initialDataSize = 0;
-    KD_VK_TRY(&vk->fn, CreatePipelineCache, vk->device, &info, NULL, &cache->handle);
-    kd_vk_debug_name(vk, VK_OBJECT_TYPE_PIPELINE_CACHE, KD_VK_HANDLE(cache->handle), "pipeline cache");
+    KD_VK_TRY(&core->fn, CreatePipelineCache, core->device, &info, NULL, &cache->handle);
+    kd_vk_name(core, VK_OBJECT_TYPE_PIPELINE_CACHE, KD_VK_HANDLE(cache->handle), "pipeline cache");
 done:
     kd_buffer_finish(&file);
     return status;
 }
 
-static void save(struct kd_vk *vk)
+static void save(const struct kd_vk_cache *cache, const struct kd_vk_core *core)
 {
-    struct kd_vk_cache *cache = &vk->cache;
     size_t size = 0;
-    if (vk->fn.GetPipelineCacheData(vk->device, cache->handle, &size, NULL) < 0 || !size)
+    if (core->fn.GetPipelineCacheData(core->device, cache->handle, &size, NULL) < 0 || !size)
         return;
     uint8_t *file = malloc(sizeof(struct envelope) + size);
-    if (file &&
-        vk->fn.GetPipelineCacheData(vk->device, cache->handle, &size, file + sizeof(struct envelope)) == VK_SUCCESS) {
+    if (file && core->fn.GetPipelineCacheData(core->device, cache->handle, &size, file + sizeof(struct envelope)) ==
+                    VK_SUCCESS) {
         struct envelope envelope = { .bytes = size, .hash = kd_hash(KD_HASH_BEGIN, file + sizeof envelope, size) };
         memcpy(envelope.magic, magic, sizeof magic);
         memcpy(file, &envelope, sizeof envelope);
@@ -118,22 +116,21 @@ static void save(struct kd_vk *vk)
     free(file);
 }
 
-char *kd_vk_cache_file(const struct kd_vk *vk, const char *suffix)
+char *kd_vk_cache_beside(const struct kd_vk_cache *cache, const char *suffix)
 {
-    const char *path = vk->cache.path;
+    const char *path = cache->path;
     char *out = NULL;
     if (!path || asprintf(&out, "%.*s%s", (int)(strlen(path) - strlen(SUFFIX)), path, suffix) < 0)
         return NULL;
     return out;
 }
 
-void kd_vk_cache_finish(struct kd_vk *vk)
+void kd_vk_cache_finish(struct kd_vk_cache *cache, const struct kd_vk_core *core)
 {
-    struct kd_vk_cache *cache = &vk->cache;
     if (cache->handle) {
-        if (cache->path && cache->grown && !vk->lost[0])
-            save(vk);
-        vk->fn.DestroyPipelineCache(vk->device, cache->handle, NULL);
+        if (cache->path && cache->grown && !core->lost[0])
+            save(cache, core);
+        core->fn.DestroyPipelineCache(core->device, cache->handle, NULL);
     }
     free(cache->path);
     memset(cache, 0, sizeof *cache);

@@ -2,11 +2,9 @@
 #ifndef KD_VK_CACHE_H
 #define KD_VK_CACHE_H
 
-#include "vk/functions.h"
+#include "vk/core.h"
 
 #include <stdatomic.h>
-
-struct kd_vk;
 
 struct kd_vk_cache {
     VkPipelineCache handle;
@@ -17,8 +15,11 @@ struct kd_vk_cache {
 
 /* dir: see kd_vk_params.cache_dir. It is no error if the file is missing, damaged or of another device: the cache then
  * starts empty. */
-enum kd_status kd_vk_cache_init(struct kd_vk *vk, const char *dir, struct kd_error *error);
+enum kd_status kd_vk_cache_init(struct kd_vk_cache *cache, const struct kd_vk_core *core, const char *dir,
+                                struct kd_error *error);
 /* If the cache has grown, writes it back atomically. Frees it. A failure to write is logged at debug level only. */
-void kd_vk_cache_finish(struct kd_vk *vk);
+void kd_vk_cache_finish(struct kd_vk_cache *cache, const struct kd_vk_core *core);
+/* Path of the file beside the cache's that ends with `suffix`, as kd_vk_cache_file. */
+char *kd_vk_cache_beside(const struct kd_vk_cache *cache, const char *suffix);
 
 #endif

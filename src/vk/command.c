@@ -3,10 +3,8 @@
 #include "vk/buffer.h"
 #include "vk/device.h"
 #include "vk/kind.h"
-#include "vk/mapped.h"
 #include "vk/pipeline.h"
 #include "vk/submit.h"
-#include "vk/view.h"
 
 #include <inttypes.h>
 
@@ -28,7 +26,7 @@ static bool inside(const struct kd_vk_buffer *buffer, uint64_t offset, uint64_t 
 /* Size in bytes of the largest binding of a kind on this device. */
 static uint64_t most_of(const struct kd_vk *vk, enum kd_vk_kind kind)
 {
-    const struct kd_vk_info *info = &vk->physical.info;
+    const struct kd_vk_info *info = &vk->core.physical.info;
     uint32_t texel = kd_vk_kind_info(kind)->texel_bytes;
     return texel ? info->max_texels * texel : kind == KD_VK_UNIFORM ? info->max_uniform_bytes : info->max_binding_bytes;
 }
@@ -75,10 +73,10 @@ static enum kd_status check_dispatch(const struct kd_vk *vk, const struct kd_vk_
     if (!dispatch->pipeline)
         return kd_error_set(error, KD_EINTERNAL, "%s: a dispatch without a pipeline", pass);
     for (int i = 0; i < 3; i++)
-        if (dispatch->groups[i] > vk->physical.properties.limits.maxComputeWorkGroupCount[i])
-            return kd_error_set(error, KD_ETOOBIG,
-                                "%s: %u groups along axis %d; on this device there must be at most %u", pass,
-                                dispatch->groups[i], i, vk->physical.properties.limits.maxComputeWorkGroupCount[i]);
+        if (dispatch->groups[i] > vk->core.physical.properties.limits.maxComputeWorkGroupCount[i])
+            return kd_error_set(
+                error, KD_ETOOBIG, "%s: %u groups along axis %d; on this device there must be at most %u", pass,
+                dispatch->groups[i], i, vk->core.physical.properties.limits.maxComputeWorkGroupCount[i]);
     if (dispatch->counts && (dispatch->counts_at % 4 || !inside(dispatch->counts, dispatch->counts_at, COUNTS_BYTES)))
         return kd_error_set(error, KD_EINTERNAL,
                             "%s: counts at %" PRIu64 " of '%s' (%" PRIu64
@@ -94,7 +92,7 @@ static enum kd_status check_dispatch(const struct kd_vk *vk, const struct kd_vk_
 static struct kd_vk_access access_of(struct kd_vk *vk, struct kd_vk_buffer *buffer, uint64_t begin, uint64_t end,
                                      VkPipelineStageFlags stage, bool write)
 {
-    kd_vk_mapped_use(vk, buffer, write);
+    kd_vk_mapped_use(&buffer->mapped, kd_vk_current(vk), write);
     return (struct kd_vk_access) { .buffer = buffer->id,
                                    .begin = begin,
                                    .end = end,
@@ -113,7 +111,7 @@ static enum kd_status bind_buffers(struct kd_vk *vk, struct kd_vk_slot *slot, co
     const struct kd_vk_pipeline *pipeline = dispatch->pipeline;
     if (!pipeline->n_buffers)
         return KD_OK;
-    enum kd_status status = kd_vk_descriptors_take(vk, &slot->descriptors, pipeline->set_layout, &set, error);
+    enum kd_status status = kd_vk_descriptors_take(&vk->core, &slot->descriptors, pipeline->set_layout, &set, error);
     if (status)
         return status;
     for (uint32_t i = 0; i < pipeline->n_buffers; i++) {
@@ -128,11 +126,13 @@ static enum kd_status bind_buffers(struct kd_vk *vk, struct kd_vk_slot *slot, co
                                              .pBufferInfo = &buffers[i],
                                              .pTexelBufferView = &views[i] };
         if (kind->texel_bytes &&
-            (status = kd_vk_view_get(vk, b->buffer, kind->format, b->offset, buffers[i].range, &views[i], error)))
+            (status = kd_vk_view_get(&b->buffer->views, &vk->core, kind->format, b->offset, buffers[i].range,
+                                     kd_vk_current(vk), vk->done, &views[i], error)))
             return status;
     }
-    vk->fn.UpdateDescriptorSets(vk->device, pipeline->n_buffers, writes, 0, NULL);
-    vk->fn.CmdBindDescriptorSets(slot->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->layout, 0, 1, &set, 0, NULL);
+    vk->core.fn.UpdateDescriptorSets(vk->core.device, pipeline->n_buffers, writes, 0, NULL);
+    vk->core.fn.CmdBindDescriptorSets(slot->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->layout, 0, 1, &set, 0,
+                                      NULL);
     return KD_OK;
 }
 
@@ -151,18 +151,18 @@ static void order_dispatch(struct kd_vk *vk, struct kd_vk_slot *slot, const stru
                                   VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, false);
         dispatch->counts->retired.ticket = kd_vk_current(vk);
     }
-    kd_vk_barrier_before(vk, slot->commands, accesses, n);
+    kd_vk_barrier_before(&vk->core.fn, &vk->hazards, slot->commands, accesses, n);
 }
 
 static void dispatch_groups(struct kd_vk *vk, VkCommandBuffer commands, const struct kd_vk_dispatch *dispatch)
 {
     const uint32_t *groups = dispatch->groups;
-    if (vk->compiles_only)
-        vk->fn.CmdDispatch(commands, 0, 0, 0);
+    if (vk->core.compiles_only)
+        vk->core.fn.CmdDispatch(commands, 0, 0, 0);
     else if (dispatch->counts)
-        vk->fn.CmdDispatchIndirect(commands, dispatch->counts->handle, dispatch->counts_at);
+        vk->core.fn.CmdDispatchIndirect(commands, dispatch->counts->handle, dispatch->counts_at);
     else
-        vk->fn.CmdDispatch(commands, groups[0] + !groups[0], groups[1] + !groups[1], groups[2] + !groups[2]);
+        vk->core.fn.CmdDispatch(commands, groups[0] + !groups[0], groups[1] + !groups[1], groups[2] + !groups[2]);
 }
 
 enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dispatch, struct kd_error *error)
@@ -174,12 +174,12 @@ enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dis
     KD_TRY(kd_vk_submit_slot(vk, &slot, error));
     KD_TRY(bind_buffers(vk, slot, dispatch, error));
     const struct kd_vk_pipeline *pipeline = dispatch->pipeline;
-    kd_vk_timing_pass(vk, &slot->stamps, slot->commands, pass);
+    kd_vk_timing_pass(&vk->timing, &vk->core, &slot->stamps, slot->commands, pass);
     order_dispatch(vk, slot, dispatch);
-    vk->fn.CmdBindPipeline(slot->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->handle);
+    vk->core.fn.CmdBindPipeline(slot->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->handle);
     if (pipeline->push_bytes)
-        vk->fn.CmdPushConstants(slot->commands, pipeline->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, pipeline->push_bytes,
-                                dispatch->push);
+        vk->core.fn.CmdPushConstants(slot->commands, pipeline->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                     pipeline->push_bytes, dispatch->push);
     dispatch_groups(vk, slot->commands, dispatch);
     /* The pipeline is const for callers only; this layer may write it. */
     ((struct kd_vk_pipeline *)pipeline)->retired.ticket = kd_vk_current(vk);
@@ -201,8 +201,8 @@ enum kd_status kd_vk_copy(struct kd_vk *vk, const char *pass, struct kd_vk_buffe
     if (to == from && to_offset < from_offset + size && from_offset < to_offset + size)
         return kd_error_set(error, KD_EINTERNAL, "%s: the two ranges of '%s' overlap", pass, to->name);
     if (!size)
-        return kd_vk_alive(vk, error);
-    if (vk->compiles_only && to->memory == KD_VK_READBACK)
+        return kd_vk_alive(&vk->core, error);
+    if (vk->core.compiles_only && to->memory == KD_VK_READBACK)
         return kd_vk_fill(vk, pass, to, to_offset / 4 * 4, size / 4 * 4, 0, error);
     enum kd_status status = kd_vk_submit_slot(vk, &slot, error);
     if (status)
@@ -212,9 +212,9 @@ enum kd_status kd_vk_copy(struct kd_vk *vk, const char *pass, struct kd_vk_buffe
         access_of(vk, to, to_offset, to_offset + size, VK_PIPELINE_STAGE_TRANSFER_BIT, true),
     };
     const VkBufferCopy region = { from_offset, to_offset, size };
-    kd_vk_timing_pass(vk, &slot->stamps, slot->commands, pass);
-    kd_vk_barrier_before(vk, slot->commands, accesses, 2);
-    vk->fn.CmdCopyBuffer(slot->commands, from->handle, to->handle, 1, &region);
+    kd_vk_timing_pass(&vk->timing, &vk->core, &slot->stamps, slot->commands, pass);
+    kd_vk_barrier_before(&vk->core.fn, &vk->hazards, slot->commands, accesses, 2);
+    vk->core.fn.CmdCopyBuffer(slot->commands, from->handle, to->handle, 1, &region);
     to->retired.ticket = from->retired.ticket = kd_vk_current(vk);
     return KD_OK;
 }
@@ -229,15 +229,22 @@ enum kd_status kd_vk_fill(struct kd_vk *vk, const char *pass, struct kd_vk_buffe
                             " bytes) must lie inside it, in multiples of 4",
                             offset, size, buffer->name, buffer->size);
     if (!size)
-        return kd_vk_alive(vk, error);
+        return kd_vk_alive(&vk->core, error);
     enum kd_status status = kd_vk_submit_slot(vk, &slot, error);
     if (status)
         return status;
     const struct kd_vk_access access =
         access_of(vk, buffer, offset, offset + size, VK_PIPELINE_STAGE_TRANSFER_BIT, true);
-    kd_vk_timing_pass(vk, &slot->stamps, slot->commands, pass);
-    kd_vk_barrier_before(vk, slot->commands, &access, 1);
-    vk->fn.CmdFillBuffer(slot->commands, buffer->handle, offset, size, value);
+    kd_vk_timing_pass(&vk->timing, &vk->core, &slot->stamps, slot->commands, pass);
+    kd_vk_barrier_before(&vk->core.fn, &vk->hazards, slot->commands, &access, 1);
+    vk->core.fn.CmdFillBuffer(slot->commands, buffer->handle, offset, size, value);
     buffer->retired.ticket = kd_vk_current(vk);
     return KD_OK;
 }
+
+size_t kd_vk_times(const struct kd_vk *vk, struct kd_vk_time out[KD_VK_MAX_PASSES])
+{
+    return kd_vk_timing_totals(&vk->timing, out);
+}
+
+void kd_vk_times_reset(struct kd_vk *vk) { kd_vk_timing_reset(&vk->timing); }

@@ -1,10 +1,6 @@
 #include "vk/debug.h"
 
 #include "base/log.h"
-#include "vk/device.h"
-
-#include <stdarg.h>
-#include <stdio.h>
 
 static VKAPI_ATTR VkBool32 VKAPI_CALL heard(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                             VkDebugUtilsMessageTypeFlagsEXT types,
@@ -49,22 +45,4 @@ void kd_vk_debug_finish(struct kd_vk_debug *debug, const struct kd_vk_functions 
     if (debug->messenger)
         fn->DestroyDebugUtilsMessengerEXT(instance, debug->messenger, NULL);
     debug->messenger = VK_NULL_HANDLE;
-}
-
-void kd_vk_debug_name(struct kd_vk *vk, VkObjectType type, uint64_t handle, const char *format, ...)
-{
-    char name[128];
-    va_list args;
-    if (!vk->fn.SetDebugUtilsObjectNameEXT || !handle)
-        return;
-    va_start(args, format);
-    vsnprintf(name, sizeof name, format, args);
-    va_end(args);
-    const VkDebugUtilsObjectNameInfoEXT info = { .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
-                                                 .objectType = type,
-                                                 .objectHandle = handle,
-                                                 .pObjectName = name };
-    kd_vk_loader_lock();
-    vk->fn.SetDebugUtilsObjectNameEXT(vk->device, &info); /* failure is ignored: a missing name does no harm */
-    kd_vk_loader_unlock();
 }

@@ -1,12 +1,10 @@
 #include "vk/descriptors.h"
 
-#include "vk/device.h"
-
 #include <stdlib.h>
 
 /* Adds a pool. Each pool has room for KD_VK_SETS_PER_POOL sets of the largest size. So it is full when it has that
  * number of sets, whatever their size. */
-static enum kd_status grow(struct kd_vk *vk, struct kd_vk_descriptors *descriptors, struct kd_error *error)
+static enum kd_status grow(const struct kd_vk_core *core, struct kd_vk_descriptors *descriptors, struct kd_error *error)
 {
     enum kd_status status;
     VkDescriptorPool pool;
@@ -22,42 +20,41 @@ static enum kd_status grow(struct kd_vk *vk, struct kd_vk_descriptors *descripto
                                               .maxSets = KD_VK_SETS_PER_POOL,
                                               .poolSizeCount = sizeof sizes / sizeof *sizes,
                                               .pPoolSizes = sizes };
-    KD_VK_TRY(&vk->fn, CreateDescriptorPool, vk->device, &info, NULL, &pool);
-    kd_vk_debug_name(vk, VK_OBJECT_TYPE_DESCRIPTOR_POOL, KD_VK_HANDLE(pool), "descriptor pool %zu",
-                     descriptors->n_pools);
+    KD_VK_TRY(&core->fn, CreateDescriptorPool, core->device, &info, NULL, &pool);
+    kd_vk_name(core, VK_OBJECT_TYPE_DESCRIPTOR_POOL, KD_VK_HANDLE(pool), "descriptor pool %zu", descriptors->n_pools);
     pools[descriptors->n_pools++] = pool;
 done:
     return status;
 }
 
-enum kd_status kd_vk_descriptors_take(struct kd_vk *vk, struct kd_vk_descriptors *descriptors,
+enum kd_status kd_vk_descriptors_take(const struct kd_vk_core *core, struct kd_vk_descriptors *descriptors,
                                       VkDescriptorSetLayout layout, VkDescriptorSet *out, struct kd_error *error)
 {
     enum kd_status status;
     size_t pool = descriptors->used / KD_VK_SETS_PER_POOL;
-    if (pool == descriptors->n_pools && (status = grow(vk, descriptors, error)))
+    if (pool == descriptors->n_pools && (status = grow(core, descriptors, error)))
         return status;
     const VkDescriptorSetAllocateInfo info = { .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
                                                .descriptorPool = descriptors->pools[pool],
                                                .descriptorSetCount = 1,
                                                .pSetLayouts = &layout };
-    KD_VK_TRY(&vk->fn, AllocateDescriptorSets, vk->device, &info, out);
+    KD_VK_TRY(&core->fn, AllocateDescriptorSets, core->device, &info, out);
     descriptors->used++;
 done:
     return status;
 }
 
-void kd_vk_descriptors_reset(struct kd_vk *vk, struct kd_vk_descriptors *descriptors)
+void kd_vk_descriptors_reset(const struct kd_vk_core *core, struct kd_vk_descriptors *descriptors)
 {
     for (size_t i = 0; i * KD_VK_SETS_PER_POOL < descriptors->used; i++)
-        vk->fn.ResetDescriptorPool(vk->device, descriptors->pools[i], 0); /* cannot fail */
+        core->fn.ResetDescriptorPool(core->device, descriptors->pools[i], 0); /* cannot fail */
     descriptors->used = 0;
 }
 
-void kd_vk_descriptors_finish(struct kd_vk *vk, struct kd_vk_descriptors *descriptors)
+void kd_vk_descriptors_finish(const struct kd_vk_core *core, struct kd_vk_descriptors *descriptors)
 {
     for (size_t i = 0; i < descriptors->n_pools; i++)
-        vk->fn.DestroyDescriptorPool(vk->device, descriptors->pools[i], NULL);
+        core->fn.DestroyDescriptorPool(core->device, descriptors->pools[i], NULL);
     free(descriptors->pools);
     *descriptors = (struct kd_vk_descriptors) { 0 };
 }

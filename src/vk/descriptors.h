@@ -2,11 +2,9 @@
 #ifndef KD_VK_DESCRIPTORS_H
 #define KD_VK_DESCRIPTORS_H
 
-#include "vk/functions.h"
+#include "vk/core.h"
 
 #include <stddef.h>
-
-struct kd_vk;
 
 #define KD_VK_SETS_PER_POOL 64
 
@@ -15,9 +13,9 @@ struct kd_vk_descriptors {
     size_t n_pools, used;    /* used: number of sets in all pools */
 };
 
-enum kd_status kd_vk_descriptors_take(struct kd_vk *vk, struct kd_vk_descriptors *descriptors,
+enum kd_status kd_vk_descriptors_take(const struct kd_vk_core *core, struct kd_vk_descriptors *descriptors,
                                       VkDescriptorSetLayout layout, VkDescriptorSet *out, struct kd_error *error);
-void kd_vk_descriptors_reset(struct kd_vk *vk, struct kd_vk_descriptors *descriptors);
-void kd_vk_descriptors_finish(struct kd_vk *vk, struct kd_vk_descriptors *descriptors);
+void kd_vk_descriptors_reset(const struct kd_vk_core *core, struct kd_vk_descriptors *descriptors);
+void kd_vk_descriptors_finish(const struct kd_vk_core *core, struct kd_vk_descriptors *descriptors);
 
 #endif

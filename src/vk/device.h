@@ -3,12 +3,12 @@
 #define KD_VK_DEVICE_H
 
 #include "vk/cache.h"
+#include "vk/core.h"
 #include "vk/descriptors.h"
-#include "vk/functions.h"
 #include "vk/hazard.h"
 #include "vk/instance.h"
+#include "vk/mapped.h"
 #include "vk/memory.h"
-#include "vk/physical.h"
 #include "vk/retire.h"
 #include "vk/timing.h"
 #include "vk/vk.h"
@@ -26,18 +26,14 @@ struct kd_vk_slot {
 #define KD_VK_SLOTS (KD_VK_IN_FLIGHT + 1)
 
 struct kd_vk {
-    struct kd_vk_functions fn; /* the complete table; instance.fn lacks the functions of the device */
     struct kd_vk_instance instance;
-    struct kd_vk_physical physical;
+    struct kd_vk_core core;
     char choice[640];
-    bool compiles_only, pipelines_only; /* see kd_vk_params */
-    VkDevice device;
-    VkQueue queue;
 
     struct kd_vk_heap heap;
     struct kd_vk_cache cache;
     struct kd_vk_retired *retired; /* objects that the caller has destroyed but the device may still use */
-    struct kd_vk_buffer *mapped;   /* buffers that are mapped in memory that is not coherent */
+    struct kd_vk_mapped *mapped;   /* buffers that are mapped in memory that is not coherent */
     uint64_t next_buffer_id;
     uint32_t n_buffers;
     atomic_uint n_pipelines; /* number of pipelines that exist; for the warning at the end */
@@ -53,16 +49,11 @@ struct kd_vk {
     struct kd_vk_hazards hazards, hazards_before; /* present state, and the state when recording began */
     struct kd_vk_timing timing;
 
-    char lost[256]; /* why the device is lost; "" if it is not lost */
-    bool hangs;     /* the device is lost because a deadline has passed: work under way may never end */
     struct kd_vk *next_lost;
 };
 
-/* Returns KD_EDEVICE with the reason if the device is lost. */
-enum kd_status kd_vk_alive(const struct kd_vk *vk, struct kd_error *error);
-/* Marks the device as lost for good. Returns KD_EDEVICE. */
-enum kd_status kd_vk_lose(struct kd_vk *vk, struct kd_error *error, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+/* Frees the object now if it is idle, else later; on a lost device, when the device is closed. */
+void kd_vk_retire(struct kd_vk *vk, struct kd_vk_retired *object);
 
 /* Timeline value of the commands being recorded. */
 static inline uint64_t kd_vk_current(const struct kd_vk *vk) { return vk->submitted + 1; }

@@ -50,7 +50,7 @@ static bool is_writable(const char *dir)
 enum kd_vk_compiling kd_vk_compiling(const struct kd_vk *vk, char dir[DIR_BYTES])
 {
     *dir = 0;
-    if (strcmp(vk->physical.info.driver, "llvmpipe"))
+    if (strcmp(vk->core.physical.info.driver, "llvmpipe"))
         return KD_VK_COMPILES_EARLY;
     find_folder(dir);
     const bool off = is_set("MESA_SHADER_CACHE_DISABLE") || is_set("MESA_GLSL_CACHE_DISABLE") || getuid() != geteuid();

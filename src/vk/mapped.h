@@ -4,21 +4,29 @@
 #ifndef KD_VK_MAPPED_H
 #define KD_VK_MAPPED_H
 
-#include "vk/functions.h"
+#include "vk/core.h"
+#include "vk/memory.h"
 
-struct kd_vk;
-struct kd_vk_buffer;
+/* What a buffer has for this. */
+struct kd_vk_mapped {
+    struct kd_vk_mapped *next;
+    const struct kd_vk_slice *slice;
+    enum kd_vk_memory memory;
+    uint64_t read, written; /* the last submissions that read and write the buffer, recorded or submitted */
+    uint64_t seen;          /* the host sees what was written up to this submission */
+};
 
-/* kd_vk_mapped_enter adds a new buffer if its memory is not coherent. kd_vk_mapped_forget removes it before it is
- * destroyed. */
-void kd_vk_mapped_enter(struct kd_vk *vk, struct kd_vk_buffer *buffer);
-void kd_vk_mapped_forget(struct kd_vk *vk, struct kd_vk_buffer *buffer);
-/* Notes that the submission being recorded reads the buffer. write: it writes the buffer, and may read it. */
-void kd_vk_mapped_use(struct kd_vk *vk, struct kd_vk_buffer *buffer, bool write);
-/* kd_vk_mapped_flush is called before the submission with this number. kd_vk_mapped_invalidate is called when
- * kd_vk.done has grown. kd_vk_mapped_discard is called when a recording was dropped. */
-VkResult kd_vk_mapped_flush(struct kd_vk *vk, uint64_t value);
-VkResult kd_vk_mapped_invalidate(struct kd_vk *vk);
-void kd_vk_mapped_discard(struct kd_vk *vk);
+/* kd_vk_mapped_enter adds a buffer's memory to a list. kd_vk_mapped_forget removes it, if it is there, before the
+ * buffer is destroyed. */
+void kd_vk_mapped_enter(struct kd_vk_mapped **list, struct kd_vk_mapped *mapped);
+void kd_vk_mapped_forget(struct kd_vk_mapped **list, const struct kd_vk_mapped *mapped);
+/* Notes that the submission with this number reads the buffer. write: it writes the buffer, and may read it. */
+void kd_vk_mapped_use(struct kd_vk_mapped *mapped, uint64_t value, bool write);
+/* kd_vk_mapped_flush is called before the submission with this number. kd_vk_mapped_invalidate is called when the
+ * submissions up to `done` have finished. kd_vk_mapped_discard is called when the recording of the submission after
+ * `submitted` was dropped. */
+VkResult kd_vk_mapped_flush(struct kd_vk_mapped *list, const struct kd_vk_core *core, uint64_t value);
+VkResult kd_vk_mapped_invalidate(struct kd_vk_mapped *list, const struct kd_vk_core *core, uint64_t done);
+void kd_vk_mapped_discard(struct kd_vk_mapped *list, uint64_t submitted);
 
 #endif

@@ -1,8 +1,5 @@
 #include "vk/memory.h"
 
-#include "vk/device.h"
-#include "vk/submit.h"
-
 #include <stdlib.h>
 
 #define LOCAL VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT
@@ -50,7 +47,7 @@ int kd_vk_memory_type(const VkPhysicalDeviceMemoryProperties *properties, uint32
 
 /* Finds the allowed memory types. Every buffer has the same usage and therefore the same allowed types, so they are
  * queried once, with a small buffer. */
-static enum kd_status allowed_types(struct kd_vk *vk, uint32_t *allowed, struct kd_error *error)
+static enum kd_status allowed_types(const struct kd_vk_core *core, uint32_t *allowed, struct kd_error *error)
 {
     enum kd_status status;
     VkBuffer probe;
@@ -58,65 +55,64 @@ static enum kd_status allowed_types(struct kd_vk *vk, uint32_t *allowed, struct 
     const VkBufferCreateInfo info = { .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                       .size = KD_VK_ALIGNMENT,
                                       .usage = KD_VK_BUFFER_USAGE };
-    KD_VK_TRY(&vk->fn, CreateBuffer, vk->device, &info, NULL, &probe);
-    vk->fn.GetBufferMemoryRequirements(vk->device, probe, &requirements);
-    vk->fn.DestroyBuffer(vk->device, probe, NULL);
+    KD_VK_TRY(&core->fn, CreateBuffer, core->device, &info, NULL, &probe);
+    core->fn.GetBufferMemoryRequirements(core->device, probe, &requirements);
+    core->fn.DestroyBuffer(core->device, probe, NULL);
     *allowed = requirements.memoryTypeBits;
 done:
     return status;
 }
 
-enum kd_status kd_vk_heap_init(struct kd_vk *vk, struct kd_error *error)
+enum kd_status kd_vk_heap_init(struct kd_vk_heap *heap, const struct kd_vk_core *core, struct kd_error *error)
 {
-    struct kd_vk_heap *heap = &vk->heap;
-    enum kd_vk_type device = vk->physical.info.type;
+    enum kd_vk_type device = core->physical.info.type;
     uint32_t allowed = 0;
-    enum kd_status status = allowed_types(vk, &allowed, error);
+    enum kd_status status = allowed_types(core, &allowed, error);
     if (status)
         return status;
-    vk->fn.GetPhysicalDeviceMemoryProperties(vk->physical.handle, &heap->properties);
+    core->fn.GetPhysicalDeviceMemoryProperties(core->physical.handle, &heap->properties);
     for (int m = KD_VK_DEVICE; m <= KD_VK_READBACK; m++) {
         int type = kd_vk_memory_type(&heap->properties, allowed, (enum kd_vk_memory)m,
                                      device == KD_VK_CPU || device == KD_VK_INTEGRATED);
         if (type < 0)
-            return kd_error_set(error, KD_EDEVICE, "%s has no %s memory for buffers", vk->physical.info.name,
+            return kd_error_set(error, KD_EDEVICE, "%s has no %s memory for buffers", core->physical.info.name,
                                 m == KD_VK_DEVICE ? "device-local" : "host-visible");
         heap->types[m] = (uint32_t)type;
     }
     return KD_OK;
 }
 
-static void block_free(struct kd_vk *vk, struct kd_vk_block *block)
+static void block_free(struct kd_vk_heap *heap, const struct kd_vk_core *core, struct kd_vk_block *block)
 {
-    struct kd_vk_heap *heap = &vk->heap;
     heap->used[heap->properties.memoryTypes[block->type].heapIndex] -= block->arena.size;
-    vk->fn.FreeMemory(vk->device, block->memory, NULL); /* this also unmaps the memory */
+    core->fn.FreeMemory(core->device, block->memory, NULL); /* this also unmaps the memory */
     kd_vk_arena_finish(&block->arena);
     free(block);
 }
 
-void kd_vk_heap_finish(struct kd_vk *vk)
+void kd_vk_heap_finish(struct kd_vk_heap *heap, const struct kd_vk_core *core)
 {
-    while (vk->heap.blocks) {
-        struct kd_vk_block *block = vk->heap.blocks;
-        vk->heap.blocks = block->next;
-        block_free(vk, block);
+    while (heap->blocks) {
+        struct kd_vk_block *block = heap->blocks;
+        heap->blocks = block->next;
+        block_free(heap, core, block);
     }
 }
 
-static enum kd_status block_fill(struct kd_vk *vk, struct kd_vk_block *block, uint64_t size, struct kd_error *error)
+static enum kd_status block_fill(struct kd_vk_heap *heap, const struct kd_vk_core *core, struct kd_vk_block *block,
+                                 uint64_t size, struct kd_error *error)
 {
     enum kd_status status;
-    VkMemoryPropertyFlags flags = vk->heap.properties.memoryTypes[block->type].propertyFlags;
+    VkMemoryPropertyFlags flags = heap->properties.memoryTypes[block->type].propertyFlags;
     const VkMemoryAllocateInfo info = { .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
                                         .allocationSize = size,
                                         .memoryTypeIndex = block->type };
     void *map = NULL;
-    KD_VK_TRY(&vk->fn, AllocateMemory, vk->device, &info, NULL, &block->memory);
-    kd_vk_debug_name(vk, VK_OBJECT_TYPE_DEVICE_MEMORY, KD_VK_HANDLE(block->memory), "block of type %u", block->type);
+    KD_VK_TRY(&core->fn, AllocateMemory, core->device, &info, NULL, &block->memory);
+    kd_vk_name(core, VK_OBJECT_TYPE_DEVICE_MEMORY, KD_VK_HANDLE(block->memory), "block of type %u", block->type);
     block->coherent = flags & COHERENT;
     if (flags & VISIBLE)
-        KD_VK_TRY(&vk->fn, MapMemory, vk->device, block->memory, 0, VK_WHOLE_SIZE, 0, &map);
+        KD_VK_TRY(&core->fn, MapMemory, core->device, block->memory, 0, VK_WHOLE_SIZE, 0, &map);
     block->map = map;
 done:
     return status;
@@ -124,12 +120,12 @@ done:
 
 /* Appends a block to the list. Buffers are taken from the oldest block with room, so that the latest blocks become
  * empty. */
-static enum kd_status block_create(struct kd_vk *vk, uint32_t type, uint64_t size, struct kd_error *error)
+static enum kd_status block_create(struct kd_vk_heap *heap, const struct kd_vk_core *core, uint32_t type, uint64_t size,
+                                   struct kd_error *error)
 {
-    struct kd_vk_heap *heap = &vk->heap;
     uint32_t index = heap->properties.memoryTypes[type].heapIndex;
     uint64_t limit = heap->properties.memoryHeaps[index].size;
-    if (size > vk->physical.info.max_allocation_bytes || size > limit || heap->used[index] > limit - size)
+    if (size > core->physical.info.max_allocation_bytes || size > limit || heap->used[index] > limit - size)
         return kd_error_set(error, KD_ENOMEM, "beyond the device's limits");
     struct kd_vk_block *block = calloc(1, sizeof *block);
     if (!block || !kd_vk_arena_init(&block->arena, size)) {
@@ -138,9 +134,9 @@ static enum kd_status block_create(struct kd_vk *vk, uint32_t type, uint64_t siz
     }
     block->type = type;
     heap->used[index] += size;
-    enum kd_status status = block_fill(vk, block, size, error);
+    enum kd_status status = block_fill(heap, core, block, size, error);
     if (status) {
-        block_free(vk, block);
+        block_free(heap, core, block);
         return status;
     }
     struct kd_vk_block **end = &heap->blocks;
@@ -150,9 +146,9 @@ static enum kd_status block_create(struct kd_vk *vk, uint32_t type, uint64_t siz
     return KD_OK;
 }
 
-static bool take(struct kd_vk *vk, uint32_t type, uint64_t size, uint64_t alignment, struct kd_vk_slice *out)
+static bool take(struct kd_vk_heap *heap, uint32_t type, uint64_t size, uint64_t alignment, struct kd_vk_slice *out)
 {
-    for (struct kd_vk_block *block = vk->heap.blocks; block; block = block->next)
+    for (struct kd_vk_block *block = heap->blocks; block; block = block->next)
         if (block->type == type && kd_vk_arena_take(&block->arena, size, alignment, &out->offset)) {
             out->block = block;
             out->size = size;
@@ -163,35 +159,32 @@ static bool take(struct kd_vk *vk, uint32_t type, uint64_t size, uint64_t alignm
 
 /* Takes a slice from a block with room, else from a new block of the usual size. If that cannot be allocated, the new
  * block has just the size that is needed. */
-static enum kd_status take_or_grow(struct kd_vk *vk, uint32_t type, uint64_t size, uint64_t alignment,
-                                   struct kd_vk_slice *out, struct kd_error *error)
+static enum kd_status take_or_grow(struct kd_vk_heap *heap, const struct kd_vk_core *core, uint32_t type, uint64_t size,
+                                   uint64_t alignment, struct kd_vk_slice *out, struct kd_error *error)
 {
-    struct kd_vk_heap *heap = &vk->heap;
     uint64_t usual = heap->properties.memoryHeaps[heap->properties.memoryTypes[type].heapIndex].size / 8;
     usual = usual > KD_VK_BLOCK_BYTES ? KD_VK_BLOCK_BYTES : usual & ~(uint64_t)(KD_VK_ALIGNMENT - 1);
-    if (take(vk, type, size, alignment, out))
+    if (take(heap, type, size, alignment, out))
         return KD_OK;
-    enum kd_status status = block_create(vk, type, size > usual ? size : usual, error);
+    enum kd_status status = block_create(heap, core, type, size > usual ? size : usual, error);
     if (status == KD_ENOMEM && size < usual)
-        status = block_create(vk, type, size, error);
-    if (!status && !take(vk, type, size, alignment, out))
+        status = block_create(heap, core, type, size, error);
+    if (!status && !take(heap, type, size, alignment, out))
         status = kd_error_set(error, KD_ENOMEM, "out of host memory");
     return status;
 }
 
-enum kd_status kd_vk_heap_take(struct kd_vk *vk, enum kd_vk_memory memory, uint64_t size, uint64_t alignment,
-                               struct kd_vk_slice *out, struct kd_error *error)
+enum kd_status kd_vk_heap_take(struct kd_vk_heap *heap, const struct kd_vk_core *core, enum kd_vk_memory memory,
+                               uint64_t size, uint64_t alignment, struct kd_vk_slice *out, struct kd_error *error)
 {
-    uint32_t type = vk->heap.types[memory];
+    uint32_t type = heap->types[memory];
     struct kd_error why = { 0 };
-    if (vk->pipelines_only)
+    if (core->pipelines_only)
         return kd_error_set(error, KD_EINTERNAL, "the device was opened only for pipelines");
     if (alignment < KD_VK_ALIGNMENT)
         alignment = KD_VK_ALIGNMENT;
     size = size > UINT64_MAX - alignment ? size : (size + KD_VK_ALIGNMENT - 1) & ~(uint64_t)(KD_VK_ALIGNMENT - 1);
-    enum kd_status status = take_or_grow(vk, type, size, alignment, out, &why);
-    if (status == KD_ENOMEM && vk->retired && !kd_vk_wait(vk, 0, NULL))
-        status = take_or_grow(vk, type, size, alignment, out, &why); /* once more, with the memory of retired buffers */
+    enum kd_status status = take_or_grow(heap, core, type, size, alignment, out, &why);
     if (!status)
         return KD_OK;
     return kd_error_set(error, status, "%.2f MiB of %s memory: %.200s (%.2f MiB are held, the heap has %.0f MiB)",
@@ -199,28 +192,28 @@ enum kd_status kd_vk_heap_take(struct kd_vk *vk, enum kd_vk_memory memory, uint6
                         memory == KD_VK_DEVICE   ? "device"
                         : memory == KD_VK_UPLOAD ? "upload"
                                                  : "readback",
-                        why.message, (double)kd_vk_allocated(vk) / 0x1p20,
-                        (double)vk->heap.properties.memoryHeaps[vk->heap.properties.memoryTypes[type].heapIndex].size /
+                        why.message, (double)kd_vk_heap_bytes(heap) / 0x1p20,
+                        (double)heap->properties.memoryHeaps[heap->properties.memoryTypes[type].heapIndex].size /
                             0x1p20);
 }
 
-void kd_vk_heap_give(struct kd_vk *vk, const struct kd_vk_slice *slice)
+void kd_vk_heap_give(struct kd_vk_heap *heap, const struct kd_vk_core *core, const struct kd_vk_slice *slice)
 {
     kd_vk_arena_give(&slice->block->arena, slice->offset, slice->size);
     if (slice->block->arena.live)
         return;
-    for (struct kd_vk_block **link = &vk->heap.blocks; *link; link = &(*link)->next)
+    for (struct kd_vk_block **link = &heap->blocks; *link; link = &(*link)->next)
         if (*link == slice->block) {
             *link = slice->block->next;
-            block_free(vk, slice->block);
+            block_free(heap, core, slice->block);
             return;
         }
 }
 
-uint64_t kd_vk_allocated(const struct kd_vk *vk)
+uint64_t kd_vk_heap_bytes(const struct kd_vk_heap *heap)
 {
     uint64_t sum = 0;
     for (uint32_t i = 0; i < VK_MAX_MEMORY_HEAPS; i++)
-        sum += vk->heap.used[i];
+        sum += heap->used[i];
     return sum;
 }

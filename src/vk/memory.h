@@ -3,7 +3,7 @@
 #define KD_VK_MEMORY_H
 
 #include "vk/arena.h"
-#include "vk/functions.h"
+#include "vk/core.h"
 #include "vk/vk.h"
 
 /* Vulkan guarantees 4096 allocations. With blocks of this size far fewer are needed. A larger buffer gets a block of
@@ -38,11 +38,14 @@ struct kd_vk_slice {
     uint64_t offset, size;
 };
 
-enum kd_status kd_vk_heap_init(struct kd_vk *vk, struct kd_error *error);
-void kd_vk_heap_finish(struct kd_vk *vk);
-enum kd_status kd_vk_heap_take(struct kd_vk *vk, enum kd_vk_memory memory, uint64_t size, uint64_t alignment,
-                               struct kd_vk_slice *out, struct kd_error *error);
-void kd_vk_heap_give(struct kd_vk *vk, const struct kd_vk_slice *slice);
+enum kd_status kd_vk_heap_init(struct kd_vk_heap *heap, const struct kd_vk_core *core, struct kd_error *error);
+void kd_vk_heap_finish(struct kd_vk_heap *heap, const struct kd_vk_core *core);
+/* KD_ENOMEM: the heap is full, for now. */
+enum kd_status kd_vk_heap_take(struct kd_vk_heap *heap, const struct kd_vk_core *core, enum kd_vk_memory memory,
+                               uint64_t size, uint64_t alignment, struct kd_vk_slice *out, struct kd_error *error);
+void kd_vk_heap_give(struct kd_vk_heap *heap, const struct kd_vk_core *core, const struct kd_vk_slice *slice);
+/* Bytes allocated from the device. */
+uint64_t kd_vk_heap_bytes(const struct kd_vk_heap *heap);
 
 /* Chooses the best memory type among `allowed`, which has one bit for each; -1: none. Pure. host_near: the device's
  * memory is the host's (CPU, integrated GPU), so that mapping costs nothing. */

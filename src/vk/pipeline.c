@@ -15,7 +15,7 @@
 static enum kd_status check(const struct kd_vk *vk, const struct kd_vk_pipeline_params *params, struct kd_error *error)
 {
     const char *name = params->name ? params->name : "unnamed";
-    uint32_t max_push = vk->physical.info.max_push_bytes;
+    uint32_t max_push = vk->core.physical.info.max_push_bytes;
     if (!params->spirv || params->spirv_bytes < 20 || params->spirv_bytes % 4 || params->spirv[0] != SPIRV_MAGIC)
         return kd_error_set(error, KD_EINTERNAL, "pipeline '%s': this is not SPIR-V", name);
     if (params->n_buffers > KD_VK_MAX_BINDINGS)
@@ -49,17 +49,17 @@ static enum kd_status make_layout(struct kd_vk *vk, struct kd_vk_pipeline *pipel
     const VkDescriptorSetLayoutCreateInfo set = { .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
                                                   .bindingCount = pipeline->n_buffers,
                                                   .pBindings = bindings };
-    KD_VK_TRY(&vk->fn, CreateDescriptorSetLayout, vk->device, &set, NULL, &pipeline->set_layout);
-    kd_vk_debug_name(vk, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, KD_VK_HANDLE(pipeline->set_layout), "%s",
-                     pipeline->name);
+    KD_VK_TRY(&vk->core.fn, CreateDescriptorSetLayout, vk->core.device, &set, NULL, &pipeline->set_layout);
+    kd_vk_name(&vk->core, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, KD_VK_HANDLE(pipeline->set_layout), "%s",
+               pipeline->name);
     const VkPushConstantRange push = { VK_SHADER_STAGE_COMPUTE_BIT, 0, pipeline->push_bytes };
     const VkPipelineLayoutCreateInfo layout = { .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                                 .setLayoutCount = 1,
                                                 .pSetLayouts = &pipeline->set_layout,
                                                 .pushConstantRangeCount = pipeline->push_bytes > 0,
                                                 .pPushConstantRanges = &push };
-    KD_VK_TRY(&vk->fn, CreatePipelineLayout, vk->device, &layout, NULL, &pipeline->layout);
-    kd_vk_debug_name(vk, VK_OBJECT_TYPE_PIPELINE_LAYOUT, KD_VK_HANDLE(pipeline->layout), "%s", pipeline->name);
+    KD_VK_TRY(&vk->core.fn, CreatePipelineLayout, vk->core.device, &layout, NULL, &pipeline->layout);
+    kd_vk_name(&vk->core, VK_OBJECT_TYPE_PIPELINE_LAYOUT, KD_VK_HANDLE(pipeline->layout), "%s", pipeline->name);
 done:
     return status;
 }
@@ -84,8 +84,9 @@ static enum kd_status make_pipeline(struct kd_vk *vk, struct kd_vk_pipeline *pip
                    .pSpecializationInfo = params->n_spec ? &spec : NULL },
         .layout = pipeline->layout,
     };
-    KD_VK_TRY(&vk->fn, CreateComputePipelines, vk->device, vk->cache.handle, 1, &info, NULL, &pipeline->handle);
-    kd_vk_debug_name(vk, VK_OBJECT_TYPE_PIPELINE, KD_VK_HANDLE(pipeline->handle), "%s", pipeline->name);
+    KD_VK_TRY(&vk->core.fn, CreateComputePipelines, vk->core.device, vk->cache.handle, 1, &info, NULL,
+              &pipeline->handle);
+    kd_vk_name(&vk->core, VK_OBJECT_TYPE_PIPELINE, KD_VK_HANDLE(pipeline->handle), "%s", pipeline->name);
     vk->cache.grown = true;
 done:
     return status;
@@ -100,21 +101,21 @@ static enum kd_status pipeline_init(struct kd_vk *vk, struct kd_vk_pipeline *pip
                                             .pCode = params->spirv };
     enum kd_status status;
     KD_TRY(make_layout(vk, pipeline, error));
-    KD_VK_TRY(&vk->fn, CreateShaderModule, vk->device, &info, NULL, &module);
-    kd_vk_debug_name(vk, VK_OBJECT_TYPE_SHADER_MODULE, KD_VK_HANDLE(module), "%s", pipeline->name);
+    KD_VK_TRY(&vk->core.fn, CreateShaderModule, vk->core.device, &info, NULL, &module);
+    kd_vk_name(&vk->core, VK_OBJECT_TYPE_SHADER_MODULE, KD_VK_HANDLE(module), "%s", pipeline->name);
     KD_TRY(make_pipeline(vk, pipeline, module, params, error));
 done:
     if (module)
-        vk->fn.DestroyShaderModule(vk->device, module, NULL);
+        vk->core.fn.DestroyShaderModule(vk->core.device, module, NULL);
     return status;
 }
 
 static void pipeline_free(struct kd_vk *vk, struct kd_vk_retired *object)
 {
     struct kd_vk_pipeline *pipeline = (struct kd_vk_pipeline *)object;
-    vk->fn.DestroyPipeline(vk->device, pipeline->handle, NULL);
-    vk->fn.DestroyPipelineLayout(vk->device, pipeline->layout, NULL);
-    vk->fn.DestroyDescriptorSetLayout(vk->device, pipeline->set_layout, NULL);
+    vk->core.fn.DestroyPipeline(vk->core.device, pipeline->handle, NULL);
+    vk->core.fn.DestroyPipelineLayout(vk->core.device, pipeline->layout, NULL);
+    vk->core.fn.DestroyDescriptorSetLayout(vk->core.device, pipeline->set_layout, NULL);
     vk->n_pipelines--;
     free(pipeline);
 }
@@ -123,7 +124,7 @@ enum kd_status kd_vk_pipeline_create(struct kd_vk *vk, const struct kd_vk_pipeli
                                      struct kd_vk_pipeline **out, struct kd_error *error)
 {
     *out = NULL;
-    enum kd_status status = kd_vk_alive(vk, error);
+    enum kd_status status = kd_vk_alive(&vk->core, error);
     if (!status)
         status = check(vk, params, error);
     if (status)

@@ -1,30 +1,27 @@
 #include "vk/retire.h"
 
-#include "vk/device.h"
-
-void kd_vk_retire(struct kd_vk *vk, struct kd_vk_retired *object)
+void kd_vk_retired_add(struct kd_vk_retired **list, struct kd_vk_retired *object)
 {
-    if (object->ticket <= vk->done && !vk->lost[0]) {
-        object->free(vk, object);
-        return;
-    }
-    object->next = vk->retired;
-    vk->retired = object;
+    object->next = *list;
+    *list = object;
 }
 
-static void sweep(struct kd_vk *vk, uint64_t done)
+void kd_vk_retired_free(struct kd_vk_retired **list, struct kd_vk *vk, uint64_t done)
 {
-    struct kd_vk_retired **link = &vk->retired;
-    while (*link) {
-        struct kd_vk_retired *object = *link;
+    while (*list) {
+        struct kd_vk_retired *object = *list;
         if (object->ticket > done) {
-            link = &object->next;
+            list = &object->next;
             continue;
         }
-        *link = object->next;
+        *list = object->next;
         object->free(vk, object);
     }
 }
 
-void kd_vk_retire_idle(struct kd_vk *vk) { sweep(vk, vk->done); }
-void kd_vk_retire_all(struct kd_vk *vk) { sweep(vk, UINT64_MAX); }
+void kd_vk_retired_discard(struct kd_vk_retired *list, uint64_t submitted)
+{
+    for (struct kd_vk_retired *object = list; object; object = object->next)
+        if (object->ticket > submitted)
+            object->ticket = submitted;
+}

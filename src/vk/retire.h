@@ -14,11 +14,11 @@ struct kd_vk_retired {
     void (*free)(struct kd_vk *vk, struct kd_vk_retired *object);
 };
 
-/* Frees the object now if it is idle, else later; on a lost device, when the device is closed. */
-void kd_vk_retire(struct kd_vk *vk, struct kd_vk_retired *object);
-/* Frees the objects that have become idle. */
-void kd_vk_retire_idle(struct kd_vk *vk);
-/* Frees all objects. The device must be idle. */
-void kd_vk_retire_all(struct kd_vk *vk);
+/* Adds an object to a list. */
+void kd_vk_retired_add(struct kd_vk_retired **list, struct kd_vk_retired *object);
+/* Frees the objects that only submissions up to `done` use. */
+void kd_vk_retired_free(struct kd_vk_retired **list, struct kd_vk *vk, uint64_t done);
+/* Called when the submission after the one with this number was discarded: it uses no object any more. */
+void kd_vk_retired_discard(struct kd_vk_retired *list, uint64_t submitted);
 
 #endif

@@ -2,7 +2,6 @@
 
 #include "vk/barrier.h"
 #include "vk/device.h"
-#include "vk/mapped.h"
 #include "base/clock.h"
 
 #include <inttypes.h>
@@ -18,15 +17,15 @@ static enum kd_status slot_init(struct kd_vk *vk, uint32_t index, struct kd_erro
     struct kd_vk_slot *slot = &vk->slots[index];
     const VkCommandPoolCreateInfo pool = { .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                            .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-                                           .queueFamilyIndex = vk->physical.family };
-    KD_VK_TRY(&vk->fn, CreateCommandPool, vk->device, &pool, NULL, &slot->pool);
-    kd_vk_debug_name(vk, VK_OBJECT_TYPE_COMMAND_POOL, KD_VK_HANDLE(slot->pool), "slot %u", index);
+                                           .queueFamilyIndex = vk->core.physical.family };
+    KD_VK_TRY(&vk->core.fn, CreateCommandPool, vk->core.device, &pool, NULL, &slot->pool);
+    kd_vk_name(&vk->core, VK_OBJECT_TYPE_COMMAND_POOL, KD_VK_HANDLE(slot->pool), "slot %u", index);
     const VkCommandBufferAllocateInfo buffer = { .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                                  .commandPool = slot->pool,
                                                  .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                                  .commandBufferCount = 1 };
-    KD_VK_TRY(&vk->fn, AllocateCommandBuffers, vk->device, &buffer, &slot->commands);
-    kd_vk_debug_name(vk, VK_OBJECT_TYPE_COMMAND_BUFFER, KD_VK_HANDLE(slot->commands), "slot %u", index);
+    KD_VK_TRY(&vk->core.fn, AllocateCommandBuffers, vk->core.device, &buffer, &slot->commands);
+    kd_vk_name(&vk->core, VK_OBJECT_TYPE_COMMAND_BUFFER, KD_VK_HANDLE(slot->commands), "slot %u", index);
 done:
     return status;
 }
@@ -37,8 +36,8 @@ enum kd_status kd_vk_submit_init(struct kd_vk *vk, struct kd_error *error)
     const VkSemaphoreTypeCreateInfo type = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
                                              .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE };
     const VkSemaphoreCreateInfo info = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &type };
-    KD_VK_TRY(&vk->fn, CreateSemaphore, vk->device, &info, NULL, &vk->timeline);
-    kd_vk_debug_name(vk, VK_OBJECT_TYPE_SEMAPHORE, KD_VK_HANDLE(vk->timeline), "timeline");
+    KD_VK_TRY(&vk->core.fn, CreateSemaphore, vk->core.device, &info, NULL, &vk->timeline);
+    kd_vk_name(&vk->core, VK_OBJECT_TYPE_SEMAPHORE, KD_VK_HANDLE(vk->timeline), "timeline");
     for (uint32_t i = 0; i < KD_VK_SLOTS; i++)
         KD_TRY(slot_init(vk, i, error));
 done:
@@ -49,18 +48,18 @@ void kd_vk_submit_finish(struct kd_vk *vk)
 {
     for (uint32_t i = 0; i < KD_VK_SLOTS; i++) {
         struct kd_vk_slot *slot = &vk->slots[i];
-        kd_vk_descriptors_finish(vk, &slot->descriptors);
-        kd_vk_timing_finish(vk, &slot->stamps);
-        vk->fn.DestroyCommandPool(vk->device, slot->pool, NULL); /* this also frees its command buffer */
+        kd_vk_descriptors_finish(&vk->core, &slot->descriptors);
+        kd_vk_timing_finish(&vk->core, &slot->stamps);
+        vk->core.fn.DestroyCommandPool(vk->core.device, slot->pool, NULL); /* this also frees its command buffer */
     }
-    vk->fn.DestroySemaphore(vk->device, vk->timeline, NULL);
+    vk->core.fn.DestroySemaphore(vk->core.device, vk->timeline, NULL);
 }
 
 /* Returns the error of a failed call. If it is a device error, marks the device as lost. */
 static enum kd_status failed(struct kd_vk *vk, struct kd_error *error, VkResult result, const char *call)
 {
     enum kd_status status = kd_vk_result_error(error, result, call);
-    return status == KD_EDEVICE ? kd_vk_lose(vk, error, "%s: %s", call, kd_vk_result_name(result)) : status;
+    return status == KD_EDEVICE ? kd_vk_lose(&vk->core, error, "%s: %s", call, kd_vk_result_name(result)) : status;
 }
 
 /* Called when the timeline has reached a value. Collects the submissions that have finished. */
@@ -69,18 +68,18 @@ static enum kd_status reached(struct kd_vk *vk, uint64_t value, struct kd_error 
     if (value <= vk->done)
         return KD_OK;
     for (uint64_t v = vk->done + 1; v <= value; v++)
-        kd_vk_timing_collect(vk, &slot_of(vk, v)->stamps);
+        kd_vk_timing_collect(&vk->timing, &vk->core, &slot_of(vk, v)->stamps);
     vk->done = value;
     vk->progress_ns = now_ns();
-    kd_vk_retire_idle(vk);
-    VkResult result = kd_vk_mapped_invalidate(vk);
+    kd_vk_retired_free(&vk->retired, vk, vk->done);
+    VkResult result = kd_vk_mapped_invalidate(vk->mapped, &vk->core, vk->done);
     return result < 0 ? failed(vk, error, result, "vkInvalidateMappedMemoryRanges") : KD_OK;
 }
 
 static enum kd_status poll_timeline(struct kd_vk *vk, struct kd_error *error)
 {
     uint64_t value = 0;
-    VkResult result = vk->fn.GetSemaphoreCounterValue(vk->device, vk->timeline, &value);
+    VkResult result = vk->core.fn.GetSemaphoreCounterValue(vk->core.device, vk->timeline, &value);
     if (result < 0)
         return failed(vk, error, result, "vkGetSemaphoreCounterValue");
     /* A dying driver may report any value. */
@@ -106,8 +105,8 @@ static VkResult wait_for(struct kd_vk *vk, const VkSemaphoreWaitInfo *info, uint
     VkResult result = VK_TIMEOUT;
     for (int i = 0; i < STARVED && result == VK_TIMEOUT; i++) {
         const uint64_t before = processor_ns();
-        result = vk->fn.WaitSemaphores(vk->device, info, i ? vk->deadline_ns : timeout);
-        if (vk->physical.info.type != KD_VK_CPU || processor_ns() - before >= (i ? vk->deadline_ns : timeout) / 2)
+        result = vk->core.fn.WaitSemaphores(vk->core.device, info, i ? vk->deadline_ns : timeout);
+        if (vk->core.physical.info.type != KD_VK_CPU || processor_ns() - before >= (i ? vk->deadline_ns : timeout) / 2)
             break;
     }
     return result;
@@ -126,10 +125,10 @@ static enum kd_status wait_one(struct kd_vk *vk, uint64_t value, struct kd_error
                                        .pValues = &value };
     VkResult result = wait_for(vk, &info, timeout);
     if (result == VK_TIMEOUT)
-        result = vk->fn.WaitSemaphores(vk->device, &info, GRACE_NS);
+        result = vk->core.fn.WaitSemaphores(vk->core.device, &info, GRACE_NS);
     if (result == VK_TIMEOUT) {
-        vk->hangs = true;
-        return kd_vk_lose(vk, error, "submission %" PRIu64 " missed its deadline of %" PRIu64 " ms", value,
+        vk->core.hangs = true;
+        return kd_vk_lose(&vk->core, error, "submission %" PRIu64 " missed its deadline of %" PRIu64 " ms", value,
                           vk->deadline_ns / 1000000);
     }
     if (result < 0)
@@ -139,7 +138,7 @@ static enum kd_status wait_one(struct kd_vk *vk, uint64_t value, struct kd_error
 
 enum kd_status kd_vk_wait(struct kd_vk *vk, uint64_t ticket, struct kd_error *error)
 {
-    enum kd_status status = kd_vk_alive(vk, error);
+    enum kd_status status = kd_vk_alive(&vk->core, error);
     if (status)
         return status;
     if (ticket > vk->submitted)
@@ -156,20 +155,20 @@ enum kd_status kd_vk_wait(struct kd_vk *vk, uint64_t ticket, struct kd_error *er
 
 enum kd_status kd_vk_submit_slot(struct kd_vk *vk, struct kd_vk_slot **out, struct kd_error *error)
 {
-    enum kd_status status = kd_vk_alive(vk, error);
+    enum kd_status status = kd_vk_alive(&vk->core, error);
     struct kd_vk_slot *slot = slot_of(vk, kd_vk_current(vk));
     *out = slot;
-    if (!status && vk->pipelines_only)
+    if (!status && vk->core.pipelines_only)
         status = kd_error_set(error, KD_EINTERNAL, "the device was opened only for pipelines");
     if (status || vk->recording)
         return status;
     /* kd_vk_submit has waited until the last submission from this slot had finished. */
     const VkCommandBufferBeginInfo begin = { .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                              .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT };
-    KD_VK_TRY(&vk->fn, ResetCommandPool, vk->device, slot->pool, 0);
-    KD_VK_TRY(&vk->fn, BeginCommandBuffer, slot->commands, &begin);
-    kd_vk_descriptors_reset(vk, &slot->descriptors);
-    kd_vk_timing_begin(vk, &slot->stamps, slot->commands);
+    KD_VK_TRY(&vk->core.fn, ResetCommandPool, vk->core.device, slot->pool, 0);
+    KD_VK_TRY(&vk->core.fn, BeginCommandBuffer, slot->commands, &begin);
+    kd_vk_descriptors_reset(&vk->core, &slot->descriptors);
+    kd_vk_timing_begin(&vk->core, &slot->stamps, slot->commands);
     vk->hazards_before = vk->hazards;
     vk->recording = true;
 done:
@@ -188,13 +187,13 @@ static enum kd_status enqueue(struct kd_vk *vk, struct kd_vk_slot *slot, uint64_
                                 .pCommandBuffers = &slot->commands,
                                 .signalSemaphoreCount = 1,
                                 .pSignalSemaphores = &vk->timeline };
-    kd_vk_timing_end(vk, &slot->stamps, slot->commands);
-    kd_vk_barrier_to_host(vk, slot->commands);
-    KD_VK_TRY(&vk->fn, EndCommandBuffer, slot->commands);
-    VkResult result = kd_vk_mapped_flush(vk, value);
+    kd_vk_timing_end(&vk->core, &slot->stamps, slot->commands);
+    kd_vk_barrier_to_host(&vk->core.fn, &vk->hazards, slot->commands);
+    KD_VK_TRY(&vk->core.fn, EndCommandBuffer, slot->commands);
+    VkResult result = kd_vk_mapped_flush(vk->mapped, &vk->core, value);
     if (result < 0)
         return failed(vk, error, result, "vkFlushMappedMemoryRanges");
-    result = vk->fn.QueueSubmit(vk->queue, 1, &info, VK_NULL_HANDLE);
+    result = vk->core.fn.QueueSubmit(vk->core.queue, 1, &info, VK_NULL_HANDLE);
     return result < 0 ? failed(vk, error, result, "vkQueueSubmit") : KD_OK;
 done:
     return status;
@@ -203,7 +202,7 @@ done:
 enum kd_status kd_vk_submit(struct kd_vk *vk, uint64_t *ticket, struct kd_error *error)
 {
     uint64_t value = kd_vk_current(vk);
-    enum kd_status status = kd_vk_alive(vk, error);
+    enum kd_status status = kd_vk_alive(&vk->core, error);
     if (!status && vk->recording) {
         if (value > KD_VK_IN_FLIGHT)
             status = kd_vk_wait(vk, value - KD_VK_IN_FLIGHT, error);
@@ -228,10 +227,8 @@ void kd_vk_discard(struct kd_vk *vk)
         return;
     vk->recording = false;
     vk->hazards = vk->hazards_before; /* the barriers of the discarded commands are dropped as well */
-    kd_vk_mapped_discard(vk);
-    for (struct kd_vk_retired *object = vk->retired; object; object = object->next)
-        if (object->ticket > vk->submitted)
-            object->ticket = vk->submitted;
-    if (!vk->lost[0])
-        kd_vk_retire_idle(vk);
+    kd_vk_mapped_discard(vk->mapped, vk->submitted);
+    kd_vk_retired_discard(vk->retired, vk->submitted);
+    if (!vk->core.lost[0])
+        kd_vk_retired_free(&vk->retired, vk, vk->done);
 }

@@ -7,7 +7,7 @@
 #ifndef KD_VK_TIMING_H
 #define KD_VK_TIMING_H
 
-#include "vk/functions.h"
+#include "vk/core.h"
 #include "vk/vk.h"
 
 #define KD_VK_STAMPS_PER_POOL 64
@@ -28,13 +28,17 @@ struct kd_vk_timing {
     size_t n;
 };
 
-void kd_vk_timing_begin(struct kd_vk *vk, struct kd_vk_stamps *stamps, VkCommandBuffer commands);
+void kd_vk_timing_begin(const struct kd_vk_core *core, struct kd_vk_stamps *stamps, VkCommandBuffer commands);
 /* Called before each command of the pass. */
-void kd_vk_timing_pass(struct kd_vk *vk, struct kd_vk_stamps *stamps, VkCommandBuffer commands, const char *pass);
-void kd_vk_timing_end(struct kd_vk *vk, struct kd_vk_stamps *stamps, VkCommandBuffer commands);
+void kd_vk_timing_pass(struct kd_vk_timing *timing, const struct kd_vk_core *core, struct kd_vk_stamps *stamps,
+                       VkCommandBuffer commands, const char *pass);
+void kd_vk_timing_end(const struct kd_vk_core *core, struct kd_vk_stamps *stamps, VkCommandBuffer commands);
 /* Adds a finished submission to the totals. */
-void kd_vk_timing_collect(struct kd_vk *vk, struct kd_vk_stamps *stamps);
-void kd_vk_timing_finish(struct kd_vk *vk, struct kd_vk_stamps *stamps);
+void kd_vk_timing_collect(struct kd_vk_timing *timing, const struct kd_vk_core *core, struct kd_vk_stamps *stamps);
+void kd_vk_timing_finish(const struct kd_vk_core *core, struct kd_vk_stamps *stamps);
+/* The totals above 0, as kd_vk_times; and sets all to 0. */
+size_t kd_vk_timing_totals(const struct kd_vk_timing *timing, struct kd_vk_time out[KD_VK_MAX_PASSES]);
+void kd_vk_timing_reset(struct kd_vk_timing *timing);
 
 /* Milliseconds between two timestamps. Pure. The counter has `bits` valid bits and may have wrapped once. */
 double kd_vk_timing_ms(uint64_t from, uint64_t to, uint32_t bits, double period_ns);

@@ -3,12 +3,9 @@
 #ifndef KD_VK_VIEW_H
 #define KD_VK_VIEW_H
 
-#include "vk/functions.h"
+#include "vk/core.h"
 
 #include <stdint.h>
-
-struct kd_vk;
-struct kd_vk_buffer;
 
 struct kd_vk_view {
     struct kd_vk_view *next; /* next view of the same buffer */
@@ -18,13 +15,20 @@ struct kd_vk_view {
     uint64_t ticket; /* the last submission that uses the view, recorded or submitted */
 };
 
+struct kd_vk_views {
+    struct kd_vk_view *first;
+    VkBuffer buffer;
+    const char *name; /* of the buffer */
+};
+
 /* If a buffer has this many views, a new one replaces one that is idle. */
 #define KD_VK_VIEWS_KEPT 8
 
-/* Returns a view of these bytes for the submission being recorded. */
-enum kd_status kd_vk_view_get(struct kd_vk *vk, struct kd_vk_buffer *buffer, VkFormat format, uint64_t offset,
-                              uint64_t range, VkBufferView *out, struct kd_error *error);
+/* Returns a view of these bytes for the submission with this number. Those up to `done` have finished. */
+enum kd_status kd_vk_view_get(struct kd_vk_views *views, const struct kd_vk_core *core, VkFormat format,
+                              uint64_t offset, uint64_t range, uint64_t value, uint64_t done, VkBufferView *out,
+                              struct kd_error *error);
 /* Frees all views before the buffer is destroyed. The device must not use them any more. */
-void kd_vk_views_finish(struct kd_vk *vk, struct kd_vk_buffer *buffer);
+void kd_vk_views_finish(struct kd_vk_views *views, const struct kd_vk_core *core);
 
 #endif

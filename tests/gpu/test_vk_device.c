@@ -177,7 +177,7 @@ static void one_at_a_time(void **state)
     pthread_t threads[OPENERS];
     (void)state;
     OK(open_as("auto", &vk, &error));
-    real = vk->fn;
+    real = vk->core.fn;
     kd_vk_functions_hook = count;
     for (int i = 0; i < OPENERS; i++)
         assert_int_equal(pthread_create(&threads[i], NULL, open_and_close, NULL), 0);
@@ -198,7 +198,7 @@ static void names_only_for_validation(void **state)
     struct kd_vk *vk;
     (void)state;
     OK(open_as("auto", &vk, &error));
-    assert_null(vk->fn.SetDebugUtilsObjectNameEXT);
+    assert_null(vk->core.fn.SetDebugUtilsObjectNameEXT);
     kd_vk_destroy(vk);
 }
 

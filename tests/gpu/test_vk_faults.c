@@ -258,10 +258,10 @@ static void deadline(void **state)
     OK(kd_vk_fill(vk, "fill", buffer, 0, 256, 1, &error));
     OK(kd_vk_submit(vk, &ticket, &error));
     OK(kd_vk_wait(vk, ticket, &error)); /* actually idle, so that nothing runs after the test */
-    vk->fn.WaitSemaphores = hang;
-    vk->fn.GetSemaphoreCounterValue = unfinished;
-    vk->fn.DeviceWaitIdle = idle_called;
-    vk->fn.DestroyDevice = destroy_called;
+    vk->core.fn.WaitSemaphores = hang;
+    vk->core.fn.GetSemaphoreCounterValue = unfinished;
+    vk->core.fn.DeviceWaitIdle = idle_called;
+    vk->core.fn.DestroyDevice = destroy_called;
     OK(kd_vk_fill(vk, "fill", buffer, 0, 256, 2, &error));
     OK(kd_vk_submit(vk, &ticket, &error));
     /* The wait is repeated if a software device did not get processor time. */
@@ -278,7 +278,7 @@ static void deadline(void **state)
     FAILS(KD_EDEVICE, "missed its deadline of 1500 ms", kd_vk_wait(vk, ticket, &error));
     assert_int_equal(waits, 2);
 
-    vk->fn.WaitSemaphores = NULL; /* from here on nothing may reach the driver */
+    vk->core.fn.WaitSemaphores = NULL; /* from here on nothing may reach the driver */
     FAILS(KD_EDEVICE, "lost", kd_vk_wait(vk, 0, &error));
     FAILS(KD_EDEVICE, "lost", kd_vk_submit(vk, NULL, &error));
     FAILS(KD_EDEVICE, "lost", kd_vk_fill(vk, "fill", buffer, 0, 256, 3, &error));

@@ -227,7 +227,7 @@ static void limits(void **state)
 static unsigned views_of(const struct kd_vk_buffer *buffer)
 {
     unsigned n = 0;
-    for (const struct kd_vk_view *view = buffer->views; view; view = view->next)
+    for (const struct kd_vk_view *view = buffer->views.first; view; view = view->next)
         n++;
     return n;
 }

@@ -31,8 +31,8 @@ static void counted(void **state)
         b[i] = make_buffer(vk, n, KD_VK_DEVICE, "b");
     for (int i = 0; i < 4; i++)
         OK(kd_vk_fill(vk, "fill", b[i], 0, n * 4, 1, &error));
-    real_barrier = vk->fn.CmdPipelineBarrier;
-    vk->fn.CmdPipelineBarrier = counting;
+    real_barrier = vk->core.fn.CmdPipelineBarrier;
+    vk->core.fn.CmdPipelineBarrier = counting;
 
     count_from_here(vk);
     mix(vk, pipeline, b[0], b[1], n, 1);
@@ -61,7 +61,7 @@ static void counted(void **state)
     assert_int_equal(barriers, 2);
 
     finish(vk);
-    vk->fn.CmdPipelineBarrier = real_barrier;
+    vk->core.fn.CmdPipelineBarrier = real_barrier;
     for (int i = 0; i < 4; i++)
         kd_vk_buffer_destroy(vk, b[i]);
     kd_vk_pipeline_destroy(vk, pipeline);

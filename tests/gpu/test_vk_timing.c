@@ -123,10 +123,10 @@ static void lesser_devices(void **state)
     for (int timestamps = 0; timestamps < 2; timestamps++) {
         struct kd_vk *vk = open_device(true);
         struct kd_vk_time times[KD_VK_MAX_PASSES];
-        bool had = vk->physical.info.timestamps;
+        bool had = vk->core.physical.info.timestamps;
         struct kd_vk_buffer *a = make_buffer(vk, 64, KD_VK_READBACK, "a");
-        vk->physical.host_query_reset = false;
-        vk->physical.info.timestamps = had && timestamps;
+        vk->core.physical.host_query_reset = false;
+        vk->core.physical.info.timestamps = had && timestamps;
         for (int i = 0; i < 10; i++) {
             OK(kd_vk_fill(vk, "fill", a, 0, 256, 1, &error));
             finish(vk);

@@ -21,7 +21,7 @@ static uint32_t fill_then_add(bool barriers)
     struct kd_vk_pipeline *pipeline = make_mix(vk, 0);
     struct kd_vk_buffer *x = make_buffer(vk, 64, KD_VK_DEVICE, "x"), *y = make_buffer(vk, 64, KD_VK_DEVICE, "y");
     if (!barriers)
-        vk->fn.CmdPipelineBarrier = no_barrier;
+        vk->core.fn.CmdPipelineBarrier = no_barrier;
     OK(kd_vk_fill(vk, "fill", x, 0, 256, 1, &error));
     OK(kd_vk_fill(vk, "fill", y, 0, 256, 1, &error));
     mix(vk, pipeline, x, y, 64, 1);
@@ -44,7 +44,7 @@ static uint32_t fill_then_read(int k, bool barriers)
                         *x = make_buffer(vk, 256, KD_VK_DEVICE, "x"), *y = make_buffer(vk, 256, KD_VK_DEVICE, "y");
     memset(words(still), 0, 1024);
     if (!barriers)
-        vk->fn.CmdPipelineBarrier = no_barrier;
+        vk->core.fn.CmdPipelineBarrier = no_barrier;
     struct kd_vk_dispatch d = { .pipeline = pipeline,
                                 .bindings = { { .buffer = still },
                                               { .buffer = still },
@@ -87,7 +87,7 @@ static void core(void **state)
     struct kd_vk_slot *slot;
     OK(kd_vk_submit_slot(vk, &slot, &error));
     assert_int_equal(kd_vk_validation_messages(vk), 0);
-    vk->fn.CmdFillBuffer(slot->commands, buffer->handle, 2, 4, 0);
+    vk->core.fn.CmdFillBuffer(slot->commands, buffer->handle, 2, 4, 0);
     assert_true(kd_vk_validation_messages(vk) > 0);
     kd_vk_discard(vk);
     kd_vk_buffer_destroy(vk, buffer);

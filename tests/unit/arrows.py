@@ -100,6 +100,7 @@ NO_CIRCLES = {
     "observe",
     "integral",
     "playground",
+    "vk",
     "job",
     "cli",
 }

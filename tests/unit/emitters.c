@@ -481,9 +481,79 @@ static void none_of_a_thousand(void **state)
     assert_true(traits[KD_EMITTER_plunge]);
 }
 
+/* What costs more is other work: each emitter, each variant, twice as many of what has a pass or buffers of its own.
+ * Where things are, when, and how bright is the same work. */
+static void work_follows_emitters(void **state)
+{
+    (void)state;
+    struct kd_scene smooth, scene;
+    kd_scene_smooth(&smooth);
+    const uint64_t work = kd_emit_work(&smooth);
+#define OTHER(member, value) \
+    do { \
+        scene = smooth; \
+        scene.member = value; \
+        assert_true(kd_emit_work(&scene) != work); \
+    } while (0)
+    OTHER(sky.model, KD_SKY_STARS);
+    OTHER(sky.model, KD_SKY_GRID);
+    OTHER(disk.model, KD_DISK_PARTICLES);
+    OTHER(disk.height, 0.1);
+    OTHER(disk.atmosphere, true);
+    OTHER(disk.emission_opacity, 1);
+    OTHER(gas.amplitude, 0.5);
+    OTHER(volume.model, KD_VOLUME_UNIFORM);
+    OTHER(volume.model, KD_VOLUME_RIAF);
+    OTHER(style.ringdown, 1);
+#define ALIKE(member, value) \
+    do { \
+        scene = smooth; \
+        scene.member = value; \
+        assert_true(kd_emit_work(&scene) == work); \
+    } while (0)
+    ALIKE(disk.model, KD_DISK_SHAKURA_SUNYAEV);
+    ALIKE(disk.slow_light, true); /* of a disk that does not move */
+    ALIKE(disk.outer, 30);
+    ALIKE(spacetime.spin, 0.3);
+    ALIKE(camera.azimuth_deg, 20);
+    ALIKE(top.time, 7);
+    ALIKE(image.width, 64);
+    ALIKE(style.exposure, 2);
+
+    scene = smooth;
+    scene.disk.model = KD_DISK_PARTICLES;
+    scene.disk.particles = 100000;
+    const uint64_t particles = kd_emit_work(&scene);
+    scene.disk.particles = 101000;
+    assert_true(kd_emit_work(&scene) == particles);
+    scene.disk.particles = 220000;
+    assert_true(kd_emit_work(&scene) != particles);
+    scene.disk.particles = 100000;
+    scene.disk.slow_light = true;
+    assert_true(kd_emit_work(&scene) != particles);
+
+    scene = smooth;
+    scene.gas.amplitude = 0.5;
+    scene.gas.octaves = 3;
+    const uint64_t gas = kd_emit_work(&scene);
+    scene.gas.octaves = 5;
+    assert_true(kd_emit_work(&scene) != gas);
+
+    uint64_t bodies[4];
+    for (uint32_t n = 0; n < 4; n++) { /* 0, 1, 3, 7 bodies */
+        scene = smooth;
+        scene.bodies.count = (1u << n) - 1;
+        for (uint32_t i = 0; i < scene.bodies.count; i++)
+            scene.bodies.at[i].r = 10 + i, scene.bodies.at[i].radius = 1;
+        bodies[n] = kd_emit_work(&scene);
+        assert_true(n == 0 ? bodies[n] == work : bodies[n] != bodies[n - 1]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(work_follows_emitters),
         cmocka_unit_test(all_are_there),
         cmocka_unit_test(sentences_have_room),
         cmocka_unit_test(names_are_short_and_differ),

@@ -360,19 +360,27 @@ static void a_drag_is_soon_forgotten(void **state)
     }
 }
 
-/* Ten million particles become as many thousand; a sky is removed: earlier slowness no longer counts. */
+/* Ten million particles become as many thousand; a sky, a volume, turbulence or a body is removed: earlier slowness no
+ * longer counts. */
 static void another_kind_of_scene_begins_anew(void **state)
 {
     (void)state;
     struct simulation s;
-    for (int how = 0; how < 3; how++) {
+    for (int how = 0; how < 6; how++) {
         begin(&s, kd_governor_params(), 1280, 720, (struct truth) { .traced = 400, .reused = 400, .pixels = 20 });
         s.asked.sky.model = KD_SKY_GRID;
-        s.asked.disk.model = KD_DISK_PARTICLES;
+        s.asked.disk.model = how == 4 ? KD_DISK_NOVIKOV_THORNE : KD_DISK_PARTICLES;
+        s.asked.volume.model = how == 3 ? KD_VOLUME_UNIFORM : KD_VOLUME_NONE;
+        s.asked.gas.amplitude = how == 4 ? 0.5 : 0;
+        s.asked.bodies.count = how == 5;
+        s.asked.bodies.at[0] = (struct kd_body) { .radius = 1, .r = 10 };
         run(&s, DRAG, 60e3);
         assert_true(s.last.scale <= 0.25);
+        s.asked.volume.model = KD_VOLUME_NONE;
+        s.asked.gas.amplitude = 0;
+        s.asked.bodies.count = 0;
         s.asked.sky.model = how == 0 ? KD_SKY_NONE : KD_SKY_GRID;
-        s.asked.disk.model = how == 1 ? KD_DISK_NOVIKOV_THORNE : KD_DISK_PARTICLES;
+        s.asked.disk.model = how == 1 || how == 4 ? KD_DISK_NOVIKOV_THORNE : KD_DISK_PARTICLES;
         s.asked.disk.particles = how == 2 ? 1000 : 300000;
         s.truth = (struct truth) { .traced = 12, .reused = 12, .pixels = 10 };
         run(&s, DRAG, 300);

@@ -1,5 +1,6 @@
 #include "render/emit/emitter.h"
 
+#include "base/hash.h"
 #include "physics/spacetime/kerr.h"
 #include "render/emit/particles.h"
 #include "render/emit/radio.h"
@@ -115,6 +116,24 @@ uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_numbe
 {
     const struct kd_emitter *e = kd_emitters[number];
     return e->invocations && e->present(scene) ? e->invocations(scene) : 0;
+}
+
+/* 0 for 0, else 1 more than the logarithm to base 2, rounded. */
+static uint32_t octave(uint64_t n) { return n ? 1 + (uint32_t)lround(log2((double)n)) : 0; }
+
+uint64_t kd_emit_work(const struct kd_scene *scene)
+{
+    const uint32_t needs = kd_emit_needs(scene);
+    uint32_t traits[KD_EMITTER_COUNT];
+    kd_emit_traits(scene, traits);
+    uint64_t hash = kd_hash(kd_hash(KD_HASH_BEGIN, &needs, sizeof needs), traits, sizeof traits);
+    for (int i = 0; i < KD_EMITTER_COUNT; i++) {
+        const struct kd_emitter *e = kd_emitters[i];
+        const uint32_t own[] = { traits[i] && e->device_bytes ? octave(e->device_bytes(scene)) : 0,
+                                 traits[i] && e->invocations ? octave(e->invocations(scene)) : 0 };
+        hash = kd_hash(hash, own, sizeof own);
+    }
+    return hash;
 }
 
 void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays,

@@ -104,6 +104,10 @@ uint64_t kd_emit_device_bytes(const struct kd_scene *scene);
 uint64_t kd_emit_making_bytes(const struct kd_scene *scene);
 /* Invocations of an emitter's own pass; 0 if it has none or the scene does not have the emitter. */
 uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_number number);
+/* A hash of what the scene's emitters cost: their traits, the quantities of the lens map that they need, and, each to a
+ * factor of two, the bytes of their own buffers and the invocations of their own passes. The emitters of scenes with
+ * equal hashes take about the same time at the same size of the picture. */
+uint64_t kd_emit_work(const struct kd_scene *scene);
 /* Calls take(user, approximation) for each approximation that is in force. */
 void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays,
                        void (*take)(void *user, struct kd_approximation approximation), void *user);

@@ -1,4 +1,6 @@
 #include "render/live/governor.h"
+
+#include "base/hash.h"
 #include "render/emit/emitter.h"
 
 #include <math.h>
@@ -392,13 +394,11 @@ static bool same_ladder(const struct kd_scene *a, const struct kd_scene *b)
            p->steps == q->steps && p->orders == q->orders && kd_emit_along(a) == kd_emit_along(b);
 }
 
-/* Whether frames of both scenes cost about the same if they have the same size. */
-static bool same_work(const struct kd_scene *a, const struct kd_scene *b)
+/* A hash of what frames of the scene cost, besides their size: what it emits, and how its rays begin. */
+static uint64_t work_of(const struct kd_scene *scene)
 {
-    const struct kd_disk *d = &a->disk, *e = &b->disk;
-    return d->model == e->model && d->particles == e->particles && d->slow_light == e->slow_light &&
-           a->sky.model == b->sky.model && a->camera.projection == b->camera.projection &&
-           isinf(a->camera.r) == isinf(b->camera.r);
+    const uint64_t parts[] = { kd_emit_work(scene), (uint64_t)scene->camera.projection, isinf(scene->camera.r) };
+    return kd_hash(KD_HASH_BEGIN, parts, sizeof parts);
 }
 
 void kd_governor_least(struct kd_governor *g, double scale, double patience_ms)
@@ -425,11 +425,13 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
      * rendered once more. */
     bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) &&
                       !kd_emit_moves(asked);
-    if (g->gave_way && !(same_ladder(&g->asked, asked) && same_work(&g->asked, asked)))
+    const uint64_t work = work_of(asked);
+    const bool same_work = work == g->work;
+    if (g->gave_way && !(same_ladder(&g->asked, asked) && same_work))
         give_way(g, &g->paces[1], false); /* another kind of scene gets a new try */
     if (!g->ladders || !same_ladder(&g->asked, asked))
         change_ladder(g, asked);
-    for (int i = 0; i < 2 && !same_work(&g->asked, asked); i++)
+    for (int i = 0; i < 2 && !same_work; i++)
         begin_anew(&g->paces[i]);
     bool rings = kd_emit_only_dims(asked);
     if (g->rings != rings) {
@@ -439,6 +441,7 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
         g->lens_at = -INFINITY; /* striking the hole is not a drag */
     }
     g->asked = *asked;
+    g->work = work;
     g->revision++;
     g->changed_at = now;
     if (told_again) {

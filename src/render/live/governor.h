@@ -132,6 +132,7 @@ struct kd_governor {
     struct kd_governor_params params;
     double share;
     struct kd_scene asked;
+    uint64_t work; /* hash of what its frames cost, besides their size */
     struct kd_ladder ladder;
     uint32_t ladders, revision;
     struct kd_pace paces[2]; /* for frames that reuse their lens map; for frames that trace it */
