@@ -3002,11 +3002,13 @@ export interface Lesson {
   session: string;
   link: string;
   about: string;
+  lang: string;
   /** at least 0. */
   pupils: number;
   question: null | LessonQuestion;
   /** 0 to 5. */
   choice?: number | null;
+  copies?: boolean;
   hands?: LessonHand[];
 }
 
@@ -3014,6 +3016,8 @@ export interface NewLesson {
   session: string;
   link?: string;
   about?: string;
+  /** language of about and question. */
+  lang?: string;
   /** whether the question accepts answers. */
   open?: boolean;
   question?: {
@@ -3029,6 +3033,8 @@ export interface LessonChange {
   session?: string;
   link?: string;
   about?: string;
+  /** language of about and question. */
+  lang?: string;
   /** whether the question accepts answers. */
   open?: boolean;
   question?: {
@@ -6788,8 +6794,10 @@ export interface Operations {
         after?: number;
         /** time in ms to wait for a newer one; 0 to 60000. */
         wait_ms?: number;
-        /** quality of JPEG for frames before the last; without it all frames are PNG; 1 to 100. */
+        /** quality of JPEG for frames before the last; without it all of these are PNG; 1 to 100. */
         lossy?: number;
+        /** quality of JPEG for the last frame; without it that is PNG; 1 to 100. */
+        last?: number;
         /**
          * Kerrd-Sentences of the client's frame; a newer frame with the same approximations omits them; 0 to
          * 4294967295.
@@ -6823,8 +6831,10 @@ export interface Operations {
         after?: number;
         /** time in ms to wait for a newer one; 0 to 60000. */
         wait_ms?: number;
-        /** quality of JPEG for frames before the last; without it all frames are PNG; 1 to 100. */
+        /** quality of JPEG for frames before the last; without it all of these are PNG; 1 to 100. */
         lossy?: number;
+        /** quality of JPEG for the last frame; without it that is PNG; 1 to 100. */
+        last?: number;
         /**
          * Kerrd-Sentences of the client's frame; a newer frame with the same approximations omits them; 0 to
          * 4294967295.

@@ -9,6 +9,7 @@ import { kept, windowSize } from './sizes.js';
 export const first_view = 'gas-stars';
 
 const patience_ms = 250; // longest wait for the first picture before the rest of the page is loaded
+const slow_ms = 1000; // the same before a recording of the first view begins
 
 const stage = byId('stage');
 const plain =
@@ -60,6 +61,17 @@ async function open() {
 }
 
 const opened = plain ? open().catch(() => null) : null;
+// If the first picture takes long, a recording of the first view begins meanwhile.
+if (plain)
+  setTimeout(
+    () =>
+      performance.getEntriesByName('first-picture').length ||
+      import('./loop.js').then(
+        ({ play }) => play(stage, () => 0),
+        () => {},
+      ),
+    slow_ms,
+  );
 Promise.race([
   (async () => (await opened, await left?.flight[0].answer, shown))(),
   new Promise(resolve => setTimeout(resolve, patience_ms)),

@@ -52,6 +52,14 @@ function say(text, aloud) {
   delete status.dataset.wrong;
 }
 
+function sayRecorded() {
+  say(t('A recording', 'Una registrazione'), false);
+  byId('exactly-words').textContent = t(
+    'kerrd made this recording of the first view, of 1280 × 960 pixels with four rays each. It is shown because this server makes fewer than four pictures a second now. At the first touch it goes on live.',
+    'kerrd ha fatto questa registrazione della prima vista, di 1280 × 960 pixel con quattro raggi ciascuno. La si mostra perché ora il server fa meno di quattro immagini al secondo. Al primo tocco continua dal vivo.',
+  );
+}
+
 function sayWrong(text) {
   status.setAttribute('aria-live', 'polite');
   tell(status, text);
@@ -102,6 +110,7 @@ async function watch(scene) {
   const carry = buildCarry(stage, scene);
   let told_ms = -Infinity,
     any = false, // a picture has been shown
+    drift = () => {}, // told of each picture
     built,
     seen;
   const parts = new Promise(resolve => (built = resolve)),
@@ -120,14 +129,17 @@ async function watch(scene) {
       );
     any = true;
     const { complain } = await parts;
+    drift(frame);
     fall?.then(({ shown }) => shown(frame));
     stars?.then(named => named?.shown(frame));
     stage.dataset.samples = frame.samples;
     followFiner(!frame.final && !scene.goesOn());
     complain('', '');
     if (tells || status.dataset.wrong) {
-      say(brief(frame, scene.goesOn()), frame.final && !scene.goesOn());
-      byId('exactly-words').textContent = caption(frame);
+      if (scene.recorded) sayRecorded();
+      else
+        say(brief(frame, scene.goesOn()), frame.final && !scene.goesOn()),
+          (byId('exactly-words').textContent = caption(frame));
       showAccuracy(frame, scene);
     }
     followLight();
@@ -263,9 +275,11 @@ async function watch(scene) {
   });
   buildStruck(scene, goTo);
   for (const event of ['drift', 'move']) scene.addEventListener(event, () => source.refresh());
-  if (!byId('welcome').hidden)
+  scene.addEventListener('drift', () => scene.recorded && (followFiner(false), sayRecorded()));
+  const fresh = !byId('welcome').hidden;
+  if (fresh || stage.dataset.still)
     import('./drift.js').then(
-      ({ begin }) => begin(scene),
+      ({ begin }) => (drift = begin(stage, scene, fresh && !byId('welcome').hidden)),
       () => {},
     );
   buildPace(source.refresh);

@@ -38,6 +38,18 @@ export function typing(input) {
 
 export const still = matchMedia('(prefers-reduced-motion: reduce)');
 
+// Calls back at the first press, key or turn of the wheel, before other listeners. Returns a function that cancels it.
+export function atFirstTouch(told) {
+  const heard = new AbortController();
+  for (const touch of ['pointerdown', 'keydown', 'wheel'])
+    document.addEventListener(touch, () => (heard.abort(), told()), {
+      capture: true,
+      passive: true,
+      signal: heard.signal,
+    });
+  return () => heard.abort();
+}
+
 // Waits until the view or the visibility of the page changes. Then both listeners are removed.
 const looksElsewhere = () =>
   new Promise(resolve => {

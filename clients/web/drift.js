@@ -1,24 +1,80 @@
 // The camera drifts round the hole in the first view until somebody touches anything. With reduced motion preferred it
-// does not.
-import { still } from './dom.js';
+// does not. Where the server shows too few pictures of it a second, a recording of the same drift plays (loop.js). At
+// the first touch live pictures go on from where the recording is.
+import { atFirstTouch, still } from './dom.js';
+import { begun, end, leave, length_s, play, rate_deg, seconds } from './loop.js';
+import { goesOn } from './share.js';
 
-const rate_deg = 1.5; // degrees a second
+const trial_ms = 3000; // the pictures of this time are counted
+const least_pace = 4; // pictures a second
+const tell_ms = 250; // between two updates of the scene while the recording plays
 
-export function begin(scene) {
-  if (
-    scene.held ||
-    still.matches ||
-    scene.get('motion.azimuth_rate_deg') !== 0 ||
-    scene.get('motion.proper_time_rate') !== 0
-  )
-    return;
-  const touches = ['pointerdown', 'keydown', 'wheel'];
-  function end() {
-    for (const touch of touches) document.removeEventListener(touch, end, true);
-    still.removeEventListener('change', end);
+// fresh: nobody has touched anything yet. Returns shown(frame), to be called with each picture that is shown.
+export function begin(stage, scene, fresh) {
+  const drifts =
+    fresh &&
+    !scene.held &&
+    !still.matches &&
+    scene.get('motion.azimuth_rate_deg') === 0 &&
+    scene.get('motion.proper_time_rate') === 0;
+  let pictures = 0,
+    timer = 0,
+    jumps = -1; // as the scene counts them, when live pictures went on; -1: none were interrupted
+  if (!drifts) {
+    end();
+    return () => begun() && leave();
+  }
+
+  const tell = () =>
+    scene.tick(seconds() * scene.get('motion.time_rate'), false, { 'camera.azimuth_deg': seconds() * rate_deg });
+
+  async function record() {
+    if (!(await play(stage, () => scene.get('camera.azimuth_deg') / rate_deg)) || !scene.drift) return;
+    clearTimeout(timer);
+    scene.record();
+    tell();
+    timer = setInterval(tell, tell_ms);
+  }
+
+  const sees = () => !document.hidden && document.body.dataset.view === 'lensing';
+  let seen = true; // during the whole trial
+  const look = () => (seen &&= sees());
+  for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, look);
+  function judge() {
+    if (scene.get('camera.azimuth_deg') > rate_deg * (length_s - 1)) return; // the recording does not go so far
+    if (seen && pictures < (least_pace * trial_ms) / 1000) return void record();
+    pictures = 0;
+    seen = sees();
+    timer = setTimeout(judge, trial_ms);
+  }
+
+  function stop() {
+    if (scene.drift) return;
+    scene.removeEventListener('drift', stop);
+    for (const event of ['visibilitychange', 'viewchange']) document.removeEventListener(event, look);
+    cancel();
+    still.removeEventListener('change', touch);
+    clearTimeout(timer);
+    stand();
+  }
+  function stand() {
+    end();
+    jumps = scene.jumps;
+  }
+  function touch() {
+    if (scene.recorded) end(), tell();
     scene.drifts(0);
   }
-  for (const touch of touches) document.addEventListener(touch, end, { capture: true, passive: true });
-  still.addEventListener('change', end);
+  const cancel = atFirstTouch(touch);
+  still.addEventListener('change', touch);
+  scene.addEventListener('drift', stop);
   scene.drifts(rate_deg);
+  if (goesOn('lesson'))
+    stand(); // the class follows the session
+  else if (begun()) record();
+  else timer = setTimeout(judge, trial_ms);
+  return frame => {
+    pictures++;
+    if (jumps >= 0 && frame.shows && frame.jumps >= jumps) leave();
+  };
 }

@@ -1,9 +1,9 @@
 // "Fall in": the observer falls freely through the horizon, while the page shows its clock, the redshift of the sky and
 // the size of the shadow. The session moves the observer and sends its clock with each picture; this module sets how
 // fast it falls, and where it is put by the slider.
-import { byId, latest, still } from './dom.js';
+import { byId, el, latest, still } from './dom.js';
 import { duration, number, t, tell } from './i18n.js';
-import { holeOf, physics } from './server.js';
+import { holeOf, module, physics } from './server.js';
 
 const begin_r = 20; // M, the radius where the fall begins if the camera is at infinity
 const wide_deg = 100;
@@ -60,7 +60,9 @@ export function buildFall(scene) {
     rate = 0, // the pace that was set in the scene
     waits = false, // until the first picture of the fall has come
     seen = 0, // when the last picture of the fall came, by performance.now()
-    gap = 0; // seconds between its pictures: a maximum that decays
+    gap = 0, // seconds between its pictures: a maximum that decays
+    guide = null, // the captions and the sound of a guided fall (guide.js)
+    guided_s = 0; // as fold_s, in a guided fall
 
   const ended = () => r <= way.last;
 
@@ -85,6 +87,7 @@ export function buildFall(scene) {
       }),
       wide = number(2 * values.dark_radius_deg, 3),
       part = number(100 * values.dark_share, 2);
+    guide?.heard(values);
     byId('fall-behind').textContent = `× ${number(values.g_behind, 3)}`;
     byId('fall-sky').textContent = t(
       `× ${number(values.g_least, 3)} to ${number(values.g_greatest, 3)}`,
@@ -111,13 +114,18 @@ export function buildFall(scene) {
       at.value = (1000 * Math.log(r / way.r)) / Math.log(way.last / way.r);
     at.setAttribute('aria-valuetext', `${byId('fall-r').textContent}, ${now}`);
     showPlay();
+    guide?.shown(r, !scene.held && !ended());
+    if (ended()) guide?.over();
     // the other numbers do not need these
     measure().catch(() => ['behind', 'sky', 'disk'].forEach(name => (byId('fall-' + name).textContent = '–')));
   }
 
   // Sets the pace so that the time left shrinks by the same factor every second; small changes are not sent.
   function keepPace() {
-    const now = Math.min(fastest, Number((left / Math.max(fold_s, fold_pictures * gap)).toPrecision(3)));
+    const now = Math.min(
+      fastest,
+      Number((left / Math.max(guide ? guided_s : fold_s, fold_pictures * gap)).toPrecision(3)),
+    );
     if (Math.abs(Math.log(now / rate)) < uneven) return;
     rate = now;
     scene.change({ [pace]: rate });
@@ -150,11 +158,73 @@ export function buildFall(scene) {
 
   function stop() {
     const focused = box.contains(document.activeElement);
+    unguide(false);
     way = null;
     box.hidden = true;
     start.hidden = false;
     if (focused) start.focus();
   }
+
+  // Without a guide the fall goes on as before. keep: saves the film as far as it has come.
+  function unguide(keep) {
+    guide?.end(keep);
+    guide = null;
+    showGuide();
+  }
+
+  const guided = el('button', { type: 'button', id: 'fall-guide' }),
+    filmed = el('button', { type: 'button', id: 'fall-film' }),
+    got = el('a', { class: 'button', id: 'fall-got', href: '', hidden: true }, t('Save it again', 'Salvalo di nuovo')),
+    told = el('p', { class: 'help', id: 'fall-film-told', role: 'status' });
+  box.append(el('p', { class: 'row' }, guided, ' ', filmed, ' ', got), told);
+  let filming = false;
+
+  function showGuide() {
+    guided.textContent = guide ? t('End the guide', 'Fine della guida') : t('Guide me, 90 s', 'Guidami, 90 s');
+    filmed.textContent = filming
+      ? t('Save the film now', 'Salva ora il film')
+      : t('Film it, with sound', 'Filmala, con il suono');
+    guided.hidden = filming;
+    filmed.hidden = guide !== null && !filming;
+  }
+
+  // Begins the fall anew, with captions and sound.
+  async function guideIt(records) {
+    tell(fault, '');
+    const [{ begin, films }, { values: hole }, { values: last }] = await Promise.all([
+      module(import('./guide.js')),
+      physics('kerr', (({ spin, charge }) => ({ spin, ...(charge && { charge }) }))(faller(scene))),
+      physics('infall', { ...faller(scene), r: way.last }),
+    ]);
+    if (records && !films) {
+      told.textContent = t('This browser records no films.', 'Questo browser non registra film.');
+      return;
+    }
+    const { seconds } = await import('./guide.js');
+    guided_s = seconds / Math.log(way.proper_time_to_end / last.proper_time_to_end);
+    filming = records;
+    got.hidden = got.hidden || records;
+    told.textContent = records
+      ? t(
+          'The browser records what you see. Keep this page in front until the end.',
+          'Il browser registra ciò che vedi. Lascia questa pagina in primo piano fino alla fine.',
+        )
+      : '';
+    guide = begin({
+      hole,
+      way,
+      records,
+      got,
+      ended: () => ((filming = false), unguide(false), (told.textContent = '')),
+    });
+    put(way.r, way);
+    if (scene.held) run();
+    showGuide();
+  }
+  const starts = records => guideIt(records).catch(error => tell(fault, error.message));
+  guided.addEventListener('click', () => (guide ? unguide(false) : starts(false)));
+  filmed.addEventListener('click', () => (filming ? unguide(true) : starts(true)));
+  showGuide();
 
   const begin = latest(async () => {
     tell(fault, '');

@@ -1,5 +1,5 @@
 // Above the picture: the languages, the list of keys, and the line that introduces the page.
-import { byId } from './dom.js';
+import { atFirstTouch, byId } from './dom.js';
 import { lang } from './i18n.js';
 import * as link from './link.js';
 
@@ -29,6 +29,5 @@ export function buildKeys() {
 export function welcome() {
   const line = byId('welcome');
   line.hidden = link.entries('').some(([key]) => !['lang', 'pause', 'view'].includes(key));
-  for (const event of ['pointerdown', 'keydown', 'wheel'])
-    document.addEventListener(event, () => (line.hidden = true), { once: true, passive: true });
+  atFirstTouch(() => (line.hidden = true));
 }

@@ -2,7 +2,7 @@
 // pupil's copy, the way back to the lesson.
 import { describe } from './describe.js';
 import { byId, el } from './dom.js';
-import { number, t, tell } from './i18n.js';
+import { lang, number, t, tell } from './i18n.js';
 import * as link from './link.js';
 import { linkedTime } from './scene.js';
 import { ask, module } from './server.js';
@@ -109,6 +109,7 @@ function panel(scene, session) {
     session: session()?.split('/').at(-1),
     link: linkOf(scene).slice(0, 8000),
     about: describe(scene).slice(0, 300), // at most 900 bytes
+    lang,
   });
 
   const deleteLesson = () => ask('v1/lessons/' + lesson.id, { method: 'DELETE', headers: headers() }).catch(() => {});
@@ -267,7 +268,7 @@ function panel(scene, session) {
     return { text: words, choices: lines.map(({ choice }) => choice), right: right < 0 ? null : right };
   }
 
-  const ready = import('./questions.js').then(({ questions }) => questions);
+  const ready = import('./questions.js').then(({ questions }) => questions(lang));
 
   // The form that asks: a ready question, or one of one's own.
   async function showAsking() {

@@ -57,6 +57,9 @@ class Other {
   get held() {
     return this.scene.held;
   }
+  get recorded() {
+    return this.scene.recorded;
+  }
   get jumps() {
     return this.scene.jumps;
   }
@@ -65,6 +68,7 @@ class Other {
   document = (other, begun) => this.scene.document({ ...this.over, ...other }, begun);
   fitted = () => null;
   goesOn = () => this.scene.goesOn();
+  streams = () => this.scene.streams();
   turns = () => this.scene.turns();
   tellSeen = ({ emitters }) => (this.emitters = emitters);
   // Time and camera are the first scene's; the server moves both alike.

@@ -2,7 +2,8 @@
 // alone, so that thirty telephones load little.
 const beat_ms = 1000; // between two requests for the state of the lesson
 const again_ms = 2000; // after a request that failed
-const quality = 80; // of moving pictures; the last one is exact
+const quality = 80, // of moving pictures
+  fine = 92; // of a picture at rest: less than a third of the bytes of an exact one
 
 const id = /[0-9a-f]{16}/.exec(location.hash)?.[0],
   lang = navigator.language?.startsWith('it') ? 'it' : 'en',
@@ -56,6 +57,19 @@ function sentence(status, pointer) {
   return t(`The server has refused this (HTTP ${status}).`, `Il server l’ha rifiutato (HTTP ${status}).`);
 }
 
+// A ready question in the pupil's language. A question of the teacher's own stays in the teacher's.
+async function translated(question, from) {
+  if (!question || from === lang) return question;
+  const { questions } = await import('./questions.js').catch(() => ({ questions: () => [] })),
+    i = questions(from).findIndex(({ text }) => text === question.text),
+    { text, choices } = questions(lang)[i] ?? {};
+  return choices?.length === question.choices.length ? { ...question, text, choices } : { ...question, lang: from };
+}
+
+// Without an attribute a text is in the language of the page.
+const speaks = (node, tongue) =>
+  tongue && tongue !== lang ? node.setAttribute('lang', tongue) : node.removeAttribute('lang');
+
 async function ask(body = {}) {
   const name = at('name')
     .value.replace(/\p{Cc}+/gu, ' ')
@@ -69,14 +83,16 @@ async function ask(body = {}) {
   });
   if (answer.status === 404) ended = true;
   if (!answer.ok) throw new Error(sentence(answer.status, (await answer.json().catch(() => ({}))).pointer));
-  return answer.json();
+  const state = await answer.json();
+  return { ...state, question: await translated(state.question, state.lang) };
 }
 
 function show(state) {
   session = state.session;
   if (at('about').textContent !== state.about) at('about').textContent = at('picture').alt = state.about;
   at('copy').href = `.#${state.link}${state.link && '&'}lesson=${id}`;
-  at('copy').hidden = false;
+  at('copy').hidden = !state.copies;
+  for (const name of ['about', 'picture']) speaks(at(name), state.lang);
   tell('lesson', '');
   if (state.question?.number !== question?.number) draw(state.question);
   question = state.question;
@@ -87,6 +103,7 @@ function show(state) {
 function draw(asked) {
   refused = '';
   if (!asked) return;
+  for (const name of ['asked', 'choices', 'heard']) speaks(at(name), asked.lang);
   at('asked').textContent = asked.text;
   at('choices').replaceChildren(
     ...asked.choices.map((choice, i) => {
@@ -158,7 +175,9 @@ async function watch() {
     if (from !== of) (after = 0), (of = from);
     try {
       if (!from) throw new Error();
-      const answer = await fetch(`v1/sessions/${from}/frame?after=${after}&lossy=${quality}&wait_ms=10000`);
+      const answer = await fetch(
+        `v1/sessions/${from}/frame?after=${after}&lossy=${quality}&last=${fine}&wait_ms=10000`,
+      );
       if (!answer.ok) throw new Error();
       if (answer.status !== 204) {
         after = Number(answer.headers.get('Kerrd-Frame'));

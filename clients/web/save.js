@@ -6,6 +6,7 @@ import * as link from './link.js';
 import { ask } from './server.js';
 import { picked } from './share.js';
 
+// Returns films(), a promise of whether the buttons of films are there; the panel must be open.
 export function buildSave(scene, size, changed) {
   const [start, cancel, bar, told, fault, got, own, sizes, group] = [
     'save',
@@ -74,8 +75,9 @@ export function buildSave(scene, size, changed) {
   const record = () =>
     group.open &&
     (films ??= import('./record.js')
-      .then(({ recordScene }) => recordScene(byId('record'), scene, size))
-      .catch(() => (films = null)));
+      .then(({ recordScene }) => (recordScene(byId('record'), scene, size), true))
+      .catch(() => ((films = null), false)));
   group.addEventListener('toggle', record);
   record();
+  return { films: record };
 }

@@ -116,6 +116,7 @@ export class Scene extends EventTarget {
   jumps = 0; // how often somebody has set the time
   jumped = new Set(); // paths of moved values that somebody has set since
   drift = 0; // degrees a second by which the camera turns until somebody touches anything (drift.js)
+  recorded = false; // the drift is shown by a recording, and the session rests (loop.js)
 
   static async load() {
     const schema = await getJson('v1/schema'),
@@ -215,10 +216,17 @@ export class Scene extends EventTarget {
     this.drift = rate;
     const path = 'camera.azimuth_deg',
       there = this.#moved.get(path);
+    if (!rate && this.recorded) (this.recorded = false), this.jumps++; // the session goes on from the recording's time
     if (!rate && there != null) {
       this.jumped.add(path);
       this.settle({ [path]: there });
     }
+    this.dispatchEvent(new Event('drift'));
+  }
+
+  // A recording shows the drift from now on; it tells its time and its camera by tick().
+  record() {
+    this.recorded = true;
     this.dispatchEvent(new Event('drift'));
   }
 
@@ -295,6 +303,9 @@ export class Scene extends EventTarget {
       (!this.held && ['time_rate', 'proper_time_rate'].some(name => this.get(`motion.${name}`) !== 0))
     );
   }
+
+  // Whether the session's pictures follow each other without changes.
+  streams = () => this.goesOn() && !this.recorded;
 
   // Takes values that the server has changed.
   settle(values) {

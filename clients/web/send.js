@@ -55,9 +55,8 @@ async function makePoster(card, scene, url, openTake) {
 // Begins the first of these films that would show something: of what moves by itself, once round the hole, other spins.
 async function makeFilm(card, openTake) {
   const films = ['time', 'orbit', 'spin'].map(name => `#film-${name}`);
-  if (!(await openTake())) return card.close();
-  for (let tries = 0; !document.querySelector(films[0]) && tries < 200; tries++)
-    await new Promise(resolve => setTimeout(resolve, 50)); // the films' buttons are on their way
+  const panel = await openTake();
+  if (!(await panel?.films())) return card.close();
   films
     .map(id => document.querySelector(id))
     .find(({ disabled }) => !disabled)
@@ -141,7 +140,7 @@ function fill(card, shared, scene, openTake) {
   copies.focus();
 }
 
-// openTake(): opens the panel of what can be saved.
+// openTake(): opens the panel of what can be saved; returns what buildSave does, or null if it cannot be loaded.
 export async function send(scene, openTake) {
   const card = byId('sending'),
     told = el('p', { role: 'status' }, '…');

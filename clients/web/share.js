@@ -89,8 +89,7 @@ export function share(scene, size) {
     ));
   async function openTake() {
     group.open = true;
-    await loadSave();
-    return save !== null;
+    return (await loadSave()) ?? null;
   }
   group.addEventListener('toggle', () => group.open && loadSave());
   if (group.open || goesOn('job', 'film')) loadSave();

@@ -1,11 +1,11 @@
 // Sizes: of elements, of the window in device pixels, and the least share of its width that a picture keeps in motion.
-import { byId } from './dom.js';
+import { atFirstTouch, byId } from './dom.js';
 import * as link from './link.js';
 
 const most = { width: 3840, height: 2160 }; // pixels at rest; in a larger window the picture is scaled up
 const drag_px = 1600; // a wider window keeps in motion a share of this width
 const least_part = 0.25; // the server's limit
-const patience_ms = 100; // for a frame; where half the width takes longer, Auto keeps less
+const patience_ms = 100; // for a frame; where half the width takes longer, Auto keeps less after the first touch
 // The least share of the window's width that is kept in motion; null: the whole picture at rest.
 const parts = { auto: 0.5, sharp: null, fast: 0.25 };
 
@@ -40,7 +40,11 @@ export function windowSize(stage) {
 // Auto, Sharp or Fast, kept in the address.
 export const pace = () => (Object.hasOwn(parts, link.get('pace') ?? '') ? link.get('pace') : 'auto');
 
-// The query that asks the session to keep a share of the width in motion. Auto gives it up when frames take too long.
+let landing = true; // nobody has touched anything yet
+atFirstTouch(() => (landing = false));
+
+// The query that asks the session to keep a share of the width in motion. Auto gives it up when frames take too long,
+// so that a drag is followed; before the first touch it does not, since nobody waits for an answer to their hand.
 export function kept() {
   const part = parts[pace()],
     here = sizeOf(byId('stage'));
@@ -48,5 +52,5 @@ export function kept() {
   const least = Number(
     Math.min(Math.max((part * Math.min(1, drag_px / here.width)) / ratio(here), least_part), 1).toFixed(3),
   );
-  return `least=${least}` + (pace() === 'auto' && least > least_part ? `&patience_ms=${patience_ms}` : '');
+  return `least=${least}` + (pace() === 'auto' && !landing && least > least_part ? `&patience_ms=${patience_ms}` : '');
 }

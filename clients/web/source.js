@@ -19,6 +19,7 @@ const least_part = 1 / 8; // of the window's width: the least size of a picture 
 export const samples = scene =>
   scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples);
 
+const heard = (target, event) => new Promise(resolve => target.addEventListener(event, resolve, { once: true }));
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 
 // scene; size() → { width, height } of the window in device pixels. Callbacks: shown(frame), failed(error), and
@@ -55,7 +56,9 @@ export function openSource(scene, size, shown, failed, rests) {
       'image.height': Math.round(height * part),
       'image.samples': samples(scene),
       ...(scene.drift ? { 'motion.azimuth_rate_deg': scene.drift } : {}),
-      ...(scene.held ? { 'motion.time_rate': 0, 'motion.azimuth_rate_deg': 0, 'motion.proper_time_rate': 0 } : {}),
+      ...(scene.held || scene.recorded
+        ? { 'motion.time_rate': 0, 'motion.azimuth_rate_deg': 0, 'motion.proper_time_rate': 0 }
+        : {}),
     };
     return scene.document(over, true);
   }
@@ -221,7 +224,7 @@ export function openSource(scene, size, shown, failed, rests) {
 
   const flight = buildFlight(line, {
     moving: () => performance.now() - stirred_ms < still_ms,
-    goesOn: () => scene.goesOn(),
+    goesOn: scene.streams,
     options: change => ({
       ...(change && { method: 'PATCH', headers: headers(), body: JSON.stringify(change) }),
       signal: polls.signal,
@@ -250,13 +253,13 @@ export function openSource(scene, size, shown, failed, rests) {
       : scene.turns()
         ? { 'camera.azimuth_deg': Number(azimuth.toFixed(3)) }
         : {};
-    if (scene.goesOn()) scene.tick(Number(get('Kerrd-Time')), final, current ? moved : {});
+    if (scene.streams()) scene.tick(Number(get('Kerrd-Time')), final, current ? moved : {});
     from.frame = Number(get('Kerrd-Frame'));
     for (const old of from.cameras.keys()) if (old < revision) from.cameras.delete(old);
     const now = performance.now();
     if (quality.final !== 1) stirred_ms = now;
     // or the last three of a slow server
-    recent = scene.goesOn() ? [...recent.filter((time, i) => time > now - 2000 || i >= recent.length - 2), now] : [];
+    recent = scene.streams() ? [...recent.filter((time, i) => time > now - 2000 || i >= recent.length - 2), now] : [];
     const [picture, left] = await Promise.all([answer.blob(), approximations(from, get)]);
     line.read(quality.lossy, performance.now() - now);
     if (closed.aborted) return;
@@ -265,6 +268,7 @@ export function openSource(scene, size, shown, failed, rests) {
       ...quality,
       final,
       revision,
+      jumps: from.jumps,
       part: from.part,
       ...fits(quality, size(), from),
       camera: falls ? null : from.cameras.get(revision),
@@ -287,6 +291,7 @@ export function openSource(scene, size, shown, failed, rests) {
     while (session) {
       const from = session;
       await seen('lensing');
+      if (scene.recorded && !from.flight.length) await heard(scene, 'drift');
       if (session !== from) continue;
       try {
         await next(from);
@@ -303,7 +308,8 @@ export function openSource(scene, size, shown, failed, rests) {
 
   // While the page or the view is hidden, a drifting camera stands where it was last seen.
   function doze() {
-    if (!session || !scene.drift || (!document.hidden && document.body.dataset.view === 'lensing')) return;
+    if (!session || !scene.drift || scene.recorded || (!document.hidden && document.body.dataset.view === 'lensing'))
+      return;
     dozes++;
     const patch = { motion: { azimuth_rate_deg: 0 }, camera: { azimuth_deg: scene.get('camera.azimuth_deg') } };
     session.document = asleep(session.document);

@@ -7,7 +7,7 @@ import { physics } from './server.js';
 const key = 'kerrd.sound';
 
 // The setting in localStorage; if storage is blocked, it is not muted.
-function muted(to) {
+export function muted(to) {
   try {
     if (to !== undefined) localStorage.setItem(key, to ? 'off' : 'on');
     return localStorage.getItem(key) === 'off';

@@ -4,6 +4,7 @@ renderer's scenes `time` is how many milliseconds a frame takes."""
 import json
 import struct
 import threading
+import time
 
 import daemon
 import jpeg
@@ -53,6 +54,31 @@ class Kinds(daemon.Owned):
         )
         self.assertNotIn("lossy", frame.header("Kerrd-Quality"))
         self.assertEqual(self.daemon.get(self.at(session, "/frame.png")).body, frame.body, "the same file")
+
+    def test_the_last_frame_may_be_lossy_too(self):
+        """Whoever asks for it gets JPEG as long as the frame's pixels are there, then PNG; others always get PNG."""
+        session = self.make(RESTING)
+        frame, number = None, 0
+        while not frame or " final=1" not in frame.header("Kerrd-Quality"):
+            frame = self.get(session, f"lossy=50&last=70&after={number}")
+            number = int(frame.header("Kerrd-Frame"))
+        self.assertEqual(frame.header("Content-Type"), "image/jpeg")
+        self.assertRegex(frame.header("Kerrd-Quality"), " final=1 lossy=70$")
+        width, height, *_ = jpeg.decode(frame.body)
+        self.assertEqual((width, height), (64, 36))
+
+        def gone(k):
+            """Whether the pixels are gone, so that no other quality can be made. Each try makes one if they are not, and
+            there are five at most."""
+            time.sleep(2**k)
+            return self.get(session, f"last={k + 1}").header("Content-Type") == "image/png"
+
+        self.assertTrue(any(map(gone, range(4))))
+        self.assertEqual(self.get(session, "last=70").body, frame.body, "what was made stays")
+        for query in "", "lossy=50":
+            exact = self.get(session, query)
+            self.assertEqual((exact.header("Content-Type"), exact.header("Kerrd-Frame")), ("image/png", str(number)))
+            self.assertNotIn("lossy", exact.header("Kerrd-Quality"))
 
     def test_one_frame_in_several_kinds(self):
         """An existing frame is encoded in another format on request. Requests for the same format get the same
@@ -170,13 +196,17 @@ class Kinds(daemon.Owned):
             "lossy=yes",
             "lossy=-1",
             "lossy=5&lossy=6",
+            "last=0",
+            "last=101",
+            "last=x",
             "quality=5",
             "order=1",
             "after=x",
             "wait_ms=60001",
         ):
             self.assertProblem(self.get(session, query), 422)
-        self.assertProblem(self.daemon.get(self.at(session, "/frame.png?lossy=50")), 422)
+        for query in "lossy=50", "last=50":
+            self.assertProblem(self.daemon.get(self.at(session, "/frame.png?" + query)), 422)
         self.assertEqual(self.get(session, "after=999&wait_ms=1&lossy=50").status, 204)
         self.assertProblem(self.daemon.get("/v1/sessions/0123456789abcdef/frame?lossy=50"), 404)
 

@@ -57,12 +57,42 @@ class Lessons(daemon.Case):
                 "session": self.session["id"],
                 "link": "preset=jet",
                 "about": "A hole — and a jet",
+                "lang": "en",
                 "pupils": 0,
                 "question": None,
             },
         )
         frame = self.daemon.get(f"/v1/sessions/{told['session']}/frame?after=0")
         self.assertEqual(frame.status, 200)
+
+    def test_the_language_of_a_lesson(self):
+        one = self.begin(lang="it")
+        self.assertEqual(self.hand(one).json()["lang"], "it")
+        for lang in "fr", "pt-BR", "zh-Hant-TW", "ast", "abcdefgh-1-12345678":
+            self.assertEqual(self.change(one, {"lang": lang}).json()["lang"], lang)
+        for lang in (
+            "",
+            "e",
+            "x-y",
+            "en-",
+            "en--GB",
+            "en_GB",
+            "english-a1b2c3d4e",
+            "abcdefghi",
+            "1a",
+            "en-" + 4 * "a1234567-" + "a",
+            3,
+        ):
+            problem = self.assertProblem(self.change(one, {"lang": lang}), 422, "invalid-parameters")
+            self.assertEqual(problem["pointer"], "/lang")
+            self.assertIn("it must be a language tag, such as en or pt-BR", problem["detail"])
+        self.assertEqual(self.seen(one)["lang"], "abcdefgh-1-12345678")
+
+    def test_who_may_take_a_copy(self):
+        """Without tokens everybody may; by role: tests/web/lesson.py."""
+        one = self.begin()
+        self.assertIs(self.hand(one).json()["copies"], True)
+        self.assertNotIn("copies", self.seen(one))
 
     def test_the_address_of_a_new_lesson(self):
         answer = self.daemon.post("/v1/lessons", {"session": self.session["id"]})

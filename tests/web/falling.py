@@ -88,6 +88,61 @@ class Falling(Browser):
         self.assertTrue(page.is_checked('[data-path="camera.r"] input[type=checkbox]'), "it is far again")
         self.assertEqual(page.input_value('[data-path="sky.model"] select'), "none")
 
+    def put(self, page, at):
+        """Moves the slider of the fall, which stops it there."""
+        page.locator("#fall-at").evaluate(
+            "(node, at) => { node.value = at; node.dispatchEvent(new Event('input')); }", at
+        )
+
+    def test_a_guided_fall_and_its_film(self):
+        """The captions follow the radius, wherever the fall is put, and the tone follows the starlight from behind. The
+        film has pictures and sound."""
+        page = self.page(self.context(viewport={"width": 700, "height": 500}))
+        page.add_init_script("""window.tones = [];
+            const set = AudioParam.prototype.setTargetAtTime;
+            AudioParam.prototype.setTargetAtTime = function (to, ...rest) { tones.push(to); return set.call(this, to, ...rest); };""")
+        page.goto(self.base + "#pace=fast&preset=default&" + SMOOTH + "&lang=en&spacetime.spin=0")
+        page.wait_for_selector(AT_REST)
+        page.click("#fall-in")
+        page.click("#fall-guide")
+        caption = lambda words: self.there(page, words, "#fall-caption")
+        page.wait_for_selector("#fall-caption")
+        self.assertEqual(page.inner_text("#fall-guide"), "End the guide")
+        for at, words, low, high in (
+            (250, "Within 6 M no gas can stay in orbit", 3, 6),
+            (400, "You have crossed the horizon.", 1.2, 2),
+            (550, "You still see the stars", 0.3, 1.2),
+            (1000, "Ahead is the singularity", 0, 0.3),
+            (0, "You have let go.", 15, 20.1),
+        ):
+            with self.subTest(words=words):
+                r = 20 * (self.last / 20) ** (at / 1000)
+                self.assertTrue(low < r < high, r)
+                self.put(page, at)
+                caption(words)
+                pitch = 440 / (1 + math.sqrt(2 / r))
+                heard = "pitch => tones.some(tone => Math.abs(tone / pitch - 1) < 0.01)"
+                self.assertTrue(daemon.eventually(lambda: page.evaluate(heard, pitch)), pitch)
+        apart = """() => { const [a, b] = ['fall', 'fall-caption'].map(id => document.getElementById(id).getBoundingClientRect());
+            return a.top > b.bottom || a.left > b.right; }"""
+        self.assertTrue(page.evaluate(apart))
+        page.click("#fall-guide")
+        page.wait_for_selector("#fall-caption", state="detached")
+        page.click("#fall-film")
+        caption("You have let go.")
+        page.wait_for_selector("#fall-guide", state="hidden")
+        self.shot(page, "fall-guided")
+        with page.expect_download() as download:
+            self.put(page, 1000)
+        self.assertEqual(download.value.suggested_filename, "kerrd-fall.webm")
+        data = download.value.path().read_bytes()
+        self.assertEqual(data[:4].hex(), "1a45dfa3", "EBML")
+        self.assertTrue(b"V_VP9" in data and b"A_OPUS" in data)
+        page.wait_for_selector("#fall-caption", state="detached")
+        page.wait_for_selector("#fall-got:visible")
+
+    last = 0.05  # radius at which a fall without spin ends
+
     def test_what_is_on_its_way_is_said(self):
         page, held = self.open(), []
         page.route("**/frame?*", lambda route: held.append(route) if held is not None else route.continue_())

@@ -1,5 +1,6 @@
 """Tests of the first view: a preset, if a link contains no scene. first.py KERRD FOLDER (browser.py)."""
 
+import itertools
 import json
 import re
 
@@ -117,12 +118,118 @@ class First(Browser):
         wide = page.evaluate(
             'async () => { const image = new Image(); image.src = "web/stills/first.jpg"; await image.decode(); return image.naturalWidth; }'
         )
-        self.assertEqual(wide, 640)
+        self.assertEqual(wide, 960)
         self.shot(page, "first-still")
         waiting, held = held, None
         for route in waiting:
             route.continue_()
         self.assertTrue(daemon.eventually(lambda: ground() == "none"))
+
+    LOOP = "#loop:not([hidden])"
+
+    def landed(self, fulfil, **options):
+        """The first view; fulfil(n) says whether the n-th request for a picture is answered. Returns the page, and a
+        function that answers all requests from then on, also those that wait."""
+        page, held, let, patches, n = self.page(self.context(**options)), [], [], [], itertools.count()
+        page.on(
+            "request",
+            lambda r: r.method == "PATCH" and "/v1/sessions/" in r.url and patches.append((r.url, r.post_data_json)),
+        )
+
+        def answer(route):
+            if let or fulfil(next(n)):
+                route.continue_()
+            else:
+                held.append(route)
+
+        def release():
+            let.append(True)
+            for route in held:
+                route.continue_()
+
+        page.route("**/frame?*", answer)
+        page.goto(self.base + "#lang=en")
+        return page, release, patches
+
+    def test_a_slow_server_shows_a_recording(self):
+        """The recording begins at the still and drifts. At the first touch it stands, the session is set to its time and
+        camera, and it stays until the first picture from there."""
+        page, release, patches = self.landed(lambda n: False)
+        page.wait_for_selector(self.LOOP)
+        wide, high = page.evaluate("(({ videoWidth, videoHeight }) => [videoWidth, videoHeight])(loop)")
+        self.assertEqual((wide, high), (1280, 960))
+        self.there(page, "A recording", "#status")
+        self.assertEqual(page.locator("#first").is_visible(), False)
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or any("motion" in p for _, p in patches)))
+        self.assertEqual(patches[-1][1]["motion"]["time_rate"], 0, "the session rests meanwhile")
+        self.assertTrue(daemon.eventually(lambda: self.clock(page) > 12))
+        self.linked(page, "camera.azimuth_deg=")
+        self.assertEqual(page.inner_text("#play"), "Pause")
+        self.shot(page, "first-recording")
+        patches.clear()
+        box = page.locator("#stage").bounding_box()
+        page.mouse.move(box["x"] + 300, box["y"] + 200)
+        page.mouse.down()
+        page.mouse.up()
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or patches))
+        patch = patches[0][1]
+        there = page.evaluate("import('./web/loop.js').then(({ seconds }) => seconds())")
+        self.assertAlmostEqual(patch["time"], 6 * there, delta=0.02)
+        self.assertAlmostEqual(patch["camera"]["azimuth_deg"], 1.5 * there, delta=0.01)
+        self.assertIsNone(patch["motion"]["azimuth_rate_deg"])
+        self.assertEqual((page.locator(self.LOOP).count(), page.evaluate("loop.paused")), (1, True))
+        release()
+        page.wait_for_selector("#loop", state="detached")
+        self.assertTrue(daemon.eventually(lambda: self.clock(page) > 6 * there))
+        self.assertAlmostEqual(float(self.field(page, "camera.azimuth_deg")), 1.5 * there, delta=0.01)
+        self.assertTrue(page.is_disabled("#undo"))
+
+    def test_too_few_live_pictures_are_followed_by_the_recording(self):
+        page, release, patches = self.landed(lambda n: n < 2)
+        page.wait_for_selector(self.LOOP)
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("document.getElementById('picture').naturalWidth > 0")))
+        self.there(page, "A recording", "#status")
+        release()
+        page.click("#play")
+        page.wait_for_selector("#loop", state="detached")
+        page.wait_for_selector(AT_REST)
+        self.assertEqual(page.inner_text("#play"), "Play")
+
+    def test_where_there_is_no_recording(self):
+        """In a high window it would not fill the height; and who wants no motion gets none."""
+        for options in {"viewport": {"width": 390, "height": 844}}, {"reduced_motion": "reduce"}:
+            page, release, _ = self.landed(lambda n: False, **options)
+            begun = "import('./web/loop.js').then(async ({ begun }) => String(await begun()))"
+            self.assertTrue(daemon.eventually(lambda: page.evaluate(begun) == "false"))
+            self.assertEqual(page.locator("#loop").count(), 0)
+            release()
+            page.wait_for_selector("#stage[data-final]", state="attached")
+
+    def test_a_recording_that_cannot_be_loaded(self):
+        self.expected = "Failed to load resource"
+        page = self.page(self.context())
+        page.route("**/first.webm", lambda route: route.abort())
+        held = []
+        page.route("**/frame?*", lambda route: held.append(route) if held is not None else route.continue_())
+        with page.expect_event("requestfailed", lambda request: request.url.endswith(".webm")):
+            page.goto(self.base + "#lang=en")
+        page.wait_for_selector("#loop", state="detached")
+        waiting, held = held, None
+        for route in waiting:
+            route.continue_()
+        self.linked(page, "camera.azimuth_deg=")
+
+    def test_before_the_first_touch_half_the_width_is_kept(self):
+        """Also where such pictures take long; afterwards a drag may make them narrower."""
+        page, _, patches = self.landed(lambda n: True)
+        self.linked(page, "camera.azimuth_deg=")
+        asked = [r.url for r in self.requests if "least=" in r.url]
+        self.assertTrue(asked and all("least=0.5" in url and "patience_ms" not in url for url in asked), asked)
+        page.focus("#stage")
+        page.keyboard.press("+")
+        self.assertTrue(
+            daemon.eventually(lambda: page.evaluate("0") or any("patience_ms=100" in url for url, _ in patches))
+        )
 
     def test_it_is_a_preset_that_moves(self):
         page = self.opened("living-disk", "lang=en")

@@ -120,6 +120,52 @@ class Lesson(Browser):
         self.there(pupil, "La risposta giusta è: quattro.", "#answer")
         self.shot(teacher, "lesson-it")
 
+    def test_a_pupil_of_another_language(self):
+        """A ready question is shown in the pupil's language. What the teacher writes, and what describes the picture, is
+        marked as the teacher's."""
+        teacher = self.teach()
+        italian = self.follow(self.link(teacher), locale="it-IT")
+        english = self.follow(self.link(teacher))
+        teacher.get_by_role("button", name="Ask the class").click()
+        italian.get_by_role("button", name="Diventa larga il doppio").click()
+        self.there(italian, "Hai previsto: Diventa larga il doppio. Puoi cambiarlo.", "#answer")
+        self.assertEqual(italian.inner_text("#asked")[:27], "Il buco viene fatto ruotare")
+        self.there(teacher, "1 of 2 have answered.", "#lesson-answered")
+        self.assertEqual(teacher.locator("#lesson-tally b").all_inner_texts(), ["1", "0", "0"])
+        tongues = lambda page: [
+            page.get_attribute("#" + name, "lang") for name in ("about", "picture", "asked", "choices")
+        ]
+        self.assertEqual(tongues(italian), ["en", "en", None, None])
+        teacher.get_by_role("button", name="Close, and show the tally").click()
+        teacher.get_by_role("button", name="Another question").click()
+        teacher.select_option("#lesson-ready", "")
+        teacher.fill("#lesson-text", "Larger or smaller?")
+        teacher.fill("#lesson-choices", "larger\nsmaller")
+        teacher.get_by_role("button", name="Ask the class").click()
+        italian.get_by_role("button", name="larger").wait_for()
+        self.assertEqual(tongues(italian), 4 * ["en"])
+        english.get_by_role("button", name="larger").wait_for()
+        self.assertEqual(tongues(english), 4 * [None])
+
+    def test_a_picture_at_rest_is_small(self):
+        """Thirty pupils would else fetch a megabyte each whenever the picture rests."""
+        teacher = self.teach("lang=en&preset=gas&pause=1")
+        pupil, came = self.page(self.context(locale="en-US")), []
+        pupil.on("response", lambda r: "last=" in r.url and r.status == 200 and came.append(r))
+        pupil.goto(self.link(teacher))
+        pupil.wait_for_selector("#stage:has(> #told[hidden]) > #picture[src]")
+        came.clear()
+        self.drag(teacher, 0, -120)
+        fine = lambda: [r for r in came if " final=1" in r.headers["kerrd-quality"]]
+        self.assertTrue(daemon.eventually(lambda: pupil.evaluate("0") or fine()))
+        self.assertRegex(fine()[-1].headers["kerrd-quality"], "lossy=92$")
+        small = int(fine()[-1].headers["content-length"])
+        exact = len(self.daemon.get(f"/v1/sessions/{teacher.evaluate(self.SESSION)}/frame.png").body)
+        print(f"a picture at rest: {small} bytes for a pupil, {exact} for the teacher", flush=True)
+        self.assertTrue(5_000 < small < exact / 3)
+
+    SESSION = """fetch('v1/lessons/' + JSON.parse(sessionStorage.getItem('lesson')).id).then(a => a.json()).then(({ session }) => session)"""
+
     def test_a_question_that_is_refused(self):
         teacher = self.teach()
         teacher.select_option("#lesson-ready", "")
@@ -392,13 +438,18 @@ class Tokens(Browser):
         pupil = self.enter(teacher.input_value("#lesson-invite input"), self.PUPIL)
         pupil.wait_for_selector("#stage:has(> #told[hidden]) > #picture[src]")
         self.there(teacher, "1 pupil follows.", "#lesson-count")
-        self.expected = "40"  # 401, and 403 for the copy, because it needs the role render
-        pupil.click("#copy")
+        self.assertTrue(pupil.locator("#copy").is_hidden(), "a copy needs the role render")
+        helper = self.enter(teacher.input_value("#lesson-invite input"), self.TEACHER)
+        helper.wait_for_selector("#copy:visible")
+        self.expected = "40"  # 401, and 403 for the copy
+        copy = lambda page: page.goto(page.evaluate("document.getElementById('copy').href"))
+        copy(pupil)
         self.there(pupil, "needs a token with the role render; yours has the role view", "#status")
         pupil.get_by_role("link", name="← Back to the class").click()
         pupil.wait_for_selector("#stage:has(> #told[hidden]) > #picture[src]")
         other = self.enter(teacher.input_value("#lesson-invite input"), self.PUPIL, "it-IT", "Token d’accesso")
-        other.click("#copy")
+        other.wait_for_selector("#stage:has(> #told[hidden]) > #picture[src]")
+        copy(other)
         self.there(other, "vuole un token con il ruolo render; il tuo ha il ruolo view", "#status")
 
 

@@ -176,6 +176,30 @@ class Share(Browser):
         page.click("#film-cancel")
         self.there(page, "Cancelled.", "#film-told")
 
+    def test_a_film_whose_module_comes_late_or_not_at_all(self):
+        """The button waits for the films' module, however long it takes; without it the card closes."""
+        self.expected = "Failed to load resource"
+        page = self.open("lang=en&preset=smooth&pause=1")
+        held, asked = [], []
+        page.on("request", lambda request: request.url.endswith("/v1/jobs") and asked.append(request))
+        page.route("**/web/record.js", lambda route: held.append(route))
+        self.share(page)
+        page.clock.install()
+        page.get_by_role("button", name="Make a film, five seconds").click()
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or held))
+        page.clock.run_for(60_000)
+        self.assertEqual((page.locator("#sending").is_visible(), asked), (True, []))
+        page.clock.resume()
+        held.pop().continue_()
+        page.wait_for_selector("#film-cancel:visible")
+        page.click("#film-cancel")
+        self.there(page, "Cancelled.", "#film-told")
+        page = self.open("lang=en&preset=smooth&pause=1")
+        page.route("**/web/record.js", lambda route: route.abort())
+        self.share(page)
+        page.get_by_role("button", name="Make a film, five seconds").click()
+        page.wait_for_selector("#sending", state="hidden")
+
     def test_an_asset_is_refused_in_words(self):
         self.expected = "422"
         page = self.open("lang=it&preset=smooth&pause=1")

@@ -1,6 +1,6 @@
 """Write files as C arrays: embed.py MINIFIER OUTPUT FILE...
 
-Each file is written as it is, and also compressed by gzip unless it is a picture. Files are named by their paths below
+Each file is written as it is, and also compressed by gzip unless it is a picture or a film. Files are named by their paths below
 the folder of the first one. MINIFIER is the program esbuild, which minifies scripts and styles. If it is "", they stay
 as they are written.
 """
@@ -19,6 +19,7 @@ TYPES = {
     ".css": "text/css; charset=utf-8",
     ".svg": "image/svg+xml",
     ".jpg": "image/jpeg",
+    ".webm": "video/webm",
     "": "text/plain; charset=utf-8",
 }
 minifier, output, files = sys.argv[1], pathlib.Path(sys.argv[2]), [pathlib.Path(f) for f in sys.argv[3:]]
@@ -61,7 +62,7 @@ def form(name, data):
 short = shortened([f for f in files if f.suffix in (".js", ".css") and f.parent == folder]) if minifier else {}
 for i, file in enumerate(files):
     data = short.get(file) or file.read_bytes()
-    packed = "{ 0 }" if file.suffix == ".jpg" else form(f"gzip_{i}", gzip.compress(data, 9, mtime=0))
+    packed = "{ 0 }" if file.suffix in (".jpg", ".webm") else form(f"gzip_{i}", gzip.compress(data, 9, mtime=0))
     rows.append(
         f'    {{ "{file.relative_to(folder).as_posix()}", "{TYPES[file.suffix]}", {form(f"plain_{i}", data)},\n'
         f"      {packed} }},"

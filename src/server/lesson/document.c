@@ -129,6 +129,21 @@ static enum kd_status read_about(struct target *to, const cJSON *item, const cha
     return read_text(item, pointer, KD_LESSON_ABOUT, true, &to->change->about, error);
 }
 
+/* Reads a language tag as in BCP 47: parts of up to 8 letters and digits between hyphens, the first of letters. */
+static enum kd_status read_lang(struct target *to, const cJSON *item, const char *pointer, struct kd_error *error)
+{
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    const char *text = cJSON_IsString(item) ? item->valuestring : "";
+    size_t n = strspn(text, letters), part = n;
+    bool good = n >= 2 && n <= 8 && strlen(text) <= KD_LESSON_LANG;
+    for (; good && text[n] == '-'; n += part) {
+        part = strspn(text + ++n, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789");
+        good = part >= 1 && part <= 8;
+    }
+    to->change->lang = text;
+    return good && !text[n] ? KD_OK : refuse(item, pointer, "a language tag, such as en or pt-BR", error);
+}
+
 static enum kd_status read_open(struct target *to, const cJSON *item, const char *pointer, struct kd_error *error)
 {
     to->change->moves = true;
@@ -203,11 +218,9 @@ done:
 
 enum kd_status kd_lesson_read_change(const cJSON *tree, struct kd_lesson_change *out, struct kd_error *error)
 {
-    static const struct member members[] = { { "session", read_session },
-                                             { "link", read_link },
-                                             { "about", read_about },
-                                             { "question", read_question },
-                                             { "open", read_open } };
+    static const struct member members[] = { { "session", read_session },   { "link", read_link },
+                                             { "about", read_about },       { "lang", read_lang },
+                                             { "question", read_question }, { "open", read_open } };
     struct target to = { .change = out };
     *out = (struct kd_lesson_change) { 0 };
     return read_members(tree, "", members, sizeof members / sizeof *members, &to, error);
@@ -221,6 +234,8 @@ void kd_lesson_apply(struct kd_lesson *one, const struct kd_lesson_change *chang
         snprintf(one->link, sizeof one->link, "%s", change->link);
     if (change->about)
         snprintf(one->about, sizeof one->about, "%s", change->about);
+    if (change->lang)
+        snprintf(one->lang, sizeof one->lang, "%s", change->lang);
     if (change->withdraws)
         one->question.shown = one->question.open = false;
     if (change->asks) {

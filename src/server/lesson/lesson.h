@@ -20,6 +20,7 @@
 #define KD_LESSON_TEXT 600u
 #define KD_LESSON_CHOICE 200u
 #define KD_LESSON_NAME 80u
+#define KD_LESSON_LANG 35u                                /* of a language tag */
 #define KD_LESSON_SIZE(characters) (4 * (characters) + 1) /* bytes of UTF-8, and NUL */
 
 struct kd_question {
@@ -46,6 +47,7 @@ struct kd_lesson {
     char session[KD_SECRET_ID];
     char link[KD_LESSON_SIZE(KD_LESSON_LINK)];   /* what follows # in the teacher's address */
     char about[KD_LESSON_SIZE(KD_LESSON_ABOUT)]; /* description of the picture */
+    char lang[KD_LESSON_LANG + 1];               /* language of description and question, a tag of BCP 47 */
     struct kd_question question;
     struct kd_pupil pupils[KD_LESSON_PUPILS];
 };
@@ -74,17 +76,18 @@ void kd_lesson_end(struct kd_lessons *all, struct kd_lesson *one);
 struct kd_pupil *kd_lesson_pupil(struct kd_lesson *one, const char *key);
 
 /* Writes the lesson as JSON. teacher: with who chose what, and with the tally while the question is open. pupil: the
- * one that asks, whose own choice is written; NULL: none. token: with the teacher's token. */
+ * one that asks, whose own choice is written; NULL: none. copies: whether the pupil may open a session of its own.
+ * token: with the teacher's token. */
 struct kd_lesson_view {
-    bool teacher, token;
+    bool teacher, token, copies;
     const struct kd_pupil *pupil;
 };
 enum kd_status kd_lesson_to_json(const struct kd_lesson *one, const struct kd_lesson_view *view, struct kd_buffer *out);
 
 /* A change of a lesson by its teacher. A member that is absent in the document is NULL or false. */
 struct kd_lesson_change {
-    const char *session, *link, *about; /* point into the document */
-    bool asks, withdraws;               /* question, or question null */
+    const char *session, *link, *about, *lang; /* point into the document */
+    bool asks, withdraws;                      /* question, or question null */
     struct kd_question question;
     bool moves, open; /* moves: "open" is given */
 };

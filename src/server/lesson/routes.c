@@ -174,7 +174,8 @@ static enum MHD_Result raise_hand(struct kd_request *request, struct kd_lesson *
         snprintf(pupil->name, sizeof pupil->name, "%s", hand->name);
     if (hand->answers)
         pupil->answered = hand->question, pupil->choice = hand->choice;
-    return answer(request, one, &(struct kd_lesson_view) { .pupil = pupil });
+    const bool copies = !request->visitor || request->visitor->role == KD_ROLE_RENDER;
+    return answer(request, one, &(struct kd_lesson_view) { .pupil = pupil, .copies = copies });
 }
 
 static enum MHD_Result serve_hand(struct kd_request *request)

@@ -82,6 +82,7 @@ enum kd_status kd_lesson_open(struct kd_lessons *all, const char *client, bool *
         return kd_error_set(error, KD_ENOMEM, "no memory or no random numbers for a lesson");
     }
     snprintf(one->client, sizeof one->client, "%s", client);
+    snprintf(one->lang, sizeof one->lang, "en");
     one->used_ms = kd_clock_ms();
     *out = all->list[place] = one;
     return KD_OK;
@@ -208,13 +209,16 @@ enum kd_status kd_lesson_to_json(const struct kd_lesson *one, const struct kd_le
     kd_json_string(&json, "session", one->session);
     kd_json_string(&json, "link", one->link);
     kd_json_string(&json, "about", one->about);
+    kd_json_string(&json, "lang", one->lang);
     kd_json_number(&json, "pupils", present);
     if (one->question.shown)
         add_question(&json, one, view->teacher);
     else
         kd_json_null(&json, "question");
-    if (view->pupil)
+    if (view->pupil) {
         add_choice(&json, one, view->pupil);
+        kd_json_bool(&json, "copies", view->copies);
+    }
     if (view->teacher)
         add_hands(&json, one, now);
     kd_json_end(&json);

@@ -15,7 +15,7 @@
     ",\"pattern\":\"^[^\\u0000-\\u001f\\u007f-\\u009f]*$\"}"
 
 _Static_assert(KD_LESSON_CHOICES == 6 && KD_LESSON_TEXT == 600 && KD_LESSON_CHOICE == 200 && KD_LESSON_LINK == 8000 &&
-                   KD_LESSON_ABOUT == 1000 && KD_LESSON_NAME == 80,
+                   KD_LESSON_ABOUT == 1000 && KD_LESSON_NAME == 80 && KD_LESSON_LANG == 35,
                "the schemas say so");
 
 #define QUESTION_MEMBERS \
@@ -24,9 +24,12 @@ _Static_assert(KD_LESSON_CHOICES == 6 && KD_LESSON_TEXT == 600 && KD_LESSON_CHOI
 
 #define MEMBERS \
     "\"additionalProperties\":false,\"properties\":{\"session\":" ID ",\"link\":" TEXT(0, 8000) ",\"about\":" TEXT( \
-        0, 1000) ",\"open\":{\"type\":\"boolean\",\"description\":\"whether the question accepts answers\"}," \
-                 "\"question\":{\"type\":[\"object\",\"null\"],\"additionalProperties\":false,\"required\":[\"text\"," \
-                 "\"choices\"],\"properties\":{" QUESTION_MEMBERS "}}}"
+        0, \
+        1000) ",\"lang\":{\"type\":\"string\",\"maxLength\":35,\"pattern\":\"^[A-Za-z]{2,8}(-[A-Za-z0-9]{1,8})*$\"," \
+              "\"description\":\"language of about and " \
+              "question\"},\"open\":{\"type\":\"boolean\",\"description\":\"whether the question accepts answers\"}," \
+              "\"question\":{\"type\":[\"object\",\"null\"],\"additionalProperties\":false,\"required\":[\"text\"," \
+              "\"choices\"],\"properties\":{" QUESTION_MEMBERS "}}}"
 
 void kd_openapi_lesson_schema(struct kd_json *json)
 {
@@ -47,9 +50,11 @@ void kd_openapi_lesson_schema(struct kd_json *json)
         { "session", ID, false },
         { "link", KD_SCHEMA_TEXT, false },
         { "about", KD_SCHEMA_TEXT, false },
+        { "lang", KD_SCHEMA_TEXT, false },
         { "pupils", KD_SCHEMA_COUNT, false },
         { "question", "{\"oneOf\":[{\"type\":\"null\"}," KD_SCHEMA_REF("LessonQuestion") "]}", false },
         { "choice", CHOICE_OR_NULL, true },
+        { "copies", KD_SCHEMA_BOOL, true },
         { "hands", KD_SCHEMA_LIST(KD_SCHEMA_REF("LessonHand")), true },
     };
     KD_OPENAPI_STRICT(json, "LessonQuestion", question);

@@ -1,6 +1,5 @@
 /* One encoded frame of a session and its metadata. All viewers share the frame by reference count. It is immutable,
- * with one exception: while a frame is still being refined it keeps its pixels, so that it can be encoded in further
- * formats. */
+ * with one exception: for a while it keeps its pixels, so that it can be encoded in further formats. */
 #ifndef KD_SERVER_RENDER_LIVE_FRAME_H
 #define KD_SERVER_RENDER_LIVE_FRAME_H
 

@@ -14,7 +14,7 @@ struct added {
 
 /* All functions below except `done` are called with the lock. */
 
-static unsigned kind_of(const struct kd_viewer *viewer, bool last) { return last ? 0 : viewer->lossy; }
+static unsigned kind_of(const struct kd_viewer *viewer, bool last) { return last ? viewer->last_lossy : viewer->lossy; }
 
 static void set_kind(struct kd_render_job *job, unsigned lossy)
 {
@@ -22,13 +22,14 @@ static void set_kind(struct kd_render_job *job, unsigned lossy)
     job->lossy = lossy;
 }
 
+/* The last frame is always encoded without loss first: later viewers get it when its pixels are gone. */
 void kd_session_choose_kind(const struct kd_session *s, bool last, struct kd_render_job *job)
 {
     const struct kd_viewer *first = NULL;
-    for (const struct kd_viewer *v = s->viewers; v; v = v->next)
-        if (v->waiting && !v->any && (!first || !kind_of(v, last)))
+    for (const struct kd_viewer *v = s->viewers; v && !last; v = v->next)
+        if (v->waiting && !v->any && (!first || !v->lossy))
             first = v;
-    set_kind(job, first ? kind_of(first, last) : 0);
+    set_kind(job, first ? first->lossy : 0);
 }
 
 static const struct kd_live_file *file_of(const struct kd_live_frame *frame, unsigned lossy)
@@ -51,7 +52,9 @@ static const struct kd_live_file *file_of(const struct kd_live_frame *frame, uns
 
 const struct kd_live_file *kd_session_file(const struct kd_viewer *viewer, const struct kd_live_frame *frame)
 {
-    return file_of(frame, kind_of(viewer, frame->last));
+    const bool gone = frame->last && !frame->picture.n_layers; /* no other encoding can be made */
+    const struct kd_live_file *file = file_of(frame, kind_of(viewer, frame->last));
+    return file || !gone ? file : file_of(frame, 0);
 }
 
 void kd_session_forget_pixels(struct kd_session *s, double now)
@@ -65,7 +68,7 @@ void kd_session_forget_pixels(struct kd_session *s, double now)
 static void hand_out(struct kd_session *s, struct kd_live_frame *frame, unsigned lossy)
 {
     for (struct kd_viewer *v = s->viewers; v; v = v->next)
-        if (v->waiting && !v->any && v->lossy == lossy && v->seen < frame->number && !v->owed)
+        if (v->waiting && !v->any && kind_of(v, frame->last) == lossy && v->seen < frame->number && !v->owed)
             v->owed = kd_live_frame_share(frame);
 }
 
@@ -123,7 +126,7 @@ void kd_session_add_kinds(struct kd_session *s)
         return;
     for (const struct kd_viewer *v = s->viewers; v; v = v->next)
         if (v->waiting && !v->any && s->latest->number > v->seen && !kd_session_file(v, s->latest)) {
-            add(s, v->lossy);
+            add(s, kind_of(v, s->latest->last));
             return; /* the next encoding is started when this one is done */
         }
 }

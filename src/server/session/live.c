@@ -53,7 +53,7 @@ static void describe_file(struct MHD_Response *response, const struct kd_live_fr
 {
     char text[sizeof frame->timing + 40];
     snprintf(text, sizeof text, file->lossy ? "%s final=%d lossy=%u" : "%s final=%d", frame->quality,
-             frame->final && !file->lossy, file->lossy);
+             frame->final && (!file->lossy || frame->last), file->lossy);
     MHD_add_response_header(response, "Kerrd-Quality", text);
     snprintf(text, sizeof text, "%s, encode;dur=%.3f", frame->timing, file->encode_ms);
     MHD_add_response_header(response, "Server-Timing", text);
@@ -122,7 +122,7 @@ static enum MHD_Result bad_number(struct kd_request *request, const char *detail
 
 enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *find, bool kinds)
 {
-    uint64_t after, wait, lossy = 0, sentences;
+    uint64_t after, wait, lossy = 0, last = 0, sentences;
     enum MHD_Result refused;
     const bool patches = kinds && !strcmp(request->method, "PATCH");
     if (request->viewer)
@@ -133,6 +133,10 @@ enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *f
         (!kd_target_whole(&request->target, "lossy", 0, KD_LOSSY_MAX, &lossy) || !lossy))
         return bad_number(request, "lossy must be a whole number from 1 to 100, the quality of frames before the last; "
                                    "without it all frames are exact");
+    if (kinds && kd_target_value(&request->target, "last") &&
+        (!kd_target_whole(&request->target, "last", 0, KD_LOSSY_MAX, &last) || !last))
+        return bad_number(request, "last must be a whole number from 1 to 100, the quality of the last frame; without "
+                                   "it that frame is exact");
     if (!kd_target_whole(&request->target, "sentences", NO_SENTENCES, KD_SENTENCES_MAX, &sentences))
         return bad_number(request, "sentences must be the Kerrd-Sentences of your last frame; a frame with the same "
                                    "approximations is sent without them");
@@ -162,6 +166,7 @@ enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *f
                                    .deadline_ms = now + (double)wait,
                                    .late = !wait,
                                    .lossy = (unsigned)lossy,
+                                   .last_lossy = (unsigned)last,
                                    .sentences = sentences,
                                    .patched = state.revision };
     request->viewer = viewer;

@@ -121,7 +121,7 @@ void kd_session_pump(struct kd_session *s)
     }
     live->number = ++s->begun;
     live->last = decision.quality.final && !moves;
-    live->job.keeps = !live->last && !s->crowded;
+    live->job.keeps = !s->crowded;
     live->dynamic = s->dynamic;
     kd_dynamic_bodies_keep(live->dynamic);
     s->dynamic_moved = false;

@@ -111,9 +111,11 @@ struct kd_viewer {
     struct kd_session *session; /* a counted reference */
     struct MHD_Connection *mhd;
     int socket;
-    uint64_t seen;  /* number of the newest frame that it has taken */
-    bool any;       /* it reads only the descriptions of frames, so any encoding will do */
-    unsigned lossy; /* quality of lossy frames that it accepts before the final one, 1 to 100; 0: lossless only */
+    uint64_t seen; /* number of the newest frame that it has taken */
+    bool any;      /* it reads only the descriptions of frames, so any encoding will do */
+    /* qualities of lossy frames that it accepts, before the last one and for the last one, 1 to 100; 0: lossless only
+     */
+    unsigned lossy, last_lossy;
     const struct kd_live_file *file; /* the frame's file in the encoding of this viewer; the frame owns the file */
     /* A frame whose encoding was finished only after a newer frame had replaced it; a counted reference. */
     struct kd_live_frame *owed;

@@ -1,0 +1,201 @@
+// A guided fall: captions at places of its way, a tone that is the frequency of starlight from behind, and a film of
+// pictures, captions and tone, which the browser records as they come.
+import { byId, el } from './dom.js';
+import { number, t } from './i18n.js';
+import { offer } from './job.js';
+import { muted } from './struck.js';
+
+export const seconds = 90; // longer if the server makes few pictures a second
+const pitch_hz = 440; // of starlight for an observer far away and at rest
+const loudness = 0.12;
+const glide_s = 0.25;
+const [width, height, rate] = [1280, 720, 30]; // of the film
+const bits = 8e6; // a second
+const last_ms = 3000; // the last caption stays in the film for so long
+const forms = ['video/webm;codecs=vp9,opus', 'video/webm;codecs=vp8,opus', 'video/mp4'];
+
+const form = globalThis.MediaRecorder && forms.find(name => MediaRecorder.isTypeSupported(name));
+export const films = Boolean(form) && Boolean(HTMLCanvasElement.prototype.captureStream);
+
+// The captions, each with the radius below which it is shown; one is a function of the black share of the sky. hole:
+// values of the quantity kerr; way: of infall, where the fall begins.
+export function captions({ isco, photon_prograde: circle, horizon }, { r, end }) {
+  const inner = end > 0;
+  return [
+    [
+      Infinity,
+      t(
+        'You have let go. You fall freely, so you weigh nothing. Only the dark ahead of you grows.',
+        'Ti sei lasciato andare. Cadi liberamente, e perciò non pesi nulla. Cresce soltanto il buio davanti a te.',
+      ),
+    ],
+    [
+      0.75 * r,
+      t(
+        'Starlight from behind reaches you redder, for you run away from it. The tone is its frequency.',
+        'La luce delle stelle alle spalle ti arriva più rossa, perché fuggi da lei. Il suono è la sua frequenza.',
+      ),
+    ],
+    [
+      0.5 * r,
+      t(
+        'The black disk is not the hole itself. It is where no light comes from; at its edge is light that almost stayed.',
+        'Il disco nero non è il buco stesso. È da dove non viene luce; al suo bordo c’è luce che quasi è rimasta.',
+      ),
+    ],
+    [
+      isco,
+      t(
+        `Within ${number(isco, 3)} M no gas can stay in orbit, not even along with the spin. It plunges, as you do.`,
+        `Entro ${number(isco, 3)} M nessun gas può restare in orbita, nemmeno nel verso della rotazione. Precipita, come te.`,
+      ),
+    ],
+    [
+      circle,
+      t(
+        `At ${number(circle, 3)} M light itself can go round the hole in a circle.`,
+        `A ${number(circle, 3)} M la luce stessa può girare in cerchio attorno al buco.`,
+      ),
+    ],
+    [
+      horizon,
+      t(
+        'You have crossed the horizon. You felt nothing, and your clock goes on. But no signal of yours gets out any more.',
+        'Hai attraversato l’orizzonte. Non hai sentito nulla, e il tuo orologio va avanti. Ma nessun tuo segnale esce più.',
+      ),
+    ],
+    [
+      Math.max(0.6 * horizon, (horizon + 2 * end) / 3),
+      part =>
+        t(
+          `You still see the stars: their light falls in after you. ${number(100 * part, 2)} % of the sky is black.`,
+          `Vedi ancora le stelle: la loro luce ti cade dietro. È nero il ${number(100 * part, 2)} % del cielo.`,
+        ),
+    ],
+    [
+      inner ? 1.25 * end : 0.15 * horizon,
+      inner
+        ? t(
+            'Ahead is the inner horizon. Nobody knows what space is like beyond. The model ends here.',
+            'Davanti c’è l’orizzonte interno. Nessuno sa com’è lo spazio più in là. Il modello finisce qui.',
+          )
+        : t(
+            'Ahead is the singularity: not a place but a moment, which you cannot miss. The model ends here.',
+            'Davanti c’è la singolarità: non un luogo ma un momento, che non puoi mancare. Il modello finisce qui.',
+          ),
+    ],
+  ].filter(([below], i) => i === 0 || below < r);
+}
+
+function tone() {
+  const context = new AudioContext(),
+    out = new GainNode(context, { gain: 0 }),
+    voices = [1, 0.5].map(part => new OscillatorNode(context, { frequency: part * pitch_hz }));
+  voices.forEach(
+    (voice, i) => (voice.connect(new GainNode(context, { gain: 1 / (i + 1) })).connect(out), voice.start()),
+  );
+  if (!muted()) out.connect(context.destination);
+  return {
+    stream() {
+      const to = new MediaStreamAudioDestinationNode(context);
+      out.connect(to);
+      return to.stream;
+    },
+    at: share =>
+      voices.forEach((voice, i) =>
+        voice.frequency.setTargetAtTime((pitch_hz * share) / (i + 1), context.currentTime, glide_s),
+      ),
+    loud: yes => out.gain.setTargetAtTime(yes ? loudness : 0, context.currentTime, glide_s),
+    close: () => context.close(),
+  };
+}
+
+// A text in lines that fit.
+function lines(context, text, room) {
+  const all = [''];
+  for (const word of text.split(' ')) {
+    const longer = `${all.at(-1)} ${word}`.trim();
+    context.measureText(longer).width > room ? all.push(word) : (all[all.length - 1] = longer);
+  }
+  return all;
+}
+
+// Draws the picture that is shown, over all of the canvas, and the caption.
+function draw(context, text) {
+  const moving = byId('moving'),
+    picture = moving && !moving.hidden ? moving : byId('picture'),
+    [w, h] = [picture.naturalWidth ?? picture.width, picture.naturalHeight ?? picture.height],
+    scale = Math.max(width / w, height / h);
+  if (w) context.drawImage(picture, (width - scale * w) / 2, (height - scale * h) / 2, scale * w, scale * h);
+  Object.assign(context, { font: '30px system-ui, sans-serif', textAlign: 'center', lineJoin: 'round' });
+  Object.assign(context, { lineWidth: 6, strokeStyle: '#000c', fillStyle: '#fff' });
+  lines(context, text, 0.85 * width)
+    .reverse()
+    .forEach((line, i) => {
+      const at = [line, width / 2, height - 40 - 40 * i];
+      context.strokeText(...at);
+      context.fillText(...at);
+    });
+}
+
+// got: the link by which the file can be saved again. Returns stop(), which saves the film, and drop().
+function film(text, sound, got, ended) {
+  const canvas = el('canvas', { width, height }),
+    context = canvas.getContext('2d', { alpha: false }),
+    stream = canvas.captureStream(rate),
+    parts = [];
+  for (const track of sound.getTracks()) stream.addTrack(track);
+  const recorder = new MediaRecorder(stream, { mimeType: form, videoBitsPerSecond: bits });
+  let wanted = true;
+  (function follow() {
+    draw(context, text());
+    if (recorder.state !== 'inactive' || !parts.length) requestAnimationFrame(follow);
+  })();
+  recorder.addEventListener('dataavailable', ({ data }) => parts.push(data));
+  recorder.addEventListener('stop', () => {
+    for (const track of stream.getTracks()) track.stop();
+    const type = form.split(';')[0];
+    if (wanted) offer(got, new Blob(parts, { type }), `kerrd-fall.${type.split('/')[1]}`);
+    ended();
+  });
+  recorder.start(1000);
+  return {
+    stop: () => recorder.state === 'inactive' || recorder.stop(),
+    drop: () => ((wanted = false), recorder.state === 'inactive' || recorder.stop()),
+  };
+}
+
+// hole, way: as for captions(). records: also makes a film; got: the link to it; ended() is called when it is saved.
+// Returns shown(r, runs), to be called with the radius of each picture and whether it falls; heard(sky), with values
+// of the quantity sky, looking back; over(), at the end of the fall; end(), when the fall is left.
+export function begin({ hole, way, records, got, ended }) {
+  const all = captions(hole, way),
+    words = el('p', { id: 'fall-caption', role: 'status' }),
+    sound = tone();
+  byId('stage').append(words);
+  let timer = 0,
+    black = 0;
+  const kept = records ? film(() => words.textContent, sound.stream(), got, ended) : null;
+  const close = () => (clearTimeout(timer), sound.close(), words.remove());
+  return {
+    shown(r, runs) {
+      const caption = all.findLast(([below]) => r <= below)[1],
+        text = typeof caption === 'function' ? caption(black) : caption;
+      if (words.textContent !== text) words.textContent = text;
+      sound.loud(runs);
+    },
+    heard({ g_behind, dark_share }) {
+      black = dark_share;
+      sound.at(g_behind);
+    },
+    over() {
+      sound.loud(false);
+      if (kept) timer ||= setTimeout(kept.stop, last_ms);
+    },
+    // keep: what has been recorded is saved
+    end(keep) {
+      keep ? kept?.stop() : kept?.drop();
+      close();
+    },
+  };
+}
