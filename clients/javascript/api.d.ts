@@ -3078,6 +3078,15 @@ export interface Problem {
 
 /** A scene in a query, by dotted paths. */
 export interface SceneQuery {
+  /** format of the picture, instead of Accept. */
+  format?: 'png' | 'jpg' | 'webp' | 'npy' | 'npz' | 'fits' | 'exr' | 'stars';
+  /** quality of a jpg or webp; without format the answer is then one of these two; default 90; 1 to 100. */
+  quality?: number;
+  /**
+   * version for which the address was made: if it is this server's, and the scene names no asset, caches may keep
+   * the picture for a year.
+   */
+  v?: string;
   /** version of this document format. */
   version?: 1;
   /**
@@ -7198,12 +7207,1369 @@ export interface Operations {
    */
   'GET /v1/pixel': {
     takes: {
-      query: SceneQuery & {
+      query: {
         /** position X,Y of the pixel, in pixels from the upper left corner. */
         at: string;
         /** steps: the answer has the engine's steps along the middle ray. */
         trace?: 'steps';
         preset?: PresetName;
+        /** version of this document format. */
+        version?: 1;
+        /**
+         * spin parameter a; a < 0: the disk is retrograde to its hole; in M; -0.999999999999 to 0.999999999999; default
+         * 0.7.
+         */
+        'spacetime.spin'?: number;
+        /**
+         * electric charge Q of the hole (Kerr-Newman), which acts on space-time alone: light and matter are neutral; in
+         * M; 0 to 0.999999999999; default 0.
+         */
+        'spacetime.charge'?: number;
+        /**
+         * mass of the hole; sets the temperature when disk.colour is "accretion"; in solar masses; 0.001 to 1e+12;
+         * default 100000000.
+         */
+        'spacetime.mass_msun'?: number;
+        /**
+         * angular diameter distance of the hole; with the mass it determines the width of a picture on the sky, for a
+         * beam and a scale bar; in pc; 0.001 to 100000000000; default 260000.
+         */
+        'spacetime.distance_pc'?: number;
+        /** Boyer-Lindquist radius of the observer; in M; 0.01 to 10000000; default "infinity". */
+        'camera.r'?: 'infinity' | number;
+        /**
+         * polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
+         * default 82.
+         */
+        'camera.inclination_deg'?: number;
+        /**
+         * Boyer-Lindquist azimuth of the observer; for a falling observer the ingoing Kerr-Schild azimuth, which is the
+         * same far away; in degrees; -360 to 360; default 0.
+         */
+        'camera.azimuth_deg'?: number;
+        /**
+         * state of motion at a finite radius; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "static".
+         */
+        'camera.observer'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (observer: velocity); in c; -1
+         * to 1; default 0.
+         */
+        'camera.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (observer:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'camera.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (observer:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'camera.velocity_phi'?: number;
+        /**
+         * radius at which the observer's fall begins, at rest except for its angular momentum (observer: infall); in M;
+         * 1 to 10000000; default "infinity".
+         */
+        'camera.infall_from'?: 'infinity' | number;
+        /**
+         * energy per mass of the falling observer; rest: the energy that follows from infall_from (observer: infall);
+         * -100 to 1000; default "rest".
+         */
+        'camera.infall_energy'?: 'rest' | number;
+        /**
+         * angular momentum per mass of the falling observer, which moves in r and azimuth but not in latitude
+         * (observer: infall); in M; -10000 to 10000; default 0.
+         */
+        'camera.infall_momentum'?: number;
+        /**
+         * plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: angle round
+         * the critical curve by the logarithm of the distance to it, at infinity only; equirectangular: all directions
+         * from a finite radius, longitude to the right and latitude upwards; fulldome: the angle from the middle as
+         * distance, 90 degrees at the nearer edges, from a finite radius; auto: plane at infinity, otherwise pinhole;
+         * default "auto".
+         */
+        'camera.projection'?: 'auto' | 'plane' | 'pinhole' | 'ring' | 'equirectangular' | 'fulldome';
+        /** width of the image plane (plane projection); in M; 1e-06 to 10000000; default 46. */
+        'camera.field_m'?: number;
+        /**
+         * width of the image plane on the sky, at spacetime.mass_msun and spacetime.distance_pc; it sets
+         * camera.field_m; none: camera.field_m is used; in microarcseconds; 1e-12 to 1e+12; default "none".
+         */
+        'camera.field_uas'?: 'none' | number;
+        /** horizontal field of view (pinhole projection); in degrees; 1e-06 to 179; default 50. */
+        'camera.fov_deg'?: number;
+        /** image-plane alpha at the middle of the picture (plane); in M; -10000000 to 10000000; default 0. */
+        'camera.centre_alpha'?: number;
+        /** image-plane beta at the middle of the picture (plane); in M; -10000000 to 10000000; default 0. */
+        'camera.centre_beta'?: number;
+        /** look to the right of the hole (from a finite radius); in degrees; -180 to 180; default 0. */
+        'camera.yaw_deg'?: number;
+        /** look above the hole (from a finite radius); in degrees; -90 to 90; default 0. */
+        'camera.pitch_deg'?: number;
+        /**
+         * turn the camera clockwise about its axis; ring: the angle in the middle of the picture, 0 at alpha > 0,
+         * rising to the right; in degrees; -360 to 360; default 0.
+         */
+        'camera.roll_deg'?: number;
+        /**
+         * pair: two pictures side by side, the left eye's on the left, each image.width wide and in pinhole projection;
+         * none: one eye; default "none".
+         */
+        'camera.stereo'?: 'none' | 'pair';
+        /**
+         * distance between the eyes, perpendicular to the viewing direction (stereo: pair); in M; 1e-06 to 1000000;
+         * default 0.5.
+         */
+        'camera.eye_distance'?: number;
+        /**
+         * log10 of the distance to the critical curve, in units of its radius, at the upper and the lower edge (ring);
+         * in decades; -12 to 0; default 0.
+         */
+        'camera.ring_decades_max'?: number;
+        /**
+         * log10 of that distance at the middle line; rays above the line pass outside the curve, rays below it inside
+         * (ring); in decades; -13 to -1; default -10.
+         */
+        'camera.ring_decades_min'?: number;
+        /**
+         * radial flux: none; the exact Page-Thorne integral; the Newtonian thin disk cut at the ISCO; or particles: the
+         * exact flux, as orbiting particles; default "novikov-thorne".
+         */
+        'disk.model'?: 'none' | 'novikov-thorne' | 'shakura-sunyaev' | 'particles';
+        /** inner edge; at least the ISCO; in M; 1 to 1000000; default "isco". */
+        'disk.inner'?: 'isco' | number;
+        /** outer edge; larger than the inner one; in M; 1 to 1000000; default 22. */
+        'disk.outer'?: number;
+        /** outer fraction of the radius over which the disk fades out; 0: a sharp edge; 0 to 1; default 0.7. */
+        'disk.taper'?: number;
+        /** opacity of one crossing; 1 is optically thick; 0 to 1; default 1. */
+        'disk.opacity'?: number;
+        /**
+         * optical depth along the normal where the disk is brightest; elsewhere it is proportional to the flux. A
+         * crossing has the opacity 1 - exp(-depth/cos) times disk.opacity, with the angle of emission in the gas's
+         * frame; 0: the same opacity everywhere; 0 to 1000000; default 10.
+         */
+        'disk.emission_opacity'?: number;
+        /**
+         * height of the gas over its distance from the axis, at 10 M, where height is that at which the density has
+         * fallen to exp(-1/2); the optical depth from top to bottom is that of the thin disk; 0: a thin disk; 0 to 0.5;
+         * default 0.
+         */
+        'disk.height'?: number;
+        /**
+         * exponent: height over distance grows as the distance from the axis to this power; -0.5 to 0.5; default 0.
+         */
+        'disk.flare'?: number;
+        /**
+         * temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd; default "peak".
+         */
+        'disk.colour'?: 'peak' | 'accretion';
+        /**
+         * largest effective temperature of the disk, in its own frame (colour: peak); in K; 300 to 1000000000; default
+         * 3600.
+         */
+        'disk.peak_temperature_k'?: number;
+        /**
+         * accretion rate: luminosity over the Eddington luminosity, with the efficiency for this spin; in Eddington
+         * rates; 1e-12 to 1000; default 0.1.
+         */
+        'disk.mdot_edd'?: number;
+        /** colour temperature over effective temperature; 1 to 3; default 1. */
+        'disk.hardening'?: number;
+        /**
+         * light of the thin disk's surface by mu, the cosine of the angle to its normal in the gas's frame: isotropic;
+         * laor, as 1 + 2.06 mu; scattering, that of a deep atmosphere of free electrons, whose polarisation
+         * polarization.model "scattering" has; each radiates the disk's flux; default "isotropic".
+         */
+        'disk.atmosphere'?: 'isotropic' | 'laor' | 'scattering';
+        /**
+         * brightness: bolometric, g^4 F; or visible, the luminance that the eye perceives of the Planck spectrum;
+         * default "bolometric".
+         */
+        'disk.band'?: 'bolometric' | 'visible';
+        /** include the Doppler shift and beaming of the orbiting gas; default true. */
+        'disk.doppler'?: boolean;
+        /** include the gravitational redshift and time dilation of the orbiting gas; default true. */
+        'disk.redshift'?: boolean;
+        /** number of particles (model: particles); 1000 to 10000000; default 300000. */
+        'disk.particles'?: number;
+        /**
+         * seed of the random numbers: another seed gives other particles (model: particles); 0 to 2147483647; default
+         * 1.
+         */
+        'disk.seed'?: number;
+        /**
+         * the number of particles per area falls as r to minus this power; with 2 each octave of r has as many (model:
+         * particles); 0 to 4; default 2.
+         */
+        'disk.density_index'?: number;
+        /**
+         * share of the particles that fall from the ISCO, with its energy and angular momentum; none fall unless
+         * disk.inner is "isco" (model: particles); 0 to 0.5; default 0.02.
+         */
+        'disk.plunging'?: number;
+        /**
+         * temperature of the plunging gas over the disk's largest temperature; 0: it is invisible (model: particles); 0
+         * to 1; default 0.7.
+         */
+        'disk.plunging_temperature'?: number;
+        /**
+         * largest amplitude of oscillations: in latitude, in radians; in r over r, times (kappa/Omega)^2, which
+         * vanishes at the ISCO (model: particles); 0 to 0.2; default 0.02.
+         */
+        'disk.epicycles'?: number;
+        /**
+         * show particles, gas and spots at the time when the light of each ray left them, instead of at one coordinate
+         * time; default false.
+         */
+        'disk.slow_light'?: boolean;
+        /**
+         * turbulence: standard deviation of the logarithm of the flux, and of the optical depth; 0: a smooth disk; 0 to
+         * 3; default 0.8.
+         */
+        'disk.gas.amplitude'?: number;
+        /** number of scales of the turbulence; each scale is about half the one before; 1 to 8; default 6. */
+        'disk.gas.octaves'?: number;
+        /** size of the largest eddies over r, before shear stretches them; 0.02 to 2; default 0.4. */
+        'disk.gas.scale'?: number;
+        /**
+         * azimuth by which streaks trail, in radians for each unit of ln r; streaks are 1 + shear^2 times as long as
+         * wide; below 0 they lead; -20 to 20; default 5.
+         */
+        'disk.gas.shear'?: number;
+        /** seed of the random numbers: another seed gives other gas; 0 to 2147483647; default 1. */
+        'disk.gas.seed'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.0.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.0.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.0.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.0.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.0.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.0.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.1.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.1.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.1.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.1.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.1.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.1.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.2.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.2.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.2.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.2.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.2.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.2.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.3.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.3.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.3.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.3.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.3.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.3.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.4.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.4.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.4.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.4.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.4.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.4.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.5.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.5.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.5.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.5.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.5.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.5.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.6.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.6.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.6.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.6.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.6.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.6.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.7.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.7.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.7.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.7.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.7.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.7.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.8.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.8.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.8.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.8.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.8.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.8.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.9.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.9.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.9.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.9.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.9.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.9.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.10.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.10.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.10.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.10.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.10.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.10.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.11.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.11.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.11.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.11.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.11.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.11.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.12.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.12.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.12.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.12.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.12.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.12.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.13.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.13.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.13.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.13.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.13.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.13.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.14.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.14.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.14.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.14.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.14.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.14.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.15.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.15.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.15.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.15.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.15.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.15.temperature_k'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.0.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.0.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.0.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.0.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.0.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.0.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.0.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.0.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.0.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.0.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.0.limb_darkening'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.1.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.1.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.1.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.1.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.1.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.1.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.1.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.1.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.1.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.1.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.1.limb_darkening'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.2.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.2.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.2.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.2.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.2.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.2.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.2.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.2.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.2.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.2.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.2.limb_darkening'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.3.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.3.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.3.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.3.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.3.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.3.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.3.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.3.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.3.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.3.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.3.limb_darkening'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.4.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.4.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.4.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.4.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.4.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.4.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.4.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.4.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.4.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.4.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.4.limb_darkening'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.5.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.5.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.5.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.5.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.5.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.5.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.5.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.5.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.5.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.5.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.5.limb_darkening'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.6.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.6.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.6.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.6.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.6.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.6.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.6.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.6.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.6.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.6.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.6.limb_darkening'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.7.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.7.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.7.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.7.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.7.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.7.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.7.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.7.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.7.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.7.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.7.limb_darkening'?: number;
+        /**
+         * matter along the rays. none; uniform: a homogeneous shell at rest. At one radio frequency: gold, the analytic
+         * model of Gold et al. 2020; riaf, a hot, thin flow whose density, temperature and magnetic field are powers of
+         * r; torus, a thick disk in equilibrium; grid, numbers from a file; default "none".
+         */
+        'volume.model'?: 'none' | 'uniform' | 'gold' | 'riaf' | 'torus' | 'grid';
+        /**
+         * inner edge; horizon: as close to it as possible, which is 1 % outside it, or 0.05 % for the models at a radio
+         * frequency; for a torus half of volume.torus_radius; in M; 1 to 30000; default "horizon".
+         */
+        'volume.inner'?: 'horizon' | number;
+        /** outer edge of the matter; larger than the inner edge; in M; 1 to 30000; default 20. */
+        'volume.outer'?: number;
+        /**
+         * light emitted along 1 M in the matter's frame, in units of the disk's brightest (model: uniform); in 1/M; 0
+         * to 1e+30; default 0.02.
+         */
+        'volume.emissivity'?: number;
+        /** optical depth of 1 M in the matter's frame (model: uniform); in 1/M; 0 to 1e+30; default 0.02. */
+        'volume.opacity'?: number;
+        /**
+         * colour: that of a black body of this temperature, shifted by g (model: uniform); in K; 300 to 1000000000;
+         * default 6500.
+         */
+        'volume.temperature_k'?: number;
+        /** include the frequency shift of the matter (model: uniform); default true. */
+        'volume.redshift'?: boolean;
+        /** observed frequency (models: gold, riaf, torus, grid); in GHz; 1e-06 to 1e+12; default 230. */
+        'volume.frequency_ghz'?: number;
+        /**
+         * NPZ file with density, temperature, velocity and magnetic field of the electrons on a grid of r, theta and
+         * phi (model: grid); without it there is no matter; default null.
+         */
+        'volume.grid'?: null | string;
+        /**
+         * factor on the file's density; the magnetic field is multiplied by the square root of it (model: grid); 0 to
+         * 1e+30; default 1.
+         */
+        'volume.grid_scale'?: number;
+        /**
+         * C n0: emissivity at 230 GHz at the largest density (model: gold); in erg/(s cm^3 Hz sr); 0 to 1e+30; default
+         * 3e-18.
+         */
+        'volume.gold_emission'?: number;
+        /**
+         * alpha: emissivity goes as nu^-alpha, absorptivity as nu^-(2.5 + alpha) (model: gold); -10 to 10; default 0.
+         */
+        'volume.gold_index'?: number;
+        /** h: density goes as exp(-(h cos(theta))^2/2); 0: round (model: gold); 0 to 10000; default 0. */
+        'volume.gold_flattening'?: number;
+        /**
+         * l0: angular momentum over energy is l0 R^(3/2)/(1 + R) with R = r sin(theta); 0: zero angular momentum
+         * (model: gold); -1 to 1; default 0.
+         */
+        'volume.gold_momentum'?: number;
+        /**
+         * A: absorptivity in 1/cm over emissivity in erg/(s cm^3 Hz sr), at 230 GHz (model: gold); 0 to 1e+30; default
+         * 0.
+         */
+        'volume.gold_absorption'?: number;
+        /**
+         * electron density: at r = 1 M in the equatorial plane, by its power law (model: riaf); its maximum (model:
+         * torus); in 1/cm^3; 0 to 1e+30; default 30000000.
+         */
+        'volume.density_cm3'?: number;
+        /** p: density is proportional to r^-p (model: riaf); -10 to 10; default 1.1. */
+        'volume.density_index'?: number;
+        /** electron temperature at r = 1 M (model: riaf); in K; 1 to 1e+30; default 300000000000. */
+        'volume.electron_temperature_k'?: number;
+        /** p: electron temperature is proportional to r^-p (model: riaf); -10 to 10; default 0.84. */
+        'volume.temperature_index'?: number;
+        /**
+         * height over the distance from the axis at which the density has fallen to exp(-1/2); 0: the density does not
+         * depend on height (model: riaf); 0 to 10; default 0.1.
+         */
+        'volume.height'?: number;
+        /**
+         * magnetic pressure over the rest energy of a proton per electron, at r = 1 M (model: riaf); 0 to 1e+12;
+         * default 0.016666666666666666.
+         */
+        'volume.magnetisation'?: number;
+        /** p: magnetisation is proportional to r^-p (model: riaf); -10 to 10; default 1. */
+        'volume.magnetisation_index'?: number;
+        /**
+         * direction of the magnetic field: round the axis, along it, or radial; its part along the motion is removed
+         * (models: riaf, torus); default "toroidal".
+         */
+        'volume.field'?: 'toroidal' | 'vertical' | 'radial';
+        /**
+         * motion: with the angular velocity of the circular orbit at each r, and in free fall inside the ISCO; or at
+         * rest for observers of zero angular momentum (model: riaf); default "orbits".
+         */
+        'volume.flow'?: 'orbits' | 'rest';
+        /**
+         * energy distribution of the electrons (models: riaf, torus, grid); kappa: thermal with a power-law tail;
+         * default "thermal".
+         */
+        'volume.electrons'?: 'thermal' | 'power-law' | 'kappa';
+        /** p: the number of electrons is proportional to gamma^-p (electrons: power-law); 1.1 to 10; default 3.5. */
+        'volume.electrons_index'?: number;
+        /**
+         * kappa: at high energies the number of electrons is proportional to gamma^(1 - kappa) (electrons: kappa); 3.1
+         * to 7.5; default 4.
+         */
+        'volume.kappa'?: number;
+        /**
+         * radius of the largest pressure; the inner edge is volume.inner (model: torus); in M; 1 to 1000; default 12.
+         */
+        'volume.torus_radius'?: number;
+        /** adiabatic index of the gas (model: torus); 1.1 to 2; default 1.4444444444444444. */
+        'volume.adiabatic_index'?: number;
+        /** ion temperature over electron temperature (model: torus); 0 to 1000000; default 3. */
+        'volume.temperature_ratio'?: number;
+        /** gas pressure over magnetic pressure (model: torus); 1e-06 to 1e+12; default 10. */
+        'volume.beta'?: number;
+        /** smallest Lorentz factor of the electrons (electrons: power-law); 1 to 1000000000; default 30. */
+        'volume.gamma_min'?: number;
+        /**
+         * largest Lorentz factor of the electrons; above gamma_min (electrons: power-law); 1 to 1e+12; default 100000.
+         */
+        'volume.gamma_max'?: number;
+        /**
+         * flux of the picture: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a number that
+         * it determines with small pictures, and reports this number; 0: no change (models: gold, riaf, torus, grid);
+         * in Jy; 0 to 1e+12; default 0.
+         */
+        'volume.normalise_to_jy'?: number;
+        /** frequency of that flux; observed: volume.frequency_ghz; in GHz; 1e-06 to 1e+12; default "observed". */
+        'volume.normalise_ghz'?: 'observed' | number;
+        /**
+         * light emitted along 1 M in the jet's frame, extrapolated to the inner edge, where it begins smoothly, in
+         * units of the disk's brightest; 0: no jets; in 1/M; 0 to 1000000000; default 0.
+         */
+        'jets.brightness'?: number;
+        /** half of the cone's opening angle; in degrees; 1 to 60; default 8. */
+        'jets.opening_deg'?: number;
+        /** Lorentz factor of the outflow; 1 to 100; default 2. */
+        'jets.lorentz'?: number;
+        /**
+         * radius at which the light begins, at least 1.05 times that of the horizon; in M; 1 to 1000000; default 4.
+         */
+        'jets.inner'?: number;
+        /** radius at which the light ends; larger than the inner edge; in M; 1 to 1000000; default 60. */
+        'jets.outer'?: number;
+        /** p: light along the jet is proportional to r^-p; -10 to 10; default 1.5. */
+        'jets.falloff'?: number;
+        /** brightness across the jet: 0, a bright spine; 1, bright edges; 0 to 1; default 0.5. */
+        'jets.sheath'?: number;
+        /** brightness is proportional to the frequency shift to the power of 2 plus this; -10 to 10; default 0.7. */
+        'jets.spectral_index'?: number;
+        /** colour of a black body of this temperature, not shifted; in K; 300 to 1000000000; default 14000. */
+        'jets.temperature_k'?: number;
+        /** include the jet below the disk; default true. */
+        'jets.counterjet'?: boolean;
+        /**
+         * polarisation. none. Of light from the disk's plane: synchrotron, perpendicular to polarization.field and the
+         * ray in the gas's frame; scattering, in a deep atmosphere of free electrons, perpendicular to the normal and
+         * the ray. transfer: of a volume at a radio frequency, Stokes I, Q, U and V along the rays; default "none".
+         */
+        'polarization.model'?: 'none' | 'synchrotron' | 'scattering' | 'transfer';
+        /**
+         * direction of the magnetic field in the plane: round the axis, outwards, or along the normal (model:
+         * synchrotron); default "toroidal".
+         */
+        'polarization.field'?: 'toroidal' | 'radial' | 'vertical';
+        /**
+         * p: the number of electrons is proportional to E^-p; an ordered field polarises their light by (p + 1)/(p +
+         * 7/3) (model: synchrotron); 1 to 10; default 3.
+         */
+        'polarization.electron_index'?: number;
+        /** factor on that polarisation for a field that is disordered within a pixel; 0 to 1; default 1. */
+        'polarization.order'?: number;
+        /**
+         * include Faraday rotation, and conversion between linear and circular polarisation, by the electrons (model:
+         * transfer); default true.
+         */
+        'polarization.faraday'?: boolean;
+        /**
+         * fit of the Faraday rotation by thermal electrons: Shcherbakov 2008, or Dexter 2016 in the form of Huang and
+         * Shcherbakov 2011 (model: transfer); default "shcherbakov".
+         */
+        'polarization.rotation'?: 'shcherbakov' | 'dexter';
+        /**
+         * sky at infinity: none; a celestial grid that shows the lensing; generated stars and a generated Milky Way;
+         * the stars of the Hipparcos catalogue over that Milky Way; or sky.image without stars; default "none".
+         */
+        'sky.model'?: 'none' | 'grid' | 'stars' | 'catalogue' | 'image';
+        /**
+         * brightness of the sky in units of the disk's brightest surface brightness at g = 1: that of the grid, or of
+         * 21 magnitudes per square arcsecond for stars and the Milky Way, whose ratio is real; auto: 0.2, or 0.01 for
+         * stars and the Milky Way behind something that shines; 0 to 100; default "auto".
+         */
+        'sky.brightness'?: 'auto' | number;
+        /** spacing of the celestial grid; in degrees; 1 to 90; default 15. */
+        'sky.grid_deg'?: number;
+        /** factor on the natural brightness of the Milky Way or of sky.image; 0: only stars; 0 to 100; default 1. */
+        'sky.milky_way'?: number;
+        /**
+         * picture of the whole sky instead of the generated Milky Way (model: stars, catalogue, image): twice as wide
+         * as high, with galactic longitude 0 in the middle and rising to the left, latitude rising upwards; its white
+         * is 21 magnitudes per square arcsecond; default null.
+         */
+        'sky.image'?: null | string;
+        /** magnitude of the faintest stars; in magnitudes; -2 to 14; default 14. */
+        'sky.limit_mag'?: number;
+        /** seed of the random numbers: another seed gives another generated sky; 0 to 2147483647; default 1. */
+        'sky.seed'?: number;
+        /**
+         * galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra,
+         * m87: seen from azimuth 0 the hole is in front of that source as seen from the Earth, with the galactic or the
+         * celestial pole above; default "galactic".
+         */
+        'sky.orientation'?: 'galactic' | 'equatorial' | 'sgra' | 'm87';
+        /**
+         * rotation of the sky about the hole's axis, in the sense of camera.azimuth_deg; in degrees; -360 to 360;
+         * default 0.
+         */
+        'sky.turn_deg'?: number;
+        /**
+         * a second rotation of the sky, about the horizontal axis of the picture from azimuth 0; in degrees; -180 to
+         * 180; default 0.
+         */
+        'sky.tilt_deg'?: number;
+        /** width of the picture; in pixels; 1 to 32768; default 1280. */
+        'image.width'?: number;
+        /** height of the picture; in pixels; 1 to 32768; default 720. */
+        'image.height'?: number;
+        /**
+         * rays along each side of a pixel: n gives the mean of n x n rays; auto: one ray, and 16 for pixels that differ
+         * from their neighbours; 1 to 8; default 1.
+         */
+        'image.samples'?: 'auto' | number;
+        /**
+         * apparent error of a pixel of one ray, as a fraction of white, above which it gets more rays (samples: auto);
+         * 0.001 to 0.5; default 0.003.
+         */
+        'image.pixel_error'?: number;
+        /**
+         * factor on the rays along each side of pixels at the critical curve, where the photon ring is thinner than a
+         * pixel; at most 16 rays a side in all; 1 to 16; default 4.
+         */
+        'image.critical_factor'?: number;
+        /** bits a channel: 8 or 16; in bits; 8 to 16; default 8. */
+        'image.bit_depth'?: number;
+        /**
+         * contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing on the disk,
+         * or with the suffix _N for image order N; a PNG shows one map in false colour, FITS, EXR, NPZ and NPY have
+         * several as numbers; up to 16; default ["rgb"].
+         */
+        'image.layers'?: string[];
+        /**
+         * value at the lower end of a layer's colour scale; auto: docs/layers.md gives it for each layer; -1e+12 to
+         * 1e+12; default "auto".
+         */
+        'image.layer_min'?: 'auto' | number;
+        /**
+         * value at the upper end of a layer's colour scale; auto: docs/layers.md gives it for each layer; -1e+12 to
+         * 1e+12; default "auto".
+         */
+        'image.layer_max'?: 'auto' | number;
+        /** draw a colour bar in the lower left corner of a layer in false colour; default true. */
+        'image.legend'?: boolean;
+        /** columns of the picture to the left of the tile; in pixels; 0 to 32767; default 0. */
+        'image.tile.left'?: number;
+        /** rows of the picture above the tile; in pixels; 0 to 32767; default 0. */
+        'image.tile.top'?: number;
+        /** width of the tile; 0: no tile, the whole picture is rendered; in pixels; 0 to 32768; default 0. */
+        'image.tile.width'?: number;
+        /** height of the tile; 0: no tile, the whole picture is rendered; in pixels; 0 to 32768; default 0. */
+        'image.tile.height'?: number;
+        /** style that sets all fields of the look, except those in the document; none: no style; default "film". */
+        'style.name'?: 'none' | 'film' | 'raw' | 'dngr' | 'eht' | 'starless';
+        /**
+         * exposure as a power of two, relative to the disk's brightest surface brightness at g = 1; auto: from the
+         * light in the picture, limited for stars alone so that empty space is black; in stops; -40 to 40; default
+         * "auto".
+         */
+        'style.exposure'?: 'auto' | number;
+        /**
+         * aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours and compresses what is
+         * near white; default "aces".
+         */
+        'style.tone_map'?: 'aces' | 'srgb' | 'neutral';
+        /**
+         * share of bright light that the lens spreads around its place: all light over 0.6 of white, with a smooth
+         * transition from 0.2 on; 0: none; 0 to 1; default 0.4.
+         */
+        'style.bloom'?: number;
+        /**
+         * full width at half maximum of a round Gaussian telescope beam, seen from spacetime.distance_pc; 0: none; in
+         * microarcseconds; 0 to 1e+12; default 0.
+         */
+        'style.beam_uas'?: number;
+        /**
+         * colour: that of the light; heat: brightness in false colour (black, red, orange, white), with lightness
+         * proportional to it; default "colour".
+         */
+        'style.palette'?: 'colour' | 'heat';
+        /**
+         * draw a brightness bar in the lower left corner (palette: heat; tone_map: srgb), and in the upper right corner
+         * an angular scale and the shape of the beam; default false.
+         */
+        'style.colour_bar'?: boolean;
+        /** add half a step of ordered noise before rounding, against banding; default true. */
+        'style.dither'?: boolean;
+        /**
+         * illustration of a struck hole: light of image orders 1 and up is multiplied by 1 + ringdown e^(-t/tau) cos(w
+         * t), with the hole's quasi-normal mode l = m = 2, n = 0; 0: none; 0 to 1; default 0.
+         */
+        'style.ringdown'?: number;
+        /** time at which the hole was struck, and the ringing begins; in M; -1e+12 to 1e+12; default 0. */
+        'style.ringdown_time'?: number;
+        /** the source on the sky that the hole represents; default "none". */
+        'source.name'?: 'none' | 'm87' | 'sgra';
+        /** right ascension of the hole (ICRS); in degrees; 0 to 360; default 0. */
+        'source.ra_deg'?: number;
+        /** declination of the hole (ICRS); in degrees; -90 to 90; default 0. */
+        'source.dec_deg'?: number;
+        /** date of the picture, as a modified Julian date; in days; 0 to 1000000; default "none". */
+        'source.mjd'?: 'none' | number;
+        /** rate at which the observer goes round the axis; in degrees per second; -360 to 360; default 0. */
+        'motion.azimuth_rate_deg'?: number;
+        /** rate of coordinate time; in M per second; -1000000 to 1000000; default 0. */
+        'motion.time_rate'?: number;
+        /**
+         * rate of the observer's proper time: the observer falls, to the last possible position, or orbits; coordinate
+         * time follows; in M per second; 0 to 1000000; default 0.
+         */
+        'motion.proper_time_rate'?: number;
+        /**
+         * accuracy with which rays are traced, from coarse to fine; reference: double precision; default "balanced".
+         */
+        'accuracy.profile'?: 'draft' | 'interactive' | 'balanced' | 'high' | 'reference';
+        /**
+         * largest relative error of the crossing radii, by the accuracy table of the device; profile: the error of
+         * accuracy.profile; 1e-18 to 0.1; default "profile".
+         */
+        'accuracy.tolerance'?: 'profile' | number;
+        /**
+         * method that traces the rays; auto: the closed form outside the photon orbits, otherwise mino-rkn6; default
+         * "auto".
+         */
+        'accuracy.engine'?: 'auto' | 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
+        /** precision of the arithmetic; auto: chosen by accuracy.profile; default "auto". */
+        'accuracy.precision'?: 'auto' | 'f32' | 'f64';
+        /** integrator steps for a half turn, a multiple of 4; 0: chosen by accuracy.profile; 0 to 2048; default 0. */
+        'accuracy.steps'?: number;
+        /** equatorial crossings kept for each ray: image orders 0 to n - 1; 1 to 8; default 3. */
+        'accuracy.orders'?: number;
+        /** coordinate time of the picture; in M; -1e+12 to 1e+12; default 0. */
+        time?: number;
       };
     };
     gives: {
@@ -7233,8 +8599,1365 @@ export interface Operations {
   /** A short address of a scene, for sharing. */
   'GET /v1/share': {
     takes: {
-      query?: SceneQuery & {
+      query?: {
         preset?: PresetName;
+        /** version of this document format. */
+        version?: 1;
+        /**
+         * spin parameter a; a < 0: the disk is retrograde to its hole; in M; -0.999999999999 to 0.999999999999; default
+         * 0.7.
+         */
+        'spacetime.spin'?: number;
+        /**
+         * electric charge Q of the hole (Kerr-Newman), which acts on space-time alone: light and matter are neutral; in
+         * M; 0 to 0.999999999999; default 0.
+         */
+        'spacetime.charge'?: number;
+        /**
+         * mass of the hole; sets the temperature when disk.colour is "accretion"; in solar masses; 0.001 to 1e+12;
+         * default 100000000.
+         */
+        'spacetime.mass_msun'?: number;
+        /**
+         * angular diameter distance of the hole; with the mass it determines the width of a picture on the sky, for a
+         * beam and a scale bar; in pc; 0.001 to 100000000000; default 260000.
+         */
+        'spacetime.distance_pc'?: number;
+        /** Boyer-Lindquist radius of the observer; in M; 0.01 to 10000000; default "infinity". */
+        'camera.r'?: 'infinity' | number;
+        /**
+         * polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
+         * default 82.
+         */
+        'camera.inclination_deg'?: number;
+        /**
+         * Boyer-Lindquist azimuth of the observer; for a falling observer the ingoing Kerr-Schild azimuth, which is the
+         * same far away; in degrees; -360 to 360; default 0.
+         */
+        'camera.azimuth_deg'?: number;
+        /**
+         * state of motion at a finite radius; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "static".
+         */
+        'camera.observer'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (observer: velocity); in c; -1
+         * to 1; default 0.
+         */
+        'camera.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (observer:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'camera.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (observer:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'camera.velocity_phi'?: number;
+        /**
+         * radius at which the observer's fall begins, at rest except for its angular momentum (observer: infall); in M;
+         * 1 to 10000000; default "infinity".
+         */
+        'camera.infall_from'?: 'infinity' | number;
+        /**
+         * energy per mass of the falling observer; rest: the energy that follows from infall_from (observer: infall);
+         * -100 to 1000; default "rest".
+         */
+        'camera.infall_energy'?: 'rest' | number;
+        /**
+         * angular momentum per mass of the falling observer, which moves in r and azimuth but not in latitude
+         * (observer: infall); in M; -10000 to 10000; default 0.
+         */
+        'camera.infall_momentum'?: number;
+        /**
+         * plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: angle round
+         * the critical curve by the logarithm of the distance to it, at infinity only; equirectangular: all directions
+         * from a finite radius, longitude to the right and latitude upwards; fulldome: the angle from the middle as
+         * distance, 90 degrees at the nearer edges, from a finite radius; auto: plane at infinity, otherwise pinhole;
+         * default "auto".
+         */
+        'camera.projection'?: 'auto' | 'plane' | 'pinhole' | 'ring' | 'equirectangular' | 'fulldome';
+        /** width of the image plane (plane projection); in M; 1e-06 to 10000000; default 46. */
+        'camera.field_m'?: number;
+        /**
+         * width of the image plane on the sky, at spacetime.mass_msun and spacetime.distance_pc; it sets
+         * camera.field_m; none: camera.field_m is used; in microarcseconds; 1e-12 to 1e+12; default "none".
+         */
+        'camera.field_uas'?: 'none' | number;
+        /** horizontal field of view (pinhole projection); in degrees; 1e-06 to 179; default 50. */
+        'camera.fov_deg'?: number;
+        /** image-plane alpha at the middle of the picture (plane); in M; -10000000 to 10000000; default 0. */
+        'camera.centre_alpha'?: number;
+        /** image-plane beta at the middle of the picture (plane); in M; -10000000 to 10000000; default 0. */
+        'camera.centre_beta'?: number;
+        /** look to the right of the hole (from a finite radius); in degrees; -180 to 180; default 0. */
+        'camera.yaw_deg'?: number;
+        /** look above the hole (from a finite radius); in degrees; -90 to 90; default 0. */
+        'camera.pitch_deg'?: number;
+        /**
+         * turn the camera clockwise about its axis; ring: the angle in the middle of the picture, 0 at alpha > 0,
+         * rising to the right; in degrees; -360 to 360; default 0.
+         */
+        'camera.roll_deg'?: number;
+        /**
+         * pair: two pictures side by side, the left eye's on the left, each image.width wide and in pinhole projection;
+         * none: one eye; default "none".
+         */
+        'camera.stereo'?: 'none' | 'pair';
+        /**
+         * distance between the eyes, perpendicular to the viewing direction (stereo: pair); in M; 1e-06 to 1000000;
+         * default 0.5.
+         */
+        'camera.eye_distance'?: number;
+        /**
+         * log10 of the distance to the critical curve, in units of its radius, at the upper and the lower edge (ring);
+         * in decades; -12 to 0; default 0.
+         */
+        'camera.ring_decades_max'?: number;
+        /**
+         * log10 of that distance at the middle line; rays above the line pass outside the curve, rays below it inside
+         * (ring); in decades; -13 to -1; default -10.
+         */
+        'camera.ring_decades_min'?: number;
+        /**
+         * radial flux: none; the exact Page-Thorne integral; the Newtonian thin disk cut at the ISCO; or particles: the
+         * exact flux, as orbiting particles; default "novikov-thorne".
+         */
+        'disk.model'?: 'none' | 'novikov-thorne' | 'shakura-sunyaev' | 'particles';
+        /** inner edge; at least the ISCO; in M; 1 to 1000000; default "isco". */
+        'disk.inner'?: 'isco' | number;
+        /** outer edge; larger than the inner one; in M; 1 to 1000000; default 22. */
+        'disk.outer'?: number;
+        /** outer fraction of the radius over which the disk fades out; 0: a sharp edge; 0 to 1; default 0.7. */
+        'disk.taper'?: number;
+        /** opacity of one crossing; 1 is optically thick; 0 to 1; default 1. */
+        'disk.opacity'?: number;
+        /**
+         * optical depth along the normal where the disk is brightest; elsewhere it is proportional to the flux. A
+         * crossing has the opacity 1 - exp(-depth/cos) times disk.opacity, with the angle of emission in the gas's
+         * frame; 0: the same opacity everywhere; 0 to 1000000; default 10.
+         */
+        'disk.emission_opacity'?: number;
+        /**
+         * height of the gas over its distance from the axis, at 10 M, where height is that at which the density has
+         * fallen to exp(-1/2); the optical depth from top to bottom is that of the thin disk; 0: a thin disk; 0 to 0.5;
+         * default 0.
+         */
+        'disk.height'?: number;
+        /**
+         * exponent: height over distance grows as the distance from the axis to this power; -0.5 to 0.5; default 0.
+         */
+        'disk.flare'?: number;
+        /**
+         * temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd; default "peak".
+         */
+        'disk.colour'?: 'peak' | 'accretion';
+        /**
+         * largest effective temperature of the disk, in its own frame (colour: peak); in K; 300 to 1000000000; default
+         * 3600.
+         */
+        'disk.peak_temperature_k'?: number;
+        /**
+         * accretion rate: luminosity over the Eddington luminosity, with the efficiency for this spin; in Eddington
+         * rates; 1e-12 to 1000; default 0.1.
+         */
+        'disk.mdot_edd'?: number;
+        /** colour temperature over effective temperature; 1 to 3; default 1. */
+        'disk.hardening'?: number;
+        /**
+         * light of the thin disk's surface by mu, the cosine of the angle to its normal in the gas's frame: isotropic;
+         * laor, as 1 + 2.06 mu; scattering, that of a deep atmosphere of free electrons, whose polarisation
+         * polarization.model "scattering" has; each radiates the disk's flux; default "isotropic".
+         */
+        'disk.atmosphere'?: 'isotropic' | 'laor' | 'scattering';
+        /**
+         * brightness: bolometric, g^4 F; or visible, the luminance that the eye perceives of the Planck spectrum;
+         * default "bolometric".
+         */
+        'disk.band'?: 'bolometric' | 'visible';
+        /** include the Doppler shift and beaming of the orbiting gas; default true. */
+        'disk.doppler'?: boolean;
+        /** include the gravitational redshift and time dilation of the orbiting gas; default true. */
+        'disk.redshift'?: boolean;
+        /** number of particles (model: particles); 1000 to 10000000; default 300000. */
+        'disk.particles'?: number;
+        /**
+         * seed of the random numbers: another seed gives other particles (model: particles); 0 to 2147483647; default
+         * 1.
+         */
+        'disk.seed'?: number;
+        /**
+         * the number of particles per area falls as r to minus this power; with 2 each octave of r has as many (model:
+         * particles); 0 to 4; default 2.
+         */
+        'disk.density_index'?: number;
+        /**
+         * share of the particles that fall from the ISCO, with its energy and angular momentum; none fall unless
+         * disk.inner is "isco" (model: particles); 0 to 0.5; default 0.02.
+         */
+        'disk.plunging'?: number;
+        /**
+         * temperature of the plunging gas over the disk's largest temperature; 0: it is invisible (model: particles); 0
+         * to 1; default 0.7.
+         */
+        'disk.plunging_temperature'?: number;
+        /**
+         * largest amplitude of oscillations: in latitude, in radians; in r over r, times (kappa/Omega)^2, which
+         * vanishes at the ISCO (model: particles); 0 to 0.2; default 0.02.
+         */
+        'disk.epicycles'?: number;
+        /**
+         * show particles, gas and spots at the time when the light of each ray left them, instead of at one coordinate
+         * time; default false.
+         */
+        'disk.slow_light'?: boolean;
+        /**
+         * turbulence: standard deviation of the logarithm of the flux, and of the optical depth; 0: a smooth disk; 0 to
+         * 3; default 0.8.
+         */
+        'disk.gas.amplitude'?: number;
+        /** number of scales of the turbulence; each scale is about half the one before; 1 to 8; default 6. */
+        'disk.gas.octaves'?: number;
+        /** size of the largest eddies over r, before shear stretches them; 0.02 to 2; default 0.4. */
+        'disk.gas.scale'?: number;
+        /**
+         * azimuth by which streaks trail, in radians for each unit of ln r; streaks are 1 + shear^2 times as long as
+         * wide; below 0 they lead; -20 to 20; default 5.
+         */
+        'disk.gas.shear'?: number;
+        /** seed of the random numbers: another seed gives other gas; 0 to 2147483647; default 1. */
+        'disk.gas.seed'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.0.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.0.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.0.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.0.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.0.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.0.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.1.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.1.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.1.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.1.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.1.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.1.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.2.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.2.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.2.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.2.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.2.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.2.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.3.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.3.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.3.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.3.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.3.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.3.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.4.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.4.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.4.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.4.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.4.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.4.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.5.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.5.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.5.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.5.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.5.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.5.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.6.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.6.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.6.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.6.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.6.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.6.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.7.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.7.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.7.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.7.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.7.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.7.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.8.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.8.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.8.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.8.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.8.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.8.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.9.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.9.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.9.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.9.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.9.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.9.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.10.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.10.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.10.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.10.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.10.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.10.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.11.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.11.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.11.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.11.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.11.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.11.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.12.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.12.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.12.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.12.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.12.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.12.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.13.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.13.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.13.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.13.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.13.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.13.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.14.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.14.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.14.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.14.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.14.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.14.temperature_k'?: number;
+        /**
+         * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
+         * to 1000000; default 0.
+         */
+        'spots.15.brightness'?: number;
+        /** radius of the circular orbit of the spot's centre; at least the ISCO; in M; 1 to 1000000; default 9. */
+        'spots.15.r'?: number;
+        /** azimuth of the spot's centre at time 0; in degrees; -360 to 360; default 0. */
+        'spots.15.phase_deg'?: number;
+        /**
+         * distance from the spot's centre at which the brightness has fallen to exp(-1/2); in M; 0.001 to 100000;
+         * default 1.
+         */
+        'spots.15.size'?: number;
+        /**
+         * spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+         * index); -4 to 6; default 1.
+         */
+        'spots.15.index'?: number;
+        /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
+        'spots.15.temperature_k'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.0.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.0.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.0.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.0.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.0.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.0.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.0.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.0.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.0.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.0.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.0.limb_darkening'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.1.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.1.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.1.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.1.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.1.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.1.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.1.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.1.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.1.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.1.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.1.limb_darkening'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.2.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.2.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.2.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.2.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.2.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.2.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.2.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.2.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.2.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.2.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.2.limb_darkening'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.3.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.3.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.3.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.3.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.3.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.3.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.3.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.3.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.3.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.3.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.3.limb_darkening'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.4.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.4.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.4.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.4.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.4.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.4.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.4.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.4.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.4.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.4.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.4.limb_darkening'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.5.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.5.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.5.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.5.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.5.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.5.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.5.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.5.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.5.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.5.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.5.limb_darkening'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.6.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.6.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.6.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.6.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.6.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.6.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.6.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.6.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.6.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.6.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.6.limb_darkening'?: number;
+        /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
+        'bodies.7.radius'?: number;
+        /**
+         * Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon; in M; 1 to 10000000;
+         * default 15.
+         */
+        'bodies.7.r'?: number;
+        /**
+         * polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to
+         * 180; default 90.
+         */
+        'bodies.7.inclination_deg'?: number;
+        /**
+         * azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default
+         * 0.
+         */
+        'bodies.7.phase_deg'?: number;
+        /**
+         * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
+         * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
+         * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
+         * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
+         * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
+         * "keplerian".
+         */
+        'bodies.7.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
+        /**
+         * outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to
+         * 1; default 0.
+         */
+        'bodies.7.velocity_r'?: number;
+        /**
+         * velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.7.velocity_theta'?: number;
+        /**
+         * velocity along the disk's rotation, in the frame of the local observer of zero angular momentum (motion:
+         * velocity); in c; -1 to 1; default 0.
+         */
+        'bodies.7.velocity_phi'?: number;
+        /**
+         * temperature of the body, which shines as a black body shifted by g; in K; 300 to 1000000000; default 6000.
+         */
+        'bodies.7.temperature_k'?: number;
+        /**
+         * surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark; 0 to
+         * 1000000000; default 1.
+         */
+        'bodies.7.brightness'?: number;
+        /**
+         * fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none; 0 to 1;
+         * default 0.6.
+         */
+        'bodies.7.limb_darkening'?: number;
+        /**
+         * matter along the rays. none; uniform: a homogeneous shell at rest. At one radio frequency: gold, the analytic
+         * model of Gold et al. 2020; riaf, a hot, thin flow whose density, temperature and magnetic field are powers of
+         * r; torus, a thick disk in equilibrium; grid, numbers from a file; default "none".
+         */
+        'volume.model'?: 'none' | 'uniform' | 'gold' | 'riaf' | 'torus' | 'grid';
+        /**
+         * inner edge; horizon: as close to it as possible, which is 1 % outside it, or 0.05 % for the models at a radio
+         * frequency; for a torus half of volume.torus_radius; in M; 1 to 30000; default "horizon".
+         */
+        'volume.inner'?: 'horizon' | number;
+        /** outer edge of the matter; larger than the inner edge; in M; 1 to 30000; default 20. */
+        'volume.outer'?: number;
+        /**
+         * light emitted along 1 M in the matter's frame, in units of the disk's brightest (model: uniform); in 1/M; 0
+         * to 1e+30; default 0.02.
+         */
+        'volume.emissivity'?: number;
+        /** optical depth of 1 M in the matter's frame (model: uniform); in 1/M; 0 to 1e+30; default 0.02. */
+        'volume.opacity'?: number;
+        /**
+         * colour: that of a black body of this temperature, shifted by g (model: uniform); in K; 300 to 1000000000;
+         * default 6500.
+         */
+        'volume.temperature_k'?: number;
+        /** include the frequency shift of the matter (model: uniform); default true. */
+        'volume.redshift'?: boolean;
+        /** observed frequency (models: gold, riaf, torus, grid); in GHz; 1e-06 to 1e+12; default 230. */
+        'volume.frequency_ghz'?: number;
+        /**
+         * NPZ file with density, temperature, velocity and magnetic field of the electrons on a grid of r, theta and
+         * phi (model: grid); without it there is no matter; default null.
+         */
+        'volume.grid'?: null | string;
+        /**
+         * factor on the file's density; the magnetic field is multiplied by the square root of it (model: grid); 0 to
+         * 1e+30; default 1.
+         */
+        'volume.grid_scale'?: number;
+        /**
+         * C n0: emissivity at 230 GHz at the largest density (model: gold); in erg/(s cm^3 Hz sr); 0 to 1e+30; default
+         * 3e-18.
+         */
+        'volume.gold_emission'?: number;
+        /**
+         * alpha: emissivity goes as nu^-alpha, absorptivity as nu^-(2.5 + alpha) (model: gold); -10 to 10; default 0.
+         */
+        'volume.gold_index'?: number;
+        /** h: density goes as exp(-(h cos(theta))^2/2); 0: round (model: gold); 0 to 10000; default 0. */
+        'volume.gold_flattening'?: number;
+        /**
+         * l0: angular momentum over energy is l0 R^(3/2)/(1 + R) with R = r sin(theta); 0: zero angular momentum
+         * (model: gold); -1 to 1; default 0.
+         */
+        'volume.gold_momentum'?: number;
+        /**
+         * A: absorptivity in 1/cm over emissivity in erg/(s cm^3 Hz sr), at 230 GHz (model: gold); 0 to 1e+30; default
+         * 0.
+         */
+        'volume.gold_absorption'?: number;
+        /**
+         * electron density: at r = 1 M in the equatorial plane, by its power law (model: riaf); its maximum (model:
+         * torus); in 1/cm^3; 0 to 1e+30; default 30000000.
+         */
+        'volume.density_cm3'?: number;
+        /** p: density is proportional to r^-p (model: riaf); -10 to 10; default 1.1. */
+        'volume.density_index'?: number;
+        /** electron temperature at r = 1 M (model: riaf); in K; 1 to 1e+30; default 300000000000. */
+        'volume.electron_temperature_k'?: number;
+        /** p: electron temperature is proportional to r^-p (model: riaf); -10 to 10; default 0.84. */
+        'volume.temperature_index'?: number;
+        /**
+         * height over the distance from the axis at which the density has fallen to exp(-1/2); 0: the density does not
+         * depend on height (model: riaf); 0 to 10; default 0.1.
+         */
+        'volume.height'?: number;
+        /**
+         * magnetic pressure over the rest energy of a proton per electron, at r = 1 M (model: riaf); 0 to 1e+12;
+         * default 0.016666666666666666.
+         */
+        'volume.magnetisation'?: number;
+        /** p: magnetisation is proportional to r^-p (model: riaf); -10 to 10; default 1. */
+        'volume.magnetisation_index'?: number;
+        /**
+         * direction of the magnetic field: round the axis, along it, or radial; its part along the motion is removed
+         * (models: riaf, torus); default "toroidal".
+         */
+        'volume.field'?: 'toroidal' | 'vertical' | 'radial';
+        /**
+         * motion: with the angular velocity of the circular orbit at each r, and in free fall inside the ISCO; or at
+         * rest for observers of zero angular momentum (model: riaf); default "orbits".
+         */
+        'volume.flow'?: 'orbits' | 'rest';
+        /**
+         * energy distribution of the electrons (models: riaf, torus, grid); kappa: thermal with a power-law tail;
+         * default "thermal".
+         */
+        'volume.electrons'?: 'thermal' | 'power-law' | 'kappa';
+        /** p: the number of electrons is proportional to gamma^-p (electrons: power-law); 1.1 to 10; default 3.5. */
+        'volume.electrons_index'?: number;
+        /**
+         * kappa: at high energies the number of electrons is proportional to gamma^(1 - kappa) (electrons: kappa); 3.1
+         * to 7.5; default 4.
+         */
+        'volume.kappa'?: number;
+        /**
+         * radius of the largest pressure; the inner edge is volume.inner (model: torus); in M; 1 to 1000; default 12.
+         */
+        'volume.torus_radius'?: number;
+        /** adiabatic index of the gas (model: torus); 1.1 to 2; default 1.4444444444444444. */
+        'volume.adiabatic_index'?: number;
+        /** ion temperature over electron temperature (model: torus); 0 to 1000000; default 3. */
+        'volume.temperature_ratio'?: number;
+        /** gas pressure over magnetic pressure (model: torus); 1e-06 to 1e+12; default 10. */
+        'volume.beta'?: number;
+        /** smallest Lorentz factor of the electrons (electrons: power-law); 1 to 1000000000; default 30. */
+        'volume.gamma_min'?: number;
+        /**
+         * largest Lorentz factor of the electrons; above gamma_min (electrons: power-law); 1 to 1e+12; default 100000.
+         */
+        'volume.gamma_max'?: number;
+        /**
+         * flux of the picture: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a number that
+         * it determines with small pictures, and reports this number; 0: no change (models: gold, riaf, torus, grid);
+         * in Jy; 0 to 1e+12; default 0.
+         */
+        'volume.normalise_to_jy'?: number;
+        /** frequency of that flux; observed: volume.frequency_ghz; in GHz; 1e-06 to 1e+12; default "observed". */
+        'volume.normalise_ghz'?: 'observed' | number;
+        /**
+         * light emitted along 1 M in the jet's frame, extrapolated to the inner edge, where it begins smoothly, in
+         * units of the disk's brightest; 0: no jets; in 1/M; 0 to 1000000000; default 0.
+         */
+        'jets.brightness'?: number;
+        /** half of the cone's opening angle; in degrees; 1 to 60; default 8. */
+        'jets.opening_deg'?: number;
+        /** Lorentz factor of the outflow; 1 to 100; default 2. */
+        'jets.lorentz'?: number;
+        /**
+         * radius at which the light begins, at least 1.05 times that of the horizon; in M; 1 to 1000000; default 4.
+         */
+        'jets.inner'?: number;
+        /** radius at which the light ends; larger than the inner edge; in M; 1 to 1000000; default 60. */
+        'jets.outer'?: number;
+        /** p: light along the jet is proportional to r^-p; -10 to 10; default 1.5. */
+        'jets.falloff'?: number;
+        /** brightness across the jet: 0, a bright spine; 1, bright edges; 0 to 1; default 0.5. */
+        'jets.sheath'?: number;
+        /** brightness is proportional to the frequency shift to the power of 2 plus this; -10 to 10; default 0.7. */
+        'jets.spectral_index'?: number;
+        /** colour of a black body of this temperature, not shifted; in K; 300 to 1000000000; default 14000. */
+        'jets.temperature_k'?: number;
+        /** include the jet below the disk; default true. */
+        'jets.counterjet'?: boolean;
+        /**
+         * polarisation. none. Of light from the disk's plane: synchrotron, perpendicular to polarization.field and the
+         * ray in the gas's frame; scattering, in a deep atmosphere of free electrons, perpendicular to the normal and
+         * the ray. transfer: of a volume at a radio frequency, Stokes I, Q, U and V along the rays; default "none".
+         */
+        'polarization.model'?: 'none' | 'synchrotron' | 'scattering' | 'transfer';
+        /**
+         * direction of the magnetic field in the plane: round the axis, outwards, or along the normal (model:
+         * synchrotron); default "toroidal".
+         */
+        'polarization.field'?: 'toroidal' | 'radial' | 'vertical';
+        /**
+         * p: the number of electrons is proportional to E^-p; an ordered field polarises their light by (p + 1)/(p +
+         * 7/3) (model: synchrotron); 1 to 10; default 3.
+         */
+        'polarization.electron_index'?: number;
+        /** factor on that polarisation for a field that is disordered within a pixel; 0 to 1; default 1. */
+        'polarization.order'?: number;
+        /**
+         * include Faraday rotation, and conversion between linear and circular polarisation, by the electrons (model:
+         * transfer); default true.
+         */
+        'polarization.faraday'?: boolean;
+        /**
+         * fit of the Faraday rotation by thermal electrons: Shcherbakov 2008, or Dexter 2016 in the form of Huang and
+         * Shcherbakov 2011 (model: transfer); default "shcherbakov".
+         */
+        'polarization.rotation'?: 'shcherbakov' | 'dexter';
+        /**
+         * sky at infinity: none; a celestial grid that shows the lensing; generated stars and a generated Milky Way;
+         * the stars of the Hipparcos catalogue over that Milky Way; or sky.image without stars; default "none".
+         */
+        'sky.model'?: 'none' | 'grid' | 'stars' | 'catalogue' | 'image';
+        /**
+         * brightness of the sky in units of the disk's brightest surface brightness at g = 1: that of the grid, or of
+         * 21 magnitudes per square arcsecond for stars and the Milky Way, whose ratio is real; auto: 0.2, or 0.01 for
+         * stars and the Milky Way behind something that shines; 0 to 100; default "auto".
+         */
+        'sky.brightness'?: 'auto' | number;
+        /** spacing of the celestial grid; in degrees; 1 to 90; default 15. */
+        'sky.grid_deg'?: number;
+        /** factor on the natural brightness of the Milky Way or of sky.image; 0: only stars; 0 to 100; default 1. */
+        'sky.milky_way'?: number;
+        /**
+         * picture of the whole sky instead of the generated Milky Way (model: stars, catalogue, image): twice as wide
+         * as high, with galactic longitude 0 in the middle and rising to the left, latitude rising upwards; its white
+         * is 21 magnitudes per square arcsecond; default null.
+         */
+        'sky.image'?: null | string;
+        /** magnitude of the faintest stars; in magnitudes; -2 to 14; default 14. */
+        'sky.limit_mag'?: number;
+        /** seed of the random numbers: another seed gives another generated sky; 0 to 2147483647; default 1. */
+        'sky.seed'?: number;
+        /**
+         * galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra,
+         * m87: seen from azimuth 0 the hole is in front of that source as seen from the Earth, with the galactic or the
+         * celestial pole above; default "galactic".
+         */
+        'sky.orientation'?: 'galactic' | 'equatorial' | 'sgra' | 'm87';
+        /**
+         * rotation of the sky about the hole's axis, in the sense of camera.azimuth_deg; in degrees; -360 to 360;
+         * default 0.
+         */
+        'sky.turn_deg'?: number;
+        /**
+         * a second rotation of the sky, about the horizontal axis of the picture from azimuth 0; in degrees; -180 to
+         * 180; default 0.
+         */
+        'sky.tilt_deg'?: number;
+        /** width of the picture; in pixels; 1 to 32768; default 1280. */
+        'image.width'?: number;
+        /** height of the picture; in pixels; 1 to 32768; default 720. */
+        'image.height'?: number;
+        /**
+         * rays along each side of a pixel: n gives the mean of n x n rays; auto: one ray, and 16 for pixels that differ
+         * from their neighbours; 1 to 8; default 1.
+         */
+        'image.samples'?: 'auto' | number;
+        /**
+         * apparent error of a pixel of one ray, as a fraction of white, above which it gets more rays (samples: auto);
+         * 0.001 to 0.5; default 0.003.
+         */
+        'image.pixel_error'?: number;
+        /**
+         * factor on the rays along each side of pixels at the critical curve, where the photon ring is thinner than a
+         * pixel; at most 16 rays a side in all; 1 to 16; default 4.
+         */
+        'image.critical_factor'?: number;
+        /** bits a channel: 8 or 16; in bits; 8 to 16; default 8. */
+        'image.bit_depth'?: number;
+        /**
+         * contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing on the disk,
+         * or with the suffix _N for image order N; a PNG shows one map in false colour, FITS, EXR, NPZ and NPY have
+         * several as numbers; up to 16; default ["rgb"].
+         */
+        'image.layers'?: string[];
+        /**
+         * value at the lower end of a layer's colour scale; auto: docs/layers.md gives it for each layer; -1e+12 to
+         * 1e+12; default "auto".
+         */
+        'image.layer_min'?: 'auto' | number;
+        /**
+         * value at the upper end of a layer's colour scale; auto: docs/layers.md gives it for each layer; -1e+12 to
+         * 1e+12; default "auto".
+         */
+        'image.layer_max'?: 'auto' | number;
+        /** draw a colour bar in the lower left corner of a layer in false colour; default true. */
+        'image.legend'?: boolean;
+        /** columns of the picture to the left of the tile; in pixels; 0 to 32767; default 0. */
+        'image.tile.left'?: number;
+        /** rows of the picture above the tile; in pixels; 0 to 32767; default 0. */
+        'image.tile.top'?: number;
+        /** width of the tile; 0: no tile, the whole picture is rendered; in pixels; 0 to 32768; default 0. */
+        'image.tile.width'?: number;
+        /** height of the tile; 0: no tile, the whole picture is rendered; in pixels; 0 to 32768; default 0. */
+        'image.tile.height'?: number;
+        /** style that sets all fields of the look, except those in the document; none: no style; default "film". */
+        'style.name'?: 'none' | 'film' | 'raw' | 'dngr' | 'eht' | 'starless';
+        /**
+         * exposure as a power of two, relative to the disk's brightest surface brightness at g = 1; auto: from the
+         * light in the picture, limited for stars alone so that empty space is black; in stops; -40 to 40; default
+         * "auto".
+         */
+        'style.exposure'?: 'auto' | number;
+        /**
+         * aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours and compresses what is
+         * near white; default "aces".
+         */
+        'style.tone_map'?: 'aces' | 'srgb' | 'neutral';
+        /**
+         * share of bright light that the lens spreads around its place: all light over 0.6 of white, with a smooth
+         * transition from 0.2 on; 0: none; 0 to 1; default 0.4.
+         */
+        'style.bloom'?: number;
+        /**
+         * full width at half maximum of a round Gaussian telescope beam, seen from spacetime.distance_pc; 0: none; in
+         * microarcseconds; 0 to 1e+12; default 0.
+         */
+        'style.beam_uas'?: number;
+        /**
+         * colour: that of the light; heat: brightness in false colour (black, red, orange, white), with lightness
+         * proportional to it; default "colour".
+         */
+        'style.palette'?: 'colour' | 'heat';
+        /**
+         * draw a brightness bar in the lower left corner (palette: heat; tone_map: srgb), and in the upper right corner
+         * an angular scale and the shape of the beam; default false.
+         */
+        'style.colour_bar'?: boolean;
+        /** add half a step of ordered noise before rounding, against banding; default true. */
+        'style.dither'?: boolean;
+        /**
+         * illustration of a struck hole: light of image orders 1 and up is multiplied by 1 + ringdown e^(-t/tau) cos(w
+         * t), with the hole's quasi-normal mode l = m = 2, n = 0; 0: none; 0 to 1; default 0.
+         */
+        'style.ringdown'?: number;
+        /** time at which the hole was struck, and the ringing begins; in M; -1e+12 to 1e+12; default 0. */
+        'style.ringdown_time'?: number;
+        /** the source on the sky that the hole represents; default "none". */
+        'source.name'?: 'none' | 'm87' | 'sgra';
+        /** right ascension of the hole (ICRS); in degrees; 0 to 360; default 0. */
+        'source.ra_deg'?: number;
+        /** declination of the hole (ICRS); in degrees; -90 to 90; default 0. */
+        'source.dec_deg'?: number;
+        /** date of the picture, as a modified Julian date; in days; 0 to 1000000; default "none". */
+        'source.mjd'?: 'none' | number;
+        /** rate at which the observer goes round the axis; in degrees per second; -360 to 360; default 0. */
+        'motion.azimuth_rate_deg'?: number;
+        /** rate of coordinate time; in M per second; -1000000 to 1000000; default 0. */
+        'motion.time_rate'?: number;
+        /**
+         * rate of the observer's proper time: the observer falls, to the last possible position, or orbits; coordinate
+         * time follows; in M per second; 0 to 1000000; default 0.
+         */
+        'motion.proper_time_rate'?: number;
+        /**
+         * accuracy with which rays are traced, from coarse to fine; reference: double precision; default "balanced".
+         */
+        'accuracy.profile'?: 'draft' | 'interactive' | 'balanced' | 'high' | 'reference';
+        /**
+         * largest relative error of the crossing radii, by the accuracy table of the device; profile: the error of
+         * accuracy.profile; 1e-18 to 0.1; default "profile".
+         */
+        'accuracy.tolerance'?: 'profile' | number;
+        /**
+         * method that traces the rays; auto: the closed form outside the photon orbits, otherwise mino-rkn6; default
+         * "auto".
+         */
+        'accuracy.engine'?: 'auto' | 'closed' | 'mino-rkn4' | 'mino-rkn6' | 'ks-euler' | 'ks-rk4' | 'ks-tao6';
+        /** precision of the arithmetic; auto: chosen by accuracy.profile; default "auto". */
+        'accuracy.precision'?: 'auto' | 'f32' | 'f64';
+        /** integrator steps for a half turn, a multiple of 4; 0: chosen by accuracy.profile; 0 to 2048; default 0. */
+        'accuracy.steps'?: number;
+        /** equatorial crossings kept for each ray: image orders 0 to n - 1; 1 to 8; default 3. */
+        'accuracy.orders'?: number;
+        /** coordinate time of the picture; in M; -1e+12 to 1e+12; default 0. */
+        time?: number;
       };
     };
     gives: {
@@ -7278,6 +10001,8 @@ export interface Operations {
     };
     gives: {
       'image/png': Uint8Array;
+      'image/jpeg': Uint8Array;
+      'image/webp': Uint8Array;
       'application/x-npy': Uint8Array;
       'application/x-npz': Uint8Array;
       'application/fits': Uint8Array;
@@ -7289,6 +10014,15 @@ export interface Operations {
   'POST /v1/render': {
     takes: {
       query?: {
+        /** format of the picture, instead of Accept. */
+        format?: 'png' | 'jpg' | 'webp' | 'npy' | 'npz' | 'fits' | 'exr' | 'stars';
+        /** quality of a jpg or webp; without format the answer is then one of these two; default 90; 1 to 100. */
+        quality?: number;
+        /**
+         * version for which the address was made: if it is this server's, and the scene names no asset, caches may keep
+         * the picture for a year.
+         */
+        v?: string;
         preset?: PresetName;
       };
       body: Scene;
@@ -7296,6 +10030,8 @@ export interface Operations {
     };
     gives: {
       'image/png': Uint8Array;
+      'image/jpeg': Uint8Array;
+      'image/webp': Uint8Array;
       'application/x-npy': Uint8Array;
       'application/x-npz': Uint8Array;
       'application/fits': Uint8Array;

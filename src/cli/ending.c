@@ -14,7 +14,7 @@ enum { LETTERS_MAX = 9 };
 static const struct {
     const char *ending, *format;
 } synonyms[] = {
-    { "fit", "fits" },     { "fts", "fits" }, { "txt", "text" },
+    { "fit", "fits" },     { "fts", "fits" }, { "txt", "text" },    { "jpeg", "jpg" },
     { "jsonl", "ndjson" }, { "wave", "wav" }, { "markdown", "md" },
 };
 

@@ -16,12 +16,16 @@ struct arguments {
     const char *device, *output;
     const struct kd_format *format; /* format of the output */
     uint64_t memory;
+    unsigned quality; /* 0: the default */
     bool stats;
 };
 
 static const struct argp_option table[] = {
     { "output", 'o', "FILE", 0,
-      "file to write; its ending chooses PNG, FITS, EXR, NPZ or NPY; - for standard output, a PNG (required)", 0 },
+      "file to write; its ending chooses PNG, JPEG, WebP, FITS, EXR, NPZ or NPY; - for standard output, a PNG "
+      "(required)",
+      0 },
+    { "quality", 'q', "1..100", 0, "quality of a JPEG or WebP (90)", 0 },
     KD_CLI_MEMORY,
     { "stats", 't', NULL, 0, "print times and accuracy as one line of JSON on standard error", 0 },
     { 0 },
@@ -37,6 +41,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case 'o': arguments->output = text; return 0;
     case 't': arguments->stats = true; return 0;
+    case 'q': arguments->quality = kd_cli_number(state, "--quality", text, 1, KD_QUALITY_MAX); return 0;
     case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
     case ARGP_KEY_END:
         if (!arguments->output)
@@ -45,6 +50,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
             arguments->format = kd_cli_picture_format(state, "--output", arguments->output, false);
         if (arguments->output && !arguments->format)
             arguments->format = kd_formats[0];
+        if (arguments->quality && !arguments->format->lossy)
+            argp_error(state, "--quality is for .jpg and .webp; \"%s\" is an exact %s", arguments->output,
+                       arguments->format->name);
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -62,7 +70,9 @@ static enum kd_status save(struct work *work, const struct kd_scene *scene, cons
                            struct kd_error *error)
 {
     double started = kd_progress_clock();
-    const struct kd_picture picture = { &work->frame, scene, &work->plan, kd_renderer_device_name(work->renderer), 0 };
+    const struct kd_picture picture = {
+        &work->frame, scene, &work->plan, kd_renderer_device_name(work->renderer), 0, arguments->quality
+    };
     enum kd_status status = kd_encode(arguments->format, &picture, KD_EFFORT_KEEP, NULL, &work->file, error);
     work->encode_ms = 1e3 * (kd_progress_clock() - started);
     return status ? status : kd_file_write(arguments->output, &work->file, error);

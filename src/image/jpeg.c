@@ -5,6 +5,7 @@
 #include <setjmp.h>
 #include <stdio.h> /* jpeglib.h needs it and does not include it */
 #include <stdlib.h>
+#include <string.h>
 
 #include <jpeglib.h>
 
@@ -14,9 +15,14 @@ enum {
     INTERVAL_MOST = 0xffff, /* MCUs between two restart markers (ITU-T T.81, B.2.4.4) */
     SOF0 = 0xc0,
     RST0 = 0xd0,
+    SOI = 0xd8,
     EOI = 0xd9,
     SOS = 0xda,
+    APP0 = 0xe0,
+    APP1 = 0xe1,
 };
+
+static const char namespace[] = "http://ns.adobe.com/xap/1.0/"; /* a NUL separates it from the packet */
 
 /* State of one compression: that of libjpeg, and that of the callbacks. */
 struct work {
@@ -180,9 +186,9 @@ enum kd_status kd_jpeg_encode(uint32_t width, uint32_t height, const uint8_t *pi
 {
     if (quality < 1 || quality > 100)
         return kd_error_set(error, KD_EINVAL, "a JPEG of quality %u: it must be 1 to 100", quality);
-    if (width < 1 || width > JPEG_MAX_DIMENSION || height < 1 || height > JPEG_MAX_DIMENSION)
-        return kd_error_set(error, KD_EINVAL, "a JPEG of %u x %u pixels: each side must be 1 to %ld", width, height,
-                            JPEG_MAX_DIMENSION);
+    if (width < 1 || width > KD_JPEG_SIDE_MAX || height < 1 || height > KD_JPEG_SIDE_MAX)
+        return kd_error_set(error, KD_EINVAL, "a JPEG of %u x %u pixels: each side must be 1 to %d", width, height,
+                            KD_JPEG_SIDE_MAX);
     struct picture picture = { .width = width, .height = height, .pixels = pixels, .quality = quality, .out = out };
     const size_t before = out->size;
     cut(&picture);
@@ -193,4 +199,50 @@ enum kd_status kd_jpeg_encode(uint32_t width, uint32_t height, const uint8_t *pi
         kd_error_set(error, status, "out of memory for a JPEG of %u x %u pixels", width, height);
     }
     return status;
+}
+
+enum kd_status kd_jpeg_add_xmp(const struct kd_buffer *file, const void *xmp, size_t size, struct kd_buffer *out,
+                               struct kd_error *error)
+{
+    if (size > KD_JPEG_XMP_MAX)
+        return kd_error_set(
+            error, KD_ETOOBIG,
+            "the scene and its notes take %zu bytes; in a JPEG they must take at most %d; a webp or png "
+            "holds more",
+            size, KD_JPEG_XMP_MAX);
+    const size_t length = 2 + sizeof namespace + size, before = out->size;
+    const uint8_t *data = file->data, head[4] = { 0xff, APP1, (uint8_t)(length >> 8), (uint8_t)length };
+    /* libjpeg writes the segment JFIF first, and readers expect it there */
+    const size_t first = 2 + (data[3] == APP0 ? 2 + (size_t)(data[4] << 8 | data[5]) : 0);
+    enum kd_status status;
+    KD_TRY(kd_buffer_append(out, data, first));
+    KD_TRY(kd_buffer_append(out, head, sizeof head));
+    KD_TRY(kd_buffer_append(out, namespace, sizeof namespace));
+    KD_TRY(kd_buffer_append(out, xmp, size));
+    KD_TRY(kd_buffer_append(out, data + first, file->size - first));
+done:
+    if (status) {
+        out->size = before;
+        kd_error_set(error, status, "out of memory for the metadata of a JPEG");
+    }
+    return status;
+}
+
+const void *kd_jpeg_xmp(const void *data, size_t size, size_t *length)
+{
+    const uint8_t *bytes = data;
+    if (size < 4 || bytes[0] != 0xff || bytes[1] != SOI)
+        return NULL;
+    for (size_t at = 2; at + 4 <= size && bytes[at] == 0xff && bytes[at + 1] != SOS;) {
+        const size_t segment = (size_t)(bytes[at + 2] << 8 | bytes[at + 3]); /* counts its own two bytes */
+        if (segment < 2 || segment > size - at - 2)
+            return NULL;
+        if (bytes[at + 1] == APP1 && segment >= 2 + sizeof namespace &&
+            !memcmp(bytes + at + 4, namespace, sizeof namespace)) {
+            *length = segment - 2 - sizeof namespace;
+            return bytes + at + 4 + sizeof namespace;
+        }
+        at += 2 + segment;
+    }
+    return NULL;
 }

@@ -1,5 +1,5 @@
-/* Writes JPEG: 8-bit RGB pictures of moving views, for which size matters more than the last bit of a pixel. Files that
- * are kept are PNG. Any thread.
+/* Writes JPEG: 8-bit RGB pictures of moving views and of web pages, for which size matters more than the last bit of a
+ * pixel. Any thread.
  *
  * Chroma subsampling depends on the quality and was chosen by measurement (docs/decisions/0004-live-png.md): below
  * KD_JPEG_FULL_COLOUR half width and height (4:2:0), from there on none (4:4:4). Below KD_JPEG_THRIFTY Huffman tables
@@ -16,12 +16,26 @@
 
 #include <stdint.h>
 
+#define KD_JPEG_SIDE_MAX 65500 /* pixels; the limit of libjpeg */
+
 enum { KD_JPEG_FULL_COLOUR = 88, KD_JPEG_THRIFTY = 70 };
 
 /* Appends one JFIF file. quality: 1 to 100, as in libjpeg. pixels: rows from the top, three bytes a pixel, no
- * padding. KD_EINVAL for another quality, or a side outside 1 to 65500 pixels; KD_ENOMEM; on error out->size is
+ * padding. KD_EINVAL for another quality, or a side outside 1 to KD_JPEG_SIDE_MAX; KD_ENOMEM; on error out->size is
  * unchanged. */
 enum kd_status kd_jpeg_encode(uint32_t width, uint32_t height, const uint8_t *pixels, unsigned quality,
                               struct kd_buffer *out, struct kd_error *error);
+
+/* Longest XMP packet: a segment has 65535 bytes, of which the length and the name of the namespace take some (XMP
+ * Specification Part 3, 1.1.3). */
+#define KD_JPEG_XMP_MAX 65502
+
+/* Appends a JPEG of kd_jpeg_encode with an XMP packet. KD_ETOOBIG beyond KD_JPEG_XMP_MAX; KD_ENOMEM; on error out->size
+ * is unchanged. */
+enum kd_status kd_jpeg_add_xmp(const struct kd_buffer *file, const void *xmp, size_t size, struct kd_buffer *out,
+                               struct kd_error *error);
+
+/* Finds the XMP packet of a JPEG; NULL if there is none, or if the file is no JPEG. *length: its bytes. */
+const void *kd_jpeg_xmp(const void *data, size_t size, size_t *length);
 
 #endif

@@ -181,6 +181,6 @@ const struct kd_route kd_routes[] = {
     { "/v1/share/{code}/picture.png", KD_GET, kd_handle_shared_picture, "image/png",
       "The picture of a shared scene, 1200 by 630 pixels", KD_TAKES_LINK, .status = { 200, 304 } },
     { "/v1/render", KD_GET | KD_POST, kd_handle_render, NULL, "The picture of a scene", KD_TAKES_SCENE,
-      .gives = KD_GIVES_PICTURE, .status = { 200, 304 }, .question = true },
+      .gives = KD_GIVES_PICTURE, .status = { 200, 304 }, .own = { "format", "quality", "v" }, .question = true },
 };
 const size_t kd_n_routes = sizeof kd_routes / sizeof *kd_routes;

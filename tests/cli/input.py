@@ -182,8 +182,8 @@ class Names(Case):
                     "a.fts.gz",
                     "a.csv",
                     "a.pfm",
-                    "a.jpg",
-                    "a.JPEG",
+                    "a.gif",
+                    "a.avif",
                     "a.hdf5",
                     "d.png/a.tiff",
                 ],
@@ -208,7 +208,7 @@ class Names(Case):
             (["playground"], ["--series"], ["a.json", "a.h5"]),
             (["playground"], ["--fallback"], ["a.npy"]),
             (["playground"], ["--events"], ["a.json"]),
-            (["playground"], ["--picture"], ["a.jpg", "a.mp4", "a"]),
+            (["playground"], ["--picture"], ["a.gif", "a.mp4", "a"]),
         ):
             for option in options:
                 for name in names:
@@ -328,7 +328,7 @@ class Files(Case):
 
     def test_not_pictures(self):
         for content in "{}", "", b"\x89HDF\r\n\x1a\n":
-            self.bad(2, "wrote as png, npz, fits or exr", "scene", "--from", self.write("a.h5", content))
+            self.bad(2, "wrote as png, jpg, webp, npz, fits or exr", "scene", "--from", self.write("a.h5", content))
         self.bad(2, "give it with --from", "scene", self.write("a.png", b"\x89PNG\r\n\x1a\n"))
 
     def test_full_disk(self):

@@ -16,6 +16,7 @@ import threading
 import time
 import unittest
 import urllib.request
+import xml.etree.ElementTree
 import zlib
 
 from support import KERRD, SMALL, Case, main, run
@@ -38,6 +39,21 @@ def text(png):
     return dict(body.split(b"\0", 1) for kind, body in chunks(png) if kind == b"tEXt")
 
 
+NOTES, GPANO = "{urn:x-kerrd:notes#}", "{http://ns.google.com/photos/1.0/panorama/}"
+
+
+def xmp(file):
+    """The properties of a file's XMP packet, by their names with namespaces."""
+    packet = file[file.index(b"<x:xmpmeta") : file.index(b"</x:xmpmeta>") + len(b"</x:xmpmeta>")]
+    found = {}
+    for one in xml.etree.ElementTree.fromstring(packet).iter(
+        "{http://www.w3.org/1999/02/22-rdf-syntax-ns#}Description"
+    ):
+        found |= one.attrib
+        found |= {child.tag: child.text for child in one}
+    return found
+
+
 class Pictures(Case):
     def test_file(self):
         self.assertEqual(self.good("render", *SMALL, "-o", self.path("a.png")), b"")
@@ -52,6 +68,66 @@ class Pictures(Case):
         mask = os.umask(0)
         os.umask(mask)
         self.assertEqual(stat.S_IMODE(os.stat(self.path("a.png")).st_mode), 0o666 & ~mask)
+
+    def test_lossy_pictures(self):
+        """JPEG and WebP are as large as their quality, keep the scene, and are read by Pillow and as XML."""
+        self.good("render", *SMALL, "-o", self.path("a.png"))
+        for name in ("a.jpg", "a.JPEG", "a.webp"):
+            sizes = []
+            for quality in ((), ("--quality", "30"), ("--quality", "90")):
+                self.good("render", *SMALL, *quality, "-o", self.path(name))
+                sizes.append(len(self.read(name)))
+            self.assertEqual(sizes[0], sizes[2])
+            self.assertLess(sizes[1], sizes[2])
+            self.good("render", "--from", self.path(name), "-o", self.path("b.png"))
+            self.assertEqual(self.read("b.png"), self.read("a.png"), name)
+            properties = xmp(self.read(name))
+            self.assertEqual(properties[f"{NOTES}scene"].encode() + b"\n", self.good("scene", *SMALL))
+            self.assertEqual(properties[f"{NOTES}hash"].encode() + b"\n", self.good("scene", "--hash", *SMALL))
+            self.assertFalse([one for one in properties if one.startswith(GPANO)])
+            for key, told in text(self.read("a.png")).items():
+                if key.startswith(b"kerrd:") and key != b"kerrd:accuracy":
+                    self.assertEqual(properties[NOTES + key[6:].decode()], told.decode("latin-1"), key)
+        self.bad(2, "--quality is for .jpg and .webp", "render", "--quality", "30", "-o", self.path("c.png"))
+        self.bad(2, "--quality", "render", "--quality", "101", "-o", self.path("c.jpg"))
+        self.bad(
+            2,
+            "for a file of the format jpg it must be 8",
+            "render",
+            *SMALL,
+            "--set",
+            "image.bit_depth=16",
+            "-o",
+            self.path("c.jpg"),
+        )
+        self.bad(
+            2, "each side must be at most 16383", "render", "--set", "image.width=16384", "-o", self.path("c.webp")
+        )
+        self.assertFalse(os.path.exists(self.path("c.jpg")) or os.path.exists(self.path("c.webp")))
+
+    def test_panoramas(self):
+        """Viewers of photographs find what they need to turn a picture into a view all round, in each kind of file."""
+        scene = (
+            "--set",
+            "camera.r=20",
+            "--set",
+            "camera.projection=equirectangular",
+            "--set",
+            "style.exposure=0",
+            "--set",
+            "style.bloom=0",
+            "--size=64x32",
+        )
+        tiled = [f"--set=image.tile.{one}" for one in ("left=16", "top=8", "width=24", "height=10")]
+        for name in ("a.png", "a.jpg", "a.webp"):
+            for tile, area in ((), (64, 32, 0, 0)), (tiled, (24, 10, 16, 8)):
+                self.good("render", *scene, *tile, "-o", self.path(name))
+                found = xmp(self.read(name))
+                self.assertEqual(found[f"{GPANO}ProjectionType"], "equirectangular")
+                names = "FullPanoWidthPixels", "FullPanoHeightPixels"
+                self.assertEqual([int(found[GPANO + one]) for one in names], [64, 32])
+                names = [f"CroppedArea{one}Pixels" for one in ("ImageWidth", "ImageHeight", "Left", "Top")]
+                self.assertEqual(tuple(int(found[GPANO + one]) for one in names), area, name)
 
     def test_the_eht_style(self):
         """False colours, with scales where there is room. Options given after the style override it."""

@@ -125,6 +125,8 @@ ENGINE = (
 # Reasons why a scene cannot be given in a format.
 PICTURE = (
     "image.layers has %d layers; for a file of the format %s it must have one; fits, exr, npz and npy take several",
+    "image.bit_depth is %d; for a file of the format %s it must be 8; png takes 16",
+    "the picture has %u x %u pixels; for a file of the format %s each side must be at most %u",
     'sky.model must be "catalogue", because only its stars have names',
     'camera.projection is "ring", whose stars have no names; it must be another',
     "image.tile.width is %d; for names of stars it must be 0, because positions are those of the whole picture",
@@ -159,6 +161,7 @@ OF_SCENES = "(GET|POST) /v1/(render|pixel|share)$|POST /v1/(plan|sessions|jobs|p
 TOGETHER = [
     (OF_SCENES, SCENE + ENGINE),
     ("(GET|POST) /v1/render|POST /v1/jobs", PICTURE),
+    ("(GET|POST) /v1/render", ("quality is %s; it must be absent with format %s, which is exact",)),
     (
         "(GET|POST) /v1/share",
         (

@@ -1,8 +1,10 @@
-/* Fuzz target: the scene in a picture, PNG, FITS, OpenEXR or NPZ, as for --from; and a PNG's pixels and texts, which
- * read back the same after writing. Input that is not a picture is wrapped into one as its scene. */
+/* Fuzz target: the scene in a picture, PNG, JPEG, WebP, FITS, OpenEXR or NPZ, as for --from; and a PNG's pixels and
+ * texts, which read back the same after writing. Input that is not a picture is wrapped into one as its scene. */
 #include "fuzz.h"
 
+#include "image/jpeg.h"
 #include "image/png.h"
+#include "image/webp.h"
 #include "image/zip.h"
 #include "mend.h"
 #include "render/output/format.h"
@@ -46,7 +48,23 @@ static void check_png(const void *data, size_t size)
     kd_png_finish(&picture);
 }
 
-/* A picture of one pixel with this scene, or a ZIP file with these notes. */
+/* A JPEG or WebP of one pixel with this scene in its XMP. */
+static void wrap_lossy(bool webp, const char *text, struct kd_buffer *out)
+{
+    const uint8_t pixel[3] = { 1, 2, 3 };
+    struct kd_buffer bare = { 0 }, xmp = { 0 };
+    struct kd_error error = { 0 };
+    CHECK(!(webp ? kd_webp_encode : kd_jpeg_encode)(1, 1, pixel, 90, &bare, &error), "a pixel cannot be encoded: %s",
+          error.message);
+    CHECK(!kd_buffer_printf(&xmp, "<kerrd:scene>%s</kerrd:scene>", text), "there is no memory");
+    const enum kd_status status = (webp ? kd_webp_add_xmp : kd_jpeg_add_xmp)(&bare, xmp.data, xmp.size, out, &error);
+    if (status)
+        kd_fuzz_refused(status, &error);
+    kd_buffer_finish(&bare);
+    kd_buffer_finish(&xmp);
+}
+
+/* A picture of one pixel with this scene, or a ZIP file with these notes. The first letter chooses the kind. */
 static void wrap(const char *text, size_t size, struct kd_buffer *out)
 {
     const uint8_t pixel[3] = { 1, 2, 3 };
@@ -54,6 +72,10 @@ static void wrap(const char *text, size_t size, struct kd_buffer *out)
     const struct kd_png_params params = { 1, 1, 8, 0, pixel, &scene, 1 };
     struct kd_error error = { 0 };
     struct kd_zip *zip;
+    if (*text == '%' || *text == '&') {
+        wrap_lossy(*text == '&', text + 1, out);
+        return;
+    }
     if (*text != '!') {
         const enum kd_status status = kd_png_encode(&params, out, &error);
         if (status)

@@ -213,7 +213,7 @@ static void write_scenes(void)
         put_text("scene", name, json);
         put("patch", name, i % 2 ? "{\"camera\":{\"r\":60},\"spots\":[{\"on\":true}]}\n---\n" : "{}\n---\n", json,
             strlen(json));
-        put("pictures", name, i % 2 ? "!" : "", json, strlen(json));
+        put("pictures", name, (const char *const[]) { "", "!", "%", "&" }[i % 4], json, strlen(json));
         snprintf(query, sizeof query, "/v1/render?preset=%s&image.width=64", name);
         put_text("query", name, query);
         snprintf(query, sizeof query, "=preset=%s&camera.r=60", name);

@@ -206,7 +206,7 @@ class Negotiation(daemon.Case):
             "text/html, image/*;q=0.1",
             "IMAGE/PNG",
             "image/png;q=1.000",
-            "image/jpeg, image/png;q=0.001",
+            "image/gif, image/png;q=0.001",
             "*/*;q=0, image/png",
             ",,image/png",
             'image/png;x="a,b;q=0"',
@@ -214,7 +214,7 @@ class Negotiation(daemon.Case):
             with self.subTest(accept):
                 self.assertEqual(self.daemon.get(target, Accept=accept).status, 200)
         for accept in (
-            "image/jpeg",
+            "image/gif",
             "application/x-tar",
             "text/html",
             "image/png;q=0",
@@ -230,7 +230,7 @@ class Negotiation(daemon.Case):
                 problem = self.assertProblem(self.daemon.get(target, Accept=accept), 406, "not-acceptable")
                 self.assertEqual(
                     problem["offered"],
-                    "image/png, application/x-npy, application/x-npz, application/fits, image/x-exr, application/vnd.kerrd.stars+json",
+                    "image/png, image/jpeg, image/webp, application/x-npy, application/x-npz, application/fits, image/x-exr, application/vnd.kerrd.stars+json",
                 )
 
 

@@ -29,6 +29,55 @@ class Render(daemon.Case):
         self.assertLessEqual({"queue", "trace", "encode", "total"}, set(timing))
         self.assertEqual(len(answer.body), int(answer.header("Content-Length")))
 
+    def test_pictures_for_web_pages(self):
+        """The format by name or by Accept, the quality, and how long caches may keep the answer."""
+        kinds = {"image/jpeg": b"\xff\xd8\xff", "image/webp": b"RIFF", "image/png": b"\x89PNG"}
+        jpeg, webp, png = kinds
+        tags = set()
+        for query, accept, kind in (
+            ("format=jpg", "image/png", jpeg),
+            ("format=webp", "*/*", webp),
+            ("format=webp&quality=20", "*/*", webp),
+            ("quality=20", "*/*", jpeg),
+            ("quality=20", "image/avif,image/webp,image/*;q=0.8", webp),
+            ("format=png", "image/webp", png),
+            ("", "image/avif,image/webp,image/apng,image/*,*/*;q=0.8", png),
+        ):
+            with self.subTest(query + accept):
+                answer = self.daemon.get(f"{RENDER}&{query}".rstrip("&"), Accept=accept)
+                self.assertEqual((answer.status, answer.header("Content-Type")), (200, kind))
+                self.assertTrue(answer.body.startswith(kinds[kind]))
+                self.assertEqual(answer.header("Cache-Control"), "private, no-cache")
+                tags.add(answer.header("ETag"))
+        self.assertEqual(len(tags), 5, tags)
+        self.assertLess(
+            len(self.daemon.get(RENDER + "&quality=20").body), len(self.daemon.get(RENDER + "&quality=90").body)
+        )
+        problem = self.assertProblem(self.daemon.get(RENDER + "&quality=20", Accept=png), 406, "not-acceptable")
+        self.assertEqual(problem["offered"], f"{jpeg}, {webp}")
+        for query, pointer in (
+            ("format=gif", "/format"),
+            ("format=", "/format"),
+            ("quality=0", "/quality"),
+            ("quality=101", "/quality"),
+            ("quality=1.5", "/quality"),
+            ("format=fits&quality=50", "/quality"),
+            ("v=", "/v"),
+            ("v=" + 41 * "1", "/v"),
+            ("format=jpg&image.bit_depth=16", "/image/bit_depth"),
+        ):
+            with self.subTest(query):
+                self.assertProblem(self.daemon.get(f"{RENDER}&{query}"), 422, pointer=pointer)
+
+    def test_an_address_with_a_version_never_changes(self):
+        version = self.daemon.get("/openapi.json").json()["info"]["version"]
+        answer = self.daemon.get(f"{RENDER}&format=jpg&v={version}")
+        self.assertEqual(answer.header("Cache-Control"), "public, max-age=31536000, immutable")
+        again = self.daemon.get(f"{RENDER}&format=jpg&v={version}", **{"If-None-Match": answer.header("ETag")})
+        self.assertEqual((again.status, again.header("Cache-Control")), (304, answer.header("Cache-Control")))
+        for query in ("v=0.0.0", "v=" + version[:-1]):
+            self.assertEqual(self.daemon.get(f"{RENDER}&{query}").header("Cache-Control"), "private, no-cache")
+
     def test_approximations_are_those_of_the_plan(self):
         sent = self.daemon.get(RENDER).header("Kerrd-Approximations")
         known = {one["name"]: one["sentence"] for one in self.daemon.get("/v1/approximations").json()["approximations"]}

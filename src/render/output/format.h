@@ -1,12 +1,15 @@
 /* Formats of a frame: bytes of one media type each. Renders, jobs, sessions and the command line choose from one table,
  * by the format's name or by what a client accepts. Any thread.
  *
- * A format is one C file that defines kd_format_NAME, and its name in KD_FORMATS. */
+ * A format is a definition of kd_format_NAME in a C file, and its name in KD_FORMATS. */
 #ifndef KD_RENDER_OUTPUT_FORMAT_H
 #define KD_RENDER_OUTPUT_FORMAT_H
 
 #include "base/buffer.h"
 #include "render/frame/frame.h"
+
+#define KD_QUALITY 90 /* of lossy formats, unless another is asked for */
+#define KD_QUALITY_MAX 100
 
 /* A frame and how it was made. */
 struct kd_picture {
@@ -15,7 +18,7 @@ struct kd_picture {
     const struct kd_plan *plan;
     const char *device; /* as kd_renderer_device_name */
     unsigned number;    /* in a series, from 0 */
-    unsigned lossy;     /* quality for a lossy format, 1 to 100 */
+    unsigned lossy;     /* quality for a lossy format, 1 to 100; 0: KD_QUALITY */
     const char *hash;   /* hash of the scene, as kd_scene_hash; NULL or "": computed when needed */
 };
 
@@ -38,7 +41,8 @@ struct kd_format {
     const char *magic;      /* first bytes of each file; "": the first bytes vary */
     const char *end;        /* last bytes of each file; NULL: the last bytes vary */
     unsigned carries;
-    bool live; /* the format supports KD_EFFORT_LIVE */
+    bool live;  /* the format supports KD_EFFORT_LIVE */
+    bool lossy; /* the format takes a quality */
     /* Adapts a scene so that its frame carries what the format needs; NULL: no change is necessary. KD_EINVAL at a
      * field if the scene has nothing to write. */
     enum kd_status (*draws)(struct kd_scene *scene, struct kd_error *error);
@@ -51,13 +55,11 @@ struct kd_format {
     enum kd_status (*scene)(const void *data, size_t size, struct kd_scene *out, struct kd_error *error);
 };
 
-#define KD_FORMATS(FORMAT) FORMAT(png) FORMAT(npy) FORMAT(npz) FORMAT(fits) FORMAT(exr) FORMAT(stars)
+#define KD_FORMATS(FORMAT) \
+    FORMAT(png) FORMAT(jpg) FORMAT(webp) FORMAT(npy) FORMAT(npz) FORMAT(fits) FORMAT(exr) FORMAT(stars)
 #define KD_FORMAT_DECLARE(name) extern const struct kd_format kd_format_##name;
 KD_FORMATS(KD_FORMAT_DECLARE)
 #undef KD_FORMAT_DECLARE
-
-/* JPEG frames of live views, with the quality given in kd_picture. This format is not in the table. jpeg.c */
-extern const struct kd_format kd_format_jpeg;
 
 /* FITS files of the scenes of a cube. They have exactly the layers that image.layers names, so that all scenes have the
  * same layers. This format is not in the table. fits.c */
@@ -65,7 +67,8 @@ extern const struct kd_format kd_format_cubed;
 
 /* The first is the default. formats.c */
 extern const struct kd_format *const kd_formats[];
-extern const size_t kd_n_formats;
+extern const size_t kd_n_formats; /* at most KD_FORMATS_MAX */
+enum { KD_FORMATS_MAX = 16 };
 
 const struct kd_format *kd_format_named(const char *name);                 /* NULL: there is none */
 const struct kd_format *kd_format_of_bytes(const void *data, size_t size); /* by a file's first bytes; NULL: none */

@@ -162,6 +162,32 @@ void kd_notes_finish(struct kd_notes *notes)
     kd_buffer_finish(&notes->approximations);
 }
 
+size_t kd_notes_list(const struct kd_picture *picture, const struct kd_notes *notes, struct kd_note out[KD_NOTES])
+{
+    const struct kd_note all[] = {
+        { "kerrd:scene", (const char *)notes->scene.data },
+        { "kerrd:hash", notes->hash },
+        { "kerrd:version", KD_VERSION },
+        { "kerrd:approximations", (const char *)notes->approximations.data },
+        { "kerrd:accuracy", notes->accuracy },
+        { "kerrd:device", picture->device },
+        { "Software", "kerrd " KD_VERSION },
+    };
+    const struct kd_note some[] = {
+        { "Copyright", picture->frame->credit },
+        { "kerrd:clock", notes->clock },
+        { "kerrd:flux", notes->flux },
+        { "kerrd:motion_blur", notes->blur },
+    };
+    _Static_assert(sizeof all / sizeof *all + sizeof some / sizeof *some == KD_NOTES, "KD_NOTES counts the notes");
+    size_t n = sizeof all / sizeof *all;
+    memcpy(out, all, sizeof all);
+    for (size_t i = 0; i < sizeof some / sizeof *some; i++)
+        if (*some[i].text)
+            out[n++] = some[i];
+    return n;
+}
+
 enum kd_status kd_notes_scene(const char *text, size_t length, struct kd_scene *out, struct kd_error *error)
 {
     if (length && memmem(text, length, ",\"" PLAYGROUND "\":{", sizeof PLAYGROUND + 4))

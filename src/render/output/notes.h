@@ -42,6 +42,12 @@ struct kd_notes {
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error);
 void kd_notes_finish(struct kd_notes *notes);
 
+/* The notes of a picture as named texts, for formats that hold such; those that are empty are left out. The texts
+ * belong to `notes` and `picture`. Returns how many there are. */
+enum { KD_NOTES = 11 };
+struct kd_note { const char *name, *text; /* "kerrd:scene"; "Software" and "Copyright", which other programs know */ };
+size_t kd_notes_list(const struct kd_picture *picture, const struct kd_notes *notes, struct kd_note out[KD_NOTES]);
+
 /* Parses the scene in a file's notes; *out is unchanged on error. */
 enum kd_status kd_notes_scene(const char *text, size_t length, struct kd_scene *out, struct kd_error *error);
 

@@ -2,7 +2,7 @@
 
 #include "image/png.h"
 #include "image/png_live.h"
-#include "render/output/notes.h"
+#include "render/output/xmp.h"
 
 #include <string.h>
 
@@ -11,25 +11,18 @@ enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compressi
 {
     const struct kd_frame *frame = picture->frame;
     struct kd_notes notes;
-    enum kd_status status = kd_notes_of(picture, &notes, error);
-    struct kd_png_text text[11] = {
-        { "kerrd:scene", (const char *)notes.scene.data },
-        { "kerrd:hash", notes.hash },
-        { "kerrd:version", KD_VERSION },
-        { "kerrd:approximations", (const char *)notes.approximations.data },
-        { "kerrd:accuracy", notes.accuracy },
-        { "kerrd:device", picture->device },
-        { "Software", "kerrd " KD_VERSION },
-    };
-    size_t n_text = 7;
-    if (*frame->credit)
-        text[n_text++] = (struct kd_png_text) { "Copyright", frame->credit };
-    if (*notes.clock)
-        text[n_text++] = (struct kd_png_text) { "kerrd:clock", notes.clock };
-    if (*notes.flux)
-        text[n_text++] = (struct kd_png_text) { "kerrd:flux", notes.flux };
-    if (*notes.blur)
-        text[n_text++] = (struct kd_png_text) { "kerrd:motion_blur", notes.blur };
+    struct kd_note list[KD_NOTES];
+    struct kd_png_text text[KD_NOTES + 1];
+    struct kd_buffer xmp = { 0 };
+    enum kd_status status;
+    KD_TRY(kd_notes_of(picture, &notes, error));
+    size_t n = kd_notes_list(picture, &notes, list);
+    for (size_t i = 0; i < n; i++)
+        text[i] = (struct kd_png_text) { list[i].name, list[i].text };
+    if (kd_xmp_put(picture, NULL, 0, &xmp))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the notes of a picture"));
+    if (xmp.size)
+        text[n++] = (struct kd_png_text) { "XML:com.adobe.xmp", (const char *)xmp.data };
     const struct kd_png_params params = {
         .width = frame->width,
         .height = frame->height,
@@ -37,11 +30,12 @@ enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compressi
         .compression = compression,
         .pixels = kd_frame_pixels(frame),
         .text = text,
-        .n_text = n_text,
+        .n_text = n,
     };
-    if (!status)
-        status = kd_png_encode(&params, out, error);
+    KD_TRY(kd_png_encode(&params, out, error));
+done:
     kd_notes_finish(&notes);
+    kd_buffer_finish(&xmp);
     return status;
 }
 

@@ -40,6 +40,7 @@ struct kd_request {
     struct kd_request *once_next; /* next request under way that has a key */
     struct kd_buffer body;
     size_t body_mark;                              /* size of body when its deadline was last extended */
+    unsigned quality;                              /* of a lossy format; 0: its default */
     const struct kd_format *format;                /* requested format of the picture; NULL: any, or no picture */
     struct kd_render_job *job;                     /* the render under way for this request; owned */
     struct kd_request *also_waiting;               /* next request waiting for the same thumbnail */

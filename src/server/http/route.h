@@ -66,7 +66,7 @@ struct kd_route {
     bool once;          /* POST takes Idempotency-Key (once.h) */
     bool parts;         /* GET may answer with a range, 206 (representation.h) */
     unsigned status[2]; /* success statuses; { 0 }: 200; DELETE answers 204 */
-    const char *own[2]; /* names of query parameters that are not fields of the scene; NULL: none */
+    const char *own[4]; /* names of query parameters that are not fields of the scene, up to the first NULL */
 };
 
 /* All routes, in server/routes.c. */

@@ -131,7 +131,8 @@ static void add_path_parameter(struct kd_json *json, const char *path)
 #define ROOM(least, most) \
     "{\"type\":\"integer\",\"minimum\":" KD_SCHEMA_DIGITS(least) ",\"maximum\":" KD_SCHEMA_DIGITS(most) "}"
 
-/* Query parameters that are not fields of a scene. schema NULL: the names of the formats of jobs. */
+/* Query parameters that are not fields of a scene. schema NULL: the names of the formats of the
+ * route's answers. */
 static const struct {
     const char *path, *name, *schema, *help;
     unsigned methods; /* methods that accept the parameter; 0: all methods of the route */
@@ -168,6 +169,12 @@ static const struct {
     { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^" KD_OPENAPI_DECIMAL "," KD_OPENAPI_DECIMAL "$\"}",
       "position X,Y of the pixel, in pixels from the upper left corner", 0, true },
     { "/v1/pixel", "trace", "{\"const\":\"steps\"}", "steps: the answer has the engine's steps along the middle ray" },
+    { "/v1/render", "format", NULL, "format of the picture, instead of Accept" },
+    { "/v1/render", "quality", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" KD_SCHEMA_DIGITS(KD_QUALITY_MAX) "}",
+      "quality of a jpg or webp; without format the answer is then one of these two; default 90" },
+    { "/v1/render", "v", "{\"type\":\"string\",\"minLength\":1,\"maxLength\":" KD_SCHEMA_DIGITS(KD_VERSION_LETTERS) "}",
+      "version for which the address was made: if it is this server's, and the scene names no asset, caches may keep "
+      "the picture for a year" },
     { "/v1/share/{code}/picture.png", "width", ROOM(64, 1200),
       "width in pixels, from which the height follows; default 1200" },
     { "/oembed", "url", "{\"type\":\"string\",\"format\":\"uri\"}", "the address of a shared scene", 0, true },
@@ -194,13 +201,15 @@ static bool has_query(const struct kd_route *route)
     return false;
 }
 
-static void add_format_schema(struct kd_json *json)
+static void add_format_schema(struct kd_json *json, enum kd_gives gives)
 {
     struct kd_job_format format;
     kd_json_object(json, "schema");
     kd_json_string(json, "type", "string");
     kd_json_array(json, "enum");
-    for (size_t i = 0; kd_job_format(i, &format); i++)
+    for (size_t i = 0; gives == KD_GIVES_PICTURE && i < kd_n_formats; i++)
+        kd_json_string(json, NULL, kd_formats[i]->name);
+    for (size_t i = 0; gives == KD_GIVES_RESULT && kd_job_format(i, &format); i++)
         kd_json_string(json, NULL, format.name);
     kd_json_end(json);
     kd_json_end(json);
@@ -218,7 +227,7 @@ static void add_query(struct kd_json *json, const struct kd_route *route, unsign
         if (queries[i].schema)
             kd_json_raw(json, "schema", queries[i].schema, strlen(queries[i].schema));
         else
-            add_format_schema(json);
+            add_format_schema(json, route->gives);
         kd_json_end(json);
     }
 }

@@ -1,7 +1,9 @@
 /* Handlers of /v1/render, and of /v1/pixel, which renders a picture and explains one pixel of it. */
 #include "render/explain/explain.h"
 #include "render/output/notes.h"
+#include "scene/link.h"
 #include "server/http/negotiate.h"
+#include "server/http/query.h"
 #include "server/render/planned.h"
 #include "server/http/reply.h"
 #include "server/render/queue.h"
@@ -17,19 +19,27 @@ static const char *type_of(size_t i, const void *formats)
     return ((const struct kd_format *const *)formats)[i]->media_type;
 }
 
-/* The format preferred by Accept; NULL: none is acceptable. */
-static const struct kd_format *accepted(struct kd_request *request)
+/* The formats that may answer a request: all, or with a quality those that take one. */
+struct offer {
+    const struct kd_format *formats[KD_FORMATS_MAX];
+    size_t n;
+};
+
+static struct offer offer_of(bool lossy)
 {
-    size_t best = kd_reply_accepted(request, kd_n_formats, type_of, kd_formats);
-    return best < kd_n_formats ? kd_formats[best] : NULL;
+    struct offer offer = { 0 };
+    for (size_t i = 0; i < kd_n_formats; i++)
+        if (kd_formats[i]->lossy || !lossy)
+            offer.formats[offer.n++] = kd_formats[i];
+    return offer;
 }
 
-static enum MHD_Result refuse(struct kd_request *request)
+static enum MHD_Result refuse(struct kd_request *request, const struct offer *offer)
 {
     struct kd_buffer offered = { 0 }, detail = { 0 };
     enum kd_status status = KD_OK;
-    for (size_t i = 0; i < kd_n_formats && !status; i++)
-        status = kd_buffer_printf(&offered, "%s%s", i ? ", " : "", kd_formats[i]->media_type);
+    for (size_t i = 0; i < offer->n && !status; i++)
+        status = kd_buffer_printf(&offered, "%s%s", i ? ", " : "", offer->formats[i]->media_type);
     if (!status)
         status = kd_buffer_printf(&detail, "pictures are available only as %s", (const char *)offered.data);
     enum MHD_Result result =
@@ -40,6 +50,57 @@ static enum MHD_Result refuse(struct kd_request *request)
     kd_buffer_finish(&offered);
     kd_buffer_finish(&detail);
     return result;
+}
+
+/* The format that the query names. */
+static const struct kd_format *named(const char *name, struct kd_error *error)
+{
+    char names[100] = "";
+    const struct kd_format *format = kd_format_named(name);
+    for (size_t i = 0; i < kd_n_formats; i++)
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s",
+                 !i                     ? ""
+                 : i + 1 < kd_n_formats ? ", "
+                                        : " or ",
+                 kd_formats[i]->name);
+    if (!format)
+        kd_error_field(error, "/format", "format is \"%.40s\"; it must be %s", name, names);
+    return format;
+}
+
+/* Reads the parameters format, quality and v, and chooses the format by them and Accept. Returns false when the request
+ * is answered, with *result. */
+static bool choose(struct kd_request *request, enum MHD_Result *result)
+{
+    struct kd_error error;
+    uint64_t quality;
+    const char *format = kd_target_value(&request->target, "format"), *v = kd_target_value(&request->target, "v"),
+               *text = kd_target_value(&request->target, "quality");
+    if (!kd_target_whole(&request->target, "quality", KD_QUALITY, KD_QUALITY_MAX, &quality) || !quality)
+        kd_error_field(&error, "/quality", "quality is \"%.40s\"; it must be a whole number, 1 to %d", text,
+                       KD_QUALITY_MAX);
+    else if (v && (!*v || strlen(v) > KD_VERSION_LETTERS))
+        kd_error_field(&error, "/v",
+                       "v is \"%.60s\"; it must be a version, such as \"" KD_VERSION "\", of 1 to %d letters", v,
+                       KD_VERSION_LETTERS);
+    else if (!format) {
+        const struct offer offer = offer_of(text);
+        const size_t best = kd_reply_accepted(request, offer.n, type_of, offer.formats);
+        request->format = best < offer.n ? offer.formats[best] : NULL;
+        request->quality = (unsigned)quality;
+        if (!request->format)
+            *result = refuse(request, &offer);
+        return request->format;
+    } else if ((request->format = named(format, &error))) {
+        request->quality = (unsigned)quality;
+        if (!text || request->format->lossy)
+            return true;
+        kd_error_field(&error, "/quality", "quality is %s; it must be absent with format %s, which is exact", text,
+                       format);
+        request->format = NULL;
+    }
+    *result = kd_reply_error(request, &error);
+    return false;
 }
 
 static bool client_has(struct kd_request *request)
@@ -64,9 +125,15 @@ done:
     kd_buffer_finish(&list);
 }
 
-/* Pictures of shared links may be cached publicly, unless the server requires access tokens. */
-static const char *caching(const struct kd_request *request)
+/* Pictures of shared links may be cached publicly, unless the server requires access tokens. A picture whose address
+ * names this version never changes, unless its scene names an asset, whose name may later be given to another file. */
+static const char *caching(const struct kd_request *request, const struct kd_scene *scene)
 {
+    struct kd_error ignored;
+    const char *v = kd_target_value(&request->target, "v");
+    if (v && request->route->gives == KD_GIVES_PICTURE && !strcmp(v, KD_VERSION) &&
+        !kd_scene_link_check(scene, &ignored))
+        return request->server->access ? "private, max-age=31536000, immutable" : "public, max-age=31536000, immutable";
     const bool shared = request->route->takes == KD_TAKES_LINK && !request->server->access;
     return shared ? "public, max-age=86400" : "private, no-cache";
 }
@@ -82,7 +149,7 @@ static struct MHD_Response *describe(struct kd_request *request, struct MHD_Resp
     snprintf(hash, sizeof hash, "%.64s", request->etag + 1);
     kd_reply_file(request, KD_INLINE, "kerrd.%s", request->format->name);
     MHD_add_response_header(response, "ETag", request->etag);
-    MHD_add_response_header(response, "Cache-Control", caching(request));
+    MHD_add_response_header(response, "Cache-Control", caching(request, scene));
     MHD_add_response_header(response, "Vary", "Accept");
     MHD_add_response_header(response, "Kerrd-Scene-Hash", hash);
     add_approximations(response, plan, report);
@@ -231,6 +298,7 @@ static enum MHD_Result submit(struct kd_request *request, const struct kd_planne
     if (!memcmp(&planned->scene, &planned->drawn, sizeof planned->drawn))
         memcpy(job->hash, planned->hash, sizeof job->hash);
     job->format = request->format;
+    job->lossy = request->quality;
     job->effort = KD_EFFORT_QUICK;
     job->socket = kd_connection_socket(request->connection);
     job->done = wake;
@@ -247,6 +315,8 @@ static enum kd_status tag(struct kd_request *request, struct kd_planned *planned
 {
     const struct kd_plan *plan = &planned->plan;
     char at[36] = "";
+    if (request->format->lossy)
+        snprintf(at, sizeof at, "-%u", request->quality);
     if (plan->report.probe.on)
         snprintf(at, sizeof at, "-%u-%u%s", plan->report.probe.x, plan->report.probe.y,
                  plan->report.probe.steps ? "-steps" : "");
@@ -286,8 +356,8 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
 
     if (request->job)
         return deliver(request);
-    if (!request->format && !(request->format = accepted(request)))
-        return refuse(request);
+    if (!request->format && !choose(request, &result))
+        return result;
     struct kd_planned *planned = kd_planned_of(request, &result);
     if (!planned)
         return result;

@@ -25,12 +25,22 @@ static void pointer_of(const char *name, char *out, size_t size)
 }
 
 /* Whether a parameter is one of the route's own, not a field. */
-static bool is_own(const char *name, const char *const own[2])
+static bool is_own(const char *name, const char *const *own)
 {
-    return (own[0] && !strcmp(name, own[0])) || (own[1] && !strcmp(name, own[1]));
+    while (*own && strcmp(name, *own))
+        own++;
+    return *own;
 }
 
-enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, const char *const own[2],
+static enum kd_status refuse_name(const char *name, const char *const *own, const char *pointer, struct kd_error *error)
+{
+    char known[120] = "preset";
+    for (; *own; own++)
+        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", own[1] ? ", " : " and ", *own);
+    return kd_error_field(error, pointer, "the query of a POST may have %s, not %.100s", known, name);
+}
+
+enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, const char *const *own,
                                     struct kd_error *error)
 {
     char pointer[sizeof error->pointer];
@@ -41,11 +51,7 @@ enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields,
             if (fields ? kd_scene_same_path(target->pairs[k].name, name) : !strcmp(target->pairs[k].name, name))
                 return kd_error_field(error, pointer, "the query has %.100s twice", name);
         if (!fields && strcmp(name, "preset") && !is_own(name, own))
-            return kd_error_field(error, pointer, "the query of a POST may have preset%s%s%s%s, not %.100s",
-                                  own[1]   ? ", "
-                                  : own[0] ? " and "
-                                           : "",
-                                  own[0] ? own[0] : "", own[1] ? " and " : "", own[1] ? own[1] : "", name);
+            return refuse_name(name, own, pointer, error);
     }
     return KD_OK;
 }
@@ -64,7 +70,7 @@ static enum kd_status apply_preset(const struct kd_target *target, struct kd_sce
 }
 
 /* Applies the style before all other fields, because the order of a query's parameters must not matter. */
-static enum kd_status apply_fields(const struct kd_target *target, const char *const own[2], struct kd_scene *scene,
+static enum kd_status apply_fields(const struct kd_target *target, const char *const *own, struct kd_scene *scene,
                                    struct kd_error *error)
 {
     char pointer[sizeof error->pointer];
@@ -84,7 +90,7 @@ static enum kd_status apply_fields(const struct kd_target *target, const char *c
     return KD_OK;
 }
 
-enum kd_status kd_scene_of_query(const struct kd_target *target, const char *const own[2], struct kd_scene *scene,
+enum kd_status kd_scene_of_query(const struct kd_target *target, const char *const *own, struct kd_scene *scene,
                                  struct kd_error *error)
 {
     enum kd_status status;

@@ -7,13 +7,13 @@
 #include "scene/scene.h"
 
 /* Checks a query. No name may occur twice. If `fields` is false, only preset and the route's own parameters are
- * accepted. Entries of own may be NULL. Returns KD_EINVAL with a pointer. */
-enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, const char *const own[2],
+ * accepted; own ends with NULL. Returns KD_EINVAL with a pointer. */
+enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, const char *const *own,
                                     struct kd_error *error);
 
 /* Builds a scene from a query, as in GET /v1/render: from the defaults, then the preset, then the fields. The route's
  * own parameters are skipped. Does not resolve assets, and does not validate. Returns KD_EINVAL with a pointer. */
-enum kd_status kd_scene_of_query(const struct kd_target *target, const char *const own[2], struct kd_scene *scene,
+enum kd_status kd_scene_of_query(const struct kd_target *target, const char *const *own, struct kd_scene *scene,
                                  struct kd_error *error);
 
 /* Builds the scene from the defaults, then ?preset=NAME, then the body (POST) or the query's fields (GET), and

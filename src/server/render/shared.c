@@ -23,7 +23,7 @@ static bool nothing_there(struct kd_problem *problem, const struct kd_error *err
 /* Parses the text as a query. */
 static enum kd_status read_text(const char *text, struct kd_scene *scene, struct kd_error *error)
 {
-    static const char *const none[2] = { NULL, NULL };
+    static const char *const none[] = { NULL };
     struct kd_buffer raw = { 0 };
     struct kd_target *target = calloc(1, sizeof *target);
     enum kd_status status;

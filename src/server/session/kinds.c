@@ -18,7 +18,7 @@ static unsigned kind_of(const struct kd_viewer *viewer, bool last) { return last
 
 static void set_kind(struct kd_render_job *job, unsigned lossy)
 {
-    job->format = lossy ? &kd_format_jpeg : kd_format_live();
+    job->format = lossy ? &kd_format_jpg : kd_format_live();
     job->lossy = lossy;
 }
 

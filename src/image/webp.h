@@ -1,0 +1,26 @@
+/* Writes WebP: lossy pictures for web pages, 8-bit RGB, by libwebp. Any thread. At the same quality as seen, a file is
+ * about a third smaller than a JPEG. Colours always have half the width and height (4:2:0). */
+#ifndef KD_IMAGE_WEBP_H
+#define KD_IMAGE_WEBP_H
+
+#include "base/buffer.h"
+#include "base/error.h"
+
+#include <stdint.h>
+
+#define KD_WEBP_SIDE_MAX 16383 /* pixels; the format has 14 bits for a side */
+
+/* Appends one file. quality: 1 to 100. pixels: rows from the top, three bytes a pixel, no padding. Memory while it
+ * runs: 1.5 bytes a pixel. KD_EINVAL for another quality, or a side outside 1 to KD_WEBP_SIDE_MAX; KD_ETOOBIG for a
+ * picture of too much detail for the format at this quality; KD_ENOMEM; on error out->size is unchanged. */
+enum kd_status kd_webp_encode(uint32_t width, uint32_t height, const uint8_t *pixels, unsigned quality,
+                              struct kd_buffer *out, struct kd_error *error);
+
+/* Appends a WebP of kd_webp_encode with an XMP packet. KD_ENOMEM; on error out->size is unchanged. */
+enum kd_status kd_webp_add_xmp(const struct kd_buffer *file, const void *xmp, size_t size, struct kd_buffer *out,
+                               struct kd_error *error);
+
+/* Appends the XMP packet of a file. KD_EINVAL if the file is no WebP or has none; KD_ENOMEM. */
+enum kd_status kd_webp_xmp(const void *data, size_t size, struct kd_buffer *out, struct kd_error *error);
+
+#endif
