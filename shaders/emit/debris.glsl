@@ -49,11 +49,10 @@ vec3 kd_debris_at(float row, float turn)
 /* 1/g of matter with this velocity. */
 float kd_debris_shift(kd_sample s, vec2 v)
 {
-    float a = cam.spin, w2 = s.w * s.w, d = kd_delta(s.w, cam.root), b = 1.0 + a * a * w2,
-          big = b * b - a * a * d * w2; /* Delta and A over r^2 and r^4 */
-    float lapse = sqrt(max(d, 1e-12) / big), gamma = inversesqrt(max(1.0 - dot(v, v), 1e-6));
-    float along = s.slope * inversesqrt(max(d, 1e-12)), round_ = s.momentum * s.w * inversesqrt(big);
-    return max(gamma * ((s.energy - 2.0 * a * w2 * s.w / big * s.momentum) / lapse - v.x * along - v.y * round_), 1e-6);
+    kd_place at = kd_place_at(s.w, 0.0, 1.0);
+    float delta = max(at.delta, 1e-12), lapse = sqrt(delta / at.area), gamma = inversesqrt(max(1.0 - dot(v, v), 1e-6));
+    float along = s.slope * inversesqrt(delta), round_ = s.momentum * s.w * inversesqrt(at.area);
+    return max(gamma * ((s.energy - at.omega * s.momentum) / lapse - v.x * along - v.y * round_), 1e-6);
 }
 
 kd_glow kd_debris_glow(kd_sample s)

@@ -42,12 +42,12 @@
  * = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2 r)/A. */
 float kd_jets_energy(kd_midst p)
 {
-    float a = cam.spin, w2 = p.w * p.w, aw2 = a * a * w2, b = 1.0 + aw2, delta = max(kd_delta(p.w, cam.root), 1e-30);
-    float area = b * b - aw2 * delta * (1.0 - p.u * p.u), sigma = 1.0 + aw2 * p.u * p.u;
-    float e = (p.energy - 2.0 * a * w2 * p.w / area * p.momentum) * sqrt(area / (sigma * delta)),
-          k = p.dw * inversesqrt(delta * sigma);
-    float ae = a * p.energy, l2 = p.momentum * p.momentum,
-          across = w2 / sigma * max(p.q + l2 + ae * ae * p.u * p.u - l2 * aw2 * (sigma + 2.0 * p.w) / area, 0.0);
+    kd_place at = kd_place_at(p.w, p.u, 1.0 - p.u * p.u);
+    float e = (p.energy - at.omega * p.momentum) * sqrt(at.area / (at.sigma * at.delta)),
+          k = p.dw * inversesqrt(at.delta * at.sigma);
+    float ae = cam.spin * p.energy, l2 = p.momentum * p.momentum,
+          across = p.w * p.w / at.sigma *
+                   max(p.q + l2 + ae * ae * p.u * p.u - l2 * at.aw2 * (at.sigma + 2.0 * p.w) / at.area, 0.0);
     float along =
         emission.jets.gamma * across / (e + abs(k)) + abs(k) / (emission.jets.gamma + emission.jets.gamma_beta);
     return max(k > 0.0 ? along : emission.jets.gamma * e - emission.jets.gamma_beta * k, 1e-30);

@@ -65,11 +65,10 @@
 struct kd_metric { float lapse2, omega, round_, radial, sigma; };
 kd_metric kd_metric_at(float w, float u)
 {
-    float a = cam.spin, aw2 = a * a * w * w, b = 1.0 + aw2, delta = max(kd_delta(w, cam.root), 1e-30),
-          s2 = max(1.0 - u * u, 1e-12);
-    float area = b * b - aw2 * delta * s2, sigma = 1.0 + aw2 * u * u;
-    return kd_metric(sigma * delta / area, 2.0 * a * w * w * w / area, area * s2 / (sigma * w * w), sigma / delta,
-                     sigma);
+    float s2 = max(1.0 - u * u, 1e-12);
+    kd_place at = kd_place_at(w, u, s2);
+    return kd_metric(at.sigma * at.delta / at.area, at.omega, at.area * s2 / (at.sigma * w * w), at.sigma / at.delta,
+                     at.sigma);
 }
 
 /* Velocity of matter: u^t; u_phi, where u^phi - omega u^t = u_phi/g_phiphi; u^r; and u^theta, which is 0 except on a

@@ -216,7 +216,7 @@ kd_polarises kd_stokes_by_kappa(kd_electrons e, float frequency)
 vec2 kd_stokes_kappa(kd_midst p, kd_metric g, vec4 f)
 {
     float a = cam.spin, aw2 = a * p.w * p.w, s2 = max(1.0 - p.u * p.u, 1e-12), s = sqrt(s2), size = sqrt(g.sigma),
-          delta = max(kd_delta(p.w, cam.root), 1e-30);
+          delta = kd_horizons(p.w, cam.root);
     float k_t = p.energy * (1.0 + a * aw2) - aw2 * p.momentum;
     vec2 ab =
         vec2(k_t * size * f.y / delta - p.dw * (f.x - a * s2 * f.w) / size,

@@ -58,7 +58,7 @@ kd_thick_orbit kd_thick_orbit_of(kd_midst p, float r, float axis)
 float kd_thick_time(kd_midst p, float s2)
 {
     float a = cam.spin, w2 = p.w * p.w, all = p.energy + a * (a * p.energy - p.momentum) * w2;
-    return (1.0 + a * a * w2) * all / (w2 * max(kd_delta(p.w, cam.root), 1e-30)) + a * (p.momentum - a * p.energy * s2);
+    return (1.0 + a * a * w2) * all / (w2 * kd_horizons(p.w, cam.root)) + a * (p.momentum - a * p.energy * s2);
 }
 
 /* Gradient at a point of a lattice, times 2^31. */

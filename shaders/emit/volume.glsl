@@ -24,9 +24,8 @@
 /* -k.U for an observer of zero angular momentum. */
 float kd_volume_energy(kd_midst p)
 {
-    float a = cam.spin, w2 = p.w * p.w, b = 1.0 + a * a * w2, delta = kd_delta(p.w, cam.root), aw2 = a * a * w2;
-    float area = b * b - aw2 * delta * (1.0 - p.u * p.u), sigma = 1.0 + aw2 * p.u * p.u;
-    return (p.energy - 2.0 * a * w2 * p.w / area * p.momentum) * sqrt(area / (sigma * max(delta, 1e-30)));
+    kd_place at = kd_place_at(p.w, p.u, 1.0 - p.u * p.u);
+    return (p.energy - at.omega * p.momentum) * sqrt(at.area / (at.sigma * at.delta));
 }
 
 /* The march finds the edges of all volumes together. Edges of the shell may be inside other volumes. There a stretch is

@@ -57,6 +57,7 @@ struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 KD_EMIT_BUFFERS
 #define KD_CAMERA_BINDING 4
 #include "ray/camera.glsl"
+#include "ray/metric.glsl"
 #include "ray/place.glsl"
 #include "light/compose.glsl"
 

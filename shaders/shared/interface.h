@@ -17,7 +17,16 @@
 /* Unit roundoff of the kernels' floats. */
 #define KD_ROUNDOFF 6e-8
 
-/* Camera and constants of the hole: a uniform block of the tracing and transfer kernels. A ray at (x, y), in steps
+/* The hole, a part of the blocks of kernels that need it. */
+/* clang-format off */
+#define KD_HOLE_FIELDS_(F) \
+    F(spin)                 /* a */ \
+    F(horizon)              /* 1/r+ */ \
+    F(root)                 /* sqrt(1 - a^2 - q^2): the horizons are at r = 1 +- root; floats of a and q lose it */ \
+    F(charge2)              /* q^2 */
+/* clang-format on */
+
+/* Camera and the hole: a uniform block of the tracing and transfer kernels. A ray at (x, y), in steps
  * from the middle of the picture with y upwards, has the direction c0 + x cx + y cy. At infinity its first two
  * components are alpha and beta; at a finite radius it is normalised to the look direction k = (k_r, k_theta, k_phi)
  * in the observer's local frame. On a sphere and a dome the steps are angles, and c0, cx and cy point ahead, to the
@@ -29,10 +38,8 @@
 #define KD_CAMERA_FIELDS_(F, U) \
     F(c0x) F(c0y) F(c0z) F(cxx) F(cxy) F(cxz) F(cyx) F(cyy) F(cyz) \
     F(middle_x) F(middle_y) /* ray coordinates of the middle of the picture */ \
-    F(spin) F(u) F(s)       /* a; cosine and sine of the observer's polar angle */ \
-    F(horizon)              /* 1/r+ */ \
-    F(root)                 /* sqrt(1 - a^2 - q^2): the horizons are at r = 1 +- root; floats of a and q lose it */ \
-    F(charge2)              /* q^2 */ \
+    KD_HOLE_FIELDS_(F) \
+    F(u) F(s)               /* cosine and sine of the observer's polar angle */ \
     F(w0)                   /* 1/r of the observer, 0 at infinity */ \
     /* falling observer outside the horizon: its Boyer-Lindquist minus its ingoing azimuth; else 0 */ \
     F(twist) \

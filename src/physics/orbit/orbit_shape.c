@@ -76,14 +76,6 @@ static void energy_and_momentum(struct kd_orbit *o, double x, double r1, double 
     }
 }
 
-void kd_orbit_factor(const struct kd_orbit *o, double g[3])
-{
-    double sum = o->w_low + o->w_high, product = o->w_low * o->w_high;
-    g[2] = -o->w[4];
-    g[1] = sum * g[2] - o->w[3];
-    g[0] = o->binding / product;
-}
-
 /* The orbit of a shape, without checking that it exists. */
 static struct kd_orbit of_shape(const struct kd_hole *hole, double p, double e, double x)
 {

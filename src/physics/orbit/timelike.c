@@ -136,6 +136,14 @@ enum kd_status kd_orbit_from_constants(const struct kd_hole *hole, double energy
     return KD_OK;
 }
 
+void kd_orbit_factor(const struct kd_orbit *o, double g[3])
+{
+    double sum = o->w_low + o->w_high, product = o->w_low * o->w_high;
+    g[2] = -o->w[4];
+    g[1] = sum * g[2] - o->w[3];
+    g[0] = o->binding / product;
+}
+
 struct kd_orbit_state kd_orbit_start(const struct kd_orbit *o, double r, bool outward)
 {
     struct kd_orbit_state s = { .u = 0, .u_rate = sqrt(o->carter) };

@@ -136,7 +136,7 @@ static uint32_t traits(const struct kd_scene *scene)
 
 static struct kd_bodies_view view_of(const struct kd_scene *scene)
 {
-    return (struct kd_bodies_view) { scene->spacetime.spin, scene->camera.azimuth_deg * (M_PI / 180),
+    return (struct kd_bodies_view) { *kd_scene_hole(scene), scene->camera.azimuth_deg * (M_PI / 180),
                                      kd_disk_peak_temperature(scene) * scene->disk.hardening, NULL };
 }
 

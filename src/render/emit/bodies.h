@@ -13,11 +13,12 @@
 
 #define KD_SEEN_BODIES (KD_CROWD_BODIES + KD_SCENE_BODIES) /* the most bodies that are seen */
 
-/* How bodies are viewed: the hole's spin, the observer's azimuth, and the temperature that corresponds to the disk's
+/* How bodies are viewed: the hole, the observer's azimuth, and the temperature that corresponds to the disk's
  * brightness 1. */
 struct kd_illumination;
 struct kd_bodies_view {
-    double spin, azimuth, peak_k;
+    struct kd_hole hole;
+    double azimuth, peak_k;
     const struct kd_illumination *lit;
 }; /* lit: NULL if the disk does not illuminate them */
 

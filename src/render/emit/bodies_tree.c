@@ -30,12 +30,12 @@ size_t kd_bodies_words(size_t n) { return (8 + KD_BODY_WORDS) * (size_t)leaves_o
  * g_phiphi/sin^2, and frame dragging. */
 struct metric { double lapse, r, theta, phi, omega; };
 
-static struct metric metric_at(double a, const struct kd_seen_body *b)
+static struct metric metric_at(const struct kd_hole *hole, const struct kd_seen_body *b)
 {
-    const double r = b->r, sigma = r * r + a * a * b->u * b->u, delta = kd_hole_delta(kd_hole(a), r);
+    const double a = hole->a, r = b->r, sigma = r * r + a * a * b->u * b->u, delta = kd_hole_delta(hole, r);
     const double w2 = r * r + a * a, big = w2 * w2 - a * a * delta * b->s * b->s;
     return (struct metric) { sqrt(sigma * delta / big), sqrt(sigma / delta), sqrt(sigma), sqrt(big / sigma),
-                             kd_kerr_dragging(kd_hole(a), r, b->u) };
+                             kd_kerr_dragging(hole, r, b->u) };
 }
 
 static double speed2(const struct kd_seen_body *b)
@@ -59,7 +59,7 @@ static double turn_of(const struct metric *g, const struct kd_seen_body *b)
  * appears longer than it is wide. */
 static struct ball ball_of(const struct kd_seen_body *b, size_t body, const struct kd_bodies_view *view)
 {
-    const struct metric g = metric_at(view->spin, b);
+    const struct metric g = metric_at(&view->hole, b);
     const double phi = b->phi - view->azimuth, v2 = speed2(b);
     const double longer = (1 + sqrt(v2)) / sqrt(fmax(1 - v2, 1e-12)) * (1 + fabs(turn_of(&g, b)));
     return (struct ball) { { b->r * b->s * cos(phi), -b->r * b->s * sin(phi), b->r * b->u },
@@ -69,7 +69,7 @@ static struct ball ball_of(const struct kd_seen_body *b, size_t body, const stru
 
 static void fill(float *w, const struct kd_seen_body *b, const struct kd_bodies_view *view)
 {
-    const struct metric g = metric_at(view->spin, b);
+    const struct metric g = metric_at(&view->hole, b);
     const double phi = b->phi - view->azimuth, c = cos(phi), s = sin(phi), sine = fmax(b->s, SINE);
     const double axes[3][3] = { { b->s * c, -b->s * s, b->u }, { b->u * c, -b->u * s, -b->s }, { -s, -c, 0 } };
     const double stretch[3] = { g.r, g.theta / b->r, g.phi / b->r }, *v = b->velocity,
@@ -192,7 +192,7 @@ static size_t seen_of(const struct kd_seen_body *bodies, size_t n, const struct 
 {
     size_t seen = 0;
     for (size_t i = 0; i < n; i++)
-        if (kd_bodies_seen(&bodies[i], kd_hole(view->spin)))
+        if (kd_bodies_seen(&bodies[i], &view->hole))
             balls[seen++] = ball_of(&bodies[i], i, view);
     return seen;
 }
@@ -216,7 +216,7 @@ void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct k
     double low[3] = { 0 }, high[3] = { 0 }, outermost = 1, reach = 0;
     size_t seen = 0;
     for (size_t i = 0; i < n; i++) {
-        if (!kd_bodies_seen(&bodies[i], kd_hole(view->spin)))
+        if (!kd_bodies_seen(&bodies[i], &view->hole))
             continue;
         const struct ball ball = ball_of(&bodies[i], i, view);
         for (int k = 0; k < 3; k++) {
@@ -231,7 +231,7 @@ void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct k
         return;
     const double middle[3] = { 0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.5 * (low[2] + high[2]) };
     for (size_t i = 0; i < n; i++) {
-        if (!kd_bodies_seen(&bodies[i], kd_hole(view->spin)))
+        if (!kd_bodies_seen(&bodies[i], &view->hole))
             continue;
         const struct ball ball = ball_of(&bodies[i], i, view);
         reach = fmax(reach,

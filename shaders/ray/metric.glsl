@@ -1,0 +1,20 @@
+/* The metric at a place, for the kernels of light; `cam` has the hole. */
+#ifndef KD_METRIC_GLSL
+#define KD_METRIC_GLSL
+
+#include "ray/fall.glsl"
+
+/* a^2 w^2; Delta/r^2, at least 1e-30; A/r^4; Sigma/r^2; and the angular velocity of an observer of zero angular
+ * momentum (Bardeen, Press & Teukolsky 1972, with 2r - q^2 for 2r). The square of that observer's lapse is sigma delta
+ * / area. u: cosine of the polar angle. s2: the square of its sine. */
+struct kd_place { float aw2, delta, area, sigma, omega; };
+kd_place kd_place_at(float w, float u, float s2)
+{
+    float a = cam.spin, aw2 = a * a * w * w, b = 1.0 + aw2, delta = kd_horizons(w, cam.root);
+    float area = b * b - aw2 * delta * s2, drag = 2.0 * a * w * w * w;
+    if (CHARGED)
+        drag -= a * cam.charge2 * w * w * w * w;
+    return kd_place(aw2, delta, area, 1.0 + aw2 * u * u, drag / area);
+}
+
+#endif
