@@ -54,8 +54,7 @@ float kd_bodies_shift(kd_met met)
 {
     vec4 u = kd_body_row(met.body, 5u);
     float s = sqrt(max(1.0 - met.u * met.u, 1e-8));
-    return max(u.x * met.energy - u.y * met.momentum - u.z * met.dw / kd_horizons(met.w, cam.root) -
-                   u.w * met.du / s,
+    return max(u.x * met.energy - u.y * met.momentum - u.z * met.dw / kd_horizons(met.w, cam.root) - u.w * met.du / s,
                1e-6);
 }
 
