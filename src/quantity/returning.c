@@ -61,7 +61,7 @@ struct memory { struct kd_returning table; };
 static enum kd_status begin(const struct parameters *p, struct memory *m, struct outputs *o, struct kd_error *error)
 {
     const struct kd_hole hole = kd_hole_charged(p->spin, p->charge);
-    if (kd_quantity_hole_exists(p->spin, p->charge, error))
+    if (kd_hole_check(KD_QUANTITY_HOLE(p), error))
         return KD_EINVAL;
     if (!kd_returning_init(&m->table, &hole, (enum kd_limb)p->limb))
         return kd_error_set(error, KD_ENOMEM, "out of memory for the kernel of returning light");
