@@ -50,6 +50,6 @@ export function fits(quality, { width }, { keeps, part }) {
   const all = Math.round(width * part);
   return {
     all: quality.width === all,
-    narrow: quality.width < 0.98 * all * Number(new URLSearchParams(keeps).get('least')),
+    narrow: quality.width < 0.98 * all * Number(new URLSearchParams(keeps).get('min_scale')),
   };
 }

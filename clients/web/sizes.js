@@ -5,7 +5,7 @@ import * as link from './link.js';
 const most = { width: 3840, height: 2160 }; // pixels at rest; in a larger window the picture is scaled up
 const drag_px = 1600; // a wider window keeps in motion a share of this width
 const least_part = 0.25; // the server's limit
-const patience_ms = 100; // for a frame; where half the width takes longer, Auto keeps less after the first touch
+const max_frame_ms = 100; // for a frame; where half the width takes longer, Auto keeps less after the first touch
 // The least share of the window's width that is kept in motion; null: the whole picture at rest.
 const parts = { auto: 0.5, sharp: null, fast: 0.25 };
 
@@ -48,9 +48,9 @@ atFirstTouch(() => (landing = false));
 export function kept() {
   const part = parts[pace()],
     here = sizeOf(byId('stage'));
-  if (part == null) return 'least=1';
+  if (part == null) return 'min_scale=1';
   const least = Number(
     Math.min(Math.max((part * Math.min(1, drag_px / here.width)) / ratio(here), least_part), 1).toFixed(3),
   );
-  return `least=${least}` + (pace() === 'auto' && !landing && least > least_part ? `&patience_ms=${patience_ms}` : '');
+  return `min_scale=${least}` + (pace() === 'auto' && !landing && least > least_part ? `&max_frame_ms=${max_frame_ms}` : '');
 }

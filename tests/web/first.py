@@ -223,12 +223,12 @@ class First(Browser):
         """Also where such pictures take long; afterwards a drag may make them narrower."""
         page, _, patches = self.landed(lambda n: True)
         self.linked(page, "camera.azimuth_deg=")
-        asked = [r.url for r in self.requests if "least=" in r.url]
-        self.assertTrue(asked and all("least=0.5" in url and "patience_ms" not in url for url in asked), asked)
+        asked = [r.url for r in self.requests if "min_scale=" in r.url]
+        self.assertTrue(asked and all("min_scale=0.5" in url and "max_frame_ms" not in url for url in asked), asked)
         page.focus("#stage")
         page.keyboard.press("+")
         self.assertTrue(
-            daemon.eventually(lambda: page.evaluate("0") or any("patience_ms=100" in url for url, _ in patches))
+            daemon.eventually(lambda: page.evaluate("0") or any("max_frame_ms=100" in url for url, _ in patches))
         )
 
     def test_it_is_a_preset_that_moves(self):
