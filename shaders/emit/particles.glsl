@@ -15,7 +15,7 @@
 #ifdef KD_EMIT_CODE
 /* A place on one of the grids, which begins at node `first`: the row, and the azimuth in turns on the row before the
  * place and on the row after it. */
-struct kd_particle_place {
+struct kd_density_place {
     uint first, rows, columns;
     float row, before, after;
 };
@@ -27,11 +27,11 @@ float kd_particles_ahead(uint row, float ago)
     return ago * (0.5 / KD_PI) / (r * sqrt(r) + cam.spin);
 }
 
-kd_particle_place kd_particles_place(kd_sample s, float turn)
+kd_density_place kd_particles_place(kd_sample s, float turn)
 {
     float rows = float(emission.particles.rows);
     float row = clamp(-log2(s.w * emission.disk.r_in) * emission.particles.rows_octave, 0.0, rows);
-    kd_particle_place o = kd_particle_place(0, emission.particles.rows, emission.particles.columns, row, turn, turn);
+    kd_density_place o = kd_density_place(0, emission.particles.rows, emission.particles.columns, row, turn, turn);
     if ((TRAITS_particles & KD_TRAIT_SLOW) != 0u) {
         uint i = min(uint(row), emission.particles.rows - 1);
         o.before += kd_particles_ahead(i, s.ago);
@@ -40,7 +40,7 @@ kd_particle_place kd_particles_place(kd_sample s, float turn)
     return o;
 }
 
-float kd_density_of_row(kd_particle_place at, uint row, float turn)
+float kd_density_of_row(kd_density_place at, uint row, float turn)
 {
     float column = (turn - floor(turn)) * float(at.columns);
     uint j = uint(column), first = at.first + row * at.columns;
@@ -49,7 +49,7 @@ float kd_density_of_row(kd_particle_place at, uint row, float turn)
 }
 
 /* The ratio of the number of particles to the expected number, bilinear between the nodes. */
-float kd_density_at(kd_particle_place at)
+float kd_density_at(kd_density_place at)
 {
     uint i = min(uint(at.row), at.rows - 1);
     return mix(kd_density_of_row(at, i, at.before), kd_density_of_row(at, i + 1, at.after), at.row - float(i));
@@ -60,7 +60,7 @@ float kd_sample_turn(kd_sample s) { return (s.phi + emission.frame.azimuth) * (0
 
 /* Defined in plunge.glsl. */
 bool kd_plunge_falls(kd_sample s);
-kd_particle_place kd_plunge_place(kd_sample s, float turn);
+kd_density_place kd_plunge_place(kd_sample s, float turn);
 kd_gas kd_plunge_gas(kd_sample s, float number);
 
 /* Particles on orbits and plunging ones (plunge.glsl) share one read of the grids and one black body. */
@@ -68,7 +68,7 @@ kd_glow kd_particles_glow(kd_sample s)
 {
     float turn = kd_sample_turn(s);
     bool falls = kd_plunge_falls(s);
-    kd_particle_place place = kd_particles_place(s, turn);
+    kd_density_place place = kd_particles_place(s, turn);
     kd_gas gas = kd_disk_gas(s, TRAITS_particles);
     if (falls)
         place = kd_plunge_place(s, turn);

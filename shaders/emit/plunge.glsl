@@ -34,7 +34,7 @@
 #ifdef KD_EMIT_CODE
 /* Place on the grid of phases and azimuths at the ISCO. The matter is shown as it is now or, with slow light, as it was
  * a time `ago`. */
-kd_particle_place kd_plunge_place(kd_sample s, float turn)
+kd_density_place kd_plunge_place(kd_sample s, float turn)
 {
     float way = log2((emission.frame.r_isco * s.w - 1.0) / (1.0 - s.w / cam.horizon));
     way = (way - emission.plunge.log_first) * emission.plunge.step_;
@@ -45,7 +45,7 @@ kd_particle_place kd_plunge_place(kd_sample s, float turn)
         (at.x + ago * emission.plunge.laps) * float(emission.plunge.lap_rows) + float(emission.plunge.lead_rows);
     turn += ago * emission.plunge.turns - at.y;
     row = clamp(row, 0.0, float(emission.plunge.rows));
-    return kd_particle_place(emission.plunge.at, emission.plunge.rows, emission.plunge.columns, row, turn, turn);
+    return kd_density_place(emission.plunge.at, emission.plunge.rows, emission.plunge.columns, row, turn, turn);
 }
 
 /* u^r of the gas. */

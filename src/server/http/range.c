@@ -42,7 +42,7 @@ static bool read_spec(const char *at, struct spec *out)
     return !*skip_empty(at) && (out->suffix ? bounded : out->first <= out->last);
 }
 
-enum kd_range kd_range_read(const char *value, uint64_t size, uint64_t *first, uint64_t *count)
+enum kd_byte_range kd_range_read(const char *value, uint64_t size, uint64_t *first, uint64_t *count)
 {
     static const char unit[] = "bytes=";
     struct spec spec;

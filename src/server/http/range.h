@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-enum kd_range {
+enum kd_byte_range {
     KD_RANGE_WHOLE,  /* send all bytes: there is no Range, or it is ignored */
     KD_RANGE_PART,   /* send `count` bytes from position `first` */
     KD_RANGE_BEYOND, /* no byte of the range exists: 416 */
@@ -12,6 +12,6 @@ enum kd_range {
 
 /* Decides which of `size` bytes a Range value selects. NULL, malformed values, units other than bytes and lists of
  * several ranges select all of them, as RFC 9110 14.2 permits. */
-enum kd_range kd_range_read(const char *value, uint64_t size, uint64_t *first, uint64_t *count);
+enum kd_byte_range kd_range_read(const char *value, uint64_t size, uint64_t *first, uint64_t *count);
 
 #endif

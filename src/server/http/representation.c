@@ -106,7 +106,7 @@ static struct part choose(struct kd_request *request, const struct kd_representa
     if (strcmp(request->method, "GET") || !is_of(request, r->etag)) /* HEAD has no ranges (RFC 9110 14.2) */
         return part;
     struct kd_buffer range = kd_reply_header_list(request, "Range");
-    const enum kd_range what = kd_range_read((const char *)range.data, r->size, &part.first, &part.count);
+    const enum kd_byte_range what = kd_range_read((const char *)range.data, r->size, &part.first, &part.count);
     kd_buffer_finish(&range);
     part.status = what == KD_RANGE_PART     ? MHD_HTTP_PARTIAL_CONTENT
                   : what == KD_RANGE_BEYOND ? MHD_HTTP_RANGE_NOT_SATISFIABLE
