@@ -5001,10 +5001,10 @@ export interface Operations {
   'GET /v1/physics/potential': {
     takes: {
       query?: {
-        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
-        charge?: number | string;
         /** spin parameter a [M]; -1 to 1; default 0. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /**
          * angular momentum, positive towards +phi: per unit mass for matter, and of the photon for v_light [M];
          * -1000000 to 1000000; default 4.
@@ -5022,8 +5022,8 @@ export interface Operations {
       'application/json': {
         quantity: 'potential';
         parameters: {
-          charge: number | number[];
           spin: number | number[];
+          charge: number | number[];
           l: number | number[];
           r: number | number[];
         };
@@ -5050,8 +5050,8 @@ export interface Operations {
           v_max_light: number | null | (number | null)[];
         };
         units: {
-          charge: string;
           spin: string;
+          charge: string;
           l: string;
           r: string;
           v_matter: string;
@@ -5758,10 +5758,10 @@ export interface Operations {
   'GET /v1/physics/flamm': {
     takes: {
       query?: {
-        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
-        charge?: number | string;
         /** spin parameter a [M]; -1 to 1; default 0. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /** Boyer-Lindquist radius, at or outside the horizon [M]; 1 to 1000000000; default "2:20:73". */
         r?: number | string;
         /** azimuth; ranges of azimuth and r make a mesh [degrees]; -360 to 360; default 0. */
@@ -5776,8 +5776,8 @@ export interface Operations {
       'application/json': {
         quantity: 'flamm';
         parameters: {
-          charge: number | number[];
           spin: number | number[];
+          charge: number | number[];
           r: number | number[];
           phi_deg: number | number[];
         };
@@ -5800,8 +5800,8 @@ export interface Operations {
           horizon: number | null | (number | null)[];
         };
         units: {
-          charge: string;
           spin: string;
+          charge: string;
           r: string;
           phi_deg: string;
           x: string;

@@ -22,7 +22,7 @@ enum {
     APP1 = 0xe1,
 };
 
-static const char namespace[] = "http://ns.adobe.com/xap/1.0/"; /* a NUL separates it from the packet */
+static const char xmp_name[] = "http://ns.adobe.com/xap/1.0/"; /* the namespace; a NUL separates it from the packet */
 
 /* State of one compression: that of libjpeg, and that of the callbacks. */
 struct work {
@@ -210,14 +210,14 @@ enum kd_status kd_jpeg_add_xmp(const struct kd_buffer *file, const void *xmp, si
             "the scene and its notes take %zu bytes; in a JPEG they must take at most %d; a webp or png "
             "holds more",
             size, KD_JPEG_XMP_MAX);
-    const size_t length = 2 + sizeof namespace + size, before = out->size;
+    const size_t length = 2 + sizeof xmp_name + size, before = out->size;
     const uint8_t *data = file->data, head[4] = { 0xff, APP1, (uint8_t)(length >> 8), (uint8_t)length };
     /* libjpeg writes the segment JFIF first, and readers expect it there */
     const size_t first = 2 + (data[3] == APP0 ? 2 + (size_t)(data[4] << 8 | data[5]) : 0);
     enum kd_status status;
     KD_TRY(kd_buffer_append(out, data, first));
     KD_TRY(kd_buffer_append(out, head, sizeof head));
-    KD_TRY(kd_buffer_append(out, namespace, sizeof namespace));
+    KD_TRY(kd_buffer_append(out, xmp_name, sizeof xmp_name));
     KD_TRY(kd_buffer_append(out, xmp, size));
     KD_TRY(kd_buffer_append(out, data + first, file->size - first));
 done:
@@ -237,10 +237,10 @@ const void *kd_jpeg_xmp(const void *data, size_t size, size_t *length)
         const size_t segment = (size_t)(bytes[at + 2] << 8 | bytes[at + 3]); /* counts its own two bytes */
         if (segment < 2 || segment > size - at - 2)
             return NULL;
-        if (bytes[at + 1] == APP1 && segment >= 2 + sizeof namespace &&
-            !memcmp(bytes + at + 4, namespace, sizeof namespace)) {
-            *length = segment - 2 - sizeof namespace;
-            return bytes + at + 4 + sizeof namespace;
+        if (bytes[at + 1] == APP1 && segment >= 2 + sizeof xmp_name &&
+            !memcmp(bytes + at + 4, xmp_name, sizeof xmp_name)) {
+            *length = segment - 2 - sizeof xmp_name;
+            return bytes + at + 4 + sizeof xmp_name;
         }
         at += 2 + segment;
     }

@@ -5,7 +5,10 @@
 #include <webp/encode.h>
 #include <webp/mux.h>
 
-enum { METHOD = 4 }; /* of 0 (fastest) to 6 (smallest) */
+enum {
+    METHOD = 4,       /* of 0 (fastest) to 6 (smallest) */
+    LARGE = 16 << 20, /* pixels from which libwebp saves memory at the cost of time */
+};
 
 static int put(const uint8_t *data, size_t size, const WebPPicture *picture)
 {
@@ -30,6 +33,7 @@ static enum kd_status encode(uint32_t width, uint32_t height, const uint8_t *pix
     if (!WebPConfigPreset(&config, WEBP_PRESET_PHOTO, (float)quality) || !WebPPictureInit(&picture))
         return KD_EINTERNAL;
     config.method = METHOD;
+    config.low_memory = (uint64_t)width * height > LARGE;
     picture.width = (int)width;
     picture.height = (int)height;
     picture.writer = put;

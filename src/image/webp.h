@@ -11,8 +11,9 @@
 #define KD_WEBP_SIDE_MAX 16383 /* pixels; the format has 14 bits for a side */
 
 /* Appends one file. quality: 1 to 100. pixels: rows from the top, three bytes a pixel, no padding. Memory while it
- * runs: 1.5 bytes a pixel. KD_EINVAL for another quality, or a side outside 1 to KD_WEBP_SIDE_MAX; KD_ETOOBIG for a
- * picture of too much detail for the format at this quality; KD_ENOMEM; on error out->size is unchanged. */
+ * runs: 1.5 bytes a pixel, and up to 16 Mi pixels libwebp's tokens, some bytes a pixel where there is much detail.
+ * KD_EINVAL for another quality, or a side outside 1 to KD_WEBP_SIDE_MAX; KD_ETOOBIG for a picture of too much detail
+ * for the format at this quality; KD_ENOMEM; on error out->size is unchanged. */
 enum kd_status kd_webp_encode(uint32_t width, uint32_t height, const uint8_t *pixels, unsigned quality,
                               struct kd_buffer *out, struct kd_error *error);
 

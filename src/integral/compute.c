@@ -377,21 +377,18 @@ static double largest_flux(const struct kd_returning *table)
     return largest;
 }
 
-/* Error of the energy balance from which the answer is refused. */
-#define WRONG 1e-2
-
 static enum kd_status returning_of(const struct kd_integral_request *r, struct kd_returning **table,
                                    struct kd_error *error)
 {
     *table = malloc(sizeof **table);
     if (!*table || !kd_returning_init(*table, kd_hole(r->spin), r->limb))
         return kd_error_set(error, KD_ENOMEM, "out of memory for the kernel of returning light");
-    if (!((*table)->error < WRONG))
+    if (!((*table)->error < KD_RETURNING_WRONG))
         return kd_error_field(
             error, "/spin",
             "spin is %.17g, so close to an extremal hole that the energy balance of returning light is "
             "wrong by %.1g; it must be right to %g",
-            r->spin, (*table)->error, WRONG);
+            r->spin, (*table)->error, KD_RETURNING_WRONG);
     return KD_OK;
 }
 

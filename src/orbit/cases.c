@@ -23,12 +23,13 @@ static struct kd_orbit_spec mercury(double spin, double charge)
 struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin, double charge)
 {
     const double q = isnan(charge) ? 0 : charge;
+    if (which == KD_CASE_MERCURY)
+        return mercury(spin, q);
     struct kd_orbit_spec spec = { .form = KD_ORBIT_SHAPE, .spin = isnan(spin) ? 0.9 : spin, .charge = q };
     const struct kd_hole hole = kd_hole_charged(spec.spin, q);
     if (!kd_hole_exists(&hole)) /* which is refused later */
         return spec;
     switch (which) {
-    case KD_CASE_MERCURY: return mercury(spin, q);
     case KD_CASE_ZOOM_WHIRL: /* a ten-thousandth outside the separatrix: several turns of whirl for each radial period
                               */
         spec.e = 0.8;
@@ -46,6 +47,7 @@ struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin, d
         spec.inclination_deg = 60;
         spec.p = 1.5 * kd_orbit_separatrix(&hole, 0, 0.5);
         return spec;
+    case KD_CASE_MERCURY:
     case KD_CASES: break;
     }
     return spec;

@@ -5,8 +5,8 @@
 #include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
-    KD_PARAMETER_CHARGE(P) \
     P(spin, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, .help = "spin parameter a") \
+    KD_PARAMETER_CHARGE(P) \
     P(r, .unit = "M", .typed = "2:20:73", .least = 1, .most = 1e9, \
       .help = "Boyer-Lindquist radius, at or outside the horizon") \
     P(phi_deg, .unit = "degrees", .typed = "0", .least = -360, .most = 360, \

@@ -55,9 +55,6 @@ static const char *const approximations[] = {
 
 struct memory { struct kd_returning table; };
 
-/* Error of the energy balance from which the answer is refused: at 1 - |a| of some 1e-9. */
-#define WRONG 1e-2
-
 static enum kd_status begin(const struct parameters *p, struct memory *m, struct outputs *o, struct kd_error *error)
 {
     const struct kd_hole hole = kd_hole_charged(p->spin, p->charge);
@@ -65,11 +62,12 @@ static enum kd_status begin(const struct parameters *p, struct memory *m, struct
         return KD_EINVAL;
     if (!kd_returning_init(&m->table, &hole, (enum kd_limb)p->limb))
         return kd_error_set(error, KD_ENOMEM, "out of memory for the kernel of returning light");
-    if (!(m->table.error < WRONG))
-        return kd_quantity_outside(error, "spin", p->spin,
+    if (!(m->table.error < KD_RETURNING_WRONG))
+        return kd_quantity_outside(error, fabs(p->charge) > fabs(p->spin) ? "charge" : "spin",
+                                   fabs(p->charge) > fabs(p->spin) ? p->charge : p->spin,
                                    "so close to an extremal hole that the energy balance is wrong by %.1g; it must be "
                                    "right to %g",
-                                   m->table.error, WRONG);
+                                   m->table.error, KD_RETURNING_WRONG);
     o->isco = m->table.isco;
     o->disk_returns = m->table.first.returns, o->disk_falls_in = m->table.first.falls_in,
     o->disk_escapes = m->table.first.escapes;

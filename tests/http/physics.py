@@ -83,6 +83,7 @@ class Physics(daemon.Case):
             "infall",
             "sky",
             "separatrix",
+            "returning",
         }
         for quantity in self.quantities():
             query = f"/v1/physics/{quantity['name']}?"

@@ -63,7 +63,10 @@ struct kd_returning {
     int steps;                         /* of the iteration, to 1e-12 */
 };
 
-/* Some 0.1 s. The last 8 are kept and copied. Returns false if memory is short. */
+/* Error of the energy balance from which answers are refused: at 1 - |a| of some 1e-9. */
+#define KD_RETURNING_WRONG 1e-2
+
+/* Takes 0.1 to 0.3 s. The last 8 are kept and copied. Returns false if memory is short. */
 bool kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb);
 
 /* F at r >= ISCO; and one of the table's lists at r, divided by r^3. */

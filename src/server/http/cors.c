@@ -9,12 +9,12 @@
 #define MAX_AGE_S "600" /* seconds that a browser may cache a preflight; Chromium accepts up to two hours */
 #define NAME "abcdefghijklmnopqrstuvwxyz0123456789"
 #define EXPOSED \
-    "Accept-Ranges, Allow, Content-Digest, Content-Disposition, Content-Encoding, Content-Range, ETag, " \
+    "Accept-Ranges, Allow, Content-Digest, Content-Disposition, Content-Encoding, Content-Range, Deprecation, ETag, " \
     "Kerrd-Accuracy, " \
     "Kerrd-Approximations, Kerrd-Azimuth, " \
     "Kerrd-Clock, Kerrd-Count, Kerrd-Fields, Kerrd-Flux, Kerrd-Frame, " \
     "Kerrd-Generation, Kerrd-Particles, Kerrd-Patched, Kerrd-Quality, Kerrd-Revision, Kerrd-Rows, Kerrd-Scene-Hash, " \
-    "Kerrd-Sentences, Kerrd-Time, Kerrd-Waited, Location, " \
+    "Kerrd-Sentences, Kerrd-Time, Kerrd-Waited, Link, Location, " \
     "Preference-Applied, RateLimit, RateLimit-Policy, Repr-Digest, Retry-After, Server-Timing, WWW-Authenticate, " \
     "X-Request-Id"
 

@@ -136,6 +136,9 @@ static bool only_asks(const struct kd_request *request)
 static void add_quota(const struct kd_request *request, struct MHD_Response *response)
 {
     char text[80];
+    const char *caching = MHD_get_response_header(response, "Cache-Control");
+    if (caching && !strncmp(caching, "public", 6)) /* a shared cache would send one client's quota to all */
+        return;
     if (!request->server->quota || !request->route || strncmp(request->route->path, "/v1/", 4))
         return;
     const struct kd_quota quota = request->server->quota(request->server, request->client);

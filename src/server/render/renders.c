@@ -126,7 +126,8 @@ done:
 }
 
 /* Pictures of shared links may be cached publicly, unless the server requires access tokens. A picture whose address
- * names this version never changes, unless its scene names an asset, whose name may later be given to another file. */
+ * names this version changes with the device alone, within its stated error, unless its scene names an asset, whose
+ * name may later be given to another file. */
 static const char *caching(const struct kd_request *request, const struct kd_scene *scene)
 {
     struct kd_error ignored;
@@ -150,7 +151,8 @@ static struct MHD_Response *describe(struct kd_request *request, struct MHD_Resp
     kd_reply_file(request, KD_INLINE, "kerrd.%s", request->format->name);
     MHD_add_response_header(response, "ETag", request->etag);
     MHD_add_response_header(response, "Cache-Control", caching(request, scene));
-    MHD_add_response_header(response, "Vary", "Accept");
+    if (!kd_target_value(&request->target, "format"))
+        MHD_add_response_header(response, "Vary", "Accept");
     MHD_add_response_header(response, "Kerrd-Scene-Hash", hash);
     add_approximations(response, plan, report);
     kd_fall_clock_text(scene, clock);

@@ -132,7 +132,7 @@ enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *f
     if (kinds && kd_target_value(&request->target, "lossy") &&
         (!kd_target_whole(&request->target, "lossy", 0, KD_LOSSY_MAX, &lossy) || !lossy))
         return bad_number(request, "lossy must be a whole number from 1 to 100, the quality of frames before the last; "
-                                   "without it all frames are exact");
+                                   "without it those frames are exact");
     if (kinds && kd_target_value(&request->target, "last") &&
         (!kd_target_whole(&request->target, "last", 0, KD_LOSSY_MAX, &last) || !last))
         return bad_number(request, "last must be a whole number from 1 to 100, the quality of the last frame; without "

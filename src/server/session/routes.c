@@ -161,9 +161,13 @@ static enum kd_status read_pace(const struct kd_request *request, struct kd_sess
     bool limited;
     KD_TRY(read_number(request, "max_frame_ms", KD_MAX_FRAME_MS_MIN, KD_MAX_FRAME_MS_MAX, &pace->max_frame_ms, &limited,
                        error));
-    if (limited && !*said)
-        KD_TRY(kd_error_field(error, "/max_frame_ms",
-                              "max_frame_ms needs min_scale, below whose width it lets frames shrink"));
+    if (limited && !*said) {
+        const char *name, *text;
+        char pointer[40];
+        KD_TRY(kd_route_query(request, "max_frame_ms", &name, &text, error));
+        snprintf(pointer, sizeof pointer, "/%s", name);
+        KD_TRY(kd_error_field(error, pointer, "%s needs min_scale, below whose width it lets frames shrink", name));
+    }
 done:
     return status;
 }

@@ -34,8 +34,8 @@ void kd_sessions_destroy(struct kd_sessions *all);
 /* Returns KD_ETOOBIG if a frame of the plan would take too long. */
 enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error);
 
-/* Limits of the quality reduction while a session moves. A frame is at least `least` times as wide as requested, unless
- * it then takes longer than max_frame_ms (kd_governor_least). */
+/* Limits of the quality reduction while a session moves. A frame is at least `min_scale` times as wide as requested,
+ * unless it then takes longer than max_frame_ms (kd_governor_least). */
 struct kd_session_pace { double min_scale, max_frame_ms; };
 #define KD_SESSION_PACE_DEFAULT { 0.25, INFINITY }
 
