@@ -255,7 +255,7 @@ class Bash(Case):
         self.assertEqual(self.complete("kerrd playground --scene-preset gargantua-"), ["gargantua-gas"])
         self.assertEqual(self.complete("kerrd playground --set wav"), ["waves="])
         self.assertEqual(self.complete("kerrd playground --set waves="), ["false", "true"])
-        self.assertEqual(self.complete("kerrd physics re"), ["redshift"])
+        self.assertEqual(self.complete("kerrd physics red"), ["redshift"])
         self.assertEqual(self.complete("kerrd physics"), ["physics"])
         self.assertEqual(self.complete("kerrd physics kerr --sp"), ["--spin"])
         self.assertEqual(self.complete("kerrd physics --log-level warn ker"), ["kerr"])

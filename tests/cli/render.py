@@ -314,15 +314,15 @@ class Pictures(Case):
     def test_no_picture_under_a_false_name(self):
         self.bad(
             2,
-            "the name must end in .png, .npy, .npz, .fits, .exr or .stars",
+            "the name must end in .png, .jpg, .webp, .npy, .npz, .fits, .exr or .stars",
             "render",
             *SMALL,
             "-o",
-            self.path("a.JPG"),
+            self.path("a.GIF"),
         )
         self.bad(
             2,
-            "the name must end in .png, .npy, .npz, .fits, .exr or .stars",
+            "the name must end in .png, .jpg, .webp, .npy, .npz, .fits, .exr or .stars",
             "render",
             *SMALL,
             "-o",

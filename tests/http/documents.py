@@ -192,6 +192,9 @@ class Documents(unittest.TestCase):
     def test_quantities(self):
         self.run_all("docs/physics-quantities.md", 1)
 
+    def test_disk(self):
+        self.run_all("docs/physics/disk.md", 1)
+
     def test_live(self):
         self.run_all("docs/live.md", 2)
 
@@ -205,7 +208,7 @@ class Documents(unittest.TestCase):
         self.run_all("docs/layers.md", 1)
 
     def test_http(self):
-        self.run_all("docs/http.md", 6)
+        self.run_all("docs/http.md", 7)
 
     def test_other_languages(self):
         self.made("docs/other-languages.md", 2, "hole.png", "radii.csv", "spot.png")

@@ -381,7 +381,7 @@ class Requests(daemon.Case):
         self.assertEqual(set(post["responses"]["200"]["content"]), {"application/json", "application/x-npy"})
         self.assertEqual(
             [p["name"] for p in post["parameters"]],
-            ["spin", "r", "inclination_deg", "motion"]
+            ["spin", "charge", "r", "inclination_deg", "motion"]
             + ["velocity_r", "velocity_theta", "velocity_phi", "infall_from", "infall_energy", "infall_momentum"]
             + ["orders", "profile", "tolerance", "engine", "precision", "steps"],
         )
