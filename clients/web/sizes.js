@@ -52,5 +52,7 @@ export function kept() {
   const least = Number(
     Math.min(Math.max((part * Math.min(1, drag_px / here.width)) / ratio(here), least_part), 1).toFixed(3),
   );
-  return `min_scale=${least}` + (pace() === 'auto' && !landing && least > least_part ? `&max_frame_ms=${max_frame_ms}` : '');
+  return (
+    `min_scale=${least}` + (pace() === 'auto' && !landing && least > least_part ? `&max_frame_ms=${max_frame_ms}` : '')
+  );
 }
