@@ -62,12 +62,13 @@ async function open() {
 
 const opened = plain ? open().catch(() => null) : null;
 // If the first picture takes long, a recording of the first view begins meanwhile.
+const none = () => !performance.getEntriesByName('first-picture').length;
 if (plain)
   setTimeout(
     () =>
-      performance.getEntriesByName('first-picture').length ||
+      none() &&
       import('./loop.js').then(
-        ({ play }) => play(stage, () => 0),
+        ({ play }) => play(stage, () => 0, none),
         () => {},
       ),
     slow_ms,

@@ -55,8 +55,8 @@ function say(text, aloud) {
 function sayRecorded() {
   say(t('A recording', 'Una registrazione'), false);
   byId('exactly-words').textContent = t(
-    'kerrd made this recording of the first view, of 1280 × 960 pixels with four rays each. It is shown because this server makes fewer than four pictures a second now. At the first touch it goes on live.',
-    'kerrd ha fatto questa registrazione della prima vista, di 1280 × 960 pixel con quattro raggi ciascuno. La si mostra perché ora il server fa meno di quattro immagini al secondo. Al primo tocco continua dal vivo.',
+    'kerrd made this recording of the first view, of 1280 × 960 pixels with four rays each. It is shown because the first picture took more than a second, or because this server makes fewer than four pictures a second now. At the first touch it goes on live.',
+    'kerrd ha fatto questa registrazione della prima vista, di 1280 × 960 pixel con quattro raggi ciascuno. La si mostra perché la prima immagine ha impiegato più di un secondo, o perché ora il server fa meno di quattro immagini al secondo. Al primo tocco continua dal vivo.',
   );
 }
 

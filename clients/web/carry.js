@@ -81,7 +81,8 @@ export function buildCarry(stage, scene) {
     picture.style.opacity = !canvas.hidden && canvas.style.transform && other ? 0 : '';
   }
 
-  for (const event of ['change', 'move']) scene.addEventListener(event, () => ([picture, canvas].forEach(go), cover()));
+  for (const event of ['change', 'move'])
+    scene.addEventListener(event, () => scene.recorded || ([picture, canvas].forEach(go), cover()));
 
   function saw(node, by) {
     seen.set(node, by && camera(by));

@@ -253,8 +253,8 @@ export const light = [
       '<mi>F</mi><mo>=</mo><msub><mi>F</mi><mn>0</mn></msub><mo>+</mo><mo>∫</mo><msup><mi>g</mi><mn>4</mn></msup><mfrac><mi>F</mi><mi>π</mi></mfrac><mi>μ</mi><mi>d</mi><mi>Ω</mi><mo>+</mo><msub><mi>F</mi><mi>t</mi></msub>',
     show: (v, p) => ({
       note: t(
-        `Of the whole disk ${number(100 * v.disk_returns, 3)} % returns and ${number(100 * v.disk_falls_in, 3)} % falls in. In the end ${number(100 * v.ends_in_hole, 3)} % is in the hole: of ${number(100 * v.efficiency, 3)} % of the mass that becomes light, ${number(100 * v.efficiency_seen, 3)} % gets away.`,
-        `Di tutto il disco il ${number(100 * v.disk_returns, 3)} % torna e il ${number(100 * v.disk_falls_in, 3)} % cade nel buco. Alla fine nel buco c’è il ${number(100 * v.ends_in_hole, 3)} %: del ${number(100 * v.efficiency, 3)} % della massa che diventa luce se ne va il ${number(100 * v.efficiency_seen, 3)} %.`,
+        `Of the whole disk ${number(100 * v.disk_returns, 3)} % returns and ${number(100 * v.disk_falls_in, 3)} % falls in. In the end ${number(100 * v.ends_in_hole, 3)} % is in the hole: the disk turns ${number(100 * v.efficiency, 3)} % of the infalling mass into light; ${number(100 * v.efficiency_seen, 3)} % of that mass reaches infinity as light.`,
+        `Di tutto il disco il ${number(100 * v.disk_returns, 3)} % torna e il ${number(100 * v.disk_falls_in, 3)} % cade nel buco. Alla fine nel buco c’è il ${number(100 * v.ends_in_hole, 3)} %: il disco trasforma in luce il ${number(100 * v.efficiency, 3)} % della massa che cade; come luce arriva all’infinito il ${number(100 * v.efficiency_seen, 3)} % di quella massa.`,
       ),
       x: axis(radius),
       y: axis(t('share of the photons', 'quota dei fotoni'), { min: 0, max: 1 }),

@@ -28,21 +28,26 @@ export function begin(stage, scene, fresh) {
   const tell = () =>
     scene.tick(seconds() * scene.get('motion.time_rate'), false, { 'camera.azimuth_deg': seconds() * rate_deg });
 
+  // Returns a promise of whether the recording plays.
   async function record() {
-    if (!(await play(stage, () => scene.get('camera.azimuth_deg') / rate_deg)) || !scene.drift) return;
+    if (!(await play(stage, () => scene.get('camera.azimuth_deg') / rate_deg)) || !scene.drift) return false;
     clearTimeout(timer);
     scene.record();
     tell();
     timer = setInterval(tell, tell_ms);
+    return true;
   }
 
   const sees = () => !document.hidden && document.body.dataset.view === 'lensing';
-  let seen = true; // during the whole trial
+  let seen; // during the whole trial
   const look = () => (seen &&= sees());
   for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, look);
   function judge() {
     if (scene.get('camera.azimuth_deg') > rate_deg * (length_s - 1)) return; // the recording does not go so far
     if (seen && pictures < (least_pace * trial_ms) / 1000) return void record();
+    trial();
+  }
+  function trial() {
     pictures = 0;
     seen = sees();
     timer = setTimeout(judge, trial_ms);
@@ -71,8 +76,8 @@ export function begin(stage, scene, fresh) {
   scene.drifts(rate_deg);
   if (goesOn('lesson'))
     stand(); // the class follows the session
-  else if (begun()) record();
-  else timer = setTimeout(judge, trial_ms);
+  else if (begun()) record().then(plays => plays || (scene.drift && trial()));
+  else trial();
   return frame => {
     pictures++;
     if (jumps >= 0 && frame.shows && frame.jumps >= jumps) leave();

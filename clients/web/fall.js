@@ -78,16 +78,17 @@ export function buildFall(scene) {
 
   // Redshift of the sky at the observer, and the size of the shadow.
   const measure = latest(async () => {
-    const { mass_msun, ...who } = faller(scene),
+    const at_r = r,
+      { mass_msun, ...who } = faller(scene),
       { values } = await physics('sky', {
         ...who,
         observer: 'infall',
-        observer_r: Number(r.toPrecision(3)),
+        observer_r: Number(at_r.toPrecision(3)),
         yaw_deg: 180,
       }),
       wide = number(2 * values.dark_radius_deg, 3),
       part = number(100 * values.dark_share, 2);
-    guide?.heard(values);
+    guide?.heard(values, at_r);
     byId('fall-behind').textContent = `× ${number(values.g_behind, 3)}`;
     byId('fall-sky').textContent = t(
       `× ${number(values.g_least, 3)} to ${number(values.g_greatest, 3)}`,
@@ -99,6 +100,8 @@ export function buildFall(scene) {
   function showPlay() {
     play.textContent = !scene.held ? t('Pause', 'Pausa') : ended() ? t('Again', 'Di nuovo') : t('Go on', 'Continua');
   }
+
+  const showGuided = () => guide?.shown(r, !scene.held && !ended());
 
   function show(clock) {
     const span = name => `${number(clock[name], 3)} M = ${duration(clock[name + '_s'])}`,
@@ -114,7 +117,7 @@ export function buildFall(scene) {
       at.value = (1000 * Math.log(r / way.r)) / Math.log(way.last / way.r);
     at.setAttribute('aria-valuetext', `${byId('fall-r').textContent}, ${now}`);
     showPlay();
-    guide?.shown(r, !scene.held && !ended());
+    showGuided();
     if (ended()) guide?.over();
     // the other numbers do not need these
     measure().catch(() => ['behind', 'sky', 'disk'].forEach(name => (byId('fall-' + name).textContent = '–')));
@@ -158,7 +161,7 @@ export function buildFall(scene) {
 
   function stop() {
     const focused = box.contains(document.activeElement);
-    unguide(false);
+    unguide(true);
     way = null;
     box.hidden = true;
     start.hidden = false;
@@ -177,32 +180,44 @@ export function buildFall(scene) {
     got = el('a', { class: 'button', id: 'fall-got', href: '', hidden: true }, t('Save it again', 'Salvalo di nuovo')),
     told = el('p', { class: 'help', id: 'fall-film-told', role: 'status' });
   box.append(el('p', { class: 'row' }, guided, ' ', filmed, ' ', got), told);
-  let filming = false;
+  let filming = null, // the guide whose film is being recorded
+    asked = 0; // how often a guide has been asked for
 
   function showGuide() {
     guided.textContent = guide ? t('End the guide', 'Fine della guida') : t('Guide me, 90 s', 'Guidami, 90 s');
     filmed.textContent = filming
       ? t('Save the film now', 'Salva ora il film')
       : t('Film it, with sound', 'Filmala, con il suono');
-    guided.hidden = filming;
+    guided.hidden = Boolean(filming);
     filmed.hidden = guide !== null && !filming;
+  }
+
+  // The film of a guide has been saved, or dropped.
+  function filmEnded(one) {
+    if (filming === one) (filming = null), (told.textContent = '');
+    guide === one ? unguide(false) : showGuide();
   }
 
   // Begins the fall anew, with captions and sound.
   async function guideIt(records) {
     tell(fault, '');
-    const [{ begin, films }, { values: hole }, { values: last }] = await Promise.all([
+    const one = ++asked,
+      mine = way;
+    const [{ begin, films, seconds }, { values: hole }, { values: last }] = await Promise.all([
       module(import('./guide.js')),
       physics('kerr', (({ spin, charge }) => ({ spin, ...(charge && { charge }) }))(faller(scene))),
       physics('infall', { ...faller(scene), r: way.last }),
     ]);
+    if (one !== asked || mine !== way) return;
     if (records && !films) {
       told.textContent = t('This browser records no films.', 'Questo browser non registra film.');
       return;
     }
-    const { seconds } = await import('./guide.js');
+    const own = begin({ hole, way, records, got, ended: () => filmEnded(own) });
+    guide?.end(false);
+    guide = own;
     guided_s = seconds / Math.log(way.proper_time_to_end / last.proper_time_to_end);
-    filming = records;
+    if (records) filming = own;
     got.hidden = got.hidden || records;
     told.textContent = records
       ? t(
@@ -210,13 +225,6 @@ export function buildFall(scene) {
           'Il browser registra ciò che vedi. Lascia questa pagina in primo piano fino alla fine.',
         )
       : '';
-    guide = begin({
-      hole,
-      way,
-      records,
-      got,
-      ended: () => ((filming = false), unguide(false), (told.textContent = '')),
-    });
     put(way.r, way);
     if (scene.held) run();
     showGuide();
@@ -278,7 +286,8 @@ export function buildFall(scene) {
   });
   scene.addEventListener('change', () => {
     if (!way) return;
-    if (scene.begun('camera.r') === given && scene.get(pace) === rate && falls(scene)) return showPlay();
+    if (scene.begun('camera.r') === given && scene.get(pace) === rate && falls(scene))
+      return (showPlay(), showGuided());
     stop(); // any other change of the camera ends the fall
     if (rate && scene.get(pace) === rate) scene.change({ [pace]: 0 });
   });

@@ -13,14 +13,17 @@ const [width, height, rate] = [1280, 720, 30]; // of the film
 const bits = 8e6; // a second
 const last_ms = 3000; // the last caption stays in the film for so long
 const forms = ['video/webm;codecs=vp9,opus', 'video/webm;codecs=vp8,opus', 'video/mp4'];
+const events = ['visibilitychange', 'viewchange']; // upon which the view may be hidden
 
 const form = globalThis.MediaRecorder && forms.find(name => MediaRecorder.isTypeSupported(name));
 export const films = Boolean(form) && Boolean(HTMLCanvasElement.prototype.captureStream);
 
-// The captions, each with the radius below which it is shown; one is a function of the black share of the sky. hole:
-// values of the quantity kerr; way: of infall, where the fall begins.
-export function captions({ isco, photon_prograde: circle, horizon }, { r, end }) {
-  const inner = end > 0;
+// The captions, the outermost first, each with the radius below which it is shown. One is a function of the black share
+// of the sky. hole: values of the quantity kerr; way: of infall, where the fall begins.
+export function captions({ horizon, ...hole }, { r, end }) {
+  const inner = end > 0,
+    isco = Math.min(hole.isco, hole.isco_retrograde),
+    circle = Math.min(hole.photon_prograde, hole.photon_retrograde);
   return [
     [
       Infinity,
@@ -73,7 +76,7 @@ export function captions({ isco, photon_prograde: circle, horizon }, { r, end })
         ),
     ],
     [
-      inner ? 1.25 * end : 0.15 * horizon,
+      inner ? Math.min(end + 0.1, (horizon + 5 * end) / 6) : 0.15 * horizon,
       inner
         ? t(
             'Ahead is the inner horizon. Nobody knows what space is like beyond. The model ends here.',
@@ -84,7 +87,9 @@ export function captions({ isco, photon_prograde: circle, horizon }, { r, end })
             'Davanti c’è la singolarità: non un luogo ma un momento, che non puoi mancare. Il modello finisce qui.',
           ),
     ],
-  ].filter(([below], i) => i === 0 || below < r);
+  ]
+    .filter(([below], i) => i === 0 || below < r)
+    .sort(([a], [b]) => b - a);
 }
 
 function tone() {
@@ -147,10 +152,6 @@ function film(text, sound, got, ended) {
   for (const track of sound.getTracks()) stream.addTrack(track);
   const recorder = new MediaRecorder(stream, { mimeType: form, videoBitsPerSecond: bits });
   let wanted = true;
-  (function follow() {
-    draw(context, text());
-    if (recorder.state !== 'inactive' || !parts.length) requestAnimationFrame(follow);
-  })();
   recorder.addEventListener('dataavailable', ({ data }) => parts.push(data));
   recorder.addEventListener('stop', () => {
     for (const track of stream.getTracks()) track.stop();
@@ -159,6 +160,10 @@ function film(text, sound, got, ended) {
     ended();
   });
   recorder.start(1000);
+  (function follow() {
+    draw(context, text());
+    if (recorder.state !== 'inactive') requestAnimationFrame(follow);
+  })();
   return {
     stop: () => recorder.state === 'inactive' || recorder.stop(),
     drop: () => ((wanted = false), recorder.state === 'inactive' || recorder.stop()),
@@ -166,26 +171,49 @@ function film(text, sound, got, ended) {
 }
 
 // hole, way: as for captions(). records: also makes a film; got: the link to it; ended() is called when it is saved.
-// Returns shown(r, runs), to be called with the radius of each picture and whether it falls; heard(sky), with values
-// of the quantity sky, looking back; over(), at the end of the fall; end(), when the fall is left.
+// Returns shown(r, runs), to be called with the radius of each picture and whether it falls; heard(sky, r), with
+// values of the quantity sky at a radius, looking back; over(), at the end of the fall; end(), when the fall is left.
 export function begin({ hole, way, records, got, ended }) {
   const all = captions(hole, way),
     words = el('p', { id: 'fall-caption', role: 'status' }),
     sound = tone();
-  byId('stage').append(words);
   let timer = 0,
-    black = 0;
-  const kept = records ? film(() => words.textContent, sound.stream(), got, ended) : null;
-  const close = () => (clearTimeout(timer), sound.close(), words.remove());
+    kept = null,
+    here = null, // the caption of the newest picture
+    told = null; // that which is shown; its text stays as it was, because screen readers read each change
+
+  const captionAt = r => all.findLast(([below]) => r <= below)[1];
+  function say(black) {
+    if (here === told || (typeof here === 'function' && black == null)) return;
+    told = here;
+    words.textContent = typeof told === 'function' ? told(black) : told;
+  }
+
+  const sees = () => !document.hidden && document.body.dataset.view === 'lensing',
+    hush = () => sees() || sound.loud(false);
+  function close() {
+    clearTimeout(timer);
+    for (const event of events) document.removeEventListener(event, hush);
+    sound.close();
+    words.remove();
+  }
+
+  for (const event of events) document.addEventListener(event, hush);
+  byId('stage').append(words);
+  try {
+    if (records) kept = film(() => words.textContent, sound.stream(), got, ended);
+  } catch (error) {
+    close();
+    throw error;
+  }
   return {
     shown(r, runs) {
-      const caption = all.findLast(([below]) => r <= below)[1],
-        text = typeof caption === 'function' ? caption(black) : caption;
-      if (words.textContent !== text) words.textContent = text;
-      sound.loud(runs);
+      here = captionAt(r);
+      say();
+      sound.loud(runs && sees());
     },
-    heard({ g_behind, dark_share }) {
-      black = dark_share;
+    heard({ g_behind, dark_share }, r) {
+      if (captionAt(r) === here) say(dark_share);
       sound.at(g_behind);
     },
     over() {

@@ -43,15 +43,8 @@ const refusals = [
   ['too many open lessons (limit {})', 'troppe lezioni aperte (limite {})'],
   ['you have too many open lessons (limit {} for one client)', 'hai troppe lezioni aperte (limite {} per un cliente)'],
   ['{} is {}; it must be 0 or a multiple of 4 up to {}', '{} è {}; deve essere 0 o un multiplo di 4 fino a {}'],
-  [
-    '{} is {}{?}; it must be {} to {}, or a range first:last:count of {} to {} such values',
-    '{} è {}{?}; deve essere da {} a {}, o un intervallo primo:ultimo:quanti, da {} a {}',
-  ],
-  [
-    '{} is {}{?}; it must be above {} and below {}, or a range first:last:count of {} to {} such values',
-    '{} è {}{?}; deve essere sopra {} e sotto {}, o un intervallo primo:ultimo:quanti, da {} a {}',
-  ],
   ['{} is {}{?}; it must be a number above {} and below {}', '{} è {}{?}; deve essere un numero sopra {} e sotto {}'],
+  ['{} is {}{?}; it must be a number above {}, up to {}', '{} è {}{?}; deve essere un numero sopra {}, fino a {}'],
   ['{} is {}{?}; it must be {} up to, not including, {}', '{} è {}{?}; deve essere da {} fino a {} escluso'],
   ['{} is {}{?}; it must be {} to {}, or {}', '{} è {}{?}; deve essere da {} a {}, o {}'],
   ['{} is {}{?}; it must be {} to {}', '{} è {}{?}; deve essere da {} a {}'],
@@ -102,6 +95,10 @@ const refusals = [
   [
     '{} is {}; it must be more than {}, the horizon of {} {} and {} {}',
     '{} è {}; deve essere più di {}, l’orizzonte per {} {} e {} {}',
+  ],
+  [
+    '{} is {}; with spin {} its magnitude must be below {}',
+    '{} è {}; con spin {} deve essere, in valore assoluto, sotto {}',
   ],
   ['{} is {}; with spacetime.spin {} it must be at most {}', '{} è {}; con spacetime.spin {} deve essere al più {}'],
   [
@@ -302,10 +299,16 @@ const amounts = {
 };
 
 const strips = '; strips might fit, but ';
+const ranges = /, or a range first:last:count of (\d+) to (\d+) such values$/;
 
 export function refusal(text) {
   const [whole, why] = text.split(strips);
   if (why) return `${refusal(whole) ?? whole}; a strisce potrebbe starci, ma ${refusal(why) ?? why}`;
+  const range = ranges.exec(text);
+  if (range) {
+    const one = refusal(text.slice(0, range.index));
+    return one && `${one}, o un intervallo primo:ultimo:quanti, da ${range[1]} a ${range[2]} valori`;
+  }
   for (const [shape, italian] of refusals) {
     const parts = shape.exec(text)?.slice(1);
     if (parts)

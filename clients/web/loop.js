@@ -19,15 +19,17 @@ const happens = event =>
   });
 
 // While the view is hidden it stands.
-const follow = () =>
-  document.hidden || document.body.dataset.view !== 'lensing' ? film?.pause() : film?.play().catch(() => {});
+function follow() {
+  if (over) return;
+  document.hidden || document.body.dataset.view !== 'lensing' ? film.pause() : film.play().catch(() => {});
+}
 
-async function open(stage, from_s) {
+async function open(stage, from_s, wanted) {
   const { width, height } = sizeOf(stage);
   if (over || still.matches || navigator.connection?.saveData || !(width >= lowest * height)) return false;
   film = el('video', { id: 'loop', loop: true, playsinline: true, 'aria-hidden': 'true', hidden: true });
   film.muted = true;
-  byId('picture').after(film);
+  (document.getElementById('moving') ?? byId('picture')).after(film); // over the live pictures
   try {
     const answer = await fetch(new URL('stills/first.webm', import.meta.url));
     if (!answer.ok) throw new Error();
@@ -42,6 +44,7 @@ async function open(stage, from_s) {
     over = true;
   }
   if (over) return (away(), false);
+  if (!wanted()) return (away(), (playing = null), false);
   film.hidden = false;
   for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, follow);
   return true;
@@ -54,8 +57,9 @@ function away() {
   film = null;
 }
 
-// Plays it from from_s() seconds on, unless it plays already. Returns a promise of whether it plays.
-export const play = (stage, from_s) => (playing ??= open(stage, from_s));
+// Plays it from from_s() seconds on, unless it plays already, or wanted() is false once it is loaded. Returns a promise
+// of whether it plays.
+export const play = (stage, from_s, wanted = () => true) => (playing ??= open(stage, from_s, wanted));
 
 export const begun = () => playing;
 

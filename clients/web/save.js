@@ -1,6 +1,6 @@
 // "Save picture": a job on the server renders it at any size, while the page stays usable. The PNG holds its scene.
-import { byId } from './dom.js';
-import { t } from './i18n.js';
+import { byId, el } from './dom.js';
+import { t, tell } from './i18n.js';
 import { fileName, jobOf, offer, remembered } from './job.js';
 import * as link from './link.js';
 import { ask } from './server.js';
@@ -76,7 +76,13 @@ export function buildSave(scene, size, changed) {
     group.open &&
     (films ??= import('./record.js')
       .then(({ recordScene }) => (recordScene(byId('record'), scene, size), true))
-      .catch(() => ((films = null), false)));
+      .catch(() => {
+        films = null;
+        const told = el('p', { id: 'film-told', class: 'fault', role: 'status' });
+        byId('record').replaceChildren(told);
+        tell(told, t('The server does not answer', 'Il server non risponde'));
+        return false;
+      }));
   group.addEventListener('toggle', record);
   record();
   return { films: record };

@@ -56,7 +56,11 @@ async function makePoster(card, scene, url, openTake) {
 async function makeFilm(card, openTake) {
   const films = ['time', 'orbit', 'spin'].map(name => `#film-${name}`);
   const panel = await openTake();
-  if (!(await panel?.films())) return card.close();
+  if (!(await panel?.films())) {
+    card.close();
+    document.getElementById('film-told')?.scrollIntoView({ block: 'center' });
+    return;
+  }
   films
     .map(id => document.querySelector(id))
     .find(({ disabled }) => !disabled)

@@ -104,10 +104,29 @@ class Falling(Browser):
         page.goto(self.base + "#pace=fast&preset=default&" + SMOOTH + "&lang=en&spacetime.spin=0")
         page.wait_for_selector(AT_REST)
         page.click("#fall-in")
-        page.click("#fall-guide")
+        page.wait_for_selector("#fall-guide:visible")
+        page.evaluate("for (const _ of '12') document.getElementById('fall-guide').click()")  # impatiently
         caption = lambda words: self.there(page, words, "#fall-caption")
         page.wait_for_selector("#fall-caption")
         self.assertEqual(page.inner_text("#fall-guide"), "End the guide")
+        self.assertEqual(page.locator("#fall-caption").count(), 1)
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("tones.includes(0.12)")), "it is heard while it falls")
+        paused = page.evaluate("tones.length = 0, document.getElementById('fall-play').click(), tones")
+        self.assertEqual(paused, [0], "a pause hushes the tone")
+        page.click("#fall-play")
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("tones.includes(0.12)")))
+        for change in "visibilitychange", "viewchange":
+            hushed = page.evaluate(
+                """change => {
+                document.body.dataset.view = "orbits";
+                tones.length = 0;
+                document.dispatchEvent(new Event(change));
+                const heard = [...tones];
+                document.body.dataset.view = "lensing";
+                return heard; }""",
+                change,
+            )
+            self.assertEqual(hushed, [0], change)
         for at, words, low, high in (
             (250, "Within 6 M no gas can stay in orbit", 3, 6),
             (400, "You have crossed the horizon.", 1.2, 2),
@@ -118,6 +137,7 @@ class Falling(Browser):
             with self.subTest(words=words):
                 r = 20 * (self.last / 20) ** (at / 1000)
                 self.assertTrue(low < r < high, r)
+                page.evaluate("tones.length = 0")
                 self.put(page, at)
                 caption(words)
                 pitch = 440 / (1 + math.sqrt(2 / r))
@@ -140,6 +160,29 @@ class Falling(Browser):
         self.assertTrue(b"V_VP9" in data and b"A_OPUS" in data)
         page.wait_for_selector("#fall-caption", state="detached")
         page.wait_for_selector("#fall-got:visible")
+
+    def test_the_captions_come_in_order(self):
+        """Whatever the spin and the start: the radii fall, and the last caption is shown before the fall ends."""
+        page = self.open("lang=en&disk.model=none")
+        for spin, r in ((-0.9, 20), (0, 20), (0.998, 20), (0.5, 5)):
+            with self.subTest(spin=spin, r=r):
+                hole = self.daemon.get(f"/v1/physics/kerr?spin={spin}").json()["values"]
+                way = {"r": r, "end": self.daemon.get(f"/v1/physics/infall?spin={spin}&r={r}").json()["values"]["end"]}
+                all_of = page.evaluate(
+                    """async ([hole, way]) => (await import("./web/guide.js")).captions(hole, way).map(
+                        ([below, text], i) => [i ? below : way.r, typeof text === "function" ? text(0.5) : text])""",
+                    [hole, way],
+                )
+                radii = [below for below, _ in all_of]
+                self.assertEqual(radii, sorted(radii, reverse=True))
+                self.assertEqual(len(set(radii)), len(radii))
+                end = way["end"] + min(0.05, 0.2 * (1 - way["end"]))
+                self.assertGreater(radii[-1], end)
+                self.assertRegex(all_of[-1][1], "^Ahead is the ")
+                self.assertEqual([below for below, text in all_of if "the horizon. You" in text], [hole["horizon"]])
+                stable = min(hole["isco"], hole["isco_retrograde"])
+                if stable < r:
+                    self.assertIn(stable, [below for below, text in all_of if "no gas can stay" in text])
 
     last = 0.05  # radius at which a fall without spin ends
 

@@ -445,7 +445,9 @@ class Hand(Browser):
 
     def test_how_sharp_it_is_while_it_moves_is_chosen(self):
         page = self.open("pace=auto&lang=it")
-        asked = lambda: [r.url.partition("least=")[2].partition("&")[0] for r in self.requests if "least=" in r.url]
+        asked = lambda: [
+            r.url.partition("min_scale=")[2].partition("&")[0] for r in self.requests if "min_scale=" in r.url
+        ]
         self.assertEqual((asked(), page.input_value("#pace")), (["0.5"], "auto"))
         page.keyboard.press("Shift")  # the first touch, after which Auto may take less
         page.evaluate('for (const id of ["all", "group-more"]) document.getElementById(id).open = true')

@@ -107,6 +107,11 @@ class Pages(Browser):
             "physics/redshift?r=1.2&spin=0.5",
             "physics/ring-image?r=1&spin=0.5",
             "physics/kerr?spin=2",
+            "physics/kerr?spin=x",
+            "physics/kerr?r=0",
+            "physics/kerr?spin=0.9&charge=0.9",
+            "physics/qnm?l=99",
+            "physics/infall?r=0",
         ]:
             answers.append(self.daemon.request("GET", "/v1/" + query))
         for spin, p, e in ((2, 6, 0), (0.9, 6, 1), (0.9, 2, 0.5)):

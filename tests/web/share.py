@@ -177,7 +177,7 @@ class Share(Browser):
         self.there(page, "Cancelled.", "#film-told")
 
     def test_a_film_whose_module_comes_late_or_not_at_all(self):
-        """The button waits for the films' module, however long it takes; without it the card closes."""
+        """The button waits for the films' module, however long it takes; without it the page says so."""
         self.expected = "Failed to load resource"
         page = self.open("lang=en&preset=smooth&pause=1")
         held, asked = [], []
@@ -199,6 +199,7 @@ class Share(Browser):
         self.share(page)
         page.get_by_role("button", name="Make a film, five seconds").click()
         page.wait_for_selector("#sending", state="hidden")
+        self.there(page, "The server does not answer", "#film-told")
 
     def test_an_asset_is_refused_in_words(self):
         self.expected = "422"
