@@ -166,8 +166,6 @@ class First(Browser):
         self.linked(page, "camera.azimuth_deg=")
         self.assertEqual(page.inner_text("#play"), "Pause")
         self.shot(page, "first-recording")
-        order = page.evaluate("[...document.querySelectorAll('#picture, #moving, #loop')].map(({ id }) => id)")
-        self.assertEqual(order, ["picture", "moving", "loop"], "it lies over the live pictures")
         patches.clear()
         box = page.locator("#stage").bounding_box()
         page.mouse.move(box["x"] + 300, box["y"] + 200)
@@ -190,6 +188,8 @@ class First(Browser):
         """With a view in the address ahead.js begins no recording, so that the pictures are counted (drift.js)."""
         page, release, _ = self.landed(lambda n: n < 2, "&view=lensing")
         page.wait_for_selector(self.LOOP)
+        order = page.evaluate("[...document.querySelectorAll('#picture, #moving, #loop')].map(({ id }) => id)")
+        self.assertEqual(order, ["picture", "moving", "loop"], "it lies over the live pictures")
         self.assertTrue(daemon.eventually(lambda: page.evaluate("document.getElementById('picture').naturalWidth > 0")))
         self.there(page, "A recording", "#status")
         release()
