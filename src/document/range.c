@@ -59,11 +59,15 @@ enum kd_status kd_row_range(const struct kd_row *row, const char *text, const ch
         if (read.first < 0)
             return kd_row_refuse(row, &value, row->name, pointer, error);
     } else if (!(row->words && !strcmp(text, row->words)) && !(parse(text, &read) && holds(row, &read))) {
-        char allowed[KD_ALLOWED_SIZE];
+        char allowed[KD_ALLOWED_SIZE], given[KD_VALUE_SIZE];
         struct kd_row told = *row;
         kd_row_allowed(row, allowed);
         snprintf(allowed + strlen(allowed), sizeof allowed - strlen(allowed),
                  ", or a range first:last:count of 2 to %d such values", KD_RANGE_MOST);
+        if (strchr(text, ':')) { /* a range, and not a string where a number is needed */
+            kd_value_describe(&value, given);
+            return kd_error_field(error, pointer, "%s is %s; it must be %s", row->name, given, allowed);
+        }
         told.allowed = allowed;
         return kd_row_refuse(&told, &value, row->name, pointer, error);
     }

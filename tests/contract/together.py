@@ -179,7 +179,11 @@ TOGETHER = [
     ("(POST|PATCH) /v1/playground", SESSION),
     (
         "POST /v1/sessions|PATCH /v1/sessions/{id}(/frame)?|POST /v1/sessions/{id}/path",
-        SESSION + ("%s needs min_scale, below whose width it lets frames shrink",),
+        SESSION
+        + (
+            "%s needs min_scale, below whose width it lets frames shrink",
+            "the query has %s, and its former name %s too",
+        ),
     ),
     ("POST /v1/sessions/{id}/path|POST /v1/jobs", TIMELINE),
     (

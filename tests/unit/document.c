@@ -236,7 +236,7 @@ static void ranges_are_read_and_refused(void **state)
         { &leaf, "green", NULL, { 1, 1, 1 } },
         { &whole,
           "1:2:3",
-          "cups is \"1:2:3\", a string where a number is needed; it must be a whole number from -2 to 8, "
+          "cups is \"1:2:3\"; it must be a whole number from -2 to 8, "
           "or a range first:last:count of 2 to 100000 such values",
           { 0 } },
         { &whole, "1:9:9", "", { 0 } },
