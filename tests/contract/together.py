@@ -333,6 +333,7 @@ TOGETHER = [
             "p is %.16g; with this hole, e and inclination_deg it must be above the separatrix at %.9g",
         ),
     ),
+    ("GET /v1/physics/", (HOLE,)),
     (
         "GET /v1/physics/(disk-flux|flamm|frame-dragging|potential|kerr|tidal|infall)$",
         ("%s is %s, |inside the horizon at %.9g M; it must be outside",),
