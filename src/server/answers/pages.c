@@ -55,10 +55,12 @@ static enum MHD_Result signed_in(struct kd_request *request, const char *token)
 
 /* blob: lets a script show in an <img> a picture that the script has fetched in order to read its headers, and in a
  * <video> a film in which it seeks. */
-static const char *const guarded[] = { "Content-Security-Policy",
-                                       "default-src 'self'; img-src 'self' blob:; media-src 'self' blob:; base-uri 'none'; "
-                                       "form-action 'self'; frame-ancestors 'none'",
-                                       "Referrer-Policy", "no-referrer", NULL };
+static const char *const guarded[] = {
+    "Content-Security-Policy",
+    "default-src 'self'; img-src 'self' blob:; media-src 'self' blob:; base-uri 'none'; "
+    "form-action 'self'; frame-ancestors 'none'",
+    "Referrer-Policy", "no-referrer", NULL
+};
 
 /* Name of the file that a route shows. */
 static const char *file_of(const struct kd_request *request)
