@@ -235,9 +235,12 @@ def bodies(method, request):
 class Writer:
     def __init__(self, document):
         self.document = document
-        rows = [row for row in document["paths"]["/v1/render"]["get"]["parameters"] if row["in"] == "query"]
-        self.scene = {row["name"]: row for row in rows if row["name"] != "preset"}
-        self.preset = next(row for row in rows if row["name"] == "preset")["schema"]
+        get, post = (
+            {row["name"]: row for row in document["paths"]["/v1/render"][method]["parameters"] if row["in"] == "query"}
+            for method in ("get", "post")
+        )
+        self.scene = {name: row for name, row in get.items() if name not in post}  # a POST has its scene in the body
+        self.preset = get["preset"]["schema"]
 
     def query(self, rows):
         """The type of the query, with the fields of a scene by one name, and whether it is needed."""
