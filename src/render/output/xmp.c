@@ -1,31 +1,11 @@
 #include "render/output/xmp.h"
 
+#include "base/markup.h"
+
 #include <string.h>
 
 #define PREFIX "kerrd:"
 #define SCENE "kerrd:scene"
-
-static const struct {
-    char character;
-    const char *entity;
-} escapes[] = { { '&', "&amp;" }, { '<', "&lt;" }, { '>', "&gt;" } };
-enum { ESCAPES = sizeof escapes / sizeof *escapes };
-
-static enum kd_status put_text(struct kd_buffer *out, const char *text)
-{
-    enum kd_status status = KD_OK;
-    for (size_t plain; *text && !status; text += plain) {
-        plain = strcspn(text, "&<>");
-        status = kd_buffer_append(out, text, plain);
-        for (int i = 0; i < ESCAPES && text[plain] && !status; i++)
-            if (text[plain] == escapes[i].character) {
-                status = kd_buffer_printf(out, "%s", escapes[i].entity);
-                plain++;
-                break;
-            }
-    }
-    return status;
-}
 
 /* A tile is an area that is cropped from the full panorama. */
 static enum kd_status put_panorama(const struct kd_scene *scene, struct kd_buffer *out)
@@ -60,41 +40,20 @@ enum kd_status kd_xmp_put(const struct kd_picture *picture, const struct kd_note
                                 "<xmp:CreatorTool>kerrd " KD_VERSION "</xmp:CreatorTool>\n"));
     if (n_notes && *picture->frame->credit) {
         KD_TRY(kd_buffer_printf(out, "<dc:rights><rdf:Alt><rdf:li xml:lang=\"x-default\">"));
-        KD_TRY(put_text(out, picture->frame->credit));
+        KD_TRY(kd_markup_escape(picture->frame->credit, KD_MARKUP_CONTENT, out));
         KD_TRY(kd_buffer_printf(out, "</rdf:li></rdf:Alt></dc:rights>\n"));
     }
     for (size_t i = 0; i < n_notes; i++) {
         if (strncmp(notes[i].name, PREFIX, sizeof PREFIX - 1))
             continue; /* said above, by a property that other programs know */
         KD_TRY(kd_buffer_printf(out, "<%s>", notes[i].name));
-        KD_TRY(put_text(out, notes[i].text));
+        KD_TRY(kd_markup_escape(notes[i].text, KD_MARKUP_CONTENT, out));
         KD_TRY(kd_buffer_printf(out, "</%s>\n", notes[i].name));
     }
     KD_TRY(kd_buffer_printf(out, "%s</rdf:RDF>\n</x:xmpmeta>\n<?xpacket end=\"r\"?>",
                             n_notes ? "</rdf:Description>\n" : ""));
 done:
     return status;
-}
-
-/* Replaces entities by their characters, in place. */
-static void unescape(struct kd_buffer *text)
-{
-    size_t to = 0;
-    for (size_t from = 0; from < text->size; to++) {
-        const char *at = (const char *)text->data + from;
-        size_t taken = 1;
-        char character = *at;
-        for (int i = 0; i < ESCAPES && *at == '&'; i++)
-            if (!strncmp(at, escapes[i].entity, strlen(escapes[i].entity))) {
-                character = escapes[i].character;
-                taken = strlen(escapes[i].entity);
-                break;
-            }
-        text->data[to] = (uint8_t)character;
-        from += taken;
-    }
-    text->size = to;
-    text->data[to] = 0;
 }
 
 enum kd_status kd_xmp_scene(const void *xmp, size_t size, struct kd_scene *out, struct kd_error *error)
@@ -109,7 +68,7 @@ enum kd_status kd_xmp_scene(const void *xmp, size_t size, struct kd_scene *out, 
     struct kd_buffer text = { 0 };
     enum kd_status status = kd_buffer_append(&text, from, (size_t)(to - from));
     if (!status) {
-        unescape(&text);
+        kd_markup_unescape(&text);
         status = kd_notes_scene((const char *)text.data, text.size, out, error);
     } else {
         kd_error_set(error, status, "out of memory for the scene of a picture");

@@ -3,6 +3,7 @@
  * shows the picture and a link. */
 #include "server/answers/share.h"
 
+#include "base/markup.h"
 #include "server/http/cors.h"
 #include "server/http/reply.h"
 #include "server/render/shared.h"
@@ -10,26 +11,6 @@
 #include <string.h>
 
 #define HTML "text/html; charset=utf-8"
-
-/* Escapes text for HTML attributes and content. */
-static enum kd_status escape(const struct kd_buffer *text, struct kd_buffer *out)
-{
-    static const struct {
-        char character;
-        const char *reference;
-    } table[] = {
-        { '&', "&amp;" }, { '<', "&lt;" }, { '>', "&gt;" }, { '"', "&quot;" }, { '\'', "&#39;" },
-    };
-    enum kd_status status = KD_OK;
-    for (size_t i = 0; i < text->size && !status; i++) {
-        size_t k = 0;
-        while (k < sizeof table / sizeof *table && table[k].character != (char)text->data[i])
-            k++;
-        status = k < sizeof table / sizeof *table ? kd_buffer_printf(out, "%s", table[k].reference)
-                                                  : kd_buffer_append(out, &text->data[i], 1);
-    }
-    return status ? status : kd_buffer_printf(out, "%s", "");
-}
 
 /* Escapes a query value: all but unreserved characters (RFC 3986 2.3). */
 static enum kd_status as_value(const struct kd_buffer *text, struct kd_buffer *out)
@@ -90,7 +71,7 @@ static enum kd_status make_page(const struct kd_shared *shared, struct kd_buffer
         [OPEN] = &open,
     };
     for (int i = 0; i < TEXTS; i++) {
-        KD_TRY(escape(all[i], &escaped[i]));
+        KD_TRY(kd_markup_escape((const char *)all[i]->data, KD_MARKUP_ATTRIBUTE, &escaped[i]));
         texts[i] = (const char *)escaped[i].data;
     }
     KD_TRY(write_page(texts, page));
@@ -126,7 +107,7 @@ static enum kd_status make_frame(const struct kd_shared *shared, struct kd_buffe
     const struct kd_buffer *const all[] = { &shared->title, &shared->link, &shared->about };
     enum kd_status status;
     for (int i = 0; i < 3; i++)
-        KD_TRY(escape(all[i], &texts[i]));
+        KD_TRY(kd_markup_escape((const char *)all[i]->data, KD_MARKUP_ATTRIBUTE, &texts[i]));
     KD_TRY(kd_buffer_printf(page,
                             "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"

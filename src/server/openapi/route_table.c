@@ -1,5 +1,6 @@
 #include "server/openapi/route_table.h"
 
+#include "base/markup.h"
 #include "render/output/format.h"
 #include "server/http/access.h"
 #include "server/http/request.h"
@@ -33,18 +34,20 @@ static void put(struct page *page, const char *format, ...)
 }
 
 /* Writes words of a table, which are ASCII; what is in backquotes is code. */
-static void put_words(struct page *page, const char *text)
+static void put_words(struct page *page, const char *words)
 {
     bool code = false;
-    for (; *text; text++)
+    struct kd_buffer escaped = { 0 };
+    if (page->html && !page->status)
+        page->status = kd_markup_escape(words, KD_MARKUP_CONTENT, &escaped);
+    for (const char *text = escaped.data ? (const char *)escaped.data : words; *text; text++)
         if (page->html && *text == '`')
             put(page, (code = !code) ? "<code>" : "</code>");
-        else if (page->html && (*text == '<' || *text == '&'))
-            put(page, *text == '<' ? "&lt;" : "&amp;");
         else if (!page->html && (*text == '|' || *text == '*'))
             put(page, "\\%c", *text);
         else
             put(page, "%c", *text);
+    kd_buffer_finish(&escaped);
 }
 
 static void next_cell(struct page *page) { put(page, page->html ? "<td>" : " | "); }
