@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* What an option's argument is called in --help. */
@@ -61,7 +62,7 @@ void kd_row_options_add(struct kd_row_options *to, struct argp_option *table, si
                         const struct kd_document *document, const void *from, const char *about, bool objects,
                         int group)
 {
-    for (size_t i = 0; i < document->n && to->n < KD_ROW_OPTIONS; i++) {
+    for (size_t i = 0; i < document->n; i++) {
         const struct kd_row *row = &document->rows[i];
         const char *object = objects && row->object ? row->object : "", *unit = row->unit ? row->unit : "";
         char option[sizeof *to->options], initial[80];
@@ -71,6 +72,8 @@ void kd_row_options_add(struct kd_row_options *to, struct argp_option *table, si
             *c = '-';
         if ((document->of && row->of && !(row->of & document->of)) || has(to, option))
             continue;
+        if (to->n == KD_ROW_OPTIONS) /* a table has outgrown the room; each start of its command shows it */
+            abort();
         const size_t k = to->n++;
         name_default(row, from, initial, sizeof initial);
         memcpy(to->options[k], option, sizeof option);

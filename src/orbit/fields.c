@@ -11,23 +11,27 @@
 #define RADIUS(most) "\"type\":\"number\",\"exclusiveMinimum\":1,\"maximum\":" most
 _Static_assert(KD_ORBIT_SAMPLES_MAX == 200000, "the schema says so");
 
+/* The rows of the hole, for a request and for a single orbit. AT is that of the table. */
+#define HOLE \
+    { .name = "spin", \
+      .kind = KD_KIND_REAL, \
+      .offset = AT(spin), \
+      .least = -1, \
+      .most = 1, \
+      .open = KD_OPEN, \
+      .help = "spin of the hole, a/M" }, \
+        { .name = "charge", \
+          .kind = KD_KIND_REAL, \
+          .offset = AT(charge), \
+          .least = -1, \
+          .most = 1, \
+          .open = KD_OPEN, \
+          .unit = "M", \
+          .help = "charge Q of the hole; the body is neutral; a^2 + Q^2 < 1" }
+
 const struct kd_row kd_orbit_settings[] = {
 #define AT(member) offsetof(struct kd_orbit_params, member)
-    { .name = "spin",
-      .kind = KD_KIND_REAL,
-      .offset = AT(spin),
-      .least = -1,
-      .most = 1,
-      .open = KD_OPEN,
-      .help = "spin of the hole, a/M" },
-    { .name = "charge",
-      .kind = KD_KIND_REAL,
-      .offset = AT(charge),
-      .least = -1,
-      .most = 1,
-      .open = KD_OPEN,
-      .unit = "M",
-      .help = "charge Q of the hole; the body is neutral; a^2 + Q^2 < 1" },
+    HOLE,
     { .name = "samples",
       .kind = KD_KIND_INT,
       .offset = AT(samples),
@@ -132,21 +136,7 @@ _Static_assert(sizeof kd_orbit_settings / sizeof *kd_orbit_settings == KD_ORBIT_
 
 const struct kd_row kd_orbit_fields[] = {
 #define AT(member) offsetof(struct kd_orbit_spec, member)
-    { .name = "spin",
-      .kind = KD_KIND_REAL,
-      .offset = AT(spin),
-      .least = -1,
-      .most = 1,
-      .open = KD_OPEN,
-      .help = "spin of the hole, a/M" },
-    { .name = "charge",
-      .kind = KD_KIND_REAL,
-      .offset = AT(charge),
-      .least = -1,
-      .most = 1,
-      .open = KD_OPEN,
-      .unit = "M",
-      .help = "charge Q of the hole; the body is neutral; a^2 + Q^2 < 1" },
+    HOLE,
     { .name = "p",
       .kind = KD_KIND_REAL,
       .offset = AT(p),

@@ -8,8 +8,8 @@
 #include "base/buffer.h"
 #include "render/frame/frame.h"
 
-#define KD_QUALITY 90 /* of lossy formats, unless another is asked for */
-#define KD_QUALITY_MAX 100
+#define KD_QUALITY 90      /* of lossy formats, unless another is asked for */
+#define KD_QUALITY_MAX 100 /* the smallest is 1 */
 
 /* A frame and how it was made. */
 struct kd_picture {

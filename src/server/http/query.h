@@ -4,7 +4,6 @@
 
 #define KD_WAIT_MS 25000       /* default of the parameter wait_ms: proxies commonly give up after 30 s */
 #define KD_WAIT_MS_MAX 60000   /* largest value of wait_ms */
-#define KD_LOSSY_MAX 100       /* largest value of the parameter lossy; the smallest is 1 */
 #define KD_VERSION_LETTERS 40  /* longest value of the parameter v */
 #define KD_MIN_SCALE_MIN 0.25  /* smallest value of the parameter min_scale; the largest is 1 */
 #define KD_MAX_FRAME_MS_MIN 10 /* smallest value of the parameter max_frame_ms */

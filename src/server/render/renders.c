@@ -52,20 +52,16 @@ static enum MHD_Result refuse(struct kd_request *request, const struct offer *of
     return result;
 }
 
-/* The format that the query names. */
-static const struct kd_format *named(const char *name, struct kd_error *error)
+static void refuse_name(const char *name, struct kd_error *error)
 {
     char names[100] = "";
-    const struct kd_format *format = kd_format_named(name);
     for (size_t i = 0; i < kd_n_formats; i++)
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s",
                  !i                     ? ""
                  : i + 1 < kd_n_formats ? ", "
                                         : " or ",
                  kd_formats[i]->name);
-    if (!format)
-        kd_error_field(error, "/format", "format is \"%.40s\"; it must be %s", name, names);
-    return format;
+    kd_error_field(error, "/format", "format is \"%.40s\"; it must be %s", name, names);
 }
 
 /* Reads the parameters format, quality and v, and chooses the format by them and Accept. Returns false when the request
@@ -74,8 +70,9 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_error error;
     uint64_t quality;
-    const char *format = kd_target_value(&request->target, "format"), *v = kd_target_value(&request->target, "v"),
+    const char *name = kd_target_value(&request->target, "format"), *v = kd_target_value(&request->target, "v"),
                *text = kd_target_value(&request->target, "quality");
+    const struct kd_format *format = name ? kd_format_named(name) : NULL;
     if (!kd_target_whole(&request->target, "quality", KD_QUALITY, KD_QUALITY_MAX, &quality) || !quality)
         kd_error_field(&error, "/quality", "quality is \"%.40s\"; it must be a whole number, 1 to %d", text,
                        KD_QUALITY_MAX);
@@ -83,21 +80,19 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
         kd_error_field(&error, "/v",
                        "v is \"%.60s\"; it must be a version, such as \"" KD_VERSION "\", of 1 to %d letters", v,
                        KD_VERSION_LETTERS);
-    else if (!format) {
+    else if (name && !format)
+        refuse_name(name, &error);
+    else if (name && text && !format->lossy)
+        kd_error_field(&error, "/quality", "quality is %s; it must be absent with format %s, which is exact", text,
+                       name);
+    else {
         const struct offer offer = offer_of(text);
-        const size_t best = kd_reply_accepted(request, offer.n, type_of, offer.formats);
-        request->format = best < offer.n ? offer.formats[best] : NULL;
+        const size_t best = name ? 0 : kd_reply_accepted(request, offer.n, type_of, offer.formats);
         request->quality = (unsigned)quality;
+        request->format = name ? format : best < offer.n ? offer.formats[best] : NULL;
         if (!request->format)
             *result = refuse(request, &offer);
         return request->format;
-    } else if ((request->format = named(format, &error))) {
-        request->quality = (unsigned)quality;
-        if (!text || request->format->lossy)
-            return true;
-        kd_error_field(&error, "/quality", "quality is %s; it must be absent with format %s, which is exact", text,
-                       format);
-        request->format = NULL;
     }
     *result = kd_reply_error(request, &error);
     return false;

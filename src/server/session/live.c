@@ -130,11 +130,11 @@ enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *f
     if (!kd_reply_only(request, &refused))
         return refused;
     if (kinds && kd_target_value(&request->target, "lossy") &&
-        (!kd_target_whole(&request->target, "lossy", 0, KD_LOSSY_MAX, &lossy) || !lossy))
+        (!kd_target_whole(&request->target, "lossy", 0, KD_QUALITY_MAX, &lossy) || !lossy))
         return bad_number(request, "lossy must be a whole number from 1 to 100, the quality of frames before the last; "
                                    "without it those frames are exact");
     if (kinds && kd_target_value(&request->target, "last") &&
-        (!kd_target_whole(&request->target, "last", 0, KD_LOSSY_MAX, &last) || !last))
+        (!kd_target_whole(&request->target, "last", 0, KD_QUALITY_MAX, &last) || !last))
         return bad_number(request, "last must be a whole number from 1 to 100, the quality of the last frame; without "
                                    "it that frame is exact");
     if (!kd_target_whole(&request->target, "sentences", NO_SENTENCES, KD_SENTENCES_MAX, &sentences))
