@@ -2899,6 +2899,8 @@ export interface Share {
   code: string;
   title: string;
   about: string;
+  /** Unix time at which the url ends, if the server signed it. */
+  expires?: number;
 }
 
 export interface OEmbed {
@@ -3077,11 +3079,11 @@ export interface Job {
 export interface Problem {
   type:
     | 'urn:kerrd:problem:bad-request' | 'urn:kerrd:problem:malformed-json' | 'urn:kerrd:problem:unauthorized'
-    | 'urn:kerrd:problem:role' | 'urn:kerrd:problem:cross-site' | 'urn:kerrd:problem:forbidden'
-    | 'urn:kerrd:problem:not-found' | 'urn:kerrd:problem:method-not-allowed' | 'urn:kerrd:problem:not-acceptable'
-    | 'urn:kerrd:problem:not-ready' | 'urn:kerrd:problem:conflict' | 'urn:kerrd:problem:timeout'
-    | 'urn:kerrd:problem:precondition-failed' | 'urn:kerrd:problem:body-too-large' | 'urn:kerrd:problem:uri-too-long'
-    | 'urn:kerrd:problem:unsupported-media-type' | 'urn:kerrd:problem:misdirected'
+    | 'urn:kerrd:problem:role' | 'urn:kerrd:problem:link' | 'urn:kerrd:problem:cross-site'
+    | 'urn:kerrd:problem:forbidden' | 'urn:kerrd:problem:not-found' | 'urn:kerrd:problem:method-not-allowed'
+    | 'urn:kerrd:problem:not-acceptable' | 'urn:kerrd:problem:not-ready' | 'urn:kerrd:problem:conflict'
+    | 'urn:kerrd:problem:timeout' | 'urn:kerrd:problem:precondition-failed' | 'urn:kerrd:problem:body-too-large'
+    | 'urn:kerrd:problem:uri-too-long' | 'urn:kerrd:problem:unsupported-media-type' | 'urn:kerrd:problem:misdirected'
     | 'urn:kerrd:problem:range-not-satisfiable' | 'urn:kerrd:problem:invalid-scene' | 'urn:kerrd:problem:invalid-rays'
     | 'urn:kerrd:problem:invalid-parameters' | 'urn:kerrd:problem:invalid-orbit' | 'urn:kerrd:problem:invalid-job'
     | 'urn:kerrd:problem:invalid-playground' | 'urn:kerrd:problem:invalid-asset' | 'urn:kerrd:problem:too-large'

@@ -32,6 +32,7 @@
     X("scene", scene, "print the merged scene with every field") \
     X("presets", presets, "list the presets") \
     X("serve", serve, "run the HTTP server") \
+    X("sign", sign, "make an address of a server that works without an access token until it expires") \
     X("doctor", doctor, "check this machine: devices, drivers, caches") \
     X("bench", bench, "measure the speed and accuracy of each engine on this device")
 

@@ -154,6 +154,7 @@ static enum kd_status serve(const struct kd_settings *settings, struct kd_error 
         .cross_site = kd_settings_switch(settings, KD_SERVE_CROSS_SITE),
         .state = kd_settings_text(settings, KD_SERVE_STATE),
         .token_file = kd_settings_text(settings, KD_SERVE_TOKEN_FILE),
+        .share_key = kd_settings_text(settings, KD_SERVE_SHARE_KEY),
         .reopenings = reopenings ? reopenings : UINT_MAX,
         .renderer = { .device = kd_settings_text(settings, KD_SERVE_DEVICE),
                       .prove = kd_first_start,

@@ -22,7 +22,11 @@
       "host is accepted like that of --host (default: the Host of a request)") \
     GROUP("Who may use it:") \
     S(TOKEN_FILE, "token-file", 'T', "FILE", TEXT, 0, 0, NULL, ANYWHERE, \
-      "accept only requests with a token of this file; a line is NAME ROLE TOKEN, and ROLE is view or render") \
+      "accept only requests with a token of this file; a line is NAME ROLE TOKEN, and ROLE is view or render, or " \
+      "link for a key that signs links") \
+    S(SHARE_KEY, "share-key", 'K', "NAME", TEXT, 0, 0, NULL, ANYWHERE, \
+      "let everybody see scenes that users share, for 30 days, by links that are signed with this key of the token " \
+      "file") \
     S(INSECURE, "insecure", 'I', "yes|no", SWITCH, 0, 0, "no", ANYWHERE, \
       "allow --listen on an address that other machines reach without a token file: everybody there may use the " \
       "server") \

@@ -20,6 +20,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #define BODIES_TOO_MANY "too many bodies are being received"
 #define BODIES_OF_CLIENT "too many bytes of your request bodies are being received at once (limit for one client)"
@@ -114,6 +115,8 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state, enum 
     stage(request, KD_STAGE_IDLE);
     kd_bytes_give(server->bodies, request->client, request->body.size);
     if (request->job) {
+        if (request->link.on)
+            kd_link_charge(server->links, &request->link, request->job->used_ms, (uint64_t)time(NULL));
         kd_buffer_finish(&request->job->file);
         kd_frame_finish(&request->job->frame);
         free(request->job);
@@ -202,26 +205,27 @@ static bool body_fault(const struct kd_request *request, struct told *told, stru
 
 /* Whether a page of another site has made the browser send this request (Fetch Metadata, W3C). Such a page could use
  * the visitor's access to this server, so the request is refused. A navigation is allowed, such as a link to a
- * picture. */
+ * picture, and so is a signed link, which works without the visitor's access. */
 static bool is_foreign(const struct kd_request *request)
 {
     const char *site = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Site");
     const char *mode = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Mode");
     const char *to = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Dest");
-    if (request->server->cross_site || !site || strcmp(site, "cross-site") || kd_cors_origin(request))
+    if (request->server->cross_site || request->link.on || !site || strcmp(site, "cross-site") ||
+        kd_cors_origin(request))
         return false;
     bool visit = mode && !strcmp(mode, "navigate") && to && !strcmp(to, "document") && strcmp(request->method, "POST");
     return !visit && !strncmp(request->route->path, "/v1/", 4);
 }
 
 /* Finds the route and checks access. Clients without access do not learn which routes exist. */
-static bool find_route(struct kd_request *request, struct kd_problem *problem)
+static bool find_route(struct kd_request *request, struct kd_problem *problem, struct kd_error *error)
 {
     struct kd_problem nowhere;
     const bool found = kd_route_find(request, &nowhere);
     if (!found)
         request->route = NULL;
-    if (!kd_access_check(request, problem))
+    if (!kd_access_check(request, problem, error))
         return false;
     if (request->visitor)
         kd_client_named(request->visitor->name, request->client);
@@ -273,7 +277,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
     } else if (*request->raw != '/') {
         problem = (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST,
                                         .detail = "the request target is neither a path nor an address" };
-    } else if (!find_route(request, &problem)) {
+    } else if (!find_route(request, &problem, &error)) {
         const bool options = is_options(request) && problem.type == KD_PROBLEM_METHOD;
         if (options && !request->body_announced) {
             *result = kd_reply_options(request, problem.allow);

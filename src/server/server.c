@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "server/asset/store.h"
 #include "server/http/access.h"
+#include "server/http/link.h"
 #include "server/http/cors.h"
 #include "server/http/auth_throttle.h"
 #include "server/http/descriptors.h"
@@ -205,6 +206,19 @@ static enum kd_status start_renders(struct kd_server *server, const struct kd_se
                                   params->reopenings, &server->renders, error);
 }
 
+/* Keeps the name of the key for shared scenes, if the token file has it. */
+static enum kd_status take_share_key(struct kd_server *server, const char *name, struct kd_error *error)
+{
+    uint8_t ignored[KD_ACCESS_SIGNATURE];
+    const struct kd_visitor *owner = NULL;
+    if (!server->access || !kd_access_sign(server->access, name, "", 0, ignored, &owner))
+        return kd_error_set(error, KD_EINVAL,
+                            "--share-key is %.40s; it must be the name of a key of --token-file, a line NAME link KEY",
+                            name);
+    server->share_key = owner->name;
+    return KD_OK;
+}
+
 static enum kd_status start(struct kd_server *server, const struct kd_server_params *params, struct kd_error *error)
 {
     const char *address = params->listen ? params->listen : "127.0.0.1";
@@ -233,6 +247,10 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(kd_base_path_init(&server->base, params->base_path, error));
     if (params->token_file)
         KD_TRY(kd_access_read(params->token_file, &server->access, error));
+    if (params->token_file && !(server->links = calloc(1, sizeof *server->links)))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
+    if (params->share_key)
+        KD_TRY(take_share_key(server, params->share_key, error));
     if (params->token_file && !(server->auth_throttle = kd_auth_throttle_create()))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
     if (params->cors_origins || params->embed_origins)
@@ -354,6 +372,7 @@ void kd_server_destroy(struct kd_server *server)
     free(server->public_url);
     kd_names_free(server->own);
     kd_access_free(server->access);
+    free(server->links);
     kd_auth_throttle_destroy(server->auth_throttle);
     kd_cors_destroy(server->cors);
     if (server->stop_fd >= 0)

@@ -19,6 +19,7 @@ GOOD = {
     "base-path": ("/x", "/x"),
     "host": ("a,b", ["a", "b"]),
     "token-file": ("/t", "/t"),
+    "share-key": ("website", "website"),
     "insecure": ("yes", True),
     "allow-cross-site": ("yes", True),
     "queue": ("3", 3),

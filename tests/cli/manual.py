@@ -125,6 +125,8 @@ class Installed(Case):
 class Examples(Case):
     def test_they_run(self):
         os.symlink(KERRD, self.path("kerrd"))
+        tokens = self.write("tokens", "website link 0123456789abcdef0123456789abcdef\n")
+        os.chmod(tokens, 0o600)
         os.symlink(SOURCES.parent / "data/eht/m87-2017-04-05-lo.csv", self.path("m87.csv"))
         env = {**os.environ, "PATH": self.folder + os.pathsep + os.environ["PATH"]}
         seen = 0

@@ -198,8 +198,11 @@ class Roles(Access):
         document = self.ask("GET", "/openapi.json", headers=own(VIEW)).json()
         schemes = document["components"]["securitySchemes"]
         self.assertEqual(
-            [(schemes[name]["type"], schemes[name].get("name")) for name in ("access", "accessHeader", "accessCookie")],
-            [("http", None), ("apiKey", "Kerrd-Access"), ("apiKey", "kerrd_access")],
+            [
+                (schemes[name]["type"], schemes[name].get("name"))
+                for name in ("access", "accessHeader", "accessCookie", "link")
+            ],
+            [("http", None), ("apiKey", "Kerrd-Access"), ("apiKey", "kerrd_access"), ("apiKey", "signature")],
         )
         self.assertEqual(
             document["security"], [{"access": ["view"]}, {"accessHeader": ["view"]}, {"accessCookie": ["view"]}]
@@ -214,7 +217,8 @@ class Roles(Access):
                     (health, not health, health),
                     at,
                 )
-                self.assertEqual("403" in operation["responses"], path.startswith("/v1/"), at)
+                linked = {"link": []} in operation.get("security", [])
+                self.assertEqual("403" in operation["responses"], path.startswith("/v1/") or linked, at)
                 if any("render" in roles for way in operation.get("security", []) for roles in way.values()):
                     seen.add(at)
         self.assertEqual(seen, set(CHANGES))
@@ -439,8 +443,9 @@ class Files(daemon.unittest.TestCase):
             ("ann view\n", "line 1"),
             (good + "bob", "line 2"),
             (good + f"bob render {RENDER} more", "a line must be NAME ROLE TOKEN"),
-            (f"ann admin {VIEW}", "the role must be view or render"),
-            (f"ann View {VIEW}", "view or render"),
+            (f"ann admin {VIEW}", "the role must be view, render or link"),
+            (f"ann View {VIEW}", "view, render or link"),
+            (f"ann link {31 * 'k'}", "a key for links must have 32 to 256"),
             ("ann view 0123456789abcde", "16 to 256"),
             (f"ann view {257 * 'a'}", "16 to 256"),
             ('ann view 0123456789"abcdef', "consist of letters"),
@@ -464,6 +469,12 @@ class Files(daemon.unittest.TestCase):
                 server = daemon.Daemon("--drain-ms", 10, "--token-file", token_file(folder, LINES, mode))
                 self.assertEqual(server.get("/v1/device").status, 401)
                 self.assertEqual(server.stop(), 0)
+
+    def test_a_key_to_share_that_there_is_not(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = token_file(folder, LINES)
+            self.assertIn("--share-key is ann", self.start("--token-file", file, "--share-key", "ann"))
+            self.assertIn("--share-key is ann", self.start("--share-key", "ann"))
 
     def test_a_file_that_is_none(self):
         self.assertIn("No such file", self.start("--token-file", "/no/such/file"))

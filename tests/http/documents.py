@@ -208,7 +208,7 @@ class Documents(unittest.TestCase):
         self.run_all("docs/layers.md", 1)
 
     def test_http(self):
-        self.run_all("docs/http.md", 7)
+        self.run_all("docs/http.md", 8)
 
     def test_other_languages(self):
         self.made("docs/other-languages.md", 2, "hole.png", "radii.csv", "spot.png")

@@ -1,5 +1,6 @@
 /* The HTTP service in front of the linked renderer: fake_server [--NAME VALUE]... with the numbers of struct
- * kd_server_params by name, --listen, --public-url, --host and --cors-origin (once each), --token-file and --device. */
+ * kd_server_params by name, --listen, --public-url, --host and --cors-origin (once each), --token-file,
+ * --share-key and --device. */
 #include "base/log.h"
 #include "server/server.h"
 
@@ -58,6 +59,8 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         return params->public_url = value, 1;
     if (!strcmp(name, "--token-file"))
         return params->token_file = value, 1;
+    if (!strcmp(name, "--share-key"))
+        return params->share_key = value, 1;
     if (!strcmp(name, "--state"))
         return params->state = value, 1;
     if (!strcmp(name, "--log-format"))

@@ -6,6 +6,7 @@ client.py KERRD FOLDER
 import asyncio
 import contextlib
 import dataclasses
+import datetime
 import http.client
 import http.server
 import importlib.util
@@ -765,6 +766,51 @@ class Documented(unittest.TestCase):
                         1,
                     )
                     os.remove(f"{folder}/hole.png")
+
+
+class Links(unittest.TestCase):
+    """kerrd.sign makes the links of `kerrd sign`."""
+
+    KEY = "key-of-the-website-0123456789abcdef"
+    DAY = datetime.datetime(datetime.date.today().year + 1, 3, 1, 12, 30, tzinfo=datetime.timezone.utc)
+
+    def test_the_same_link(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "tokens"
+            file.write_text(f"website link {self.KEY}\n")
+            file.chmod(0o600)
+            for address in (
+                "https://example.org/v1/render?preset=jet&image.width=64",
+                "https://example.org/base/v1/render",
+                "/s/KyhKLU4tsS3Ozc8vyQAA",
+                "/v1/physics/kerr?spin=0.5&fields=a%20b+c%2Cd%C3%A9&x=",
+                "http://localhost:8080/v1/jobs/0123456789abcdef/result?format=mp4",
+                "/v1/share/KyhKLU4tsS3Ozc8vyQAA/picture.png?width=600",
+            ):
+                for budget in (None, 1.5):
+                    command = [KERRD, "sign", "-T", file, "-k", "website", "-e", f"{self.DAY:%Y-%m-%dT%H:%M:%SZ}"]
+                    command += [] if budget is None else ["-b", str(budget)]
+                    told = subprocess.run([*command, address], capture_output=True, text=True, check=True).stdout
+                    self.assertEqual(kerrd.sign(address, self.KEY, "website", self.DAY, budget) + "\n", told)
+
+    def test_when_it_ends(self):
+        for expires in (3600, datetime.timedelta(hours=1)):
+            link = kerrd.sign("/v1/render", self.KEY, "website", expires)
+            self.assertAlmostEqual(int(re.search("expires=([0-9]+)", link)[1]), time.time() + 3600, delta=300)
+
+    def test_what_is_wrong(self):
+        for words, address, expires, budget in (
+            ("address is", "/v1/device", 60, None),
+            ("address is", "/v1/render#x", 60, None),
+            ("signature already", "/v1/render?signature=00", 60, None),
+            ("expires is -1", "/v1/render", -1, None),
+            ("expires is inf", "/v1/render", math.inf, None),
+            ("expires is nan", "/v1/render", math.nan, None),
+            ("budget is 0", "/v1/render", 60, 0),
+            ("budget is nan", "/v1/render", 60, math.nan),
+        ):
+            with self.assertRaisesRegex(ValueError, words):
+                kerrd.sign(address, self.KEY, "website", expires, budget)
 
 
 class Elsewhere(unittest.TestCase):

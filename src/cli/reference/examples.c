@@ -57,6 +57,8 @@ const struct kd_example kd_examples[] = {
     { "serve", "kerrd serve --listen 0.0.0.0 --insecure --state state",
       "For everybody on a network, with jobs that survive a restart:" },
     { "serve", "kerrd serve --log-level info --log-format json", "With a line of JSON for each request:" },
+    { "sign", "kerrd sign -T tokens -k website -e 30d 'https://example.org/v1/render?preset=jet'",
+      "An address that anybody may GET for 30 days, signed with a key of the server's token file:" },
     { "doctor", "kerrd doctor", "Check of this machine:" },
     { "doctor", "kerrd doctor --devices", "The devices that --device chooses from:" },
     { "bench", "kerrd bench accuracy --quick --seconds 0.001", "A first impression:" },

@@ -14,6 +14,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #define JSON_TYPE "application/json"
 #define PLAIN_TITLE "Black hole"
@@ -67,14 +68,38 @@ done:
     return status;
 }
 
+enum kd_status kd_shared_sign(const struct kd_request *request, const char *path, struct kd_buffer *out)
+{
+    struct kd_error ignored;
+    if (!request->link.on)
+        return kd_buffer_printf(out, "%s", "");
+    const enum kd_status status = kd_buffer_printf(out, "?");
+    return status ? status
+                  : kd_link_sign(request->server->access, request->link.signer, path, NULL, &request->link.terms, out,
+                                 &ignored);
+}
+
+/* Writes the address of a path of this server. */
+static enum kd_status tell_address(const struct kd_request *request, const struct kd_shared *shared, const char *path,
+                                   struct kd_buffer *out)
+{
+    const enum kd_status status = kd_buffer_printf(out, "%s%s", (const char *)shared->home.data, path);
+    return status ? status : kd_shared_sign(request, path, out);
+}
+
 static enum kd_status tell_addresses(const struct kd_request *request, struct kd_shared *out)
 {
     const char *code = (const char *)out->code.data;
+    struct kd_buffer page = { 0 }, picture = { 0 };
     enum kd_status status;
     KD_TRY(kd_public_url_write(request, &out->home));
-    KD_TRY(kd_buffer_printf(&out->address, "%s/s/%s", (const char *)out->home.data, code));
-    KD_TRY(kd_buffer_printf(&out->picture, "%s/v1/share/%s/picture.png", (const char *)out->home.data, code));
+    KD_TRY(kd_buffer_printf(&page, "/s/%s", code));
+    KD_TRY(kd_buffer_printf(&picture, "/v1/share/%s/picture.png", code));
+    KD_TRY(tell_address(request, out, (const char *)page.data, &out->address));
+    KD_TRY(tell_address(request, out, (const char *)picture.data, &out->picture));
 done:
+    kd_buffer_finish(&page);
+    kd_buffer_finish(&picture);
     return status;
 }
 
@@ -120,8 +145,28 @@ static enum kd_status add_address(const struct kd_request *request, struct kd_js
     return status;
 }
 
+/* Adds the address of a shared scene, signed with the server's key for that (--share-key). */
+static enum kd_status add_signed(const struct kd_request *request, const char *code, struct kd_json *json)
+{
+    const struct kd_server *server = request->server;
+    const struct kd_link_terms terms = { .expires_s = (uint64_t)time(NULL) + KD_SHARED_DAYS * 86400 };
+    struct kd_buffer path = { 0 }, rest = { 0 };
+    struct kd_error ignored;
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(&path, "/s/%s", code));
+    KD_TRY(kd_buffer_printf(&rest, "%s?", code));
+    KD_TRY(kd_link_sign(server->access, server->share_key, (const char *)path.data, NULL, &terms, &rest, &ignored));
+    KD_TRY(add_address(request, json, "url", "s/", (const char *)rest.data));
+    kd_json_number(json, "expires", (double)terms.expires_s);
+done:
+    kd_buffer_finish(&path);
+    kd_buffer_finish(&rest);
+    return status;
+}
+
 /* Adds the address to share, and the address for frames if there are origins that may embed it. If the server has
- * access tokens, the address to share is that of the page, because the page asks for a token. */
+ * access tokens and no key for shared scenes, the address to share is that of the page, because the page asks for a
+ * token. */
 static enum kd_status add_addresses(const struct kd_request *request, const struct kd_shared *shared,
                                     struct kd_json *json)
 {
@@ -129,8 +174,9 @@ static enum kd_status add_addresses(const struct kd_request *request, const stru
     struct kd_buffer fragment = { 0 };
     enum kd_status status;
     KD_TRY(kd_shared_fragment(shared, &fragment));
-    KD_TRY(request->server->access ? add_address(request, json, "url", "#", (const char *)fragment.data)
-                                   : add_address(request, json, "url", "s/", code));
+    KD_TRY(request->server->share_key ? add_signed(request, code, json)
+           : request->server->access  ? add_address(request, json, "url", "#", (const char *)fragment.data)
+                                      : add_address(request, json, "url", "s/", code));
     if (kd_cors_embedders(request->server->cors))
         KD_TRY(add_address(request, json, "embed", "embed/", code));
 done:

@@ -10,7 +10,8 @@
 struct kd_shared {
     struct kd_buffer link, code;   /* link: the link (scene/link.h); code: its code (image/text_code.h) */
     struct kd_buffer title, about; /* title: such as "Gargantua"; about: one or two sentences */
-    /* absolute addresses; home: of the page, without a slash at its end; address: of /s/CODE */
+    /* absolute addresses, signed if the request came by a signed link; home: of the page, without a slash at its end;
+     * address: of /s/CODE */
     struct kd_buffer home, address;
     struct kd_buffer picture; /* absolute address of the picture, KD_SHARED_WIDTH pixels wide */
 };
@@ -23,5 +24,8 @@ enum kd_status kd_shared_tell(const struct kd_request *request, const struct kd_
  * page would start from its first view. */
 enum kd_status kd_shared_fragment(const struct kd_shared *shared, struct kd_buffer *out);
 void kd_shared_finish(struct kd_shared *shared);
+/* Appends the query, from "?", of an address that works for whom the request's own address works: parameters that sign
+ * the path if the request came by a signed link, else nothing. path: below the base path; decoded. */
+enum kd_status kd_shared_sign(const struct kd_request *request, const char *path, struct kd_buffer *out);
 
 #endif

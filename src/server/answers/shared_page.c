@@ -1,9 +1,10 @@
 /* Handlers of /s/CODE and /embed/CODE. /s/CODE is a page for other sites, which read the title, description and picture
- * of a link from it (Open Graph, https://ogp.me; oEmbed). Its script opens the page with the scene; without scripts it
- * shows the picture and a link. */
+ * of a link from it (Open Graph, https://ogp.me; oEmbed). Its script opens the page with the scene; without scripts,
+ * and for a visitor by a signed link, it shows the picture and a link. */
 #include "server/answers/share.h"
 
 #include "base/markup.h"
+#include "base/percent.h"
 #include "server/http/cors.h"
 #include "server/http/reply.h"
 #include "server/render/shared.h"
@@ -12,29 +13,31 @@
 
 #define HTML "text/html; charset=utf-8"
 
-/* Escapes a query value: all but unreserved characters (RFC 3986 2.3). */
-static enum kd_status as_value(const struct kd_buffer *text, struct kd_buffer *out)
-{
-    enum kd_status status = KD_OK;
-    for (size_t i = 0; i < text->size && !status; i++)
-        status = strchr("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~", text->data[i])
-                     ? kd_buffer_append(out, &text->data[i], 1)
-                     : kd_buffer_printf(out, "%%%02X", text->data[i]);
-    return status ? status : kd_buffer_printf(out, "%s", "");
-}
+/* STYLE, ICON and SEEN (the picture): queries that sign these files. URL: the address as the value of a parameter. */
+enum { TITLE, ABOUT, ADDRESS, PICTURE, HOME, CODE, URL, OPEN, STYLE, ICON, SEEN, TEXTS };
 
-enum { TITLE, ABOUT, ADDRESS, PICTURE, HOME, CODE, URL, OPEN, TEXTS };
-
-static enum kd_status write_page(const char *const t[TEXTS], struct kd_buffer *page)
+/* Writes the elements that only visitors with access can use, or whom the server does not ask for it: other sites read
+ * oEmbed, and the script opens the page with the live view. */
+static enum kd_status write_live(const char *const t[TEXTS], struct kd_buffer *page)
 {
     return kd_buffer_printf(
+        page,
+        "<link rel=\"alternate\" type=\"application/json+oembed\" href=\"%s/oembed?url=%s\" title=\"%s\">\n"
+        "<script type=\"module\" src=\"../web/shared.js\"></script>\n",
+        t[HOME], t[URL], t[TITLE]);
+}
+
+/* live: whether the visitor can use the page with the live view without a further step. */
+static enum kd_status write_page(const char *const t[TEXTS], bool live, struct kd_buffer *page)
+{
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(
         page,
         "<!doctype html>\n<html lang=\"en\" prefix=\"og: https://ogp.me/ns#\">\n<head>\n"
         "<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<meta name=\"color-scheme\" content=\"dark\">\n"
         "<title>%s – kerrd</title>\n<meta name=\"description\" content=\"%s\">\n"
         "<link rel=\"canonical\" href=\"%s\">\n"
-        "<link rel=\"alternate\" type=\"application/json+oembed\" href=\"%s/oembed?url=%s\" title=\"%s\">\n"
         "<meta property=\"og:type\" content=\"website\">\n<meta property=\"og:site_name\" content=\"kerrd\">\n"
         "<meta property=\"og:title\" content=\"%s\">\n<meta property=\"og:description\" content=\"%s\">\n"
         "<meta property=\"og:url\" content=\"%s\">\n<meta property=\"og:image\" content=\"%s\">\n"
@@ -42,23 +45,35 @@ static enum kd_status write_page(const char *const t[TEXTS], struct kd_buffer *p
         "<meta property=\"og:image:width\" content=\"%d\">\n<meta property=\"og:image:height\" content=\"%d\">\n"
         "<meta property=\"og:image:alt\" content=\"%s\">\n"
         "<meta name=\"twitter:card\" content=\"summary_large_image\">\n"
-        "<link rel=\"icon\" type=\"image/svg+xml\" href=\"../web/icon.svg\">\n"
-        "<link rel=\"stylesheet\" href=\"../web/shared.css\">\n"
-        "<script type=\"module\" src=\"../web/shared.js\"></script>\n</head>\n"
-        "<body>\n<main>\n<h1>%s</h1>\n"
-        "<noscript><img src=\"../v1/share/%s/picture.png\" width=\"%d\" height=\"%d\" alt=\"%s\"></noscript>\n"
+        "<link rel=\"icon\" type=\"image/svg+xml\" href=\"../web/icon.svg%s\">\n"
+        "<link rel=\"stylesheet\" href=\"../web/shared.css%s\">\n",
+        t[TITLE], t[ABOUT], t[ADDRESS], t[TITLE], t[ABOUT], t[ADDRESS], t[PICTURE], KD_SHARED_WIDTH, KD_SHARED_HEIGHT,
+        t[ABOUT], t[ICON], t[STYLE]));
+    if (live)
+        KD_TRY(write_live(t, page));
+    KD_TRY(kd_buffer_printf(
+        page,
+        "</head>\n<body>\n<main>\n<h1>%s</h1>\n"
+        "%s<img src=\"../v1/share/%s/picture.png%s\" width=\"%d\" height=\"%d\" alt=\"%s\">%s\n"
         "<p>%s</p>\n<p><a id=\"open\" href=\"../#%s\">Open it live</a></p>\n</main>\n</body>\n</html>\n",
-        t[TITLE], t[ABOUT], t[ADDRESS], t[HOME], t[URL], t[TITLE], t[TITLE], t[ABOUT], t[ADDRESS], t[PICTURE],
-        KD_SHARED_WIDTH, KD_SHARED_HEIGHT, t[ABOUT], t[TITLE], t[CODE], KD_SHARED_WIDTH, KD_SHARED_HEIGHT, t[ABOUT],
-        t[ABOUT], t[OPEN]);
+        t[TITLE], live ? "<noscript>" : "", t[CODE], t[SEEN], KD_SHARED_WIDTH, KD_SHARED_HEIGHT, t[ABOUT],
+        live ? "</noscript>" : "", t[ABOUT], t[OPEN]));
+done:
+    return status;
 }
 
-static enum kd_status make_page(const struct kd_shared *shared, struct kd_buffer *page)
+static enum kd_status make_page(const struct kd_request *request, const struct kd_shared *shared,
+                                struct kd_buffer *page)
 {
-    struct kd_buffer url = { 0 }, open = { 0 }, escaped[TEXTS] = { 0 };
+    struct kd_buffer url = { 0 }, open = { 0 }, style = { 0 }, icon = { 0 }, picture = { 0 }, seen = { 0 },
+                     escaped[TEXTS] = { 0 };
     const char *texts[TEXTS];
     enum kd_status status;
-    KD_TRY(as_value(&shared->address, &url));
+    KD_TRY(kd_percent_append(shared->address.data, shared->address.size, "", &url));
+    KD_TRY(kd_shared_sign(request, "/web/shared.css", &style));
+    KD_TRY(kd_shared_sign(request, "/web/icon.svg", &icon));
+    KD_TRY(kd_buffer_printf(&picture, "/v1/share/%s/picture.png", (const char *)shared->code.data));
+    KD_TRY(kd_shared_sign(request, (const char *)picture.data, &seen));
     KD_TRY(kd_shared_fragment(shared, &open));
     const struct kd_buffer *const all[TEXTS] = {
         [TITLE] = &shared->title,
@@ -69,15 +84,22 @@ static enum kd_status make_page(const struct kd_shared *shared, struct kd_buffer
         [CODE] = &shared->code,
         [URL] = &url,
         [OPEN] = &open,
+        [STYLE] = &style,
+        [ICON] = &icon,
+        [SEEN] = &seen,
     };
     for (int i = 0; i < TEXTS; i++) {
         KD_TRY(kd_markup_escape((const char *)all[i]->data, KD_MARKUP_ATTRIBUTE, &escaped[i]));
         texts[i] = (const char *)escaped[i].data;
     }
-    KD_TRY(write_page(texts, page));
+    KD_TRY(write_page(texts, !request->link.on, page));
 done:
     kd_buffer_finish(&url);
     kd_buffer_finish(&open);
+    kd_buffer_finish(&style);
+    kd_buffer_finish(&icon);
+    kd_buffer_finish(&picture);
+    kd_buffer_finish(&seen);
     for (int i = 0; i < TEXTS; i++)
         kd_buffer_finish(&escaped[i]);
     return status;
@@ -86,7 +108,7 @@ done:
 static enum MHD_Result reply(struct kd_request *request, const struct kd_shared *shared)
 {
     struct kd_buffer page = { 0 };
-    if (make_page(shared, &page)) {
+    if (make_page(request, shared, &page)) {
         kd_buffer_finish(&page);
         return kd_reply_no_memory(request);
     }

@@ -5,10 +5,12 @@
 #include "base/hash.h"
 #include "server/http/cors.h"
 #include "server/http/auth_throttle.h"
+#include "server/http/link.h"
 #include "server/http/request.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <nettle/hmac.h>
 #include <nettle/memops.h>
 #include <nettle/sha2.h>
 #include <stdio.h>
@@ -16,6 +18,7 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <time.h>
 
 #define FILE_MOST ((size_t)64 << 10) /* bytes of a token file */
 #define BLANK " \t\r"
@@ -25,7 +28,8 @@
 
 struct entry {
     struct kd_visitor visitor;
-    uint8_t hash[SHA256_DIGEST_SIZE]; /* hash of the token; the token itself is not stored */
+    uint8_t hash[SHA256_DIGEST_SIZE]; /* hash of the token or key, which itself is not stored */
+    struct hmac_sha256_ctx key;       /* of a key: the state from which signatures begin */
 };
 
 struct kd_access {
@@ -41,21 +45,53 @@ static void hash_of(const char *token, uint8_t out[SHA256_DIGEST_SIZE])
     sha256_digest(&context, SHA256_DIGEST_SIZE, out);
 }
 
-const struct kd_visitor *kd_access_find(const struct kd_access *access, const char *token)
+/* Returns the entry with this token or key, or NULL. */
+static const struct entry *entry_of(const struct kd_access *access, const char *token)
 {
     uint8_t hash[SHA256_DIGEST_SIZE];
-    const struct kd_visitor *found = NULL;
+    const struct entry *found = NULL;
     hash_of(token, hash);
     for (size_t i = 0; i < access->n; i++)
         if (memeql_sec(hash, access->entries[i].hash, sizeof hash))
-            found = &access->entries[i].visitor;
+            found = &access->entries[i];
     return found;
+}
+
+const struct kd_visitor *kd_access_find(const struct kd_access *access, const char *token)
+{
+    const struct entry *found = entry_of(access, token);
+    return found && found->visitor.role != KD_ROLE_LINK ? &found->visitor : NULL;
+}
+
+bool kd_access_sign(const struct kd_access *access, const char *name, const void *text, size_t size,
+                    uint8_t signature[KD_ACCESS_SIGNATURE], const struct kd_visitor **owner)
+{
+    for (size_t i = 0; i < access->n; i++) {
+        const struct entry *entry = &access->entries[i];
+        if (entry->visitor.role != KD_ROLE_LINK || strcmp(entry->visitor.name, name))
+            continue;
+        struct hmac_sha256_ctx context = entry->key;
+        hmac_sha256_update(&context, size, text);
+        hmac_sha256_digest(&context, KD_ACCESS_SIGNATURE, signature);
+        *owner = &entry->visitor;
+        return true;
+    }
+    return false;
 }
 
 static bool parse_role(const char *text, enum kd_role *out)
 {
-    *out = !strcmp(text, "render") ? KD_ROLE_RENDER : KD_ROLE_VIEW;
-    return *out == KD_ROLE_RENDER || !strcmp(text, "view");
+    static const char *const words[] = {
+#define ROLE_WORD(name, word) [KD_ROLE_##name] = word,
+        KD_ROLES(ROLE_WORD)
+#undef ROLE_WORD
+    };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (!strcmp(text, words[i])) {
+            *out = (enum kd_role)i;
+            return true;
+        }
+    return false;
 }
 
 /* Returns what is wrong with a line, as the end of a sentence without the token; NULL if nothing is. */
@@ -67,18 +103,21 @@ static const char *fault_of(const struct kd_access *access, const char *name, co
     if (strlen(name) > KD_ACCESS_NAME_MAX || name[strspn(name, LETTERS "-._@")])
         return "a name must have at most 32 letters, digits and -._@";
     if (!parse_role(role, &entry->visitor.role))
-        return "the role must be view or render";
+        return "the role must be view, render or link";
     if (strlen(token) < KD_ACCESS_TOKEN_MIN || strlen(token) > KD_ACCESS_TOKEN_MAX)
         return "a token must have 16 to 256 characters";
+    if (entry->visitor.role == KD_ROLE_LINK && strlen(token) < KD_ACCESS_KEY_MIN)
+        return "a key for links must have 32 to 256 characters";
     if (token[strspn(token, TOKEN_CHARACTERS)])
         return "a token must consist of letters, digits and -._~=";
-    if (kd_access_find(access, token))
+    if (entry_of(access, token))
         return "another line has the same token";
     for (size_t i = 0; i < access->n; i++)
         if (!strcmp(access->entries[i].visitor.name, name))
             return "another line has the same name";
     snprintf(entry->visitor.name, sizeof entry->visitor.name, "%s", name);
     hash_of(token, entry->hash);
+    hmac_sha256_set_key(&entry->key, strlen(token), (const uint8_t *)token);
     return NULL;
 }
 
@@ -246,13 +285,57 @@ const char *kd_access_query(const struct kd_request *request)
 
 bool kd_role_may(enum kd_role role, const struct kd_route *route, unsigned method)
 {
+    if (role == KD_ROLE_LINK)
+        return route->signable && method == KD_GET;
     return role == KD_ROLE_RENDER || method == KD_GET || (method == KD_POST && route->question);
 }
 
-bool kd_access_check(struct kd_request *request, struct kd_problem *problem)
+/* Whether the request comes by a signed link. Its signature alone decides then. */
+static bool has_link(const struct kd_request *request)
+{
+    return request->route && kd_role_may(KD_ROLE_LINK, request->route, kd_route_method(request->method)) &&
+           kd_link_is(&request->target);
+}
+
+/* Authorises a request by its signed link. */
+static bool check_link(struct kd_request *request, struct kd_problem *problem, struct kd_error *error)
+{
+    struct kd_server *server = request->server;
+    struct kd_buffer path = { 0 };
+    const uint64_t now_s = (uint64_t)time(NULL);
+    if (kd_route_path(request->route, request->rest, &path))
+        kd_error_set(error, KD_ENOMEM, "out of memory for a link");
+    else
+        request->visitor =
+            kd_link_check(server->access, (const char *)path.data, &request->target, now_s, &request->link, error);
+    kd_buffer_finish(&path);
+    *problem = kd_problem_from(error);
+    if (error->status == KD_EINVAL)
+        problem->type = KD_PROBLEM_LINK;
+    if (!request->visitor)
+        return false;
+    switch (kd_link_budget(server->links, &request->link, now_s)) {
+    case KD_LINK_LEFT: return true;
+    case KD_LINK_SPENT:
+        kd_error_set(error, KD_EINVAL, "the link's budget is spent: %.3g s of device time",
+                     (double)request->link.terms.budget_ms * 1e-3);
+        *problem = (struct kd_problem) { .type = KD_PROBLEM_LINK, .detail = error->message };
+        return false;
+    case KD_LINK_CROWDED:
+        *problem = (struct kd_problem) { .type = KD_PROBLEM_CROWDED,
+                                         .retry_after = 60,
+                                         .detail = "too many links with a budget are in use" };
+        return false;
+    }
+    return false;
+}
+
+bool kd_access_check(struct kd_request *request, struct kd_problem *problem, struct kd_error *error)
 {
     if (!request->server->access || (request->route && request->route->open))
         return true;
+    if (has_link(request))
+        return check_link(request, problem, error);
     const struct brought brought = brought_by(request);
     request->visitor = visitor_of(request, &brought);
     *problem = (struct kd_problem) {

@@ -6,19 +6,29 @@
 #include "base/error.h"
 #include "server/http/problem.h"
 
+#include <stdint.h>
+
 #define KD_ACCESS_HEADER "Kerrd-Access"
 #define KD_ACCESS_COOKIE "kerrd_access"
 #define KD_ACCESS_QUERY "access" /* query parameter of pages (route.h), which answer by setting the cookie */
 #define KD_ACCESS_TOKEN_MIN 16   /* characters */
 #define KD_ACCESS_TOKEN_MAX 256
 #define KD_ACCESS_NAME_MAX 32
+#define KD_ACCESS_KEY_MIN 32   /* characters of a key; whoever has a link can try keys, so a key must be long */
+#define KD_ACCESS_SIGNATURE 32 /* bytes of a signature, HMAC-SHA256 */
 
 struct kd_access;
 struct kd_request;
 struct kd_route;
 
-/* Roles. view: requests that store nothing on the server but a pupil's answer. render: all requests. */
-enum kd_role { KD_ROLE_VIEW = 1, KD_ROLE_RENDER };
+/* Roles. view: requests that store nothing on the server but a pupil's answer. render: all requests. link: whoever has
+ * an address that is signed with this key may GET it (link.h); the key is no token. */
+#define KD_ROLES(X) X(VIEW, "view") X(RENDER, "render") X(LINK, "link")
+enum kd_role {
+#define KD_ROLE_ENUM(name, word) KD_ROLE_##name,
+    KD_ROLES(KD_ROLE_ENUM)
+#undef KD_ROLE_ENUM
+};
 
 /* Whether the role may send this method to the route. */
 bool kd_role_may(enum kd_role role, const struct kd_route *route, unsigned method);
@@ -34,14 +44,20 @@ struct kd_visitor {
 enum kd_status kd_access_read(const char *path, struct kd_access **out, struct kd_error *error);
 void kd_access_free(struct kd_access *access); /* accepts NULL */
 
-/* Returns the owner of a token, or NULL if no entry has it. Takes as long for a wrong token as for a right one,
- * whichever entry matches. Any thread. */
+/* Returns the owner of a token, or NULL if no entry has it; a key for links is no token. Takes as long for a wrong
+ * token as for a right one, whichever entry matches. Any thread. */
 const struct kd_visitor *kd_access_find(const struct kd_access *access, const char *token);
+
+/* Signs a text with the key of this name; *owner: the key's entry. Returns false if the file has no such key. Any
+ * thread. */
+bool kd_access_sign(const struct kd_access *access, const char *name, const void *text, size_t size,
+                    uint8_t signature[KD_ACCESS_SIGNATURE], const struct kd_visitor **owner);
 
 /* The token in a page's address, ?access=TOKEN. NULL if there is none, or if the server has no token file. */
 const char *kd_access_query(const struct kd_request *request);
 /* Authorises a request whose target has been parsed. request->route is its route, or NULL if no route has its path.
- * Sets request->visitor and ->spent. Returns false with *problem filled (401, 403, 429). HTTP threads. */
-bool kd_access_check(struct kd_request *request, struct kd_problem *problem);
+ * Sets request->visitor, ->spent and ->link. Returns false with *problem filled (401, 403, 429, 503), which may point
+ * into *error. HTTP threads. */
+bool kd_access_check(struct kd_request *request, struct kd_problem *problem, struct kd_error *error);
 
 #endif

@@ -14,6 +14,7 @@
     X(MALFORMED_JSON, 400, "malformed-json", "The body cannot be read as a JSON object") \
     X(UNAUTHORIZED, 401, "unauthorized", "This server needs a token") \
     X(ROLE, 403, "role", "The role of your token does not allow this") \
+    X(LINK, 403, "link", "The signed link is not valid") \
     X(CROSS_SITE, 403, "cross-site", "Pages of other sites must not use this server") \
     X(FORBIDDEN, 403, "forbidden", "This request needs a token") \
     X(NOT_FOUND, 404, "not-found", "There is nothing at this address") \

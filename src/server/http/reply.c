@@ -174,11 +174,11 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
         MHD_del_response_header(response, "Content-Type", type);
     MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
     MHD_add_response_header(response, "Cross-Origin-Resource-Policy",
-                            server->cross_site ? "cross-origin" : "same-site");
+                            server->cross_site || request->link.on ? "cross-origin" : "same-site");
     if (!MHD_get_response_header(response, "Cache-Control"))
         MHD_add_response_header(response, "Cache-Control", "no-store");
     /* so that a cached answer is used for the same token only */
-    if (server->access)
+    if (server->access && !request->link.on)
         MHD_add_response_header(response, "Vary", "Authorization, " KD_ACCESS_HEADER ", Cookie");
     kd_cors_add(request, response);
     if (status < 400 && kd_route_is_dated(request))

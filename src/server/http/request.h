@@ -5,6 +5,7 @@
 #include "server/http/access.h"
 #include "server/http/client.h"
 #include "server/http/guard.h"
+#include "server/http/link.h"
 #include "server/http/once.h"
 #include "server/http/request_id.h"
 #include "server/http/route.h"
@@ -32,6 +33,7 @@ struct kd_request {
     /* route of its path, set also if the request is refused; NULL: no route has the path */
     const struct kd_route *matched;
     const struct kd_visitor *visitor; /* owner of the access token; NULL: none was needed */
+    struct kd_link link;              /* the signed link by which it came */
     bool spent;                       /* Authorization holds the access token, so it holds no other token */
     const char *method, *rest;        /* rest: the segment of the path that the route has in braces */
     bool head, begun, body_announced, close;

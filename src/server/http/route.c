@@ -26,6 +26,21 @@ static bool matches(const struct kd_route *route, char *path, const char **rest)
     return true;
 }
 
+enum kd_status kd_route_path(const struct kd_route *route, const char *rest, struct kd_buffer *out)
+{
+    const size_t before = strcspn(route->path, "{");
+    const char *brace = strchr(route->path, '}');
+    return kd_buffer_printf(out, "%.*s%s%s", (int)before, route->path, rest, brace ? brace + 1 : "");
+}
+
+const struct kd_route *kd_route_of(char *path, const char **rest)
+{
+    for (size_t i = 0; i < kd_n_routes; i++)
+        if (matches(&kd_routes[i], path, rest))
+            return &kd_routes[i];
+    return NULL;
+}
+
 const struct kd_method kd_methods[KD_METHODS] = {
     { "GET", "get", KD_GET },          { "POST", "post", KD_POST }, { "PATCH", "patch", KD_PATCH },
     { "DELETE", "delete", KD_DELETE }, { "PUT", "put", KD_PUT },
@@ -121,21 +136,18 @@ bool kd_route_find(struct kd_request *request, struct kd_problem *problem)
     if (!behind && !is_health(path, strlen(path)))
         return refuse(problem, base->outside);
     request->target.path = path += behind ? behind - path : 0;
-    for (size_t i = 0; i < kd_n_routes; i++) {
-        const struct kd_route *route = &kd_routes[i];
-        bool page = *base->path && !*path && !strcmp(route->path, "/");
-        request->rest = "";
-        if (!page && !matches(route, path, &request->rest))
-            continue;
-        request->route = request->matched = route;
-        if (route->methods & kd_route_method(request->method))
-            return true;
-        *problem = (struct kd_problem) { .type = KD_PROBLEM_METHOD,
-                                         .allow = kd_route_allow(route),
-                                         .detail = "the Allow header lists the methods of this address" };
-        return false;
-    }
-    return refuse(problem, base->unknown);
+    char home[] = "/";
+    request->rest = "";
+    const struct kd_route *route = kd_route_of(*base->path && !*path ? home : path, &request->rest);
+    if (!route)
+        return refuse(problem, base->unknown);
+    request->route = request->matched = route;
+    if (route->methods & kd_route_method(request->method))
+        return true;
+    *problem = (struct kd_problem) { .type = KD_PROBLEM_METHOD,
+                                     .allow = kd_route_allow(route),
+                                     .detail = "the Allow header lists the methods of this address" };
+    return false;
 }
 
 bool kd_route_is_health(const struct kd_base_path *base, const char *raw)

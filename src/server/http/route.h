@@ -85,6 +85,7 @@ struct kd_route {
     bool question;      /* the role view may send this POST: it renders nothing that stays, and stores nothing but a
                          * pupil's answer (access.h) */
     bool open;          /* needs no access token */
+    bool signable;      /* GET may come by a signed link instead of an access token (link.h) */
     bool page;          /* a page of a browser: takes the access token in its address, and asks for it (access.h) */
     bool once;          /* POST takes Idempotency-Key (once.h) */
     bool parts;         /* GET may answer with a range, 206 (representation.h) */
@@ -121,6 +122,12 @@ enum kd_status kd_route_query(const struct kd_request *request, const char *name
                               const char **value, struct kd_error *error);
 /* Whether the query has a former name of a parameter. */
 bool kd_route_is_dated(const struct kd_request *request);
+
+/* Appends the path that led to the route with this rest, below the base path. */
+enum kd_status kd_route_path(const struct kd_route *route, const char *rest, struct kd_buffer *out);
+/* Returns the route that a decoded path leads to, or NULL. *rest is cut out of the path, which is modified. Ignores the
+ * base path. */
+const struct kd_route *kd_route_of(char *path, const char **rest);
 
 /* Finds the route of the request's path. Sets request->route, ->matched and ->rest. `rest` points into the target's
  * path, from which the base path is removed. The base path alone, without a slash, leads to the page. Returns false

@@ -59,6 +59,7 @@ struct kd_asset_store;
 struct kd_jobs;
 struct kd_cached_documents;
 struct kd_lessons;
+struct kd_link_budgets;
 struct kd_measures;
 struct kd_playground_sessions;
 struct kd_render_queue;
@@ -96,6 +97,8 @@ struct kd_server {
     _Atomic unsigned requests;              /* number of requests that are begun and not completely answered */
     struct kd_bytes *bodies, *replies;      /* memory budgets: bodies being received; answers not yet sent */
     struct kd_access *access;               /* access tokens; NULL: everybody may send every request */
+    struct kd_link_budgets *links;          /* device time that signed links have used; used with access */
+    const char *share_key;                  /* name of the key that signs shared scenes, in access; NULL: none */
     struct kd_auth_throttle *auth_throttle; /* throttle of wrong tokens, used with access */
     struct kd_cors *cors;                   /* origins permitted besides our own; NULL: none */
     /* whether pages of other sites may send requests whose answers they cannot read */

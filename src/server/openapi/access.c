@@ -15,7 +15,9 @@ void kd_openapi_access_schemes(struct kd_json *json)
                    "one\"},\"accessHeader\":{\"type\":\"apiKey\",\"in\":\"header\",\"name\":\"" KD_ACCESS_HEADER
                    "\",\"description\":\"the same, if Authorization has another "
                    "token\"},\"accessCookie\":{\"type\":\"apiKey\",\"in\":\"cookie\",\"name\":\"" KD_ACCESS_COOKIE
-                   "\",\"description\":\"the same, for a browser that opened a page with ?access=TOKEN\"}}");
+                   "\",\"description\":\"the same, for a browser that opened a page with "
+                   "?access=TOKEN\"},\"link\":{\"type\":\"apiKey\",\"in\":\"query\",\"name\":\"signature\","
+                   "\"description\":\"the last parameter of a signed link, behind signer, expires and budget_ms\"}}");
 }
 
 /* The ways to authenticate for a role. OpenAPI permits names of roles where scopes stand. */
@@ -41,6 +43,8 @@ void kd_openapi_access_operation(struct kd_json *json, const struct kd_route *ro
         kd_schema_text(json, "security", closed ? "[" BOTH : "[{\"token\":[]},{\"tokenQuery\":[]}," BOTH);
     else if (route->open)
         kd_schema_text(json, "security", "[]");
+    else if (kd_role_may(KD_ROLE_LINK, route, method))
+        kd_schema_text(json, "security", closed ? "[{\"link\":[]}," WAYS("view") : "[{}," WAYS("view"));
     else if (!kd_role_may(KD_ROLE_VIEW, route, method))
         kd_schema_text(json, "security", closed ? "[" WAYS("render") : "[{}," WAYS("render"));
 #undef BOTH

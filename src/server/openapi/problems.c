@@ -19,10 +19,12 @@ static bool has_body(const struct kd_route *route, unsigned method)
     return (void)route, method == KD_POST || method == KD_PATCH || method == KD_PUT;
 }
 
-/* Whether the operation may answer 403: for a wrong role, a page of another site, or a wrong token of the object. */
+/* Whether the operation may answer 403: for a wrong role, a signed link that is not valid, a page of another site, or a
+ * wrong token of the object. */
 static bool forbids(const struct kd_route *route, unsigned method)
 {
-    return !strncmp(route->path, "/v1/", 4) || (!route->open && !kd_role_may(KD_ROLE_VIEW, route, method));
+    return !strncmp(route->path, "/v1/", 4) || route->signable ||
+           (!route->open && !kd_role_may(KD_ROLE_VIEW, route, method));
 }
 
 static bool is_found_by_name(const struct kd_route *route, unsigned method)

@@ -13,6 +13,8 @@ void kd_openapi_share_schemas(struct kd_json *json)
         { "code", KD_OPENAPI_CODE, false },
         { "title", KD_SCHEMA_TEXT, false },
         { "about", KD_SCHEMA_TEXT, false },
+        { "expires",
+          "{\"type\":\"integer\",\"description\":\"Unix time at which the url ends, if the server signed it\"}", true },
     };
     static const struct kd_openapi_member oembed[] = {
         { "version", "{\"const\":\"1.0\"}", false },

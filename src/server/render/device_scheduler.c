@@ -140,9 +140,10 @@ void kd_render_next(struct kd_render_queue *queue)
 /* Charges the job for the time that its present turn has taken so far. */
 static void charge(struct kd_render_queue *queue, struct kd_render_job *job)
 {
-    double now = kd_clock_ms();
-    kd_shares_charge(&queue->shares, &job->claim, now - job->turn_ms);
-    kd_allowance_charge(&queue->allowance, job->claim.client, now - job->turn_ms, now);
+    const double now = kd_clock_ms(), ms = now - job->turn_ms;
+    job->used_ms += ms;
+    kd_shares_charge(&queue->shares, &job->claim, ms);
+    kd_allowance_charge(&queue->allowance, job->claim.client, ms, now);
     job->turn_ms = now;
 }
 

@@ -89,6 +89,7 @@ struct kd_render_job {
     struct kd_frame frame; /* it has its layers only if `keeps` is set */
     /* queue_ms: time in which others owned the device, before the job began and between its slices */
     double queue_ms, encode_ms;
+    double used_ms; /* device time that the job has used */
     /* private to the queue */
     struct kd_render_job *next;
     struct kd_render_queue *queue;

@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 static const char *type_of(size_t i, const void *formats)
 {
@@ -120,18 +121,33 @@ done:
     kd_buffer_finish(&list);
 }
 
-/* Pictures of shared links may be cached publicly, unless the server requires access tokens. A picture whose address
- * names this version changes with the device alone, within its stated error, unless its scene names an asset, whose
- * name may later be given to another file. */
-static const char *caching(const struct kd_request *request, const struct kd_scene *scene)
+#define YEAR_S 31536000u
+#define DAY_S 86400u
+enum { CACHING = 60 };
+
+/* Writes Cache-Control. Pictures of shared links may be cached publicly, unless the server requires access tokens. A
+ * picture whose address names this version changes with the device alone, within its stated error, unless its scene
+ * names an asset, whose name may later be given to another file. No cache keeps a picture for longer than its signed
+ * link is valid. */
+static void caching(const struct kd_request *request, const struct kd_scene *scene, char out[CACHING])
 {
     struct kd_error ignored;
     const char *v = kd_target_value(&request->target, "v");
-    if (v && request->route->gives == KD_GIVES_PICTURE && !strcmp(v, KD_VERSION) &&
-        !kd_scene_link_check(scene, &ignored))
-        return request->server->access ? "private, max-age=31536000, immutable" : "public, max-age=31536000, immutable";
-    const bool shared = request->route->takes == KD_TAKES_LINK && !request->server->access;
-    return shared ? "public, max-age=86400" : "private, no-cache";
+    const bool public = !request->server->access || request->link.on;
+    const bool lasting = v && request->route->gives == KD_GIVES_PICTURE && !strcmp(v, KD_VERSION) &&
+                         !kd_scene_link_check(scene, &ignored);
+    uint64_t age = lasting ? YEAR_S : DAY_S;
+    if (request->link.on) {
+        const uint64_t now = (uint64_t)time(NULL), expires = request->link.terms.expires_s;
+        const uint64_t left = expires > now ? expires - now : 0;
+        age = left < age ? left : age;
+    }
+    if (lasting)
+        snprintf(out, CACHING, "%s, max-age=%u, immutable", public ? "public" : "private", (unsigned)age);
+    else if (request->route->takes == KD_TAKES_LINK && public)
+        snprintf(out, CACHING, "public, max-age=%u", (unsigned)age);
+    else
+        snprintf(out, CACHING, "private, no-cache");
 }
 
 /* Adds the headers that answers with 200, with 304 and to HEAD have in common. report: zeros if nothing is rendered. */
@@ -139,13 +155,14 @@ static struct MHD_Response *describe(struct kd_request *request, struct MHD_Resp
                                      const struct kd_scene *scene, const struct kd_plan *plan,
                                      const struct kd_accuracy_report *report)
 {
-    char hash[65], clock[KD_CLOCK_TEXT];
+    char hash[65], clock[KD_CLOCK_TEXT], cache[CACHING];
     if (!response)
         return NULL;
     snprintf(hash, sizeof hash, "%.64s", request->etag + 1);
     kd_reply_file(request, KD_INLINE, "kerrd.%s", request->format->name);
     MHD_add_response_header(response, "ETag", request->etag);
-    MHD_add_response_header(response, "Cache-Control", caching(request, scene));
+    caching(request, scene, cache);
+    MHD_add_response_header(response, "Cache-Control", cache);
     if (!kd_target_value(&request->target, "format"))
         MHD_add_response_header(response, "Vary", "Accept");
     MHD_add_response_header(response, "Kerrd-Scene-Hash", hash);
@@ -220,6 +237,10 @@ static struct MHD_Response *picture_response(struct kd_request *request)
 static enum MHD_Result deliver(struct kd_request *request)
 {
     struct kd_render_job *job = request->job;
+    if (request->link.on) { /* charged before the client gets the picture and may request the next */
+        kd_link_charge(request->server->links, &request->link, job->used_ms, (uint64_t)time(NULL));
+        job->used_ms = 0;
+    }
     if (job->status == KD_ECANCELLED)
         return kd_reply_cancelled(request);
     if (job->status) {

@@ -9,6 +9,7 @@ from .eht import to_ehtim
 from .errors import JobFailed, KerrdError, NoBinary, NoKerrd, Problem, Unreachable
 from .frame import Frame
 from .importing import Imported, ImportProblem, scene_from
+from .links import sign
 from .local import local
 from .result import Sweep
 from .scene import *
@@ -32,6 +33,7 @@ __all__ = [
     "Unreachable",
     "local",
     "scene_from",
+    "sign",
     "sweep",
     "to_ehtim",
     "widget",

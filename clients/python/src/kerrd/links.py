@@ -1,0 +1,51 @@
+"""Signed links: addresses of a server with a token file that work without a token until they expire (docs/http.md)."""
+
+import datetime
+import hashlib
+import hmac
+import time
+from typing import Optional, Union
+from urllib.parse import parse_qsl, quote, unquote, urlsplit
+
+# What a path below the base path may begin with.
+_BEGINNINGS = ("/v1/render", "/v1/share/", "/v1/physics/", "/v1/jobs/", "/s/", "/web/")
+
+
+def sign(
+    address: str,
+    key: str,
+    signer: str,
+    expires: Union[float, datetime.timedelta, datetime.datetime],
+    budget: Optional[float] = None,
+) -> str:
+    """The link of an address, which anybody may GET until it expires.
+
+    address: of a picture, /v1/render?...; of a shared scene, /s/...; of a quantity, /v1/physics/...; or of a job's
+    result. key and signer: of the line `signer link key` in the server's token file. expires: seconds from now, a
+    timedelta, or a datetime (without a time zone: local time). budget: seconds of device time that all pictures by the
+    link may use together; None: no limit. ValueError if an argument is not valid. The server checks the signature
+    only when the link is used."""
+    at = urlsplit(address)
+    path = unquote(at.path)
+    begin = max((path.rfind(beginning) for beginning in _BEGINNINGS), default=-1)
+    if begin < 0 or at.fragment:
+        raise ValueError(f"address is {address!r}; it must be a picture, a shared scene, a quantity or a job's result")
+    if isinstance(expires, datetime.datetime):
+        ends = expires.timestamp()
+    else:
+        ends = time.time() + (expires.total_seconds() if isinstance(expires, datetime.timedelta) else expires)
+    if not time.time() < ends < 253402300800:
+        raise ValueError(f"expires is {expires!r}; it must be to come, and before the year 10000")
+    if budget is not None and not 1e-3 <= budget <= 86400:
+        raise ValueError(f"budget is {budget!r}; it must be a number of seconds, 0.001 to 86400")
+    pairs = parse_qsl(at.query, keep_blank_values=True)
+    if any(name == "signature" for name, _ in pairs):
+        raise ValueError("the address has a signature already; it must be the unsigned address")
+    terms = [("signer", signer), ("expires", str(int(ends)))]
+    if budget is not None:
+        terms.append(("budget_ms", str(round(budget * 1000))))
+    lines = [quote(path[begin:], safe="/")]
+    lines += [f"{quote(name, safe='')}={quote(value, safe='')}" for name, value in pairs + terms]
+    signature = hmac.new(key.encode(), "\n".join(lines).encode(), hashlib.sha256).hexdigest()
+    query = "&".join(f"{name}={quote(value, safe='')}" for name, value in terms)
+    return f"{address}{'&' if '?' in address else '?'}{query}&signature={signature}"

@@ -1,0 +1,11 @@
+/* Percent-encoding of text in addresses (RFC 3986 2.1). */
+#ifndef KD_BASE_PERCENT_H
+#define KD_BASE_PERCENT_H
+
+#include "base/buffer.h"
+
+/* Appends the bytes with all but unreserved characters (RFC 3986 2.3) and those of `also` escaped by upper-case digits;
+ * a zero byte follows them, uncounted. Any thread. */
+enum kd_status kd_percent_append(const void *bytes, size_t size, const char *also, struct kd_buffer *out);
+
+#endif

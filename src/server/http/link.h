@@ -1,0 +1,62 @@
+/* Signed links: addresses that need no access token until they expire. `kerrd sign` makes them with a key of the token
+ * file, and the server makes them for shared scenes (--share-key).
+ *
+ * The query of a link ends with signer=NAME&expires=SECONDS&budget_ms=MS&signature=HEX; budget_ms may be missing. The
+ * signature is HMAC-SHA256 (RFC 2104) of the link's text: the path below the base path, then a line for each parameter
+ * but the signature, NAME=VALUE, in the query's order. Paths, names and values are percent-encoded in the text
+ * (base/percent.h), whatever the request's encoding was. */
+#ifndef KD_SERVER_HTTP_LINK_H
+#define KD_SERVER_HTTP_LINK_H
+
+#include "server/http/access.h"
+#include "server/http/target.h"
+
+#include <stdint.h>
+
+#define KD_LINK_LEEWAY_S 60u          /* a link works this long after it has expired, because clocks differ */
+#define KD_LINK_LATEST_S 253402300799 /* last second of the year 9999 */
+#define KD_LINK_BUDGET_MS 86400000u   /* largest budget */
+#define KD_SHARED_DAYS 30             /* days for which the link of a shared scene works */
+#define KD_LINK_BUDGETS 1024u         /* links with a budget that are remembered at once */
+
+/* What a link permits. */
+struct kd_link_terms {
+    uint64_t expires_s; /* Unix time */
+    uint64_t budget_ms; /* device time of all its pictures together; 0: no limit */
+};
+
+/* The link of a request. */
+struct kd_link {
+    bool on; /* the request came by a link, and the link is valid */
+    char signer[KD_ACCESS_NAME_MAX + 1];
+    struct kd_link_terms terms;
+    uint64_t id; /* the first bytes of its signature */
+};
+
+/* Appends the parameters that make a link of an address, "signer=...&signature=...". path: below the base path;
+ * decoded. target: its pairs are the address's parameters; may be NULL. KD_EINVAL if the token file has no key of this
+ * name. Any thread. */
+enum kd_status kd_link_sign(const struct kd_access *access, const char *name, const char *path,
+                            const struct kd_target *target, const struct kd_link_terms *terms, struct kd_buffer *out,
+                            struct kd_error *error);
+
+/* Whether the query has a signature. */
+bool kd_link_is(const struct kd_target *target);
+/* Checks the request's link: path and parameters as for kd_link_sign. Returns the key's owner, and removes the link's
+ * parameters from the target; or returns NULL with *error. Any thread. */
+const struct kd_visitor *kd_link_check(const struct kd_access *access, const char *path, struct kd_target *target,
+                                       uint64_t now_s, struct kd_link *out, struct kd_error *error);
+
+/* Device time that links with a budget have used. HTTP thread only. The server forgets it when it ends. */
+struct kd_link_budgets {
+    struct kd_link_spent {
+        uint64_t id, expires_s;
+        double ms;
+    } places[KD_LINK_BUDGETS]; /* expires_s 0: unused */
+};
+enum kd_link_left { KD_LINK_LEFT, KD_LINK_SPENT, KD_LINK_CROWDED };
+/* Whether the link has device time left. KD_LINK_CROWDED: too many links with a budget are in use. */
+enum kd_link_left kd_link_budget(const struct kd_link_budgets *all, const struct kd_link *link, uint64_t now_s);
+void kd_link_charge(struct kd_link_budgets *all, const struct kd_link *link, double ms, uint64_t now_s);
+
+#endif
