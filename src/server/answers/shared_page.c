@@ -43,8 +43,8 @@ static enum kd_status write_page(const char *const t[TEXTS], struct kd_buffer *p
         "<meta property=\"og:image:alt\" content=\"%s\">\n"
         "<meta name=\"twitter:card\" content=\"summary_large_image\">\n"
         "<link rel=\"icon\" type=\"image/svg+xml\" href=\"../web/icon.svg\">\n"
-        "<link rel=\"stylesheet\" href=\"../web/shared.css\">\n"
-        "<script type=\"module\" src=\"../web/shared.js\"></script>\n</head>\n"
+        "<link rel=\"stylesheet\" href=\"../web/share/shared.css\">\n"
+        "<script type=\"module\" src=\"../web/share/shared.js\"></script>\n</head>\n"
         "<body>\n<main>\n<h1>%s</h1>\n"
         "<noscript><img src=\"../v1/share/%s/picture.png\" width=\"%d\" height=\"%d\" alt=\"%s\"></noscript>\n"
         "<p>%s</p>\n<p><a id=\"open\" href=\"../#%s\">Open it live</a></p>\n</main>\n</body>\n</html>\n",
