@@ -5,7 +5,7 @@
     bench/lesson.py --pupils 60
 
 The script starts its own server, and opens a session of 480 x 270 and a lesson. Each pupil is a thread that does what
-clients/web/pupil.js does, without a browser: it keeps one request for a newer frame waiting (JPEG of quality 80), and
+clients/web/lesson/pupil.js does, without a browser: it keeps one request for a newer frame waiting (JPEG of quality 80), and
 asks for the state of the lesson once a second. The teacher fetches frames too, and changes the inclination twenty times a
 second with one patch at a time. A change is seen when the first frame with its revision has arrived. Then the teacher
 asks a question, and each pupil answers. The pupils share the server's processors. Writes

@@ -1,45 +1,45 @@
 // The page: the picture of the scene, and the views of orbits, curves, scale and the playground. It draws what the
 // server computes; it computes no physics itself.
-import { byId, el } from './dom.js';
-import { brief, caption, showAccuracy } from './accuracy.js';
-import { persistent } from './again.js';
-import { buildCarry } from './carry.js';
-import { buildControls } from './controls.js';
-import { describe, entitle, followScene } from './describe.js';
-import { buildFit } from './fit.js';
-import { buildFull } from './full.js';
-import { buildKeys, buildLanguages, welcome } from './header.js';
-import { buildHistory } from './history.js';
-import { t, tell, translatePage } from './i18n.js';
-import { buildLeading } from './leading.js';
-import * as link from './link.js';
-import { apart, buildLiving } from './living.js';
-import { buildOverlays } from './overlay.js';
-import { buildPace } from './pace.js';
-import { buildPresets, openPreset, startAgain } from './presets.js';
-import { buildRefining } from './refining.js';
-import { Scene } from './scene.js';
-import { goesOn, share } from './share.js';
-import { sheet } from './sheet.js';
-import { windowSize } from './sizes.js';
-import { openSource } from './source.js';
-import { buildStruck } from './struck.js';
-import { handle } from './view.js';
+import { byId, el } from './base/dom.js';
+import { brief, caption, showAccuracy } from './picture/accuracy.js';
+import { persistent } from './base/again.js';
+import { buildCarry } from './picture/carry.js';
+import { buildControls } from './controls/controls.js';
+import { describe, entitle, followScene } from './words/describe.js';
+import { buildFit } from './picture/fit.js';
+import { buildFull } from './controls/full.js';
+import { buildKeys, buildLanguages, welcome } from './controls/header.js';
+import { buildHistory } from './controls/history.js';
+import { t, tell, translatePage } from './words/i18n.js';
+import { buildLeading } from './controls/leading.js';
+import * as link from './base/link.js';
+import { apart, buildLiving } from './time/living.js';
+import { buildOverlays } from './over/overlay.js';
+import { buildPace } from './picture/pace.js';
+import { buildPresets, openPreset, startAgain } from './controls/presets.js';
+import { buildRefining } from './picture/refining.js';
+import { Scene } from './picture/scene.js';
+import { goesOn, share } from './share/share.js';
+import { sheet } from './base/sheet.js';
+import { windowSize } from './picture/sizes.js';
+import { openSource } from './picture/source.js';
+import { buildStruck } from './time/struck.js';
+import { handle } from './controls/view.js';
 
 // The module of a view is loaded when the view is opened. Some browsers cache a failed import for good; the button "Try
 // again" therefore reloads the page.
 const load = module =>
   module.catch(() => {
-    throw Object.assign(new Error(t('The server does not answer', 'Il server non risponde')), {
+    throw Object.assign(new Error(t('common.the-server-does-not', 'The server does not answer')), {
       byHand: () => location.reload(),
     });
   });
 const views = {
   lensing: null,
-  orbits: async () => (await load(import('./orbits.js'))).openOrbits(),
-  physics: async () => (await load(import('./physics.js'))).openPhysics(),
-  playground: async () => (await load(import('./playground.js'))).openPlayground(),
-  scale: async () => (await load(import('./scale.js'))).openScale(),
+  orbits: async () => (await load(import('./views/orbits/orbits.js'))).openOrbits(),
+  physics: async () => (await load(import('./views/physics/physics.js'))).openPhysics(),
+  playground: async () => (await load(import('./views/playground/playground.js'))).openPlayground(),
+  scale: async () => (await load(import('./views/scale/scale.js'))).openScale(),
 };
 const opened = new Set();
 const status = byId('status');
@@ -53,10 +53,10 @@ function say(text, aloud) {
 }
 
 function sayRecorded() {
-  say(t('A recording', 'Una registrazione'), false);
+  say(t('app.a-recording', 'A recording'), false);
   byId('exactly-words').textContent = t(
+    'app.kerrd-made-this-recording',
     'kerrd made this recording of the first view, of 1280 × 960 pixels with four rays each. It is shown because the first picture took more than a second, or because this server makes fewer than four pictures a second now. At the first touch it goes on live.',
-    'kerrd ha fatto questa registrazione della prima vista, di 1280 × 960 pixel con quattro raggi ciascuno. La si mostra perché la prima immagine ha impiegato più di un secondo, o perché ora il server fa meno di quattro immagini al secondo. Al primo tocco continua dal vivo.',
   );
 }
 
@@ -159,21 +159,21 @@ async function watch(scene) {
   function followLight() {
     const wanted = Boolean(apart(scene));
     byId('light').hidden = !wanted;
-    if (wanted) light ??= import('./light.js').then(({ buildLight }) => buildLight(byId('light'), scene));
+    if (wanted) light ??= import('./time/light.js').then(({ buildLight }) => buildLight(byId('light'), scene));
     light?.then(follow => follow(source.address(), wanted));
   }
 
   // The module is loaded at the first fall.
   let fall = null;
   byId('fall-in').addEventListener('click', () => {
-    fall ??= load(import('./fall.js')).then(({ buildFall }) => buildFall(scene));
+    fall ??= load(import('./time/fall.js')).then(({ buildFall }) => buildFall(scene));
     fall.then(({ begin }) => begin()).catch(error => ((fall = null), sayWrong(error.message)));
   });
 
   // The module is loaded when the tour is first started.
   let tour = null;
   byId('tour-begin').addEventListener('click', () => {
-    tour ??= load(import('./tour.js')).then(({ buildTour }) => buildTour(stage, scene));
+    tour ??= load(import('./views/see/tour.js')).then(({ buildTour }) => buildTour(stage, scene));
     tour.then(begin => begin()).catch(error => ((tour = null), sayWrong(error.message)));
   });
 
@@ -181,7 +181,7 @@ async function watch(scene) {
   let finder = null;
   for (const event of ['focus', 'input'])
     byId('find').addEventListener(event, () => {
-      finder ??= load(import('./find.js')).then(({ buildFind }) => buildFind(scene));
+      finder ??= load(import('./controls/find.js')).then(({ buildFind }) => buildFind(scene));
       finder.catch(error => ((finder = null), sayWrong(error.message)));
     });
 
@@ -189,7 +189,9 @@ async function watch(scene) {
   let stars = null;
   function nameStars() {
     if (scene.get('sky.model') === 'catalogue')
-      stars ??= import('./stars.js').then(({ buildStars }) => buildStars(stage, scene)).catch(() => (stars = null));
+      stars ??= import('./over/stars.js')
+        .then(({ buildStars }) => buildStars(stage, scene))
+        .catch(() => (stars = null));
   }
 
   // The slider to the measured ring is loaded when the scene first has a telescope's beam.
@@ -197,7 +199,7 @@ async function watch(scene) {
   async function followMeasured() {
     const { drawOverlays } = await parts;
     if (scene.get('style.beam_uas') > 0)
-      measured ??= import('./measured.js')
+      measured ??= import('./over/measured.js')
         .then(({ buildMeasured }) => buildMeasured(stage, scene, size, yes => drawOverlays.choose('ring', yes)))
         .catch(() => (measured = null));
     (await measured)?.();
@@ -206,7 +208,7 @@ async function watch(scene) {
   // The plots of integrals are loaded when one is first chosen.
   let integrals = null;
   byId('integral').addEventListener('change', ({ target }) => {
-    integrals ??= load(import('./integrals.js')).then(({ buildIntegrals }) =>
+    integrals ??= load(import('./views/see/integrals.js')).then(({ buildIntegrals }) =>
       buildIntegrals(byId('integral-plot'), scene),
     );
     integrals.then(choose => choose(target.value)).catch(error => ((integrals = null), sayWrong(error.message)));
@@ -214,14 +216,14 @@ async function watch(scene) {
 
   // A second hole beside the first.
   const compare = () =>
-    load(import('./pair.js'))
+    load(import('./views/pair/pair.js'))
       .then(({ besides }) => besides(stage, scene))
       .catch(error => sayWrong(error.message));
   byId('pair-begin').addEventListener('click', compare);
 
   // A lesson is begun by the card "Share". It goes on after a reload; a pupil's copy has the way back to it.
   const teach = begins =>
-    load(import('./lesson.js'))
+    load(import('./lesson/lesson.js'))
       .then(({ teach }) => teach(scene, () => source.address(), begins))
       .catch(error => sayWrong(error.message));
   document.addEventListener('lesson', () => teach(true));
@@ -229,7 +231,7 @@ async function watch(scene) {
   // The card of a pixel is loaded when it is first opened.
   let pixel = null;
   function askPixel(what) {
-    pixel ??= load(import('./pixel.js')).then(({ buildPixel }) => buildPixel(stage, scene, size));
+    pixel ??= load(import('./over/pixel.js')).then(({ buildPixel }) => buildPixel(stage, scene, size));
     pixel.then(what).catch(error => ((pixel = null), sayWrong(error.message)));
   }
   stage.addEventListener('tap', ({ detail }) => askPixel(({ look }) => look(detail, true)));
@@ -246,7 +248,7 @@ async function watch(scene) {
     fall?.then(({ halt }) => halt());
     complain(error.pointer, error.message);
     sayWrong(error.message);
-    if (error.again) status.append(t(' – trying again', ' – si riprova'));
+    if (error.again) status.append(t('common.trying-again', ' – trying again'));
   }
 
   const source = openSource(scene, size, show, refuse, rests);
@@ -278,7 +280,7 @@ async function watch(scene) {
   scene.addEventListener('drift', () => scene.recorded && (followFiner(false), sayRecorded()));
   const fresh = !byId('welcome').hidden;
   if (fresh || stage.dataset.still)
-    import('./drift.js').then(
+    import('./picture/drift.js').then(
       ({ begin }) => (drift = begin(stage, scene, fresh && !byId('welcome').hidden)),
       () => {},
     );
@@ -330,8 +332,9 @@ async function start() {
   );
   if (scene.unknown.length)
     byId('link-fault').textContent = t(
-      `Of the link this was not understood: ${scene.unknown.join(', ')}.`,
-      `Del collegamento questo non si capisce: ${scene.unknown.join(', ')}.`,
+      'app.of-the-link-this',
+      'Of the link this was not understood: {0}.',
+      scene.unknown.join(', '),
     );
   await watch(scene);
   persistent(byId('preset-fault'), 'lensing', () => buildPresets(scene))();

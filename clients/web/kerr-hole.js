@@ -31,6 +31,12 @@ const words = {
     how: 'Un buco nero: le frecce girano attorno, Esc termina',
     wrong: 'Il server non risponde',
   },
+  de: {
+    move: 'Bewege es',
+    hole: 'Ein Schwarzes Loch',
+    how: 'Ein Schwarzes Loch: Pfeiltasten kreisen darum, Escape beendet',
+    wrong: 'Der Server antwortet nicht',
+  },
 };
 
 const sheet = new CSSStyleSheet();
@@ -132,7 +138,7 @@ class KerrHole extends HTMLElement {
   }
 
   get #words() {
-    return words[(this.closest('[lang]')?.lang || navigator.language).startsWith('it') ? 'it' : 'en'];
+    return words[(this.closest('[lang]')?.lang || navigator.language).slice(0, 2)] ?? words.en;
   }
 
   get #server() {

@@ -116,7 +116,7 @@ enum kd_status kd_scene_link_tell(const struct kd_scene_changed *changed, size_t
 }
 
 /* Presets are composed for 16:9. A wider picture gets a wider field, so that the vertical field stays the same, as in
- * the page (clients/web/fit.js). */
+ * the page (clients/web/picture/fit.js). */
 static void fit(struct kd_scene *scene, double by)
 {
     static const double widest_deg = 150, widest_m = 1e4, degree = 3.14159265358979323846 / 180;

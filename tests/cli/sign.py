@@ -90,7 +90,7 @@ class Sign(Case):
         self.refused("no key with the name ann", *good, "-k", "ann")
         self.refused("cannot be read", "-T", self.path("absent"), "-k", "website", "-e", "1d")
         for address, words in (
-            ("https://example.org/v1/device", "it must end as one of /web/{name}, /s/{code}, "),
+            ("https://example.org/v1/device", "it must end as one of /web/{file}, /s/{code}, "),
             ("https://example.org/", "it must end as one of"),
             ("https://example.org", "it must end as one of"),
             ("example.org/v1/render", "must begin with http"),

@@ -67,7 +67,7 @@ class Links(access.Access):
             f"/v1/share/{CODE}/picture.png?width=64",
             f"/s/{CODE}",
             "/v1/physics/kerr?spin=0.5",
-            "/web/shared.css",
+            "/web/share/shared.css",
         ):
             with self.subTest(target):
                 for ask in (self.works, lambda link: self.ask("HEAD", link)):

@@ -77,10 +77,7 @@ class Metrics(daemon.Case):
         routes = {path for path in self.daemon.get("/openapi.json").json()["paths"]} | {
             "none",
             "/",
-            "/web/{name}",
-            "/web/stills/{name}",
-            "/web/vendor/uplot/{name}",
-            "/web/vendor/lean-qr/{name}",
+            "/web/{file}",
             "/story",
             "/storia",
             "/lesson",

@@ -7,6 +7,7 @@ import html
 import json
 import os
 import pathlib
+import posixpath
 import re
 import struct
 import tempfile
@@ -26,6 +27,7 @@ GETS = {
     "/storia": "text/html; charset=utf-8",
     "/lesson": "text/html; charset=utf-8",
     "/web/style.css": "text/css; charset=utf-8",
+    "/web/locale/it.json": "application/json; charset=utf-8",
     "/web/stills/first.jpg": "image/jpeg",
     "/web/stills/first.webm": "video/webm",
     "/web/icon.svg": "image/svg+xml",
@@ -133,7 +135,7 @@ class Routes(daemon.Case):
             "/web/",
             "/web/meson.build",
             "/web/../app.js",
-            "/web/it.js/",
+            "/web/locale/it.json/",
             "/web/vendor/uplot/app.js",
             "/web/uPlot.iife.min.js",
             "/web/vendor/uplot/../../app.js",
@@ -171,12 +173,13 @@ class Routes(daemon.Case):
             if not text.header("Content-Type").startswith("text/"):
                 continue  # a picture or a film
             others = {
-                "web/" + other
+                posixpath.normpath(posixpath.join(posixpath.dirname(name), other))
                 for other in re.findall(
-                    r"""(?:from ?|import\(|new URL\()['"](?:\./)?([^'"]+)['"]""", text.body.decode()
+                    r"""(?:from ?|import ?\(?|new URL\()['"]([\w./-]+)['"]""", text.body.decode()
                 )
             }
             loaded.extend(other for other in others if "." in other and other not in seen)
+        self.assertIn("web/views/playground/plane.js", seen)
         self.assertIn("web/vendor/uplot/uPlot.iife.min.js", seen)
         self.assertIn("web/vendor/uplot/uPlot.min.css", seen)
 

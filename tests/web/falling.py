@@ -169,7 +169,7 @@ class Falling(Browser):
                 hole = self.daemon.get(f"/v1/physics/kerr?spin={spin}").json()["values"]
                 way = {"r": r, "end": self.daemon.get(f"/v1/physics/infall?spin={spin}&r={r}").json()["values"]["end"]}
                 all_of = page.evaluate(
-                    """async ([hole, way]) => (await import("./web/guide.js")).captions(hole, way).map(
+                    """async ([hole, way]) => (await import("./web/time/guide.js")).captions(hole, way).map(
                         ([below, text], i) => [i ? below : way.r, typeof text === "function" ? text(0.5) : text])""",
                     [hole, way],
                 )

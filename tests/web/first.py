@@ -22,7 +22,7 @@ class First(Browser):
             self.assertEqual(n, 1)
             route.fulfill(body=changed, content_type="text/javascript")
 
-        page.route("**/web/ahead.js", answer)
+        page.route("**/web/picture/ahead.js", answer)
         page.goto(self.base + "#" + fragment)
         page.wait_for_selector(wait, timeout=PATIENCE_MS, state="attached")
         page.wait_for_selector("#preset option:nth-child(3)", state="attached")
@@ -49,7 +49,7 @@ class First(Browser):
             self.assertTrue(daemon.eventually(lambda: linked() > 0.5), "the camera drifts, and the link with it")
             page.click("#play")  # the first touch
             page.wait_for_selector(AT_REST)
-            seen = page.evaluate("import('./web/link.js').then(({ get }) => Number(get('camera.azimuth_deg')))")
+            seen = page.evaluate("import('./web/base/link.js').then(({ get }) => Number(get('camera.azimuth_deg')))")
             self.assertEqual(
                 (float(self.field(page, "camera.azimuth_deg")), page.is_disabled("#undo"), page.input_value("#preset")),
                 (seen, True, "gas-stars"),
@@ -173,7 +173,7 @@ class First(Browser):
         page.mouse.up()
         self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or patches))
         patch = patches[0][1]
-        there = page.evaluate("import('./web/loop.js').then(({ seconds }) => seconds())")
+        there = page.evaluate("import('./web/picture/loop.js').then(({ seconds }) => seconds())")
         self.assertAlmostEqual(patch["time"], 6 * there, delta=0.02)
         self.assertAlmostEqual(patch["camera"]["azimuth_deg"], 1.5 * there, delta=0.01)
         self.assertIsNone(patch["motion"]["azimuth_rate_deg"])
@@ -208,14 +208,14 @@ class First(Browser):
         page.wait_for_function("() => performance.getEntriesByName('first-picture').length > 0")
         self.assertEqual(page.locator("#loop").count(), 1)
         films.pop().continue_()
-        begun = "import('./web/loop.js').then(async ({ begun }) => String(await begun()))"
+        begun = "import('./web/picture/loop.js').then(async ({ begun }) => String(await begun()))"
         self.assertTrue(daemon.eventually(lambda: page.evaluate(begun) == "null"))
 
     def test_where_there_is_no_recording(self):
         """In a high window it would not fill the height; and who wants no motion gets none."""
         for options in {"viewport": {"width": 390, "height": 844}}, {"reduced_motion": "reduce"}:
             page, release, _ = self.landed(lambda n: False, **options)
-            begun = "import('./web/loop.js').then(async ({ begun }) => String(await begun()))"
+            begun = "import('./web/picture/loop.js').then(async ({ begun }) => String(await begun()))"
             self.assertTrue(daemon.eventually(lambda: page.evaluate(begun) == "false"))
             self.assertEqual(page.locator("#loop").count(), 0)
             release()
@@ -266,7 +266,7 @@ class First(Browser):
         scenes = {name: self.daemon.get("/v1/presets/" + name).json() for name in names}
         left_out = page.evaluate(
             """async scenes => {
-            const { mergePatch } = await import('./web/merge.js'), all = Object.entries(scenes);
+            const { mergePatch } = await import('./web/picture/merge.js'), all = Object.entries(scenes);
             return all.flatMap(([from, before]) => all.filter(([, after]) => {
                 const { style } = mergePatch(before, after);
                 return style?.name !== undefined && Object.entries(after.style).some(([key, value]) => JSON.stringify(style[key]) !== JSON.stringify(value));
@@ -276,7 +276,7 @@ class First(Browser):
         self.assertEqual(left_out, [])
         self.assertEqual(
             page.evaluate(
-                'async ([before, after]) => (await import("./web/merge.js")).mergePatch(before, after).style.palette',
+                'async ([before, after]) => (await import("./web/picture/merge.js")).mergePatch(before, after).style.palette',
                 [scenes["polarised-ring"], scenes["riaf"]],
             ),
             "heat",
@@ -288,7 +288,7 @@ class First(Browser):
         page = self.open()
         paces = page.evaluate(
             """async lines => {
-            const { buildLine } = await import('./web/line.js'), kB = { 90: 58, 75: 26, 60: 18, 45: 15, 30: 12 }, real = performance.now, paces = [];
+            const { buildLine } = await import('./web/picture/line.js'), kB = { 90: 58, 75: 26, 60: 18, 45: 15, 30: 12 }, real = performance.now, paces = [];
             let clock = 0;
             performance.now = () => clock;
             try {
@@ -355,14 +355,16 @@ class First(Browser):
             for (const { name } of presets) { const answer = await fetch(`web/stills/${name}.jpg`); if (!answer.ok) lost.push(name); await answer.blob(); }
             return lost; }""")
         self.assertEqual(lost, [])
-        words = page.evaluate("""async () => { const { presets } = await (await fetch('v1/presets')).json(), it = await import('./web/it.js'), captions = (await import('./web/captions.js')).default;
-            return presets.filter(({ name }) => !it.labels[name] || captions[name]?.length !== 2).map(({ name }) => name); }""")
-        self.assertEqual(words, [], "presets without a caption, or without Italian")
+        words = page.evaluate("""async () => { const { presets } = await (await fetch('v1/presets')).json(), captions = (await import('./web/words/captions.js')).default;
+            const others = await Promise.all(['it', 'de'].map(async lang => (await fetch(`web/locale/${lang}.json`)).json()));
+            return presets.filter(({ name }) => !captions[name] || others.some(words => !words.presets[name])).map(({ name }) => name); }""")
+        self.assertEqual(words, [], "presets without a caption, or without a name in another language")
         self.assertEqual(self.cut(page), [])
         self.shot(page, "gallery-it")
-        page = self.open("lang=en&preset=smooth", gallery=True)
-        page.wait_for_selector("#gallery [aria-pressed=true]")
-        self.assertEqual(self.cut(page), [])
+        for lang in ("en", "de"):
+            page = self.open(f"lang={lang}&preset=smooth", gallery=True)
+            page.wait_for_selector("#gallery [aria-pressed=true]")
+            self.assertEqual(self.cut(page), [])
 
     def cut(self, page):
         """Words on cards that are partly hidden."""

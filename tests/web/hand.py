@@ -407,7 +407,7 @@ class Hand(Browser):
     def test_a_picture_at_rest_comes_slowly_over_a_coarse_one(self):
         page = self.open()
         fades = """async pictures => {
-            const { buildCarry } = await import('./web/carry.js'), stage = document.createElement('div'), image = new Image();
+            const { buildCarry } = await import('./web/picture/carry.js'), stage = document.createElement('div'), image = new Image();
             const make = width => { const canvas = new OffscreenCanvas(width, 1); canvas.getContext('2d'); return canvas.convertToBlob(); };
             image.id = 'picture';
             stage.append(image);

@@ -317,7 +317,7 @@ class Lesson(Browser):
     def test_a_code_that_cannot_be_loaded(self):
         self.expected = "Failed to load resource"
         teacher = self.teach()
-        teacher.route("**/web/code.js", lambda route: route.abort())
+        teacher.route("**/web/base/code.js", lambda route: route.abort())
         teacher.get_by_role("button", name="QR code, large").click()
         self.there(teacher, "The server does not answer", "#lesson-large [role=status]")
 
@@ -326,7 +326,16 @@ class Lesson(Browser):
         self.requests.clear()
         self.follow(self.link(teacher))
         own = {request.url.removeprefix(self.base) for request in self.requests if "/web/" in request.url}
-        self.assertLessEqual(own, {"web/pupil.js", "web/lesson.css", "web/icon.svg"})
+        self.assertLessEqual(
+            own,
+            {
+                "web/lesson/pupil.js",
+                "web/words/language.js",
+                "web/base/link.js",
+                "web/lesson/lesson.css",
+                "web/icon.svg",
+            },
+        )
 
     def test_a_link_to_nothing(self):
         self.expected = "404"

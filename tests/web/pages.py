@@ -1,11 +1,10 @@
-"""Tests of what all views share: two languages, small windows, the Back button, screen readers. pages.py KERRD FOLDER
+"""Tests of what all views share: languages, small windows, the Back button, screen readers. pages.py KERRD FOLDER
 (browser.py)."""
 
 import json
-import pathlib
 import re
 
-from browser import AT_REST, FINE, READY, VIEWS, Browser, main, rows
+from browser import AT_REST, FINE, PATIENCE_MS, READY, VIEWS, Browser, main, rows
 
 import daemon
 
@@ -23,25 +22,72 @@ CROWDED = """() => {
 }"""
 
 
+LANGUAGES = ("it", "de")  # besides English
+
+
 class Pages(Browser):
-    def test_both_languages(self):
-        english, italian = self.open(), self.open("lang=it")
-        self.assertEqual([p.get_attribute("html", "lang") for p in (english, italian)], ["en", "it"])
+    def test_each_language(self):
+        english = self.open()
+        self.assertEqual(english.get_attribute("html", "lang"), "en")
         self.assertEqual(english.inner_text("nav [aria-current]"), "See")
-        self.assertEqual(italian.inner_text("nav [aria-current]"), "Guarda")
-        self.open_groups(italian)
-        self.assertIn("doppia precisione", italian.inner_text("#accuracy-words"))
-        left = italian.locator("#lensing [lang=en]").all_inner_texts()
-        self.assertEqual(left, [], "what the server says and it.js does not translate")
-        labels = [p.locator("#fields .head > label").all_text_contents() for p in (english, italian)]
-        self.assertGreater(len(set(labels[1]) - set(labels[0])), 25)
-        italian.click("[data-lang=en]")
-        italian.wait_for_selector("html[lang=en]")
-        self.shot(self.open("lang=it&over=shadow,flamm&camera.inclination_deg=75", FINE), "lensing-it")
+        own = english.locator("#fields .head > label").all_text_contents()
+        for lang, see, exact in (("it", "Guarda", "doppia precisione"), ("de", "Sehen", "doppelter Genauigkeit")):
+            page = self.open("lang=" + lang)
+            self.assertEqual(page.get_attribute("html", "lang"), lang)
+            self.assertEqual(page.inner_text("nav [aria-current]"), see)
+            self.open_groups(page)
+            self.assertIn(exact, page.inner_text("#accuracy-words"))
+            left = page.locator("#lensing [lang=en]").all_inner_texts()
+            self.assertEqual(left, [], f"what the server says and locale/{lang}.json does not translate")
+            labels = page.locator("#fields .head > label").all_text_contents()
+            self.assertGreater(len(set(labels) - set(own)), 25)
+            page.click("[data-lang=en]")
+            page.wait_for_selector("html[lang=en]")
+            self.shot(self.open(f"lang={lang}&over=shadow,flamm&camera.inclination_deg=75", FINE), "lensing-" + lang)
+
+    def test_the_language_that_is_asked_for_counts(self):
+        """The link's language, then that of the address, then the first of the browser's that the page has. Only its
+        words are loaded."""
+        for query, fragment, browser, lang in (
+            ("", "", "de-AT", "de"),
+            ("", "", "fr-FR", "en"),
+            ("?lang=de", "", "it-IT", "de"),
+            ("?lang=de", "lang=it", "en-US", "it"),
+            ("?lang=fr", "", "it-CH", "it"),
+            ("", "lang=en", "de-DE", "en"),
+        ):
+            with self.subTest(query=query, fragment=fragment, browser=browser):
+                self.requests.clear()
+                page = self.page(self.context(locale=browser))
+                page.goto(f"{self.base}{query}#preset=default&pace=fast&{fragment}")
+                page.wait_for_selector(AT_REST, timeout=PATIENCE_MS, state="attached")
+                loaded = {r.url.rpartition("/")[2] for r in self.requests if "/locale/" in r.url}
+                self.assertEqual(loaded, set() if lang == "en" else {lang + ".json"})
+                self.assertEqual(page.get_attribute("html", "lang"), lang)
+
+    def words(self, lang):
+        return self.daemon.get(f"/web/locale/{lang}.json").json()
+
+    def said(self, lang, sentences):
+        """How the page puts sentences of the server: text, and "en" where it has no translation."""
+        page = self.open("lang=" + lang)
+        return page.evaluate(
+            'async all => { const { said } = await import("./web/words/i18n.js"); return all.map(one => said(one)).map(({ text, lang }) => [text, lang]); }',
+            sentences,
+        )
+
+    def test_each_field_has_its_name(self):
+        """In each language, by its path or, if its label says enough, by its last name."""
+        for lang in LANGUAGES:
+            fields = self.words(lang)["fields"]
+            paths = [re.sub(r"\.\d+\.", ".", path) for path, _, _ in rows(self.schema())]
+            shown = [path for path in paths if path not in ("image.width", "image.height")]  # the page sets these
+            left = [path for path in shown if path not in fields and path.split(".")[-1] not in fields]
+            self.assertEqual(left, [], lang)
 
     def test_each_choice_has_its_word(self):
-        """Each choice of a field has an Italian word. In English no word is shown in the program's own spelling, with
-        an underscore, or with letters and digits joined by a hyphen."""
+        """Each choice of a field has a word in each language. In English no word is shown in the program's own spelling,
+        with an underscore, or with letters and digits joined by a hyphen."""
         schema = self.schema()
         choices = [
             (path, word)
@@ -49,20 +95,17 @@ class Pages(Browser):
             for word in row.get("enum", row.get("items", {}).get("enum", []))
         ]
         self.assertGreater(len(choices), 60)
-        page = self.open("lang=it")
-        left = page.evaluate(
-            'async all => { const { values } = await import("./web/it.js"); return all.filter(([path, word]) => !values[`${path} ${word}`] && !values[word]); }',
-            choices,
-        )
-        self.assertEqual(left, [])
+        for lang in LANGUAGES:
+            values = self.words(lang)["values"]
+            left = [(path, word) for path, word in choices if f"{path} {word}" not in values and word not in values]
+            self.assertEqual(left, [], lang)
         told = self.open("lang=en").evaluate(
-            'async all => { const { word } = await import("./web/i18n.js"); return all.map(([path, name]) => word(name, path)).filter(text => text.includes("_") || /^[a-z]+-[a-z]+\\d/.test(text)); }',
+            'async all => { const { word } = await import("./web/words/i18n.js"); return all.map(([path, name]) => word(name, path)).filter(text => text.includes("_") || /^[a-z]+-[a-z]+\\d/.test(text)); }',
             choices,
         )
         self.assertEqual(told, [])
 
-    def test_refusals_are_told_in_italian(self):
-        page = self.open("lang=it")
+    def test_refusals_are_told_in_each_language(self):
         wrong = (
             "disk.inner=1",
             "camera.r=1.5",
@@ -118,18 +161,18 @@ class Pages(Browser):
             answers.append(
                 self.daemon.request("POST", "/v1/orbits", json.dumps({"spin": spin, "orbit": {"p": p, "e": e}}))
             )
-        for answer in answers:
-            self.assertEqual(answer.status, 422)
-            detail = answer.json()["detail"]
-            told = page.evaluate('async detail => (await import("./web/it.js")).refusal(detail)', detail)
-            self.assertNotRegex(told or "must", r"must|\{|undefined| is | of |degrees|masses", detail)
-        self.assertEqual(
-            page.evaluate('async () => (await import("./web/it.js")).refusal("what is this; it must be none")'), None
-        )
+        details = [answer.json()["detail"] for answer in answers]
+        self.assertEqual({answer.status for answer in answers}, {422})
+        for lang in LANGUAGES:
+            for detail, (text, marked) in zip(details, self.said(lang, details)):
+                self.assertIsNone(marked, detail)
+                self.assertNotRegex(text, r"must|\{|undefined| is | of |degrees|masses", detail)
+            unknown = "what is this; it must be none"
+            self.assertEqual(self.said(lang, [unknown]), [[unknown, "en"]])
 
-    def test_what_shines_is_told_in_italian(self):
-        """Every emitter has an Italian name, a description of what is visible, and a name of its button."""
-        page, seen = self.open("lang=it"), []
+    def test_what_shines_is_told_in_each_language(self):
+        """Every emitter has a name, a description of what is visible, and a name of its button."""
+        seen = []
         buttons = [spec["x-button"]["title"] for _, spec, _ in rows(self.schema()) if "x-button" in spec]
         for scene in (
             {"sky": {"model": "grid"}},
@@ -143,31 +186,27 @@ class Pages(Browser):
                 text for emitter in session["emitters"] for text in (emitter["title"], emitter.get("sentence")) if text
             ]
             self.daemon.request("DELETE", f"/v1/sessions/{session['id']}?token={session['token']}")
-        for text in seen + buttons:
-            told = page.evaluate(
-                'async text => { const it = await import("./web/it.js"); return it.sentences[text] ?? it.refusal(text); }',
-                text,
-            )
-            self.assertTrue(told, text)
-            self.assertNotIn("{", told)
+        for lang in LANGUAGES:
+            for english, (text, marked) in zip(seen + buttons, self.said(lang, seen + buttons)):
+                self.assertIsNone(marked, english)
+                self.assertNotIn("{", text)
         self.assertGreater(len(seen), 11)
         self.assertGreaterEqual(len(buttons), 4)
 
-    def test_each_approximation_has_its_italian(self):
-        page = self.open("lang=it")
-        # the page requests none of these
-        text = (
-            (pathlib.Path(__file__).resolve().parents[2] / "docs/approximations.md")
-            .read_text()
-            .partition("## lists of rays")[0]
-        )
-        sentences = re.findall(r"^\| `[a-z0-9.-]+` \| ([a-z ]+: .*?) \| ", text, re.M)
-        self.assertGreater(len(sentences), 40)
-        left = page.evaluate(
-            'async all => { const { sentences } = await import("./web/it.js"); return all.filter(text => !sentences[text]); }',
-            sentences,
-        )
-        self.assertEqual(left, [])
+    def test_an_approximation_is_translated_by_its_name(self):
+        """So that a comma mended in the server's sentence loses no translation."""
+        page = self.page(self.context())
+        listed = self.daemon.get("/v1/approximations").json()
+        for row in listed["approximations"]:
+            row["sentence"] += ", mended"
+        page.route("**/v1/approximations", lambda route: route.fulfill(json=listed))
+        page.goto(self.base + "#preset=default&pace=fast&lang=de")
+        page.wait_for_selector(AT_REST, timeout=PATIENCE_MS)
+        self.open_groups(page)
+        told = page.locator("#approximations li").all_inner_texts()
+        self.assertGreater(len(told), 3)
+        self.assertFalse([text for text in told if "mended" in text])
+        self.assertIn("Scheibe: geometrisch dünn", " ".join(told))
 
     def test_phone_and_twice_the_size(self):
         phone = {

@@ -14,7 +14,7 @@ SIZES = ((390, 844), (1024, 700), (1440, 900))
 class Panel(Browser):
     def test_numbers_beside_a_word_have_their_bounds(self):
         """A field that also takes a word still has its bounds as a number: "infinity", or 0.01 to 1e7."""
-        told = self.open().evaluate("""async () => { const { Scene } = await import("./web/scene.js"), scene = await Scene.load();
+        told = self.open().evaluate("""async () => { const { Scene } = await import("./web/picture/scene.js"), scene = await Scene.load();
             return [...scene.fields.values()].filter(f => f.word).map(f => [f.path, f.type, f.minimum, f.maximum, f.word]); }""")
         wanted = {
             path: [(part["type"], part["minimum"], part["maximum"]) for part in spec["anyOf"] if "minimum" in part]
@@ -318,16 +318,19 @@ class Panel(Browser):
         return page.locator("#fields [data-path]:visible").evaluate_all("all => all.map(n => n.dataset.path)")
 
     def test_a_setting_is_found(self):
-        """A setting is found by label, help, choice and name, in both languages. Its group opens, and closes when the
-        search ends."""
-        for lang in ("en", "it"):
+        """A setting is found by label, help, choice and name, in English and in the page's language. Its group opens,
+        and closes when the search ends."""
+        quoted = {"en": "“xyzzy”", "it": "«xyzzy»", "de": "„xyzzy“"}
+        effect = {"en": "Without effect", "it": "Senza effetto", "de": "Ohne Wirkung"}
+        own = {"en": "inner edge", "it": "bordo interno", "de": "innerer rand"}
+        for lang in quoted:
             page = self.open("lang=" + lang)
             page.click("#all > summary")
             for words, path in (
-                ("Accretion rate" if lang == "en" else "tasso di accrescimento", None),
+                ("mdot", None),
                 ("Inner edge", "disk.inner"),
-                ("bordo interno", "disk.inner"),
-                ("Tone map" if lang == "en" else "tone_map", "style.tone_map"),
+                (own[lang], "disk.inner"),
+                ("Tone map", "style.tone_map"),
                 ("camera.roll_deg", "camera.roll_deg"),
                 ("roll deg", "camera.roll_deg"),
                 ("smooth transition", "style.bloom"),
@@ -335,12 +338,12 @@ class Panel(Browser):
             ):
                 page.fill("#find", words)
                 if path is None:
-                    self.there(page, "Without effect" if lang == "en" else "Senza effetto", "#found")
+                    self.there(page, effect[lang], "#found")
                     continue
                 self.assertTrue(daemon.eventually(lambda: path in self.found(page)), (words, self.found(page)))
                 self.assertLessEqual(len(self.found(page)), 6, words)
             page.fill("#find", "xyzzy")
-            self.there(page, "“xyzzy”" if lang == "en" else "«xyzzy»", "#found")
+            self.there(page, quoted[lang], "#found")
             self.assertEqual((self.found(page), page.locator("#fields summary:visible").count()), ([], 0))
             page.fill("#find", "roll_deg")
             page.press("#find", "Enter")

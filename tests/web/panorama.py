@@ -21,7 +21,7 @@ PAINT = """([longitude, latitude, type, width, height]) => {
 }"""
 # The place of the reddest part of what panorama.js makes of it: size, longitude and latitude, degrees.
 TURN = """async ([url, equatorial]) => {
-    const { panorama } = await import('./web/panorama.js'),
+    const { panorama } = await import('./web/controls/panorama.js'),
         bytes = Uint8Array.from(atob(url.split(',')[1]), c => c.charCodeAt(0)),
         blob = await panorama(new Blob([bytes]), equatorial), image = await createImageBitmap(blob),
         { width, height } = image, c = new OffscreenCanvas(width, height).getContext('2d');

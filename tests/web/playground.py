@@ -10,7 +10,7 @@ from browser import KERRD, Browser, main, value
 import daemon
 
 THERE = "#play-plane[data-bodies]"
-ARROW_PX = 90  # length of an arrow with the speed of a circle; as in clients/web/hands.js
+ARROW_PX = 90  # length of an arrow with the speed of a circle; as in clients/web/views/playground/hands.js
 
 
 class Playground(Browser):
@@ -86,7 +86,7 @@ class Playground(Browser):
             {"x": b["position"], "v": b["velocity"], "mass": b["mass"]} for b in state["bodies"] if b["id"] in before
         ]
         path = page.evaluate(
-            'async ([thrown, others, settings]) => (await import("./web/predict.js")).predict(thrown, others, settings, 1e4).points',
+            'async ([thrown, others, settings]) => (await import("./web/views/playground/predict.js")).predict(thrown, others, settings, 1e4).points',
             [thrown, others, state["settings"]],
         )
         for _ in range(6):
@@ -342,7 +342,7 @@ class Playground(Browser):
             texts += answer["approximations"] + [body["name"] for body in answer["bodies"]][:2]
             self.daemon.request("DELETE", f"/v1/playground/{answer['id']}?token={answer['token']}")
         left = page.evaluate(
-            'async all => { const { said } = await import("./web/i18n.js"); return all.filter(text => said(text).lang); }',
+            'async all => { const { said } = await import("./web/words/i18n.js"); return all.filter(text => said(text).lang); }',
             texts,
         )
         self.assertEqual(left, [])
@@ -362,7 +362,7 @@ class Playground(Browser):
             self.assertTrue(daemon.eventually(lambda: float(page.get_attribute("#play-clock", "data-t") or 0) > 0))
             names = page.locator("#play-preset option:not([hidden])").evaluate_all("all => all.map(o => o.value)")
             told = page.evaluate(
-                'async names => { const { seenOf } = await import("./web/play-seen.js"); return names.map(seenOf); }',
+                'async names => { const { seenOf } = await import("./web/views/playground/play-seen.js"); return names.map(seenOf); }',
                 names,
             )
             self.assertEqual([name for name, text in zip(names, told) if len(text) < 60], [])

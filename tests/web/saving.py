@@ -141,7 +141,7 @@ class Saving(Browser):
         server estimates."""
         page = self.open()
         left = page.evaluate("""async () => {
-            const { remaining } = await import('./web/remaining.js');
+            const { remaining } = await import('./web/base/remaining.js');
             let now = 0;
             const left = remaining(() => now), told = [];
             for (const [at, share] of [[0, null], [50, null], [100, 0], [101, 0.015], [102, 0.03], [104, 0.04], [110, 0.1], [150, 0.5], [200, 1]]) (now = 1000 * at), told.push(left(share));

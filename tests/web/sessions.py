@@ -145,7 +145,7 @@ class Sessions(Browser):
     def test_a_view_whose_first_load_fails(self):
         for view, fails, told in (
             ("orbits", "**/v1/orbits", "#orbit-fault"),
-            ("orbits", "**/web/orbits.js", "#orbits > .fault"),
+            ("orbits", "**/web/views/orbits/orbits.js", "#orbits > .fault"),
             ("physics", "**/v1/physics", "#physics > .fault"),
             ("scale", "**/v1/physics/scale*", "#scale-fault"),
             ("lensing", "**/v1/schema", "#status"),

@@ -182,7 +182,7 @@ class Share(Browser):
         page = self.open("lang=en&preset=smooth&pause=1")
         held, asked = [], []
         page.on("request", lambda request: request.url.endswith("/v1/jobs") and asked.append(request))
-        page.route("**/web/record.js", lambda route: held.append(route))
+        page.route("**/web/share/record.js", lambda route: held.append(route))
         self.share(page)
         page.clock.install()
         page.get_by_role("button", name="Make a film, five seconds").click()
@@ -195,7 +195,7 @@ class Share(Browser):
         page.click("#film-cancel")
         self.there(page, "Cancelled.", "#film-told")
         page = self.open("lang=en&preset=smooth&pause=1")
-        page.route("**/web/record.js", lambda route: route.abort())
+        page.route("**/web/share/record.js", lambda route: route.abort())
         self.share(page)
         page.get_by_role("button", name="Make a film, five seconds").click()
         page.wait_for_selector("#sending", state="hidden")

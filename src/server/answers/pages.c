@@ -68,7 +68,10 @@ static const char *file_of(const struct kd_request *request)
     static const struct {
         const char *path, *file;
     } pages[] = {
-        { "/", "index.html" }, { "/story", "story.html" }, { "/storia", "story-it.html" }, { "/lesson", "lesson.html" }
+        { "/", "index.html" },
+        { "/story", "story/story.html" },
+        { "/storia", "story/story-it.html" },
+        { "/lesson", "lesson/lesson.html" },
     };
     for (size_t i = 0; i < sizeof pages / sizeof *pages; i++)
         if (!strcmp(request->route->path, pages[i].path))

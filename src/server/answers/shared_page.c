@@ -23,7 +23,7 @@ static enum kd_status write_live(const char *const t[TEXTS], struct kd_buffer *p
     return kd_buffer_printf(
         page,
         "<link rel=\"alternate\" type=\"application/json+oembed\" href=\"%s/oembed?url=%s\" title=\"%s\">\n"
-        "<script type=\"module\" src=\"../web/shared.js\"></script>\n",
+        "<script type=\"module\" src=\"../web/share/shared.js\"></script>\n",
         t[HOME], t[URL], t[TITLE]);
 }
 
@@ -46,7 +46,7 @@ static enum kd_status write_page(const char *const t[TEXTS], bool live, struct k
         "<meta property=\"og:image:alt\" content=\"%s\">\n"
         "<meta name=\"twitter:card\" content=\"summary_large_image\">\n"
         "<link rel=\"icon\" type=\"image/svg+xml\" href=\"../web/icon.svg%s\">\n"
-        "<link rel=\"stylesheet\" href=\"../web/shared.css%s\">\n",
+        "<link rel=\"stylesheet\" href=\"../web/share/shared.css%s\">\n",
         t[TITLE], t[ABOUT], t[ADDRESS], t[TITLE], t[ABOUT], t[ADDRESS], t[PICTURE], KD_SHARED_WIDTH, KD_SHARED_HEIGHT,
         t[ABOUT], t[ICON], t[STYLE]));
     if (live)
@@ -70,7 +70,7 @@ static enum kd_status make_page(const struct kd_request *request, const struct k
     const char *texts[TEXTS];
     enum kd_status status;
     KD_TRY(kd_percent_append(shared->address.data, shared->address.size, "", &url));
-    KD_TRY(kd_shared_sign(request, "/web/shared.css", &style));
+    KD_TRY(kd_shared_sign(request, "/web/share/shared.css", &style));
     KD_TRY(kd_shared_sign(request, "/web/icon.svg", &icon));
     KD_TRY(kd_buffer_printf(&picture, "/v1/share/%s/picture.png", (const char *)shared->code.data));
     KD_TRY(kd_shared_sign(request, (const char *)picture.data, &seen));

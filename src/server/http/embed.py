@@ -7,6 +7,7 @@ as they are written.
 
 import gzip
 import hashlib
+import json
 import pathlib
 import subprocess
 import sys
@@ -17,6 +18,7 @@ TYPES = {
     ".js": "text/javascript; charset=utf-8",
     ".mjs": "text/javascript; charset=utf-8",
     ".css": "text/css; charset=utf-8",
+    ".json": "application/json; charset=utf-8",
     ".svg": "image/svg+xml",
     ".jpg": "image/jpeg",
     ".webm": "video/webm",
@@ -59,9 +61,11 @@ def form(name, data):
     return f'{{ "\\"{hashlib.sha256(data).hexdigest()}\\"", {name}, sizeof {name} }}'
 
 
-short = shortened([f for f in files if f.suffix in (".js", ".css") and f.parent == folder]) if minifier else {}
+short = shortened([f for f in files if f.suffix in (".js", ".css") and "vendor" not in f.parts]) if minifier else {}
 for i, file in enumerate(files):
     data = short.get(file) or file.read_bytes()
+    if file.suffix == ".json":
+        data = json.dumps(json.loads(data), ensure_ascii=False, separators=(",", ":")).encode()
     packed = "{ 0 }" if file.suffix in (".jpg", ".webm") else form(f"gzip_{i}", gzip.compress(data, 9, mtime=0))
     rows.append(
         f'    {{ "{file.relative_to(folder).as_posix()}", "{TYPES[file.suffix]}", {form(f"plain_{i}", data)},\n'

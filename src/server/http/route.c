@@ -18,7 +18,7 @@ static bool matches(const struct kd_route *route, char *path, const char **rest)
     const char *after = strchr(brace, '}') + 1;
     if (strncmp(route->path, path, before))
         return false;
-    size_t n = strcspn(path + before, "/");
+    size_t n = strcspn(path + before, route->folders ? "" : "/");
     if (strcmp(path + before + n, after))
         return false;
     path[before + n] = 0;

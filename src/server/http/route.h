@@ -89,6 +89,7 @@ struct kd_route {
     bool page;          /* a page of a browser: takes the access token in its address, and asks for it (access.h) */
     bool once;          /* POST takes Idempotency-Key (once.h) */
     bool parts;         /* GET may answer with a range, 206 (representation.h) */
+    bool folders;       /* the parameter at the end of the path may have slashes */
     bool owner;         /* POST needs the token of the object, as PATCH and DELETE always do */
     bool brief;         /* PATCH takes Prefer: return=minimal */
     bool changes;       /* not every answer has an ETag, because unfinished ones change */

@@ -43,16 +43,13 @@ static void begin_parameter(struct kd_json *json, const char *in, const char *na
     kd_json_string(json, "in", in);
 }
 
-/* Writes the schema of a file's name below the folder in the route. */
-static void add_file_schema(struct kd_json *json, const char *path)
+static void add_file_schema(struct kd_json *json)
 {
-    size_t skip = strlen("/web/"), n = strcspn(path, "{") - skip;
     kd_json_object(json, "schema");
     kd_json_string(json, "type", "string");
     kd_json_array(json, "enum");
     for (size_t i = 0; i < kd_n_page_files; i++)
-        if (!strncmp(kd_page_files[i].name, path + skip, n) && !strchr(kd_page_files[i].name + n, '/'))
-            kd_json_string(json, NULL, kd_page_files[i].name + n);
+        kd_json_string(json, NULL, kd_page_files[i].name);
     kd_json_end(json);
     kd_json_end(json);
 }
@@ -72,8 +69,8 @@ static void add_path_parameter(struct kd_json *json, const char *path)
         kd_json_raw(json, "schema", hash, sizeof hash - 1);
     else if (!strcmp(name, "code"))
         kd_json_raw(json, "schema", KD_OPENAPI_CODE, sizeof KD_OPENAPI_CODE - 1);
-    else if (!strncmp(path, "/web/", 5))
-        add_file_schema(json, path);
+    else if (!strcmp(name, "file"))
+        add_file_schema(json);
     else
         kd_openapi_preset_schema(json);
     kd_json_end(json);

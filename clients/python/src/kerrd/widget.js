@@ -1,6 +1,6 @@
 // The live view in a notebook's cell; jupyter.py is its other half. Frames come over the kernel's comm, and each is
 // acknowledged when it is shown. One change is on its way at a time: changes made meanwhile wait, and of one field the
-// last counts. The camera is moved by hand as on the page (clients/web/view.js).
+// last counts. The camera is moved by hand as on the page (clients/web/controls/view.js).
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 const turn = x => x - 360 * Math.round(x / 360);
 const round = (x, digits) => Number(x.toFixed(digits));

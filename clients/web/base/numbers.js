@@ -1,0 +1,84 @@
+// The numbers of a chart, as a table and as CSV.
+import { el } from './dom.js';
+import { number, t } from '../words/i18n.js';
+
+const live_ms = 1000; // least time between two updates of a table
+
+export const shared = spec => spec.series.every(s => s.x === spec.series[0].x);
+
+function table(spec) {
+  const n = spec.series[0]?.x.length ?? 0,
+    every = Math.max(1, Math.ceil(n / 24));
+  const list = shared(spec) ? [spec.series] : spec.series.map(s => [s]);
+  return list.map(group =>
+    el(
+      'table',
+      {},
+      el(
+        'thead',
+        {},
+        el(
+          'tr',
+          {},
+          [spec.x.label, ...group.map(s => s.name)].map(text => el('th', { scope: 'col' }, text)),
+        ),
+      ),
+      el(
+        'tbody',
+        {},
+        group[0].x.map((x, i) =>
+          i % every
+            ? null
+            : el(
+                'tr',
+                {},
+                el('th', { scope: 'row' }, number(x)),
+                group.map(s => el('td', {}, number(s.y[i]))),
+              ),
+        ),
+      ),
+    ),
+  );
+}
+
+const cell = text => `"${String(text ?? '').replaceAll('"', '""')}"`;
+
+// The CSV is made in the page: no address of the server returns it.
+function sheet(spec) {
+  const [{ x }] = spec.series,
+    rows = [
+      [spec.x.label, ...spec.series.map(s => s.name)].map(cell),
+      ...x.map((at, i) => [at, ...spec.series.map(s => s.y[i])]),
+    ];
+  return URL.createObjectURL(new Blob([rows.map(row => row.join(',') + '\n').join('')], { type: 'text/csv' }));
+}
+
+// The numbers of a chart under a heading. The table is made when it is opened, and that of a live chart is updated.
+export function numbers(id) {
+  const box = el('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-labelledby': id }),
+    links = el('p', {});
+  const details = el('details', {}, el('summary', {}, t('common.the-numbers', 'The numbers')), box, links);
+  let spec = null,
+    filled = 0;
+  function fill() {
+    if (!details.open || !spec) return;
+    filled = performance.now();
+    box.replaceChildren(...table(spec));
+  }
+  details.addEventListener('toggle', fill);
+  details.show = next => {
+    spec = next;
+    if (!spec.live || performance.now() > filled + live_ms) fill();
+    if (links.firstChild && spec.live) return;
+    const link =
+      (spec.csv || spec.live) &&
+      el(
+        'a',
+        { href: spec.live ? '#' : spec.csv + '&format=csv', download: spec.live ? 'kerrd.csv' : '' },
+        t('numbers.all-of-them-as', 'All of them as CSV'),
+      );
+    if (spec.live) link.addEventListener('click', () => (URL.revokeObjectURL(link.href), (link.href = sheet(spec))));
+    links.replaceChildren(...(link ? [link] : []));
+  };
+  return details;
+}

@@ -1,0 +1,135 @@
+// In a narrow, upright window, the controls of a view lie in a sheet over its lower edge, while the picture stays in
+// place. A handle switches between three heights by a drag, a tap or arrow keys. In any other window the controls stand
+// beside the picture, and the handle is hidden (style.css).
+import { el } from './dom.js';
+import { t } from '../words/i18n.js';
+
+const heights = [
+  ['low', t('sheet.out-of-the-way', 'out of the way')],
+  ['half', t('sheet.half-of-the-window', 'half of the window')],
+  ['whole', t('sheet.all-of-the-window', 'all of the window')],
+];
+const tap_px = 6;
+const flick_px_ms = 0.5; // a faster drag moves the sheet to the next height
+
+const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
+
+// The picture of each panel, which is scrolled to where the sheet leaves it visible.
+const pinned = { 'orbit-panel': '#orbit-picture', 'scale-panel': '#scale-pictures', 'play-panel': '#play-pictures' };
+
+export function sheet(node) {
+  const handle = el(
+    'div',
+    {
+      class: 'handle',
+      role: 'slider',
+      tabindex: 0,
+      'aria-orientation': 'vertical',
+      'aria-valuemin': 0,
+      'aria-valuemax': heights.length - 1,
+      'aria-controls': node.id,
+      'aria-label': t('sheet.controls-height-of-the', 'Controls: height of the sheet'),
+    },
+    t('sheet.controls', 'Controls'),
+  );
+  const picture = pinned[node.id] && document.querySelector(pinned[node.id]);
+  let at = 0,
+    drag = null,
+    placed = false;
+
+  // If the page is still too short to scroll that far, the picture is not placed yet.
+  function show() {
+    if (!at || !picture?.offsetHeight || !handle.offsetParent) return;
+    picture.scrollIntoView();
+    placed = Math.abs(picture.getBoundingClientRect().y - parseFloat(getComputedStyle(picture).scrollMarginTop)) < 2;
+  }
+
+  function rest(wanted) {
+    at = clamp(wanted, 0, heights.length - 1);
+    const [name, words] = heights[at];
+    node.dataset.height = name;
+    node.style.removeProperty('height');
+    if (!at) node.scrollTop = 0;
+    placed = false;
+    show();
+    handle.setAttribute('aria-valuenow', at);
+    handle.setAttribute('aria-valuetext', words);
+  }
+
+  // The nearest of the three heights; after a flick, the next one in its direction.
+  function nearest(height, speed) {
+    const sizes = [handle.offsetHeight, innerHeight / 2, innerHeight],
+      near = sizes.reduce((best, size, i) => (Math.abs(size - height) < Math.abs(sizes[best] - height) ? i : best), 0);
+    return Math.abs(speed) > flick_px_ms ? at + Math.sign(speed) : near;
+  }
+
+  const turn = () => rest(at === 1 ? 0 : 1);
+
+  handle.addEventListener('pointerdown', event => {
+    if (event.button) return;
+    handle.setPointerCapture(event.pointerId);
+    drag = {
+      x: event.clientX,
+      y: event.clientY,
+      height: node.offsetHeight,
+      moved: false,
+      time: event.timeStamp,
+      last: event.clientY,
+      speed: 0,
+    };
+  });
+  handle.addEventListener('pointermove', event => {
+    if (!drag) return;
+    const up = drag.y - event.clientY,
+      took = event.timeStamp - drag.time;
+    // a sideways movement changes the preset (swipe.js)
+    drag.moved ||= Math.hypot(up, event.clientX - drag.x) > tap_px;
+    if (took > 0) drag.speed = (drag.last - event.clientY) / took;
+    Object.assign(drag, { time: event.timeStamp, last: event.clientY });
+    if (drag.moved) node.style.height = `${clamp(drag.height + up, handle.offsetHeight, innerHeight)}px`;
+  });
+  handle.addEventListener('pointerup', () => {
+    if (!drag) return;
+    const { moved, speed } = drag;
+    drag = null;
+    moved ? rest(nearest(node.offsetHeight, speed)) : turn();
+  });
+  handle.addEventListener('pointercancel', () => ((drag = null), rest(at)));
+
+  const keys = {
+    ArrowUp: () => at + 1,
+    ArrowRight: () => at + 1,
+    PageUp: () => at + 1,
+    ArrowDown: () => at - 1,
+    ArrowLeft: () => at - 1,
+    PageDown: () => at - 1,
+    Home: () => 0,
+    End: () => heights.length - 1,
+  };
+  handle.addEventListener('keydown', event => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key === 'Enter' || event.key === ' ') turn();
+    else if (keys[event.key]) rest(keys[event.key]());
+    else return;
+    event.preventDefault();
+    event.stopPropagation(); // so that the space key does not pause the clock
+  });
+  // Raises the sheet when the keyboard moves the focus into it.
+  node.addEventListener(
+    'focusin',
+    event => event.target !== handle && at === 0 && event.target.matches(':focus-visible') && rest(1),
+  );
+  node.classList.add('sheet');
+  node.prepend(handle);
+  rest(0);
+  if (picture) {
+    // If the sheet was raised before its picture, or the content that makes the page long enough, was there, the
+    // picture is placed when they come.
+    const grows = new ResizeObserver(() => {
+      placed &&= picture.offsetHeight > 0; // a view that is opened again is placed again
+      if (!placed) show();
+    });
+    grows.observe(picture);
+    grows.observe(document.body);
+  }
+}

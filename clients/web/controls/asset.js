@@ -1,0 +1,85 @@
+// The control of a field that names an asset, a picture or a grid of matter: a file is uploaded to the server, and the
+// field is set to the hash of its bytes.
+import { el, latest } from '../base/dom.js';
+import { t, tell } from '../words/i18n.js';
+import { ask, module } from '../base/server.js';
+
+export function assetRow(field, scene, id, hint) {
+  let taken = null; // { chosen, hash }: the file that was chosen last, and the value of the field after it
+  const name = el('output', { class: 'asset' }),
+    fault = el('p', { class: 'fault', hidden: true }),
+    none = el(
+      'button',
+      { type: 'button', onclick: () => ((taken = null), scene.change({ [field.path]: null })) },
+      t('asset.leave-it-out', 'Leave it out'),
+    );
+  const grid = field.path === 'volume.grid',
+    type = grid ? 'application/x-npz' : 'image/png';
+  const file = el('input', {
+    type: 'file',
+    accept: grid ? '.npz' : 'image/png,image/jpeg',
+    id,
+    'aria-describedby': hint,
+    onchange: choose,
+  });
+
+  // For a picture of the sky: its coordinates, and where to get one.
+  const turned = el('input', { type: 'checkbox', id: id + '-equatorial', onchange: again }),
+    about = el(
+      'p',
+      { class: 'help' },
+      t('asset.png-or-jpeg', 'PNG or JPEG. '),
+      el('code', {}, 'scripts/sky'),
+      t('asset.fetches-a-photograph-of', ' fetches a photograph of the whole sky.'),
+    ),
+    more = grid
+      ? []
+      : [
+          el(
+            'label',
+            { class: 'special' },
+            turned,
+            t('asset.in-equatorial-coordinates-ra', 'in equatorial coordinates (RA, Dec)'),
+          ),
+          about,
+        ];
+
+  function choose() {
+    const [chosen] = file.files;
+    if (chosen) take(chosen);
+    file.value = ''; // so that choosing the same file again is an event
+  }
+  // The box may be changed after the file was chosen.
+  function again() {
+    if (taken && taken.hash === scene.get(field.path)) take(taken.chosen);
+  }
+
+  const take = latest(async chosen => {
+    fault.hidden = true;
+    try {
+      const body =
+        grid || (chosen.type === type && !turned.checked)
+          ? chosen
+          : await (await module(import('./panorama.js'))).panorama(chosen, turned.checked);
+      const answer = await ask('v1/assets', { method: 'PUT', headers: { 'Content-Type': type }, body });
+      scene.change({ [field.path]: (await answer.json()).sha256 });
+    } catch (error) {
+      tell(fault, error.message);
+      fault.hidden = false;
+    }
+    taken = { chosen, hash: scene.get(field.path) };
+  });
+
+  return {
+    nodes: [file, ...more, el('div', { class: 'pair' }, name, none), fault],
+    show: () => {
+      const hash = scene.get(field.path);
+      name.value = hash
+        ? `SHA-256 ${hash.slice(0, 8)}…`
+        : grid
+          ? t('asset.no-file-yet-there', 'No file yet: there is no matter')
+          : '';
+      none.hidden = !hash;
+    },
+  };
+}

@@ -1,0 +1,76 @@
+// Undo and redo of all changes of the scene: Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y, and two buttons.
+import { byId } from '../base/dom.js';
+import { valueAt } from '../picture/scene.js';
+
+const together_ms = 400; // changes that follow each other sooner are one step, as those of a drag
+const most = 200;
+
+export function buildHistory(scene) {
+  // text: the scene without time and without what the server moves, which undo leaves alone. When undo crosses the
+  // start or the end of a motion, time and what was moved go back to their values of then. fitted: see fit.js.
+  function whole() {
+    const { time, ...document } = scene.document({}, true);
+    return { text: JSON.stringify(document), time: scene.get('time'), fitted: scene.fitted() };
+  }
+
+  const past = [],
+    future = [],
+    buttons = [byId('undo'), byId('redo')];
+  let now = whole(),
+    timer = 0;
+
+  function show() {
+    [past, future].forEach((list, i) => (buttons[i].disabled = !list.length));
+  }
+
+  function note() {
+    clearTimeout(timer);
+    timer = 0;
+    const changed = whole();
+    if (changed.text === now.text) return void (now = changed);
+    past.push(now);
+    past.splice(0, past.length - most);
+    future.length = 0;
+    now = changed;
+    show();
+  }
+
+  function go(from, to) {
+    note();
+    if (!from.length) return;
+    to.push(now);
+    const goal = from.pop(),
+      [old, next] = [now, goal].map(({ text }) => JSON.parse(text)),
+      at = (document, path) => valueAt(document, path) ?? null,
+      paths = [...scene.fields.keys()].filter(path => JSON.stringify(at(old, path)) !== JSON.stringify(at(next, path)));
+    const moved = paths.some(path => path.startsWith('motion.')) ? { ...scene.origins(), time: goal.time } : {};
+    scene.refit(goal.fitted);
+    scene.change({ ...moved, ...Object.fromEntries(paths.map(path => [path, at(next, path)])) });
+    now = whole();
+    show();
+  }
+
+  scene.addEventListener('change', () => {
+    clearTimeout(timer);
+    timer = setTimeout(note, together_ms);
+  });
+  // The values that the server set, and the place that a camera has drifted to, are where the next change begins.
+  scene.addEventListener('settle', () => timer || (now = whole()));
+  scene.addEventListener('tick', () => timer || (now.time = scene.get('time')));
+  buttons[0].addEventListener('click', () => go(past, future));
+  buttons[1].addEventListener('click', () => go(future, past));
+  document.addEventListener('keydown', event => {
+    const key = event.key.toLowerCase();
+    if (
+      !(event.ctrlKey || event.metaKey) ||
+      event.altKey ||
+      byId('lensing').hidden ||
+      event.target.closest('textarea, input[type=number], input[type=text]')
+    )
+      return;
+    if (key !== 'z' && (key !== 'y' || event.shiftKey)) return;
+    event.preventDefault();
+    key === 'z' && !event.shiftKey ? go(past, future) : go(future, past);
+  });
+  show();
+}

@@ -1,0 +1,112 @@
+// For a hole whose ring the Event Horizon Telescope measured, a slider over the picture: from the picture without a
+// beam, through the scene as it is, blurred by its beam, to the measured ring with its error, drawn to scale.
+import { byId, el } from '../base/dom.js';
+import { stops } from '../views/scale/eht.js';
+import { number, t } from '../words/i18n.js';
+import { ask, drawn, physics } from '../base/server.js';
+
+// Mass and distance of each hole, in solar masses and parsecs: the values of the quantity `scale`.
+const holes = { m87: [6.5e9, 16.8e6], sgra: [4.297e6, 8277] };
+
+export function holeOf(scene) {
+  const [mass, distance] = ['mass_msun', 'distance_pc'].map(name => scene.get('spacetime.' + name));
+  return Object.keys(holes).find(name => holes[name][0] === mass && holes[name][1] === distance);
+}
+
+export const isMeasured = scene =>
+  Boolean(holeOf(scene)) && scene.get('camera.r') === 'infinity' && scene.get('style.beam_uas') > 0;
+
+// The measured ring and the limits of its error, as lines over the picture. Its place on the sky was not measured: it
+// is drawn round the centre of the shadow.
+export async function ring(scene, look, path) {
+  const hole = holeOf(scene);
+  if (!hole) throw new Error(t('measured.of-m87-and-sgr', 'of M87* and Sgr A* alone, by their masses and distances'));
+  if (scene.get('camera.r') !== 'infinity')
+    throw new Error(t('measured.as-seen-from-the', 'as seen from the Earth alone: from infinity'));
+  const spin = scene.get('spacetime.spin'),
+    inclination_deg = scene.get('camera.inclination_deg');
+  const [{ values: v }, { values: edge }] = await Promise.all([
+    physics('scale', { hole, spin, inclination_deg }),
+    physics('shadow', { spin, inclination_deg, angle_deg: '0:358:180', ...drawn }),
+  ]);
+  const middle = ['alpha', 'beta'].map(name => (Math.min(...edge[name]) + Math.max(...edge[name])) / 2),
+    around = [...Array(121).keys()].map(k => (k * Math.PI) / 60),
+    circle = uas =>
+      path(
+        around.map(phi =>
+          look.plane(middle[0] + (uas / 2 / v.m_uas) * Math.cos(phi), middle[1] + (uas / 2 / v.m_uas) * Math.sin(phi)),
+        ),
+        true,
+      );
+  const words = t('measured.measured-as', 'measured: {0} ± {1} µas', number(v.ring_uas), number(v.ring_error_uas));
+  return {
+    lines: [circle(v.ring_uas), circle(v.ring_uas - v.ring_error_uas), circle(v.ring_uas + v.ring_error_uas)],
+    tags: [words],
+    words: t(
+      'measured.across-by-the-event',
+      '{0} across, by the Event Horizon Telescope; the edge of the shadow is {1} µas across in the mean',
+      words,
+      number(v.shadow_uas, 3),
+    ),
+  };
+}
+
+// choose(yes): sets whether the ring is drawn; size(): of the pictures.
+export function buildMeasured(stage, scene, size, choose) {
+  const slider = el('input', {
+      type: 'range',
+      id: 'measured',
+      min: 0,
+      max: 2,
+      step: 0.01,
+      value: 2,
+      'aria-label': t('common.from-our-picture-through', 'From our picture through the beam to the measured ring'),
+    }),
+    words = el('output', { for: 'measured' }),
+    root = el('div', { id: 'measured-row' }, slider, words),
+    sharp = el('img', { id: 'sharp', alt: '', draggable: false, hidden: true });
+  byId('moving').after(sharp);
+  stage.parentNode.append(root);
+  let key = '', // the scene that the sharp picture shows
+    old = '',
+    asking = false;
+
+  const without = () => {
+    const { width, height } = size();
+    return scene.document({ 'image.width': width, 'image.height': height, 'image.samples': 2 });
+  };
+
+  async function follow() {
+    const there = isMeasured(scene),
+      at = slider.valueAsNumber;
+    root.hidden = !there;
+    words.textContent = stops[Math.round(at)][1];
+    slider.setAttribute('aria-valuetext', words.textContent);
+    stage.style.setProperty('--ring', 0.3 + 0.7 * Math.max(at - 1, 0));
+    sharp.style.opacity = 1 - Math.min(at, 1);
+    choose(there && at > 1);
+    const document = JSON.stringify(without());
+    sharp.hidden = !there || at >= 1 || key !== document;
+    if (!there || at >= 1 || key === document || asking || stage.dataset.final !== 'true') return;
+    asking = true;
+    try {
+      const body = JSON.stringify({ ...JSON.parse(document), style: { name: 'raw', palette: 'heat' } }),
+        url = URL.createObjectURL(
+          await (
+            await ask('v1/render', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body })
+          ).blob(),
+        );
+      sharp.src = url;
+      await sharp.decode();
+      URL.revokeObjectURL(old);
+      [key, old] = [document, url];
+    } finally {
+      asking = false;
+    }
+    follow();
+  }
+  const soon = () => follow().catch(error => (words.textContent = error.message));
+  slider.addEventListener('input', soon);
+  soon();
+  return soon;
+}

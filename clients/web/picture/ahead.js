@@ -1,0 +1,109 @@
+// The first view of a visitor whose link names no scene: its session is opened and its first picture shown before the
+// other modules of the page are loaded. source.js then takes over the session and its requests.
+import { byId } from '../base/dom.js';
+import { fits } from './fit.js';
+import * as link from '../base/link.js';
+import { kept, windowSize } from './sizes.js';
+
+// The preset that is shown when the link names no scene; '' is the default scene.
+export const first_view = 'gas-stars';
+
+const patience_ms = 250; // longest wait for the first picture before the rest of the page is loaded
+const slow_ms = 1000; // the same before a recording of the first view begins
+
+const stage = byId('stage');
+const plain =
+  first_view && !document.hidden && link.entries('').every(([key]) => ['lang', 'pace'].includes(key)) && fits(stage);
+if (plain) stage.dataset.still = true; // until its first picture comes
+let left = null, // the session, until take() returns it
+  shown = null; // a promise of the end of showing its first picture
+
+async function show(answer) {
+  const seen = URL.createObjectURL(await answer.blob()),
+    picture = byId('picture');
+  if (picture.getAttribute('src') !== null) return URL.revokeObjectURL(seen); // another picture is shown already
+  picture.src = seen;
+  await picture.decode();
+  await new Promise(requestAnimationFrame);
+  performance.mark('first-picture');
+}
+
+// The first request for a picture, in the form that flight.js uses.
+function poll(url) {
+  const one = { after: 0, carries: null, begun: performance.now() };
+  one.answer = fetch(`${url}/frame?after=0&lossy=90`).then(
+    answer => {
+      if (answer.status !== 200 && answer.status !== 204)
+        return { one, error: Object.assign(new Error(), { status: answer.status }) };
+      if (answer.status === 200) shown = show(answer.clone()); // source.js, which takes over the session, shows it too
+      return { one, answer, took: performance.now() - one.begun };
+    },
+    error => ({ one, error }),
+  );
+  return one;
+}
+
+// Returns the session: { id, token, revision, … } as the server describes it, the window's size, how much of it is kept
+// in motion, and the requests under way. Null if it failed; the caller then opens one itself and shows the error.
+async function open() {
+  const size = windowSize(stage),
+    keeps = kept(),
+    body = JSON.stringify({ image: { ...size, samples: 2 } });
+  const answer = await fetch(`v1/sessions?preset=${first_view}&${keeps}`, {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json' },
+    body,
+  });
+  if (!answer.ok) return null;
+  left = { ...(await answer.json()), size, keeps };
+  left.flight = [poll('v1/sessions/' + left.id)];
+  return left;
+}
+
+const opened = plain ? open().catch(() => null) : null;
+// If the first picture takes long, a recording of the first view begins meanwhile.
+const none = () => !performance.getEntriesByName('first-picture').length;
+if (plain)
+  setTimeout(
+    () =>
+      none() &&
+      import('./loop.js').then(
+        ({ play }) => play(stage, () => 0, none),
+        () => {},
+      ),
+    slow_ms,
+  );
+Promise.race([
+  (async () => (await opened, await left?.flight[0].answer, shown))(),
+  new Promise(resolve => setTimeout(resolve, patience_ms)),
+])
+  .catch(() => {})
+  .then(() => document.head.append(byId('rest').content));
+const read = plain
+  ? fetch('v1/presets/' + first_view).then(
+      answer => (answer.ok ? answer.json() : null),
+      () => null,
+    )
+  : null;
+
+// The document of the first view, or null if the caller has to request it.
+export const firstDocument = async () => read;
+
+// The session; null from the second call on.
+export async function take() {
+  await opened;
+  const session = left;
+  left = null;
+  return session;
+}
+
+addEventListener(
+  'pagehide',
+  () =>
+    left &&
+    fetch('v1/sessions/' + left.id, {
+      method: 'DELETE',
+      headers: { Authorization: `Bearer ${left.token}` },
+      keepalive: true,
+    }),
+);

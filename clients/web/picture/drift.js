@@ -1,0 +1,85 @@
+// The camera drifts round the hole in the first view until somebody touches anything. With reduced motion preferred it
+// does not. Where the server shows too few pictures of it a second, a recording of the same drift plays (loop.js). At
+// the first touch live pictures go on from where the recording is.
+import { atFirstTouch, still } from '../base/dom.js';
+import { begun, end, leave, length_s, play, rate_deg, seconds } from './loop.js';
+import { goesOn } from '../share/share.js';
+
+const trial_ms = 3000; // the pictures of this time are counted
+const least_pace = 4; // pictures a second
+const tell_ms = 250; // between two updates of the scene while the recording plays
+
+// fresh: nobody has touched anything yet. Returns shown(frame), to be called with each picture that is shown.
+export function begin(stage, scene, fresh) {
+  const drifts =
+    fresh &&
+    !scene.held &&
+    !still.matches &&
+    scene.get('motion.azimuth_rate_deg') === 0 &&
+    scene.get('motion.proper_time_rate') === 0;
+  let pictures = 0,
+    timer = 0,
+    jumps = -1; // as the scene counts them, when live pictures went on; -1: none were interrupted
+  if (!drifts) {
+    end();
+    return () => begun() && leave();
+  }
+
+  const tell = () =>
+    scene.tick(seconds() * scene.get('motion.time_rate'), false, { 'camera.azimuth_deg': seconds() * rate_deg });
+
+  // Returns a promise of whether the recording plays.
+  async function record() {
+    if (!(await play(stage, () => scene.get('camera.azimuth_deg') / rate_deg)) || !scene.drift) return false;
+    clearTimeout(timer);
+    scene.record();
+    tell();
+    timer = setInterval(tell, tell_ms);
+    return true;
+  }
+
+  const sees = () => !document.hidden && document.body.dataset.view === 'lensing';
+  let seen; // during the whole trial
+  const look = () => (seen &&= sees());
+  for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, look);
+  function judge() {
+    if (scene.get('camera.azimuth_deg') > rate_deg * (length_s - 1)) return; // the recording does not go so far
+    if (seen && pictures < (least_pace * trial_ms) / 1000) return void record();
+    trial();
+  }
+  function trial() {
+    pictures = 0;
+    seen = sees();
+    timer = setTimeout(judge, trial_ms);
+  }
+
+  function stop() {
+    if (scene.drift) return;
+    scene.removeEventListener('drift', stop);
+    for (const event of ['visibilitychange', 'viewchange']) document.removeEventListener(event, look);
+    cancel();
+    still.removeEventListener('change', touch);
+    clearTimeout(timer);
+    stand();
+  }
+  function stand() {
+    end();
+    jumps = scene.jumps;
+  }
+  function touch() {
+    if (scene.recorded) end(), tell();
+    scene.drifts(0);
+  }
+  const cancel = atFirstTouch(touch);
+  still.addEventListener('change', touch);
+  scene.addEventListener('drift', stop);
+  scene.drifts(rate_deg);
+  if (goesOn('lesson'))
+    stand(); // the class follows the session
+  else if (begun()) record().then(plays => plays || (scene.drift && trial()));
+  else trial();
+  return frame => {
+    pictures++;
+    if (jumps >= 0 && frame.shows && frame.jumps >= jumps) leave();
+  };
+}

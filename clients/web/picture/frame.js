@@ -1,0 +1,55 @@
+// Parsers of the headers of a picture.
+import { getJson } from '../base/server.js';
+
+// "width=640 height=360 ..." as an object of numbers.
+export const figures = header =>
+  Object.fromEntries(
+    (header ?? '')
+      .split(' ')
+      .filter(Boolean)
+      .map(pair => {
+        const [name, value] = pair.split('=');
+        return [name, Number(value)];
+      }),
+  );
+
+// The sentence of each approximation by its name. A failed request is repeated at the next call.
+let known = null;
+export function sentences() {
+  known ??= getJson('v1/approximations')
+    .then(({ approximations }) => new Map(approximations.map(({ name, sentence }) => [name, sentence])))
+    .catch(() => ((known = null), new Map()));
+  return known;
+}
+
+const names = header => (header ?? '').split(', ').filter(Boolean);
+
+// The approximations of a picture: names and sentences. The server sends their names only when the set differs from the one
+// whose number the request gave; the session keeps the sets by number.
+export async function approximations(session, get) {
+  session.told = get('Kerrd-Sentences');
+  if (!session.sentences.has(session.told)) session.sentences.set(session.told, names(get('Kerrd-Approximations')));
+  const here = session.sentences.get(session.told),
+    all = await sentences();
+  return here.map(name => ({ name, sentence: all.get(name) ?? name }));
+}
+
+export const passes = header =>
+  (header ?? '')
+    .split(',')
+    .filter(Boolean)
+    .map(entry => ({
+      name: entry.trim().split(';')[0],
+      reused: /desc="?reused/.test(entry),
+      ms: Number(/dur=([\d.]+)/.exec(entry)?.[1] ?? 0),
+    }));
+
+// What the page states on a picture's size. all: it has all the pixels of a picture at rest; narrow: it has fewer than
+// were to be kept in motion.
+export function fits(quality, { width }, { keeps, part }) {
+  const all = Math.round(width * part);
+  return {
+    all: quality.width === all,
+    narrow: quality.width < 0.98 * all * Number(new URLSearchParams(keeps).get('min_scale')),
+  };
+}

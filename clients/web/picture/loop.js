@@ -1,0 +1,79 @@
+// A recording of the first view, made by scripts/stills. It plays where the server is too slow to show the first view
+// live. So that it can go round, its first second fades from the pictures after its end to those of its start.
+import { byId, el, still } from '../base/dom.js';
+import { sizeOf } from './sizes.js';
+
+export const rate_deg = 1.5; // degrees a second by which the camera drifts in the first view
+export const length_s = 10;
+const fade_s = 1;
+const lowest = 4 / 3; // width : height of the recording; in a narrower window it would not fill the height
+
+let film = null,
+  playing = null, // a promise of whether it plays
+  over = false;
+
+const happens = event =>
+  new Promise((resolve, reject) => {
+    film.addEventListener(event, resolve, { once: true });
+    film.addEventListener('error', reject, { once: true });
+  });
+
+// While the view is hidden it stands.
+function follow() {
+  if (over) return;
+  document.hidden || document.body.dataset.view !== 'lensing' ? film.pause() : film.play().catch(() => {});
+}
+
+async function open(stage, from_s, wanted) {
+  const { width, height } = sizeOf(stage);
+  if (over || still.matches || navigator.connection?.saveData || !(width >= lowest * height)) return false;
+  film = el('video', { id: 'loop', loop: true, playsinline: true, 'aria-hidden': 'true', hidden: true });
+  film.muted = true;
+  (document.getElementById('moving') ?? byId('picture')).after(film); // over the live pictures
+  try {
+    const answer = await fetch(new URL('../stills/first.webm', import.meta.url));
+    if (!answer.ok) throw new Error();
+    const there = happens('loadeddata');
+    film.src = URL.createObjectURL(await answer.blob()); // one can seek in a blob, whatever the server does
+    await there;
+    const found = happens('seeked');
+    film.currentTime = Math.min(Math.max(from_s(), fade_s), length_s - fade_s);
+    await found;
+    await film.play();
+  } catch {
+    over = true;
+  }
+  if (over) return (away(), false);
+  if (!wanted()) return (away(), (playing = null), false);
+  film.hidden = false;
+  for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, follow);
+  return true;
+}
+
+function away() {
+  for (const event of ['visibilitychange', 'viewchange']) document.removeEventListener(event, follow);
+  URL.revokeObjectURL(film.src);
+  film.remove();
+  film = null;
+}
+
+// Plays it from from_s() seconds on, unless it plays already, or wanted() is false once it is loaded. Returns a promise
+// of whether it plays.
+export const play = (stage, from_s, wanted = () => true) => (playing ??= open(stage, from_s, wanted));
+
+export const begun = () => playing;
+
+// Where its camera has drifted to since the start, in seconds.
+export const seconds = () => film.currentTime + (film.currentTime < fade_s / 2 ? length_s : 0);
+
+// It stands from now on, until it is taken away.
+export function end() {
+  over = true;
+  film?.pause();
+}
+
+export function leave() {
+  if (!film || film.hidden || film.classList.contains('leaving')) return;
+  film.classList.add('leaving');
+  film.addEventListener('animationend', away, { once: true });
+}

@@ -1,0 +1,32 @@
+// The choice of Auto, Sharp or Fast: the least share of the window's width that pictures keep in motion (sizes.js). At
+// rest they are as large as the window.
+import { byId } from '../base/dom.js';
+import { t } from '../words/i18n.js';
+import * as link from '../base/link.js';
+import { pace } from './sizes.js';
+
+const words = {
+  auto: t(
+    'pace.pictures-are-at-least',
+    'Pictures are at least half as wide as the window, unless one takes the server more than a tenth of a second: then they are narrower, and the line below the picture says so.',
+  ),
+  sharp: t('pace.pictures-have-all-pixels', 'Pictures have all pixels of the window, however few come a second.'),
+  fast: t(
+    'pace.pictures-become-as-small',
+    'Pictures become as small as a quarter of the window’s width, so that more come a second.',
+  ),
+};
+
+export function buildPace(refresh) {
+  const select = byId('pace');
+  function show() {
+    select.value = pace();
+    byId('pace-help').textContent = words[pace()];
+  }
+  select.addEventListener('change', () => {
+    link.set('pace', select.value === 'auto' ? null : select.value);
+    show();
+    refresh();
+  });
+  show();
+}

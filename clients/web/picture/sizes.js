@@ -1,0 +1,58 @@
+// Sizes: of elements, of the window in device pixels, and the least share of its width that a picture keeps in motion.
+import { atFirstTouch, byId } from '../base/dom.js';
+import * as link from '../base/link.js';
+
+const most = { width: 3840, height: 2160 }; // pixels at rest; in a larger window the picture is scaled up
+const drag_px = 1600; // a wider window keeps in motion a share of this width
+const least_part = 0.25; // the server's limit
+const max_frame_ms = 100; // for a frame; where half the width takes longer, Auto keeps less after the first touch
+// The least share of the window's width that is kept in motion; null: the whole picture at rest.
+const parts = { auto: 0.5, sharp: null, fast: 0.25 };
+
+// Reading an element's size forces a layout when the page has changed. The sizes are therefore cached and updated by a
+// ResizeObserver.
+const sizes = new WeakMap();
+const told =
+  globalThis.ResizeObserver &&
+  new ResizeObserver(entries =>
+    entries.forEach(({ target }) => sizes.set(target, { width: target.clientWidth, height: target.clientHeight })),
+  );
+export function sizeOf(node) {
+  if (!sizes.has(node)) sizes.set(node, { width: 0, height: 0 }), told?.observe(node);
+  return sizes.get(node).width ? sizes.get(node) : { width: node.clientWidth, height: node.clientHeight };
+}
+
+// Device pixels per CSS pixel, limited so that the picture has at most 3840 × 2160 pixels.
+const ratio = ({ width, height }) =>
+  Math.min(
+    devicePixelRatio || 1,
+    most.width / width,
+    most.width / height,
+    Math.sqrt((most.width * most.height) / (width * height)),
+  );
+
+export function windowSize(stage) {
+  const { width, height } = sizeOf(stage),
+    even = x => Math.max(2, 2 * Math.round((x * ratio({ width, height })) / 2));
+  return { width: even(width), height: even(height) };
+}
+
+// Auto, Sharp or Fast, kept in the address.
+export const pace = () => (Object.hasOwn(parts, link.get('pace') ?? '') ? link.get('pace') : 'auto');
+
+let landing = true; // nobody has touched anything yet
+atFirstTouch(() => (landing = false));
+
+// The query that asks the session to keep a share of the width in motion. Auto gives it up when frames take too long,
+// so that a drag is followed; before the first touch it does not, since nobody waits for an answer to their hand.
+export function kept() {
+  const part = parts[pace()],
+    here = sizeOf(byId('stage'));
+  if (part == null) return 'min_scale=1';
+  const least = Number(
+    Math.min(Math.max((part * Math.min(1, drag_px / here.width)) / ratio(here), least_part), 1).toFixed(3),
+  );
+  return (
+    `min_scale=${least}` + (pace() === 'auto' && !landing && least > least_part ? `&max_frame_ms=${max_frame_ms}` : '')
+  );
+}

@@ -1,0 +1,357 @@
+// Pictures of the scene from a live session. Changes of the scene are sent one patch at a time, and the latest state
+// wins. Pictures are requested one after the other, each newer than the one shown, so a slow device or line never
+// builds up a backlog. The server decides how fine each picture is in motion; at rest it has all pixels of the window
+// and several rays for each.
+import { again_ms } from '../base/again.js';
+import { latest, seen } from '../base/dom.js';
+import { approximations, figures, fits, passes } from './frame.js';
+import { buildFlight, still_ms } from './flight.js';
+import { buildLine } from './line.js';
+import { mergePatch, moves } from './merge.js';
+import { ask, passes as may_pass, Problem, too_large } from '../base/server.js';
+import { adopter, asleep, fresh, load } from './session.js';
+import { kept } from './sizes.js';
+
+const least_samples = 2;
+const least_part = 1 / 8; // of the window's width: the least size of a picture at rest
+
+// image.samples of a picture at rest, and of one that is saved.
+export const samples = scene =>
+  scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples);
+
+const heard = (target, event) => new Promise(resolve => target.addEventListener(event, resolve, { once: true }));
+const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
+
+// scene; size() → { width, height } of the window in device pixels. Callbacks: shown(frame), failed(error), and
+// rests(whether), where whether is true when the picture that is shown is the last one of the current scene: until the
+// server has answered a change, its pictures are of the scene before. Returns
+//   refresh()      to be called whenever the scene or the window has changed
+//   close()        ends the session; no other call may follow
+//   address()      of the session, or null
+//   strike(wrong)  strikes the hole, once the server has the current scene; wrong(sentence) is called on a refusal
+export function openSource(scene, size, shown, failed, rests) {
+  let session = null,
+    timer = 0,
+    pulling = false,
+    striking = null,
+    dozes = 0,
+    asked = 0, // number of changes
+    told = 0, // number of the last change that the server has
+    last = null, // the picture that is shown
+    stirred_ms = -Infinity, // time of the latest change or unfinished picture
+    line = buildLine(),
+    part = 1, // share of the window's size for which the server accepts a picture
+    laden = '', // load() of the scene that this share was found for
+    polls = new AbortController(),
+    recent = [];
+  const closing = new AbortController(), // ends all listeners
+    { signal: closed } = closing;
+
+  let adopt = adopter(scene);
+
+  function wanted() {
+    const { width, height } = size();
+    const over = {
+      'image.width': Math.round(width * part),
+      'image.height': Math.round(height * part),
+      'image.samples': samples(scene),
+      ...(scene.drift ? { 'motion.azimuth_rate_deg': scene.drift } : {}),
+      ...(scene.held || scene.recorded
+        ? { 'motion.time_rate': 0, 'motion.azimuth_rate_deg': 0, 'motion.proper_time_rate': 0 }
+        : {}),
+    };
+    return scene.document(over, true);
+  }
+
+  // The patch from the session's document. Time and the place of a falling observer are left to the server, unless
+  // somebody has set them.
+  function difference(document) {
+    const { time: then, ...before } = session.document,
+      { time, ...after } = document;
+    const patch = mergePatch(before, after);
+    if (session.jumps !== scene.jumps) patch.time = time ?? null;
+    const set = ['r', 'azimuth_deg'].filter(name => scene.jumped.has('camera.' + name));
+    for (const name of [...set, ...session.touched]) (patch.camera ??= {})[name] = document.camera?.[name] ?? null;
+    return patch;
+  }
+
+  // When motion has stopped, takes the values where the server left them.
+  function follow(document, now) {
+    if (scene.goesOn()) return;
+    const { time, camera } = now,
+      moved = { time };
+    for (const [name, usual] of [
+      ['azimuth_deg', 0],
+      ['r', 'infinity'],
+    ]) {
+      const there = document.camera?.[name] ?? usual;
+      if (scene.begun('camera.' + name) !== there) continue; // somebody has moved it since
+      moved['camera.' + name] = camera[name];
+      (document.camera ??= {})[name] = camera[name];
+    }
+    scene.settle(moved);
+  }
+
+  const settle = () =>
+    last && rests(asked === told && session != null && last.final && last.revision >= session.revision);
+
+  const headers = () => ({
+    'Content-Type': 'application/json',
+    ...(session ? { Authorization: `Bearer ${session.token}` } : {}),
+  });
+
+  async function struck(document) {
+    const wrong = striking;
+    striking = null;
+    const answer = await ask(session.url + '/ringdown', { method: 'POST', headers: headers(), body: '{}' }).catch(
+      error => {
+        if (!(error instanceof Problem) || error.status === 404) throw error;
+        wrong(error.message);
+      },
+    );
+    if (!answer) return;
+    const { revision, scene: now, ...seen_of_it } = await answer.json();
+    session.revision = revision;
+    const { ringdown, ringdown_time } = now.style;
+    document.style = { ...document.style, ringdown, ringdown_time };
+    scene.settle({ 'style.ringdown': ringdown, 'style.ringdown_time': ringdown_time });
+    scene.tellSeen(seen_of_it);
+  }
+
+  // Opens a session that has ended again: the server keeps it for a minute without viewers. A hidden window has no
+  // size.
+  async function send() {
+    await seen('lensing');
+    if (closed.aborted) return;
+    if (!session) scene.land();
+    session ??= (await adopt?.()) ?? null;
+    adopt = null;
+    if (closed.aborted) return leave();
+    const from = session,
+      keeps = kept(),
+      same = session?.keeps === keeps,
+      naps = dozes,
+      now_asked = asked,
+      { jumps } = scene;
+    let document = wanted(),
+      jumped = [];
+    if (part < 1 && load(document) !== laden) {
+      part = 1;
+      document = wanted();
+    }
+    try {
+      const patch = session && difference(document);
+      jumped = [...scene.jumped];
+      scene.jumped.clear();
+      if (patch && same && !Object.keys(patch).length) {
+        if (striking) await struck(session.document);
+        told = now_asked;
+        settle();
+        return void (pulling || pull());
+      }
+      const little = patch && same && moves(patch) && !striking;
+      if (little && pulling && line.far() && !session.plain) return carry(patch, document, now_asked, jumps);
+      // the patch holds what was pending, and nothing is sent before its answer
+      if (session) session.pending = null;
+      const begun = performance.now(),
+        order = session ? ++session.order : 0,
+        query = [...(same ? [] : [keeps]), ...(order ? ['order=' + order] : [])].join('&');
+      const answer = await ask((session?.url ?? 'v1/sessions') + (query && '?' + query), {
+        method: session ? 'PATCH' : 'POST',
+        headers: { ...headers(), ...(little ? { Prefer: 'return=minimal' } : {}) },
+        body: JSON.stringify(patch ?? document),
+      });
+      line.answered(performance.now() - begun);
+      const { id, token, revision, scene: now, order: known, ...seen_of_it } = await answer.json();
+      if (closed.aborted) {
+        if (!from) session = fresh({ id, token });
+        return leave();
+      }
+      if (from && session !== from) return; // it was left meanwhile; the next call opens another one
+      if (!session) last &&= { final: false }; // a new session counts its revisions from the start
+      session ??= fresh({ id, token });
+      session.cameras.set(revision, document.camera ?? {});
+      Object.assign(session, {
+        document: dozes === naps ? document : asleep(document),
+        revision,
+        jumps,
+        keeps,
+        part,
+        known: known ?? 0,
+        plain: false,
+      });
+      session.touched.clear();
+      if (scene.jumps === jumps && patch?.motion) follow(document, now);
+      if (!little) scene.tellSeen(seen_of_it);
+      if (striking) await struck(document);
+      told = now_asked;
+      settle();
+      if (!pulling) pull();
+    } catch (error) {
+      if (closed.aborted) return;
+      if (error.status === 404 && session) return ((session = null), send());
+      if (error.type === too_large && part > least_part) {
+        part /= 2;
+        laden = load(wanted());
+        for (const name of jumped) scene.jumped.add(name);
+        return send();
+      }
+      error.again = may_pass(error);
+      failed(error);
+      if (error.again) timer = setTimeout(put, again_ms);
+    }
+  }
+  const put = latest(send);
+
+  // Over a line of high latency, a change of the camera is sent with one of the requests for pictures, which saves a
+  // round trip. Each holds all changes since the latest answered one, since the server ignores a request that was
+  // overtaken.
+  function carry(patch, document, asked, jumps) {
+    for (const name of Object.keys(patch.camera)) session.touched.add(name);
+    Object.assign(session, { jumps, pending: { patch, document, asked } });
+    flight.kick();
+  }
+
+  function arrived(from, { order, carries }, answer) {
+    if (order < from.known) return; // a later one has been answered
+    const revision = Number(answer.headers.get('Kerrd-Patched'));
+    Object.assign(from, { known: order, document: carries.document, revision: Math.max(from.revision, revision) });
+    from.cameras.set(revision, carries.document.camera ?? {});
+    told = Math.max(told, carries.asked);
+    if (!from.pending && !from.flight.some(({ carries }) => carries)) from.touched.clear();
+    settle();
+  }
+
+  const flight = buildFlight(line, {
+    moving: () => performance.now() - stirred_ms < still_ms,
+    goesOn: scene.streams,
+    options: change => ({
+      ...(change && { method: 'PATCH', headers: headers(), body: JSON.stringify(change) }),
+      signal: polls.signal,
+    }),
+    arrived,
+    // The change is sent once more by itself, whose answer has the error.
+    refused(from) {
+      from.plain = true;
+      if (session === from) put();
+    },
+  });
+
+  async function next(from) {
+    const answer = await flight.newest(from);
+    if (!answer) return;
+    const get = name => answer.headers.get(name),
+      quality = figures(get('Kerrd-Quality'));
+    const revision = Number(get('Kerrd-Revision')),
+      current = revision >= from.revision,
+      final = quality.final === 1 && current;
+    const clock = get('Kerrd-Clock') && figures(get('Kerrd-Clock'));
+    const falls = clock && scene.get('motion.proper_time_rate'),
+      azimuth = Number(get('Kerrd-Azimuth'));
+    const moved = falls
+      ? { 'camera.r': clock.r, 'camera.azimuth_deg': clock.azimuth_deg }
+      : scene.turns()
+        ? { 'camera.azimuth_deg': Number(azimuth.toFixed(3)) }
+        : {};
+    if (scene.streams()) scene.tick(Number(get('Kerrd-Time')), final, current ? moved : {});
+    from.frame = Number(get('Kerrd-Frame'));
+    for (const old of from.cameras.keys()) if (old < revision) from.cameras.delete(old);
+    const now = performance.now();
+    if (quality.final !== 1) stirred_ms = now;
+    // or the last three of a slow server
+    recent = scene.streams() ? [...recent.filter((time, i) => time > now - 2000 || i >= recent.length - 2), now] : [];
+    const [picture, left] = await Promise.all([answer.blob(), approximations(from, get)]);
+    line.read(quality.lossy, performance.now() - now);
+    if (closed.aborted) return;
+    await shown({
+      picture,
+      ...quality,
+      final,
+      revision,
+      jumps: from.jumps,
+      part: from.part,
+      ...fits(quality, size(), from),
+      camera: falls ? null : from.cameras.get(revision),
+      shows: current ? from.document : null, // if it is known
+      pace: recent.length > 2 && (1e3 * (recent.length - 1)) / (now - recent[0]),
+      accuracy: figures(get('Kerrd-Accuracy')),
+      flux: figures(get('Kerrd-Flux')), // at a radio frequency
+      approximations: left,
+      passes: passes(get('Server-Timing')),
+      clock,
+      azimuth,
+    });
+    if (session !== from) return;
+    last = { revision, final: quality.final === 1 };
+    settle();
+  }
+
+  async function pull() {
+    pulling = true;
+    while (session) {
+      const from = session;
+      await seen('lensing');
+      if (scene.recorded && !from.flight.length) await heard(scene, 'drift');
+      if (session !== from) continue;
+      try {
+        await next(from);
+      } catch (error) {
+        from.flight.length = 0; // the others have failed as well, or come too late
+        if (session !== from) continue; // another session has taken its place
+        if (error.status !== 404) failed(Object.assign(error, { again: true }));
+        else (session = null), put();
+        await pause(error.status === 404 ? 0 : again_ms);
+      }
+    }
+    pulling = false;
+  }
+
+  // While the page or the view is hidden, a drifting camera stands where it was last seen.
+  function doze() {
+    if (!session || !scene.drift || scene.recorded || (!document.hidden && document.body.dataset.view === 'lensing'))
+      return;
+    dozes++;
+    const patch = { motion: { azimuth_rate_deg: 0 }, camera: { azimuth_deg: scene.get('camera.azimuth_deg') } };
+    session.document = asleep(session.document);
+    fetch(session.url, { method: 'PATCH', headers: headers(), body: JSON.stringify(patch), keepalive: true }).catch(
+      () => {},
+    );
+    put();
+  }
+  for (const gone of ['visibilitychange', 'viewchange']) document.addEventListener(gone, doze, { signal: closed });
+
+  function leave() {
+    const left = session,
+      owner = headers();
+    session = null;
+    polls.abort(); // else they would report that the session is gone
+    polls = new AbortController();
+    if (left) fetch(left.url, { method: 'DELETE', headers: owner, keepalive: true });
+  }
+  addEventListener('pagehide', leave, { signal: closed });
+  addEventListener('pageshow', event => event.persisted && put(), { signal: closed });
+
+  return {
+    // Ends the session, for good.
+    close() {
+      clearTimeout(timer);
+      closing.abort();
+      leave();
+    },
+    refresh() {
+      asked++;
+      stirred_ms = performance.now();
+      last && rests(false);
+      clearTimeout(timer);
+      put();
+    },
+    address: () => session?.url ?? null,
+    strike(wrong) {
+      striking = wrong;
+      asked++;
+      stirred_ms = performance.now();
+      last && rests(false);
+      put();
+    },
+  };
+}

@@ -1,0 +1,328 @@
+// Two holes side by side under one camera: the scene, and the scene with other values of some fields. A drag on either
+// moves both. The link keeps the other values as pair.FIELD.
+import { describe } from '../../words/describe.js';
+import { byId, el, paced, typing } from '../../base/dom.js';
+import { named, number, t, tell, unit, word } from '../../words/i18n.js';
+import * as link from '../../base/link.js';
+import { openSource } from '../../picture/source.js';
+import { windowSize } from '../../picture/sizes.js';
+
+const prefix = 'pair.';
+const smooth = { 'disk.gas.amplitude': 0, 'disk.emission_opacity': 0, 'style.bloom': 0 };
+// Pairs to begin with: values on both sides, and what they are called.
+const ready = [
+  {
+    name: t('pair.spin-none-nearly-the', 'Spin: none | nearly the most'),
+    left: { 'spacetime.spin': 0 },
+    right: { 'spacetime.spin': 0.998 },
+  },
+  {
+    name: t('pair.charge-none-nearly-the', 'Charge: none | nearly the most, without spin'),
+    left: { 'spacetime.spin': 0, 'spacetime.charge': 0 },
+    right: { 'spacetime.spin': 0, 'spacetime.charge': 0.95 },
+    words: [t('pair.uncharged', 'uncharged'), t('pair.charge-0-95-m', 'charge 0.95 M')],
+  },
+  {
+    name: t('pair.disk-turbulent-gas-smooth', 'Disk: turbulent gas | smooth'),
+    left: Object.fromEntries(Object.keys(smooth).map(path => [path, null])),
+    right: smooth,
+    words: [t('pair.turbulent-gas', 'turbulent gas'), t('pair.smooth-disk', 'smooth disk')],
+  },
+  {
+    name: t('pair.light-as-it-arrives', 'Light: as it arrives | without Doppler shift'),
+    left: { 'disk.doppler': true, 'disk.redshift': true },
+    right: { 'disk.doppler': false, 'disk.redshift': false },
+    words: [
+      t('pair.as-it-arrives', 'as it arrives'),
+      t('pair.without-doppler-shift-and', 'without Doppler shift and redshift'),
+    ],
+  },
+  {
+    name: t('pair.seen-from-above-from', 'Seen from above | from the side'),
+    left: { 'camera.inclination_deg': 20 },
+    right: { 'camera.inclination_deg': 86 },
+  },
+];
+const comparable = ({ path, type }) =>
+  ['number', 'integer', 'choice', 'switch'].includes(type) && !/^(image|motion|accuracy|time)\b/.test(path);
+
+// The other scene, as openSource uses a scene: the first one with other values.
+class Other {
+  constructor(scene, over) {
+    Object.assign(this, { scene, over, emitters: [], jumped: new Set() });
+  }
+  get fields() {
+    return this.scene.fields;
+  }
+  get drift() {
+    return this.scene.drift;
+  }
+  get held() {
+    return this.scene.held;
+  }
+  get recorded() {
+    return this.scene.recorded;
+  }
+  get jumps() {
+    return this.scene.jumps;
+  }
+  get = path => this.over[path] ?? this.scene.get(path);
+  begun = path => this.over[path] ?? this.scene.begun(path);
+  document = (other, begun) => this.scene.document({ ...this.over, ...other }, begun);
+  fitted = () => null;
+  goesOn = () => this.scene.goesOn();
+  streams = () => this.scene.streams();
+  turns = () => this.scene.turns();
+  tellSeen = ({ emitters }) => (this.emitters = emitters);
+  // Time and camera are the first scene's; the server moves both alike.
+  land() {}
+  settle() {}
+  tick() {}
+}
+
+let pair = null;
+
+// Begins, or shows what the link has.
+export function besides(stage, scene) {
+  document.head.querySelector('[href$="pair.css"]') ??
+    document.head.append(el('link', { rel: 'stylesheet', href: new URL('pair.css', import.meta.url) }));
+  pair ??= build(stage, scene);
+}
+
+// The values of the link that this page understands.
+function linked(scene) {
+  const over = {},
+    unknown = [];
+  for (const [key, text] of link.entries(prefix)) {
+    const path = key.slice(prefix.length),
+      field = scene.fields.get(path);
+    if (!field || !comparable(field)) {
+      unknown.push(key);
+      continue;
+    }
+    over[path] =
+      field.type === 'switch' ? text === 'true' : field.type === 'choice' || text === field.word ? text : Number(text);
+  }
+  if (unknown.length)
+    byId('link-fault').textContent = t(
+      'pair.of-the-pair-in',
+      'Of the pair in the link this was not understood: {0}.',
+      unknown.join(', '),
+    );
+  return over;
+}
+
+function build(stage, scene) {
+  const canvas = el('canvas', { role: 'img' }),
+    context = canvas.getContext('2d'),
+    told = el('p', { class: 'fault', role: 'status' }),
+    captions = [el('p', { class: 'side' }), el('p', { class: 'side' })],
+    box = el('div', { id: 'pair-stage' }, canvas, captions[1], told),
+    other = new Other(scene, linked(scene)),
+    size = () => windowSize(box);
+  stage.append(captions[0]);
+  stage.parentNode.dataset.pair = '';
+  stage.after(box);
+
+  let shown = 0;
+  async function show(frame) {
+    const mine = ++shown,
+      bitmap = await createImageBitmap(frame.picture);
+    if (mine !== shown) return bitmap.close();
+    Object.assign(canvas, { width: bitmap.width, height: bitmap.height });
+    context.drawImage(bitmap, 0, 0);
+    bitmap.close();
+    told.textContent = '';
+    speak();
+  }
+  const speak = paced(() => canvas.setAttribute('aria-label', describe(other)));
+  const source = openSource(
+    other,
+    size,
+    show,
+    error => tell(told, error.message),
+    whether => (box.dataset.final = whether),
+  );
+
+  // Pointers, wheel and double clicks go to the first picture, which handles them for both.
+  for (const name of ['pointerdown', 'wheel', 'dblclick'])
+    box.addEventListener(
+      name,
+      event => {
+        event.preventDefault();
+        stage.dispatchEvent(new event.constructor(event.type, event));
+      },
+      { passive: false },
+    );
+
+  function follow() {
+    for (const path of scene.jumped) if (!(path in other.over)) other.jumped.add(path);
+    source.refresh();
+    caption();
+  }
+  for (const event of ['change', 'move', 'drift']) scene.addEventListener(event, follow);
+  const sized = new ResizeObserver(() => source.refresh());
+  sized.observe(box);
+
+  // What each side is called.
+  const value = (path, given) => {
+    const field = scene.fields.get(path);
+    if (typeof given === 'boolean') return given ? t('pair.yes', 'yes') : t('pair.no', 'no');
+    if (typeof given !== 'number') return word(given, path);
+    const mark = unit(field.unit);
+    return `${number(given)}${mark && mark !== '°' ? ' ' : ''}${mark}`;
+  };
+  const same = (values, get) =>
+    Object.entries(values).every(([path, own]) => get(path) === (own ?? scene.fields.get(path).default));
+  function caption() {
+    const found = ready.find(
+        ({ words, left, right }) =>
+          words &&
+          Object.keys(other.over).length === Object.keys(right).length &&
+          same(left, path => scene.get(path)) &&
+          same(right, other.get),
+      ),
+      paths = Object.keys(other.over);
+    const texts =
+      found?.words ??
+      [scene, other].map(side => paths.map(path => `${named(path).label} ${value(path, side.get(path))}`).join(', '));
+    captions.forEach((node, i) => {
+      if (node.textContent !== texts[i]) node.textContent = texts[i];
+    });
+  }
+
+  function keep() {
+    for (const [key] of link.entries(prefix)) link.set(key, null);
+    for (const [path, own] of Object.entries(other.over)) link.set(prefix + path, own);
+  }
+
+  // Sets what differs; left: values of the scene itself.
+  function differ(right, left = {}) {
+    other.over = Object.fromEntries(
+      Object.entries(right).map(([path, own]) => [path, own ?? scene.fields.get(path).default]),
+    );
+    keep();
+    scene.change(left);
+    if (!Object.keys(left).length) follow();
+    inputs();
+  }
+
+  // The controls: what differs, and its values.
+  let drawn = null, // the path of the field whose values are shown
+    values = []; // the inputs of both sides
+  const fields = [...scene.fields.values()].filter(comparable),
+    select = el(
+      'select',
+      { id: 'pair-what' },
+      el('option', { value: '', hidden: true }),
+      el(
+        'optgroup',
+        { label: t('pair.pairs', 'Pairs') },
+        ...ready.map(({ name }, i) => el('option', { value: i }, name)),
+      ),
+      el(
+        'optgroup',
+        { label: t('pair.any-setting', 'Any setting') },
+        ...fields.map(({ path }) =>
+          el('option', { value: path }, `${path.split('.').slice(0, -1).join(' ')} · ${named(path).label}`),
+        ),
+      ),
+    ),
+    sides = el('div', { id: 'pair-values' });
+  function input(path, held, give, label) {
+    const field = scene.fields.get(path);
+    const node =
+      field.type === 'choice'
+        ? el('select', {}, ...field.choices.map(name => el('option', { value: name }, word(name, path))))
+        : field.type === 'switch'
+          ? el('select', {}, ...[true, false].map(yes => el('option', { value: yes }, value(path, yes))))
+          : el('input', { type: 'number', min: field.minimum, max: field.maximum, step: 'any' });
+    const typed = typing(node);
+    node.setAttribute('aria-label', `${named(path).label}, ${label}`);
+    node.addEventListener('change', () => {
+      if (!node.reportValidity() || node.value === '') return;
+      give(field.type === 'switch' ? node.value === 'true' : field.type === 'choice' ? node.value : Number(node.value));
+    });
+    return { node, show: () => typed.typed || node.value === String(held()) || (node.value = held()) };
+  }
+  // An input that has the focus stays, and so does what is being typed.
+  function inputs() {
+    const [path, more] = Object.keys(other.over),
+      alone = path && !more ? path : null;
+    if (alone !== drawn) {
+      drawn = alone;
+      values = alone
+        ? [
+            input(
+              path,
+              () => scene.get(path),
+              own => scene.change({ [path]: own }),
+              t('pair.left', 'left'),
+            ),
+            input(
+              path,
+              () => other.over[path],
+              own => differ({ [path]: own }),
+              t('pair.right', 'right'),
+            ),
+          ]
+        : [];
+      sides.replaceChildren(...values.map(({ node }) => node));
+    }
+    for (const { show } of values) show();
+    const at = ready.findIndex(
+      ({ right }) => Object.keys(right).join() === Object.keys(other.over).join() && same(right, other.get),
+    );
+    select.value = at >= 0 ? at : path && !more ? path : '';
+  }
+  select.addEventListener('change', () => {
+    const chosen = ready[select.value];
+    if (chosen) return differ(chosen.right, chosen.left);
+    const field = scene.fields.get(select.value),
+      now = scene.get(field.path);
+    const next =
+      field.type === 'switch'
+        ? !now
+        : field.type === 'choice'
+          ? field.choices[(field.choices.indexOf(now) + 1) % field.choices.length]
+          : now;
+    differ({ [field.path]: next });
+  });
+
+  function swap() {
+    const left = { ...other.over };
+    differ(Object.fromEntries(Object.keys(left).map(path => [path, scene.get(path)])), left);
+  }
+  function end() {
+    for (const event of ['change', 'move', 'drift']) scene.removeEventListener(event, follow);
+    scene.removeEventListener('change', inputs);
+    sized.disconnect();
+    source.close();
+    other.over = {};
+    keep();
+    delete stage.parentNode.dataset.pair;
+    for (const node of [box, captions[0], panel]) node.remove();
+    pair = null;
+    byId('pair-begin').focus();
+  }
+  const title = el('h2', { tabindex: -1 }, t('pair.side-by-side', 'Side by side')),
+    panel = el(
+      'section',
+      { id: 'pair', 'aria-label': title.textContent },
+      title,
+      el('button', { type: 'button', class: 'close', onclick: end }, t('common.end', 'End')),
+      el('label', { for: select.id }, t('pair.what-differs', 'What differs')),
+      select,
+      sides,
+      el(
+        'p',
+        { class: 'row' },
+        el('button', { type: 'button', onclick: swap }, t('pair.swap-the-sides', 'Swap the sides')),
+      ),
+    );
+  byId('panel').prepend(panel);
+  scene.addEventListener('change', inputs);
+  if (Object.keys(other.over).length) follow(), inputs();
+  else differ(ready[0].right, ready[0].left), title.focus({ preventScroll: true });
+  return { end };
+}

@@ -1,0 +1,16 @@
+// Axes, parameters and ranges that several curves share.
+import { t } from '../../words/i18n.js';
+import { physics } from '../../base/server.js';
+
+export const degrees = radians => (radians == null ? null : (radians * 180) / Math.PI);
+export const spin = value => ({ name: 'spin', value, min: -0.998, max: 0.998, step: 0.002 });
+export const axis = (label, more) => ({ label, ...more });
+// A range of radii from the horizon outwards.
+export const outside =
+  (far, points = 141) =>
+  async p => ({ r: `${(await physics('kerr', { spin: p.spin })).values.horizon}:${far}:${points}` });
+// A range of radii from the ISCO outwards.
+export const ofDisk =
+  (far, points = 121) =>
+  async p => ({ r: `${(await physics('kerr', { spin: p.spin })).values.isco}:${far}:${points}` });
+export const radius = t('common.radius-r-m', 'radius r / M');

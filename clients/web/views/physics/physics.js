@@ -1,0 +1,154 @@
+// The view of curves. Each has parameters, an equation, values of /v1/physics, a short text, and its sources.
+import { persistent } from '../../base/again.js';
+import { light } from './curves-light.js';
+import { matter } from './curves-matter.js';
+import { entitle } from '../../words/describe.js';
+import { byId, el, still } from '../../base/dom.js';
+import { plain } from '../../controls/find.js';
+import { explained } from '../../words/explained.js';
+import { buildForm } from '../../base/form.js';
+import { t } from '../../words/i18n.js';
+import { plot } from '../../base/plot.js';
+import { drawn, getJson, physics, physicsUrl } from '../../base/server.js';
+
+// The order in which the curves are shown.
+const order = [
+  'null-potential',
+  'deflection',
+  'photon-rings',
+  'potential',
+  'redshift',
+  'kerr',
+  'disk-flux',
+  'returning',
+  'frame-dragging',
+  'flamm',
+  'qnm',
+  'inspiral',
+  'tidal',
+];
+const charts = [...light, ...matter].sort((a, b) => order.indexOf(a.id ?? a.name) - order.indexOf(b.id ?? b.name));
+
+// The text under a curve, and its derivation, folded.
+function reading(id) {
+  const { text, steps } = explained[id];
+  return [
+    el('p', { class: 'reading' }, text),
+    el(
+      'details',
+      { class: 'derivation' },
+      el('summary', {}, t('physics.how-it-follows', 'How it follows')),
+      el(
+        'ol',
+        {},
+        steps.map(step => el('li', {}, step)),
+      ),
+    ),
+  ];
+}
+
+function card(chart, known) {
+  const id = chart.id ?? chart.name;
+  const inputs = el('form', { class: 'inputs' }),
+    figure = plot(),
+    sources = el('p', { class: 'sources', lang: 'en' });
+  const fault = el('p', { class: 'fault', role: 'status' }),
+    after = el('div', {}),
+    formula = el('p', { class: 'formula' });
+  const parameter = Object.fromEntries(known.parameters.map(p => [p.name, p]));
+  const form = buildForm(
+    inputs,
+    id,
+    chart.inputs.map(input => ({ ...parameter[input.name], ...input })),
+    () => draw(),
+  );
+  formula.innerHTML = `<math display="block">${chart.equation}</math>`; // constant text of this page, so it is safe
+  inputs.addEventListener('submit', event => event.preventDefault());
+
+  const draw = persistent(fault, 'physics', async () => {
+    const { octaves, ...asked } = { ...chart.query, ...form.values() }; // octaves is a parameter of the sound only
+    Object.assign(asked, await chart.adjust?.(asked));
+    const [answer, also] = await Promise.all([physics(chart.name, { ...asked, ...drawn }), chart.also?.(asked)]);
+    const shown = chart.show(answer.values, answer.parameters, also);
+    const series = shown.series.filter(Boolean).map(s => ({ x: shown.along, ...s }));
+    figure.draw({ title: chart.title, csv: physicsUrl(chart.name, asked), ...shown, series });
+    if (chart.after) after.replaceChildren(chart.after(answer.values, asked, octaves, form));
+    sources.textContent = answer.sources.join('; ');
+  });
+
+  const node = el(
+    'section',
+    { class: 'card', id: 'curve-' + id },
+    el('h2', {}, chart.title),
+    formula,
+    chart.inputs.length ? inputs : null,
+    fault,
+    figure,
+    chart.after ? after : null,
+    reading(id),
+    el('details', {}, el('summary', {}, t('common.where-this-comes-from', 'Where this comes from')), sources),
+  );
+  return { node, draw, title: chart.title, words: plain(`${id} ${chart.name} ${node.textContent}`) };
+}
+
+// The index of all curves, with links to their cards, and a search through the texts of the cards.
+function index(cards) {
+  const box = el('input', { type: 'search', id: 'curve-find', autocomplete: 'off', spellcheck: 'false' }),
+    told = el('p', { class: 'help', role: 'status' });
+  const entries = cards.map(({ node, title }) => {
+    const heading = node.querySelector('h2');
+    heading.tabIndex = -1;
+    return el(
+      'li',
+      {},
+      el(
+        'button',
+        {
+          type: 'button',
+          onclick: () => (
+            node.scrollIntoView({ behavior: still.matches ? 'auto' : 'smooth' }), heading.focus({ preventScroll: true })
+          ),
+        },
+        title,
+      ),
+    );
+  });
+  box.addEventListener('input', () => {
+    const wanted = plain(box.value).split(/\s+/).filter(Boolean);
+    let found = 0;
+    cards.forEach(({ node, words }, i) => {
+      const fits = wanted.every(word => words.includes(word));
+      node.hidden = entries[i].hidden = !fits;
+      found += fits;
+    });
+    told.textContent = !wanted.length
+      ? ''
+      : !found
+        ? t('physics.no-curve-has', 'No curve has “{0}”.', box.value.trim())
+        : found === 1
+          ? t('physics.one-curve', 'One curve.')
+          : t('physics.curves', '{0} curves.', found);
+  });
+  return [
+    el('label', { for: box.id }, t('physics.find-a-curve', 'Find a curve')),
+    box,
+    told,
+    el('div', { role: 'navigation', 'aria-label': t('physics.curves-2', 'Curves') }, el('ul', {}, entries)),
+  ];
+}
+
+export async function openPhysics() {
+  const { quantities } = await getJson('v1/physics');
+  const cards = charts
+    .filter(c => quantities.some(q => q.name === c.name))
+    .map(c =>
+      card(
+        c,
+        quantities.find(q => q.name === c.name),
+      ),
+    );
+  byId('curve-index').replaceChildren(...index(cards));
+  byId('curves').replaceChildren(...cards.map(c => c.node));
+  entitle('physics', t('physics.curves-3', '{0} curves', cards.length));
+  for (const c of cards) await c.draw(); // one after the other, so that pictures come first
+}

@@ -1,0 +1,314 @@
+// The playground: bodies thrown round the hole, computed by the server, shown from above and as light shows them.
+import { persistent } from '../../base/again.js';
+import { chirp } from './chirp.js';
+import { course } from './course.js';
+import { entitle } from '../../words/describe.js';
+import { byId, el, latest, still } from '../../base/dom.js';
+import { foretold } from './foretold.js';
+import { hands } from './hands.js';
+import { eventList } from './happened.js';
+import { number, preset as titled, said, t, tell } from '../../words/i18n.js';
+import { lensed } from './lensed.js';
+import * as link from '../../base/link.js';
+import { Plane } from './plane.js';
+import { seenOf } from './play-seen.js';
+import { buildTakes } from './play-takes.js';
+import { parts } from './playground-parts.js';
+import { rules } from './rules.js';
+import { Running } from './running.js';
+import { getJson, physics } from '../../base/server.js';
+import { sheet } from '../../base/sheet.js';
+import { scale } from '../../base/slider.js';
+import { thrown } from './thrown.js';
+
+const paces = { minimum: 0.1, maximum: 1e6, unit: 'M per second', default: 100 };
+const arrow_px = 90; // length of an arrow of the reference speed, as in hands.js
+const torn = ['white-dwarf', 'disruption']; // the view follows the star and its debris
+const first = 'white-dwarf'; // something happens at once: it is torn apart within three seconds
+const roomy = matchMedia('(min-width: 75rem)'); // wide enough for both pictures
+
+export async function openPlayground() {
+  const known = await getJson('v1/playground');
+  // The stylesheet comes first: fitting the view needs the sizes of its elements.
+  await new Promise((done, fail) =>
+    document.head.append(
+      el('link', {
+        rel: 'stylesheet',
+        href: new URL('playground.css', import.meta.url),
+        onload: done,
+        onerror: () => fail(new Error(t('common.the-server-does-not', 'The server does not answer'))),
+      }),
+    ),
+  );
+  const root = byId('playground'),
+    part = parts(root, known),
+    plane = (sheet(byId('play-panel')), new Plane(part.canvas)),
+    running = new Running(),
+    sound = chirp(part.sound, part.heard),
+    charts = course(part.charts),
+    say = text => (part.said.textContent = text),
+    events = eventList(part.events, say),
+    picture = lensed(part.lensed, running);
+  let chosen = null,
+    awaited = false, // the server has the chosen body, but no picture of the bodies has it yet
+    flying = null, // a throw that the server has not answered yet
+    halts = null, // { paused }, not answered yet
+    hurries = null, // a rate, not answered yet
+    given = null; // a snapshot that was loaded
+
+  const preset = () => known.presets.find(({ name }) => name === part.preset.value);
+  const wrong = error => tell(part.fault, error.message);
+  const act = async task => {
+    try {
+      const answer = await task();
+      part.fault.textContent = '';
+      return answer;
+    } catch (error) {
+      wrong(error);
+    }
+  };
+  const patch = change => act(() => running.change(change));
+
+  // Draws the aim and its prediction.
+  const { speed, foretell } = foretold(
+    running,
+    plane,
+    () => hand.aims,
+    () => form.fields().mass,
+  );
+  function showAim(aims) {
+    const ref = speed(aims.from),
+      v = Math.hypot(...aims.velocity),
+      long = arrow_px / plane.scale / ref;
+    plane.aim = {
+      ...plane.aim,
+      ...aims,
+      to: aims.from.map((x, k) => x + (k < 2 ? aims.velocity[k] * long : 0)),
+      text: `${number(v, 3)} c · ${number(v / ref, 2)} × ${t('playground.circular', 'circular')}`,
+    };
+    if (!aims.armed) Object.assign(plane.aim, { path: null });
+    form.aims(aims);
+    plane.redraw();
+    foretell();
+  }
+
+  // Whether two aims are the same. Aiming makes new arrays; the place of a body that is thrown again changes by itself.
+  const same = (a, b) => a?.velocity === b.velocity && a.body === b.body && (b.body != null || a.from === b.from);
+
+  async function release() {
+    const mine = { ...hand.aims },
+      { from, velocity, body } = mine;
+    if (same(flying, mine)) return; // sent already, and not answered yet
+    flying = mine;
+    const fields = form.fields(),
+      v = velocity.map(x => Number(x.toPrecision(9)));
+    const state = await patch(
+      body == null ? { add: [{ ...fields, position: from, velocity: v }] } : { change: [{ id: body, velocity: v }] },
+    );
+    if (flying === mine) flying = null;
+    if (!state) return;
+    const id = body ?? state.added?.[0];
+    if (same(hand.aims, mine)) {
+      hand.aim({ armed: false, body: null });
+      choose(id ?? null);
+    } // else somebody has aimed again meanwhile
+    const name = plane.names.get(id) ?? '';
+    say(t('playground.goes-at-c', '{0} goes at {1} c.', name, number(Math.hypot(...v), 3)));
+  }
+
+  function choose(id) {
+    chosen = plane.chosen = id;
+    const body = id == null ? null : plane.body(id);
+    awaited = id != null && !body;
+    form.choose(body);
+    if (body) hand.aim({ from: body.x, velocity: body.v, body: id, armed: false });
+    plane.redraw();
+  }
+
+  async function remove() {
+    const id = chosen;
+    if (id != null && (await patch({ remove: [id] })) && chosen === id) choose(null);
+  }
+  const paused = () => halts?.paused ?? running.state?.paused;
+  async function pause() {
+    const mine = (halts = { paused: !paused() });
+    await patch(mine);
+    if (halts === mine) halts = null;
+  }
+  // One step at a time, and at most one waiting: a key that is held down repeats.
+  const step = latest(async () => {
+    if (!paused()) return;
+    const rate = part.rate.validity.valid ? part.rate.valueAsNumber : running.state.rate;
+    await act(() => running.step(Math.max(rate / 20, 1e-6)));
+  });
+  function next(by) {
+    const ids = plane.all().map(({ id }) => id);
+    if (ids.length)
+      choose(ids[(ids.indexOf(chosen) + by + (chosen == null && by < 0 ? 1 : 0) + ids.length) % ids.length]);
+    if (chosen != null) say(plane.names.get(chosen) ?? '');
+  }
+  function fit() {
+    const { middle, wide } = plane.around(given ? null : preset());
+    part.middle.value = plane.follows ?? '';
+    plane.fit(middle, 1.1 * wide);
+    const near = torn.includes(part.preset.value) && !still.matches;
+    plane.accompanies = near ? { least: 45, most: 3 * wide } : null;
+    const aside = near ? 40 : 0.6 * wide;
+    if (!hand.aims.armed) hand.aim({ from: [middle[0] + aside, middle[1], 0], body: null });
+  }
+
+  const form = thrown(part.body, known.body, {
+    aim: change => hand.aim(change),
+    release,
+    choose,
+    change: (id, fields) => patch({ change: [{ id, ...fields }] }),
+    remove,
+  });
+  const hand = hands(part.stage, plane, { aim: showAim, release, choose, pause, step, remove, fit, next, speed });
+  const begin = persistent(part.fault, 'playground', () => {
+    const rate = Number(link.get('play.rate')),
+      paused = link.get('play.paused') === '1';
+    return running.begin(given ?? { preset: part.preset.value, ...hole, ...(rate > 0 ? { rate } : {}), paused });
+  });
+  let hole = {}; // gravity and spin, if somebody has chosen them
+  const showRules = rules(
+    part.rules,
+    known.settings,
+    (name, value) => patch({ [name]: value }),
+    (name, value) => ((hole = { ...hole, [name]: value }), (given = null), begin()),
+  );
+
+  // By default the plan is shown and, for the planets in a wide window, the lensed view too.
+  const usual = () => (part.preset.value === 'system' && roomy.matches ? 'both' : 'plan');
+  const views = { plan: [true, false], lensed: [false, true], both: [true, true] };
+  function show(name) {
+    const [plan, light] = views[name] ?? views.plan;
+    for (const button of part.views) button.setAttribute('aria-pressed', button.value === name);
+    part.stage.hidden = !plan;
+    part.lensed.hidden = !light;
+    part.pictures.dataset.both = plan && light;
+    link.set('play.show', name === usual() ? null : name);
+    picture.show(light);
+    plane.redraw();
+  }
+  for (const button of part.views) button.addEventListener('click', () => show(button.value));
+
+  // The rate of time.
+  const pace = scale(paces),
+    setRate = latest(async rate => {
+      link.set('play.rate', rate);
+      await patch({ rate });
+      if (hurries === rate) hurries = null;
+    }),
+    hurry = rate => setRate((hurries = rate));
+  part.pace.addEventListener('input', () => hurry((part.rate.value = pace.from(part.pace.valueAsNumber))));
+  part.rate.addEventListener('change', () =>
+    part.rate.validity.valid ? hurry(part.rate.valueAsNumber) : part.rate.reportValidity(),
+  );
+  part.pause.addEventListener('click', pause);
+  part.step.addEventListener('click', step);
+  part.nearer.addEventListener('click', () => plane.zoom(1.25));
+  part.farther.addEventListener('click', () => plane.zoom(0.8));
+  part.fit.addEventListener('click', fit);
+  part.tilt.addEventListener('input', () => ((plane.tilt = (part.tilt.valueAsNumber * Math.PI) / 180), plane.redraw()));
+  part.middle.addEventListener('change', () => (plane.follows = part.middle.value || null));
+  part.preset.addEventListener('change', () => {
+    given = null;
+    hole = {};
+    link.set('play.rate', null);
+    link.set('play.preset', part.preset.value === first ? null : part.preset.value);
+    // the default view depends on the preset
+    show([...part.views].find(button => button.getAttribute('aria-pressed') === 'true')?.value ?? usual());
+    begin();
+  });
+  part.again.addEventListener('click', () => begin());
+  buildTakes(part, running, act, async whole => {
+    const before = [given, part.preset.value];
+    [given, part.preset.value] = [whole, ''];
+    await running.begin(whole).catch(error => {
+      [given, part.preset.value] = before;
+      throw error;
+    });
+  });
+
+  running.addEventListener('begun', ({ detail: state }) => {
+    events.clear();
+    charts.clear();
+    sound.begin();
+    plane.forget();
+    hand.aim({ armed: false, body: null });
+    choose(null);
+    fit();
+    entitle('playground', given ? t('common.a-snapshot', 'a snapshot') : titled(part.preset.value, preset()?.title));
+    tell(part.help, given ? '' : (preset()?.title ?? ''));
+    part.words.textContent = given ? '' : seenOf(part.preset.value);
+    if (state.settings.gravity === 'kerr')
+      physics('kerr', { spin: state.settings.spin }).then(({ values: v }) => {
+        plane.radii = { horizon: v.horizon, photons: v.photon_prograde, bound: v.marginally_bound, isco: v.isco };
+        plane.redraw();
+      });
+    else plane.radii = { horizon: 2, photons: 3, bound: 4, isco: 6 };
+  });
+  running.addEventListener('state', ({ detail: state }) => {
+    // while changes are unanswered, an older state must not reset the controls
+    const newest = !running.waits();
+    if (newest) showRules(state.settings);
+    part.views[0].parentNode.hidden = !state.scene; // without a scene the server renders no pictures
+    plane.names = new Map(state.bodies.map(({ id, name }) => [id, said(name).text]));
+    form.bodies(state.bodies.map(({ id, name }) => ({ id, name: said(name).text })));
+    if (newest) part.paused(state.paused);
+    if (hurries == null && document.activeElement !== part.rate) part.rate.value = state.rate;
+    if (hurries == null) part.pace.value = pace.to(state.rate);
+    part.foretold.textContent =
+      state.settings.gravity === 'kerr'
+        ? t('playground.the-dashed-path-is', 'The dashed path is the server’s: a geodesic.')
+        : t(
+            'playground.the-dashed-path-is-reckoned-by-this',
+            'The dashed path is reckoned by this page with the server’s law of motion; waves, tides and mergers are left out, and the pulls of bodies below a hundred-thousandth of the hole’s mass, and of more than sixteen heavy ones those of the lightest.',
+          );
+    const sentences = state.approximations.map(text => el('li', {}, tell(el('span'), text)));
+    part.approximations.replaceChildren(...sentences);
+    part.waves.replaceChildren(
+      ...state.approximations.filter(text => /\bwaves\b/.test(text)).flatMap(text => [tell(el('span'), text), ' ']),
+    );
+    part.waves.hidden = !state.settings.waves;
+  });
+  running.addEventListener('moved', ({ detail }) => {
+    const first_seen = !plane.bodies;
+    plane.moved(detail);
+    if (given && first_seen) fit();
+    part.canvas.dataset.bodies = detail.n;
+    if (chosen != null) {
+      const body = plane.body(chosen);
+      if (body && awaited && !hand.aims.armed) choose(chosen);
+      else if (body) form.choose(body);
+      else if (!awaited || !plane.names.has(chosen)) choose(null);
+    }
+    if (hand.aims.body != null && plane.body(hand.aims.body))
+      Object.assign(hand.aims, { from: plane.body(hand.aims.body).x });
+    if (hand.aims.armed) showAim(hand.aims);
+  });
+  running.addEventListener('debris', ({ detail }) => {
+    plane.debris = detail;
+    plane.accompany();
+    part.canvas.dataset.debris = detail.n;
+    plane.redraw();
+  });
+  const kinetic = () =>
+    plane.all().reduce((sum, { mass, v }) => sum + 0.5 * mass * (v[0] ** 2 + v[1] ** 2 + v[2] ** 2), 0);
+  running.addEventListener('tick', ({ detail: tick }) => {
+    charts.follow(tick, kinetic(), running.address('fallback'));
+    sound.follow(tick);
+    part.clock(tick);
+  });
+  for (const name of ['happened', 'lost']) running.addEventListener(name, ({ detail }) => events[name](detail));
+  running.addEventListener('ended', ({ detail }) => say(detail));
+  running.addEventListener('fault', ({ detail: error }) => {
+    if (!error) return (part.fault.textContent = '');
+    tell(part.fault, error.message).append(t('common.trying-again', ' – trying again'));
+  });
+
+  part.preset.value = known.presets.find(({ name }) => name === link.get('play.preset'))?.name ?? first;
+  show(link.get('play.show') ?? usual());
+  await begin();
+}

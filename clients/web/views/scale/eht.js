@@ -1,0 +1,237 @@
+// M87* and Sgr A* beside what the Event Horizon Telescope measured, at one scale on the sky: the rendered picture, the
+// same through the telescope's beam, and the measured ring with its error. A slider blends from one to the next.
+import { byId, el, svg } from '../../base/dom.js';
+import { persistent } from '../../base/again.js';
+import { number, t } from '../../words/i18n.js';
+import * as link from '../../base/link.js';
+import { ask, drawn, physics } from '../../base/server.js';
+
+const across_uas = 150; // width of each panel on the sky, so that both have the same scale
+const alone_m = 36; // width in M of a hole without a measured ring
+const beam_uas = 20; // of the telescope at 1.3 mm: EHT Collaboration 2019, ApJL 875, L1
+const most_px = 720;
+const key = 'scale.beside';
+
+// How each is seen: M87* with its jet at a position angle of 288 degrees and the spin pointing away from us (ApJL 875,
+// L5), north up. The inclination of Sgr A* is low (ApJL 930, L16); its orientation on the sky is unknown.
+export const seen = {
+  m87: { name: 'M87*', inclination: 163, roll: 108 },
+  sgra: { name: 'Sgr A*', inclination: 30, roll: 0 },
+  none: { name: '', inclination: 60, roll: 0 },
+};
+
+export const stops = [
+  [0, t('eht.our-picture', 'our picture')],
+  [1, t('eht.through-a-beam-of', 'through a beam of {0} µas', beam_uas)],
+  [2, t('eht.the-ring-as-measured', 'the ring as measured')],
+];
+
+// The panel of one hole: two pictures on top of each other, and lines over both.
+function panel(hole) {
+  const stack = el('div', { class: 'sky-stack', role: 'img', 'aria-label': seen[hole].name }),
+    pictures = ['sharp', 'beam'].map(kind => el('img', { class: kind, alt: '', draggable: false, hidden: true })),
+    lines = svg('svg', { class: 'sky-lines', 'aria-hidden': 'true' }),
+    words = el('p', { class: 'help' });
+  stack.append(...pictures, lines);
+  const node = el(
+    'figure',
+    { class: 'plot sky', id: 'sky-' + hole },
+    seen[hole].name && el('figcaption', {}, seen[hole].name),
+    stack,
+    words,
+  );
+  const shown = []; // the addresses from which the pictures were loaded
+
+  function query(look, more) {
+    const size = Math.min(2 * Math.round((stack.clientWidth * Math.min(devicePixelRatio || 1, 2)) / 2), most_px) || 360;
+    return new URLSearchParams({
+      'spacetime.spin': look.spin,
+      'spacetime.mass_msun': look.mass,
+      'spacetime.distance_pc': look.distance,
+      'camera.inclination_deg': look.inclination,
+      'camera.roll_deg': look.roll,
+      'camera.field_m': look.field,
+      'disk.outer': 15,
+      'style.bloom': 0,
+      'style.tone_map': 'srgb',
+      'style.palette': 'heat',
+      'image.width': size,
+      'image.height': size,
+      'image.samples': 2,
+      ...more,
+    });
+  }
+
+  // The old picture stays until the new one is decoded.
+  async function picture(i, look, more) {
+    const address = 'v1/render?' + query(look, more);
+    if (shown[i] === address) return;
+    const next = URL.createObjectURL(await (await ask(address)).blob()),
+      old = pictures[i].src;
+    pictures[i].src = next;
+    await pictures[i].decode();
+    pictures[i].hidden = false;
+    shown[i] = address;
+    URL.revokeObjectURL(old);
+  }
+
+  // Lengths are in microarcseconds, or in M where they are too small for that.
+  function draw(look, edge, v) {
+    const [c, s] = [Math.cos, Math.sin].map(of => of((look.roll * Math.PI) / 180)),
+      points = edge.alpha.map((a, i) => [
+        (a * c - edge.beta[i] * s) * look.unit,
+        -(a * s + edge.beta[i] * c) * look.unit,
+      ]),
+      middle = [0, 1].map(i => (Math.min(...points.map(p => p[i])) + Math.max(...points.map(p => p[i]))) / 2),
+      half = look.width / 2,
+      bar = [1, 2, 5]
+        .flatMap(m => [-9, -6, -3, 0, 1, 2].map(d => m * 10 ** d))
+        .filter(x => x < half * 0.75)
+        .sort((a, b) => a - b)
+        .at(-1),
+      ring = { cx: middle[0], cy: middle[1], r: v.ring_uas / 2 }, // its place was not measured
+      text = (12 * look.width) / (stack.clientWidth || 360); // 12 pixels
+    lines.setAttribute('viewBox', `${-half} ${-half} ${look.width} ${look.width}`);
+    lines.replaceChildren(
+      ...(v.ring_uas
+        ? [
+            svg('circle', { class: 'sky-ring-width', ...ring, 'stroke-width': v.ring_error_uas }),
+            svg('circle', { class: 'sky-ring', ...ring }),
+          ]
+        : []),
+      svg('path', {
+        class: 'sky-shadow',
+        d: 'M' + points.map(p => p.map(x => x.toFixed(3)).join(' ')).join('L') + 'Z',
+      }),
+      svg('path', { class: 'bar', d: `M${-half * 0.93} ${half * 0.93}h${bar}` }),
+      svg(
+        'text',
+        { class: 'axis', 'font-size': text, x: -half * 0.93, y: half * 0.93 - text * 0.5 },
+        look.unit === 1 ? `${number(bar)} M` : `${number(bar)} µas`,
+      ),
+      ...(v.ring_uas
+        ? [
+            svg('circle', {
+              class: 'sky-beam',
+              cx: half * 0.93 - beam_uas / 2,
+              cy: half * 0.93 - beam_uas / 2,
+              r: beam_uas / 2,
+            }),
+          ]
+        : []),
+    );
+  }
+
+  function say(v, edge) {
+    const shadow = `${number(edge.width * v.m_uas, 3)} × ${number(edge.height * v.m_uas, 3)} µas`;
+    const ring = v.ring_uas
+      ? t(
+          'eht.measured-a-ring-as',
+          ' Measured: a ring {0} ± {1} µas across; mean diameter of the shadow {2} µas.',
+          number(v.ring_uas),
+          number(v.ring_error_uas),
+          number(v.shadow_uas, 3),
+        )
+      : '';
+    words.textContent = t('eht.edge-of-the-shadow', 'Edge of the shadow: {0}.{1}', shadow, ring);
+    stack.setAttribute('aria-label', `${seen[hole].name} ${words.textContent}`.trim());
+  }
+
+  return {
+    node,
+    // v: values of the quantity `scale`. Draws the lines, and returns functions that load the pictures, the coarse one
+    // first.
+    async show(spin, inclination, v) {
+      const edge = (await physics('shadow', { spin, inclination_deg: inclination, angle_deg: '0:358:180', ...drawn }))
+          .values,
+        measured = hole !== 'none',
+        look = {
+          spin,
+          inclination,
+          roll: seen[hole].roll,
+          mass: v.mass,
+          distance: v.distance,
+          field: measured ? across_uas / v.m_uas : alone_m,
+          unit: measured ? v.m_uas : 1,
+          width: measured ? across_uas : alone_m,
+        };
+      draw(look, edge, v);
+      say(v, edge);
+      return [() => picture(0, look, {}), measured && (() => picture(1, look, { 'style.beam_uas': beam_uas }))].filter(
+        Boolean,
+      );
+    },
+  };
+}
+
+// The slider: 0 is the rendered picture, 1 the picture through the beam, 2 the ring.
+function slide(root) {
+  const slider = el('input', {
+      type: 'range',
+      id: 'beside',
+      min: 0,
+      max: 2,
+      step: 0.01,
+      value: link.get(key) ?? 1,
+      'aria-label': t('common.from-our-picture-through', 'From our picture through the beam to the measured ring'),
+    }),
+    marks = stops.map(([at, text]) =>
+      el('button', { type: 'button', onclick: () => ((slider.value = at), follow()) }, text),
+    );
+  function follow() {
+    const at = slider.valueAsNumber,
+      beam = Math.min(at, 1),
+      ring = Math.max(at - 1, 0);
+    root.style.setProperty('--sharp', beam < 1 ? 1 : 0); // else it would shine through the dimmed pictures
+    root.style.setProperty('--beam', beam);
+    root.style.setProperty('--ring', ring);
+    const nearest = Math.round(at);
+    slider.setAttribute('aria-valuetext', stops[nearest][1]);
+    marks.forEach((mark, i) => mark.setAttribute('aria-pressed', Math.abs(at - i) < 0.05));
+    link.set(key, at === 1 ? null : slider.value);
+  }
+  slider.addEventListener('input', follow);
+  follow();
+  return el('div', { class: 'beside' }, slider, el('p', { class: 'row' }, marks));
+}
+
+// Returns show(hole, spin, inclination, values), which shows the chosen hole and, beside it, the other measured one.
+export function beside(root) {
+  const panels = Object.fromEntries(Object.keys(seen).map(hole => [hole, panel(hole)])),
+    control = slide(root),
+    fault = el('p', { class: 'fault', role: 'status' }),
+    paint = persistent(fault, 'scale', async pictures => {
+      for (const make of pictures) await make();
+    });
+  root.append(
+    fault,
+    el(
+      'div',
+      { class: 'sky-pair' },
+      Object.values(panels).map(({ node }) => node),
+    ),
+    control,
+  );
+  return async (hole, spin, inclination, values) => {
+    for (const [name, { node }] of Object.entries(panels)) {
+      node.hidden = hole === 'none' ? name !== 'none' : name === 'none';
+      node.toggleAttribute('data-chosen', name === hole);
+    }
+    control.hidden = byId('scale-caption').hidden = hole === 'none';
+    const pictures = await panels[hole].show(spin, inclination, values),
+      other = { m87: 'sgra', sgra: 'm87' }[hole];
+    if (other) {
+      const tilt = seen[other].inclination;
+      pictures.push(
+        ...(await panels[other].show(
+          spin,
+          tilt,
+          (
+            await physics('scale', { hole: other, spin, inclination_deg: tilt })
+          ).values,
+        )),
+      );
+    }
+    paint(pictures); // the numbers need not wait for the pictures
+  };
+}

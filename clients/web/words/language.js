@@ -1,0 +1,42 @@
+// The language of the page, and its messages. A message is a call of t with an identifier and the English text:
+// t('tour.the-shadow', 'The shadow'). locale/LANGUAGE.json has the text of each identifier in another language, with {0}
+// and so on for the values that follow. Only the file of the page's own language is loaded.
+import * as link from '../base/link.js';
+
+export const languages = { en: 'English', it: 'Italiano', de: 'Deutsch' };
+
+// The first of these languages that the page has, or English.
+const known = wanted =>
+  wanted.map(name => name?.slice(0, 2).toLowerCase()).find(name => Object.hasOwn(languages, name)) ?? 'en';
+
+export const lang = known([
+  link.get('lang'),
+  new URLSearchParams(location.search).get('lang'),
+  ...(navigator.languages ?? [navigator.language]),
+]);
+
+// All words of a language but English.
+async function words(name) {
+  if (name === 'en') return null;
+  const answer = await fetch(new URL(`../locale/${name}.json`, import.meta.url));
+  if (!answer.ok) throw new Error(`locale/${name}.json: HTTP ${answer.status}`);
+  return answer.json();
+}
+
+// The function t of a language.
+const speaker =
+  locale =>
+  (id, english, ...values) => {
+    const text = locale?.page[id] ?? english;
+    return values.length ? text.replace(/\{(\d)\}/g, (_, i) => values[i]) : text;
+  };
+
+export const locale = await words(lang);
+export const t = speaker(locale);
+
+// The function t of any language; throws if the page does not have it.
+const spoken = { [lang]: t };
+export async function speak(name) {
+  if (!Object.hasOwn(languages, name)) throw new Error(`there is no language ${name}`);
+  return (spoken[name] ??= speaker(await words(name)));
+}
