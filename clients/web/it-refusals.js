@@ -270,7 +270,7 @@ function shape([english, italian]) {
     '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc|microarcseconds|GiB|s))?)';
   return [
     new RegExp(
-      `^${escaped.replaceAll('{}', value).replaceAll('{…}', '(.+)').replace('{?}', '(, a string where a number is needed| where a number is needed|)')}$`,
+      `^${escaped.replaceAll('{}', value).replaceAll('{…}', '(.+)').replace('{?}', '(, a string where a number is needed| where a number is needed|, a range (?:whose count is|with the value) [^;]+|)')}$`,
     ),
     italian.replace('{?}', '{}').replaceAll('{…}', '{}'),
   ];
@@ -281,6 +281,8 @@ export const learn = more => refusals.push(...more.map(shape));
 const amounts = {
   ', a string where a number is needed': ', un testo dove ci vuole un numero',
   ' where a number is needed': ' dove ci vuole un numero',
+  ', a range whose count is': ', un intervallo con il numero di valori',
+  ', a range with the value': ', un intervallo con il valore',
   'solar masses': 'masse solari',
   'solar radii': 'raggi solari',
   'Eddington rates': 'tassi di Eddington',
