@@ -380,9 +380,6 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
 
 enum MHD_Result kd_handle_shared_picture(struct kd_request *request)
 {
-    enum MHD_Result refused;
-    if (!kd_reply_only(request, &refused))
-        return refused;
     request->format = kd_formats[0];
     return kd_handle_render(request);
 }
