@@ -163,9 +163,10 @@ void main()
             sum += turn.any ? drag - turn.drag : 0.0;
             fallen -= turn.any ? 2.0 * kd_drag_fall(turn.w, cam.spin, cam.root) : 0.0;
         }
-        if (abs(y.w) < cam.horizon) /* the error of the steps up to this crossing; beyond, the values mean nothing */
+        if (y.w > -cam.horizon && y.w < deepest) /* error of the steps up to this crossing; a clamped w has none */
             lost = max(lost, abs(y.dw * y.dw - kd_radial_potential(m, y.w, ray.e, cam.spin, cam.root)));
-        kd_margins margins = kd_margins_of(barrier, barrier.noise + lost, min(far, cam.horizon), cam.horizon);
+        float passes = barrier.r < 0.0 ? 2.0 : 1.0; /* a ray that turns passes the barrier twice */
+        kd_margins margins = kd_margins_of(barrier, barrier.noise + passes * lost, min(far, cam.horizon), cam.horizon);
         open = open || kd_crossing_is_open(y.w, margins) || !kd_is_finite(y.w + sum);
         alive = low >= 0.0 && high < cam.horizon && y.w > 0.0;
         if (alive) {

@@ -94,6 +94,12 @@ kd_turning_point kd_turning_point_of(kd_geodesic m, kd_ray ray, float a, float h
     return o;
 }
 
+/* Bound of the rounding error of w' at the start of a ray. */
+float kd_speed_noise(kd_geodesic m, kd_state y, kd_rounding off)
+{
+    return off.unit * (off.size_e + sqrt(max(m.k, 0.0)) * y.w);
+}
+
 /* The turning point, for an observer next to the photon orbits, from the observer's place. There R = w'^2, and between
  * the two places R changes by x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) - x^2 D), where x is their distance, since R'
  * vanishes at the barrier. If w' is close to 0, its square is more precise than R. */
@@ -101,7 +107,7 @@ kd_turning_point kd_turning_point_beside(kd_geodesic m, kd_turning_point b, kd_s
 {
     float x = y.w - b.w, c2 = m.a2 + 6.0 * b.w * (m.k - m.d * b.w),
           hump = x * x * (c2 + x * (2.0 * m.k - 4.0 * m.d * b.w - x * m.d));
-    float noise = off.unit * (abs(y.dw) * (off.size_e + sqrt(m.k) * y.w) + abs(x * c2) * b.w + abs(hump));
+    float dw = kd_speed_noise(m, y, off), noise = dw * (abs(y.dw) + dw) + off.unit * (abs(x * c2) * b.w + abs(hump));
     if (b.w < horizon && noise < b.noise) {
         b.r = y.dw * y.dw - hump;
         b.noise = noise;
@@ -112,7 +118,7 @@ kd_turning_point kd_turning_point_beside(kd_geodesic m, kd_turning_point b, kd_s
 /* Error of R along a ray traced by steps, due to rounding at its start: of w, and of w', whose square is R. */
 float kd_start_noise(kd_geodesic m, kd_state y, kd_rounding off)
 {
-    float dw = off.unit * (off.size_e + sqrt(max(m.k, 0.0)) * y.w);
+    float dw = kd_speed_noise(m, y, off);
     return dw * (abs(y.dw) + dw) + off.unit * abs(y.w * kd_acceleration(m, y.w));
 }
 

@@ -25,28 +25,58 @@ static const char *number(const char *text, double *value)
     return text + n;
 }
 
-static bool parse(const char *text, struct kd_range *range)
+/* Reads a number, or a range of any count. False if the text has another form. */
+static bool parse(const char *text, struct kd_range *range, double *count)
 {
-    double count = 1;
     const char *rest = number(text, &range->first);
     range->last = range->first;
+    *count = 1;
     if (rest && *rest == ':') {
         rest = number(rest + 1, &range->last);
-        rest = rest && *rest == ':' ? number(rest + 1, &count) : NULL;
-        if (!(count >= 2 && count <= KD_RANGE_MOST && count == floor(count)))
-            return false;
+        rest = rest && *rest == ':' ? number(rest + 1, count) : NULL;
     }
-    range->count = (size_t)count;
     return rest && !*rest;
 }
 
-static bool holds(const struct kd_row *row, const struct kd_range *range)
+static bool holds(const struct kd_row *row, double value)
 {
-    const bool whole = row->kind == KD_KIND_INT;
-    bool good = kd_row_holds(row, range->first) && kd_row_holds(row, range->last);
-    for (size_t i = 0; good && whole && i < range->count; i++)
-        good = kd_range_at(range, i) == floor(kd_range_at(range, i));
-    return good;
+    return kd_row_holds(row, value) && (row->kind != KD_KIND_INT || value == floor(value));
+}
+
+/* Whether all values are allowed. If not, *wrong is one that is not; an end of the range, where possible. */
+static bool all_hold(const struct kd_row *row, const struct kd_range *range, double *wrong)
+{
+    const size_t inner = row->kind == KD_KIND_INT ? range->count : 0;
+    *wrong = !holds(row, range->first) ? range->first : range->last;
+    if (!holds(row, *wrong))
+        return false;
+    for (size_t i = 0; i < inner; i++)
+        if (!holds(row, *wrong = kd_range_at(range, i)))
+            return false;
+    return true;
+}
+
+/* Checks a number or range that was typed. On failure describes in `fault` what is wrong; empty: its form. */
+static bool check(const struct kd_row *row, const char *text, struct kd_range *range, char fault[KD_VALUE_SIZE])
+{
+    char told[KD_NUMBER_SIZE];
+    double count, wrong;
+    *fault = 0;
+    if (!parse(text, range, &count))
+        return false;
+    const bool ranged = strchr(text, ':');
+    if (ranged && !(count >= 2 && count <= KD_RANGE_MOST && count == floor(count))) {
+        kd_number_format(told, count);
+        snprintf(fault, KD_VALUE_SIZE, ", a range whose count is %s", isfinite(count) ? told : "beyond 1e308");
+        return false;
+    }
+    range->count = (size_t)count;
+    if (all_hold(row, range, &wrong))
+        return true;
+    kd_number_format(told, wrong);
+    if (ranged)
+        snprintf(fault, KD_VALUE_SIZE, ", a range with the value %s", isfinite(wrong) ? told : "beyond 1e308");
+    return false;
 }
 
 enum kd_status kd_row_range(const struct kd_row *row, const char *text, const char *pointer, struct kd_range *range,
@@ -54,11 +84,12 @@ enum kd_status kd_row_range(const struct kd_row *row, const char *text, const ch
 {
     const struct kd_value value = kd_value_typed(text);
     struct kd_range read = { row->stands, row->stands, 1 };
+    char fault[KD_VALUE_SIZE];
     if (row->kind == KD_KIND_WORD) {
         read.first = read.last = kd_word_index(row->words, text);
         if (read.first < 0)
             return kd_row_refuse(row, &value, row->name, pointer, error);
-    } else if (!(row->words && !strcmp(text, row->words)) && !(parse(text, &read) && holds(row, &read))) {
+    } else if (!(row->words && !strcmp(text, row->words)) && !check(row, text, &read, fault)) {
         char allowed[KD_ALLOWED_SIZE], given[KD_VALUE_SIZE];
         struct kd_row told = *row;
         kd_row_allowed(row, allowed);
@@ -66,7 +97,7 @@ enum kd_status kd_row_range(const struct kd_row *row, const char *text, const ch
                  ", or a range first:last:count of 2 to %d such values", KD_RANGE_MOST);
         if (strchr(text, ':')) { /* a range, and not a string where a number is needed */
             kd_value_describe(&value, given);
-            return kd_error_field(error, pointer, "%s is %s; it must be %s", row->name, given, allowed);
+            return kd_error_field(error, pointer, "%s is %s%s; it must be %s", row->name, given, fault, allowed);
         }
         told.allowed = allowed;
         return kd_row_refuse(&told, &value, row->name, pointer, error);

@@ -251,6 +251,18 @@ static bool asks_of_all(const struct kd_request *request)
            (!strcmp(request->raw, "*") || (request->authority && !strcmp(request->raw, "/")));
 }
 
+/* Whether the query has a parameter that the route does not have. error: holds the problem's text. */
+static bool query_fault(const struct kd_request *request, struct kd_error *error, struct kd_problem *problem)
+{
+    *error = (struct kd_error) { 0 };
+    if (!kd_route_only(request, error))
+        return false;
+    *problem = kd_problem_from(error);
+    problem->type = KD_PROBLEM_INVALID_PARAMETERS;
+    problem->close = request->body_announced;
+    return true;
+}
+
 /* Decides whether the request is handled. Returns false if it has been answered; *result is then what to return. */
 static bool choose(struct kd_request *request, enum MHD_Result *result)
 {
@@ -297,7 +309,8 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
         problem = (struct kd_problem) { .type = KD_PROBLEM_PRECONDITION,
                                         .close = request->body_announced,
                                         .detail = "no resource here has an ETag of If-Match" };
-    else if (!body_fault(request, &told, &problem) && kd_once_read(request, &problem, key))
+    else if (!query_fault(request, &error, &problem) && !body_fault(request, &told, &problem) &&
+             kd_once_read(request, &problem, key))
         return true;
     *result =
         kd_sign_in_wanted(request, &problem) ? kd_sign_in_page(request, &problem) : kd_reply_problem(request, &problem);

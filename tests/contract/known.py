@@ -30,7 +30,9 @@ RULES = [
     for operation, sentences in TOGETHER
 ]
 BEFORE = re.compile("(?:" + "|".join(words(one) for one in AMONG) + ")", re.DOTALL)
-RANGE = re.compile(r'\w+ is "[^"]*(:\d+|\.\.\.)"; ')  # a range, as messages quote it: long ones are truncated
+RANGE = re.compile(
+    r'\w+ is "[^"]*(:\d+|\.\.\.)"(, a range [^;]+)?; '
+)  # a range, as messages quote it: long ones are truncated
 
 
 def together(label, sentence):

@@ -12,7 +12,7 @@ enum { LINES = 9 };
 static void check_target(const char *raw, const struct kd_base_path *base)
 {
     static const char *const methods[] = { "GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "BREW" };
-    static const char *const known[] = { "order", "since", NULL };
+    static const char *const known[] = { "order", "since", NULL }, *const former[] = { "least", NULL };
     struct kd_target target;
     struct kd_error error = { 0 };
     uint64_t number;
@@ -27,7 +27,7 @@ static void check_target(const char *raw, const struct kd_base_path *base)
                   "a pair of %s is not there", raw);
         if (kd_target_whole(&target, "order", 7, 1000, &number))
             CHECK(number <= 1000, "order is %llu", (unsigned long long)number);
-        if ((status = kd_target_only(&target, known, &error)))
+        if ((status = kd_target_only(&target, known, former, &error)))
             kd_fuzz_refused(status, &error);
         struct kd_server server = { .base = *base };
         struct kd_problem problem = { 0 };

@@ -551,6 +551,31 @@ class OpenApi(daemon.Case):
                         )
                         self.assertIn(str(self.said(method, at + query, line)), operation["responses"])
 
+    def test_a_parameter_that_there_is_not_is_refused(self):
+        """By each operation below /v1, whatever it reads besides."""
+        scene = {"image": {"width": 32, "height": 18}, "disk": {"model": "particles", "inner": 8, "outer": 16}}
+        session = self.daemon.post("/v1/sessions", scene).json()
+        owner = {"Authorization": "Bearer " + session["token"]}
+        names = {"presets": "gargantua", "physics": "kerr"}
+        operations = 0
+        for path, methods in self.document["paths"].items():
+            if not path.startswith("/v1/"):
+                continue
+            at = path.replace("{id}", session["id"]).replace("{name}", names.get(path.split("/")[2], ""))
+            at = at.replace("{sha256}", 64 * "0")
+            for method in methods:
+                body = "{}" if method in ("post", "patch", "put") else None
+                with self.subTest(f"{method} {path}"):
+                    answer = self.daemon.request(method.upper(), at + "?nosuch=1", body, owner)
+                    told = None if path == "/v1/rays" else "/nosuch"  # rays have no parameters beside a document
+                    self.assertEqual((answer.status, answer.json().get("pointer")), (422, told), answer.body)
+                    operations += 1
+        self.assertGreater(operations, 50)
+        at = f"/v1/sessions/{session['id']}"
+        self.assertEqual(self.daemon.get(at).json()["revision"], session["revision"])
+        for query in ("min_scale=0.5", "least=0.5", "order=7&token=x"):
+            self.assertEqual(self.daemon.request("PATCH", f"{at}?{query}", "{}", owner).status, 200, query)
+
     def said(self, method, target, line):
         """The status of a request with this line in its header."""
         hosted = "" if line.startswith("Host:") else "Host: localhost\r\n"

@@ -50,6 +50,21 @@ class Render(daemon.Case):
                 self.assertEqual(answer.header("Cache-Control"), "private, no-cache")
                 tags.add(answer.header("ETag"))
         self.assertEqual(len(tags), 5, tags)
+        for fields, accept, kind in (
+            ("image.bit_depth=16", "image/webp,image/png;q=0.5", png),
+            ("image.bit_depth=16", "image/avif,image/webp,*/*;q=0.8", png),
+            ("image.bit_depth=16", "image/webp,image/jpeg,image/x-exr;q=0.2", "image/x-exr"),
+            ("image.layers=rgb,r", "image/webp,image/png;q=0.9,application/fits;q=0.1", "application/fits"),
+            ("image.bit_depth=8", "image/webp,image/png;q=0.5", webp),
+        ):
+            with self.subTest(fields + accept):
+                answer = self.daemon.get(f"{RENDER}&{fields}", Accept=accept)
+                self.assertEqual((answer.status, answer.header("Content-Type")), (200, kind), answer.body[:200])
+        for accept in ("image/webp", "image/webp,image/png;q=0"):
+            problem = self.assertProblem(
+                self.daemon.get(RENDER + "&image.bit_depth=16", Accept=accept), 422, pointer="/image/bit_depth"
+            )
+            self.assertIn("format webp", problem["detail"])
         self.assertLess(
             len(self.daemon.get(RENDER + "&quality=20").body), len(self.daemon.get(RENDER + "&quality=90").body)
         )

@@ -236,20 +236,34 @@ static void ranges_are_read_and_refused(void **state)
         { &leaf, "green", NULL, { 1, 1, 1 } },
         { &whole,
           "1:2:3",
-          "cups is \"1:2:3\"; it must be a whole number from -2 to 8, "
+          "cups is \"1:2:3\", a range with the value 1.5; it must be a whole number from -2 to 8, "
           "or a range first:last:count of 2 to 100000 such values",
           { 0 } },
-        { &whole, "1:9:9", "", { 0 } },
+        { &whole,
+          "1:9:9",
+          "cups is \"1:9:9\", a range with the value 9; it must be a whole number from -2 to 8, "
+          "or a range first:last:count of 2 to 100000 such values",
+          { 0 } },
         { &whole, "0.5", "", { 0 } },
         { &heat,
           "50:60:3",
-          "heat is \"50:60:3\"; it must be a number above 50 and below 100, or \"boiling\", or a range "
+          "heat is \"50:60:3\", a range with the value 50; it must be a number above 50 and below 100, or \"boiling\", "
+          "or a range "
           "first:last:count of 2 to 100000 such values",
           { 0 } },
-        { &heat, "51:60:1", "", { 0 } },
+        { &heat,
+          "51:60:1",
+          "heat is \"51:60:1\", a range whose count is 1; it must be a number above 50 and below 100, or \"boiling\", "
+          "or a "
+          "range first:last:count of 2 to 100000 such values",
+          { 0 } },
+        { &heat,
+          "51:60",
+          "heat is \"51:60\"; it must be a number above 50 and below 100, or \"boiling\", or a range "
+          "first:last:count of 2 to 100000 such values",
+          { 0 } },
         { &heat, "51:60:2.5", "", { 0 } },
         { &heat, "51:60:100001", "", { 0 } },
-        { &heat, "51:60", "", { 0 } },
         { &heat, "51:60:2:2", "", { 0 } },
         { &heat, "boiling:60:2", "", { 0 } },
         { &leaf, "black", "leaf is \"black\"; it must be \"none\" or \"green\"", { 0 } },

@@ -150,6 +150,8 @@ class Pages(Browser):
             "physics/redshift?r=1.2&spin=0.5",
             "physics/ring-image?r=1&spin=0.5",
             "physics/kerr?spin=2",
+            "physics/kerr?spin=0:2:5",
+            "physics/kerr?spin=0:0.5:1",
             "physics/kerr?spin=x",
             "physics/kerr?r=0",
             "physics/kerr?spin=0.9&charge=0.9",

@@ -371,6 +371,8 @@ const patterns = [
 const amounts = {
   'amount.a-string-where-a-number-is-needed': ', a string where a number is needed',
   'amount.where-a-number-is-needed': ' where a number is needed',
+  'amount.a-range-whose-count-is': ', a range whose count is',
+  'amount.a-range-with-the-value': ', a range with the value',
   'amount.solar-masses': 'solar masses',
   'amount.solar-radii': 'solar radii',
   'amount.eddington-rates': 'Eddington rates',
@@ -390,7 +392,8 @@ const amounts = {
 
 const value =
   '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc|microarcseconds|GiB|s))?)';
-const remark = '(, a string where a number is needed| where a number is needed|)';
+const remark =
+  '(, a string where a number is needed| where a number is needed|, a range (?:whose count is|with the value) [^;]+|)';
 const shape = english =>
   new RegExp(
     `^${english

@@ -40,8 +40,8 @@ static enum kd_status check_layers(const struct kd_format *format, const struct 
         scene->image.layers.count, format->name);
 }
 
-enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *scene,
-                              const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
+/* Adapts the scene to the format, and checks what the format holds. */
+static enum kd_status adapt(const struct kd_format *format, struct kd_scene *scene, struct kd_error *error)
 {
     const unsigned shows = KD_CARRIES_PICTURE | KD_CARRIES_LAYERS;
     const bool told = format->carries & shows && format->scene; /* stored in the file, as the scene was requested */
@@ -50,8 +50,19 @@ enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *s
     if (!(format->carries & shows))
         scene->image.layers = (struct kd_words) { 1, { { KD_LAYER_rgb, -1 } } };
     enum kd_status status = format->draws ? format->draws(scene, error) : KD_OK;
-    if (!status)
-        status = check_layers(format, scene, error);
+    return status ? status : check_layers(format, scene, error);
+}
+
+enum kd_status kd_format_holds(const struct kd_format *format, const struct kd_scene *scene, struct kd_error *error)
+{
+    struct kd_scene adapted = *scene;
+    return adapt(format, &adapted, error);
+}
+
+enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *scene,
+                              const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
+{
+    enum kd_status status = adapt(format, scene, error);
     if (status)
         return status;
     struct kd_needs needs = kd_needs_of(scene);

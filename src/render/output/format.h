@@ -74,6 +74,9 @@ const struct kd_format *kd_format_named(const char *name);                 /* NU
 const struct kd_format *kd_format_of_bytes(const void *data, size_t size); /* by a file's first bytes; NULL: none */
 const struct kd_format *kd_format_live(void);                              /* the format of live views */
 
+/* Whether the format can hold the scene's picture; errors of the format as kd_format_plan. */
+enum kd_status kd_format_holds(const struct kd_format *format, const struct kd_scene *scene, struct kd_error *error);
+
 /* Plans a frame that carries what the format needs. Settings that neither show in the file nor are recorded in it
  * (auto exposure and layers) are removed from the scene. Errors as kd_plan_make and the format's `draws`, and
  * KD_EINVAL at /image/layers if there are more layers than the format holds. */

@@ -190,9 +190,6 @@ static enum MHD_Result put(struct kd_request *request)
  * download the asset. */
 enum MHD_Result kd_handle_assets(struct kd_request *request)
 {
-    enum MHD_Result refused;
-    if (!kd_reply_only(request, &refused))
-        return refused;
     if (!strcmp(request->method, "PUT"))
         return put(request);
     const struct kd_asset_limits *limits = kd_asset_store_limits(request->server->assets);

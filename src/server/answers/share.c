@@ -296,10 +296,7 @@ static enum MHD_Result tell_oembed(struct kd_request *request, const char *code,
 enum MHD_Result kd_handle_oembed(struct kd_request *request)
 {
     struct kd_error error = { 0 };
-    enum MHD_Result refused;
     int32_t width;
-    if (!kd_reply_only(request, &refused))
-        return refused;
     const char *url = kd_target_value(&request->target, "url"), *format = kd_target_value(&request->target, "format");
     if (!url)
         return refuse(request, KD_PROBLEM_INVALID_PARAMETERS,

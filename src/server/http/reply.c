@@ -254,25 +254,6 @@ enum MHD_Result kd_reply_cancelled(struct kd_request *request)
                                                   "the server is back, or at another server" });
 }
 
-bool kd_reply_only(struct kd_request *request, enum MHD_Result *refused)
-{
-    const unsigned method = kd_route_method(request->method);
-    const char *known[16] = { 0 };
-    size_t n = 0;
-    struct kd_error error = { 0 };
-    for (const struct kd_query *query = request->route->queries; query && query->name && n < 15; query++)
-        if (kd_route_for(query->methods, method))
-            known[n++] = query->name;
-    if (!n)
-        known[0] = "token";
-    if (!kd_target_only(&request->target, known, &error))
-        return true;
-    struct kd_problem problem = kd_problem_from(&error);
-    problem.type = KD_PROBLEM_INVALID_PARAMETERS;
-    *refused = kd_reply_problem(request, &problem);
-    return false;
-}
-
 enum MHD_Result kd_reply_json(struct kd_request *request, enum kd_status status, struct kd_buffer *json,
                               const char *type)
 {

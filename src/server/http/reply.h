@@ -51,9 +51,6 @@ enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error
 /* Ends a request whose work was cancelled (KD_ECANCELLED): sends 503 if the server is stopping; else the client has
  * disconnected, and nothing is sent. */
 enum MHD_Result kd_reply_cancelled(struct kd_request *request);
-/* Whether the query has only parameters of the route and method, each once, and "token"; else *refused is the answer.
- */
-bool kd_reply_only(struct kd_request *request, enum MHD_Result *refused);
 
 /* Joins all values of a list-valued request header by commas; empty when it is absent or memory ran out. */
 struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *name);

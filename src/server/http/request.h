@@ -44,6 +44,8 @@ struct kd_request {
     size_t body_mark;                              /* size of body when its deadline was last extended */
     unsigned quality;                              /* of a lossy format; 0: its default */
     const struct kd_format *format;                /* requested format of the picture; NULL: any, or no picture */
+    const struct kd_format *accepts[16];           /* all formats that Accept takes, the preferred first; `format` is
+                                                    * the first that can hold the scene, or accepts[0] */
     struct kd_render_job *job;                     /* the render under way for this request; owned */
     struct kd_request *also_waiting;               /* next request waiting for the same thumbnail */
     bool waited;                                   /* it has waited for a thumbnail */

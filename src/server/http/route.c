@@ -119,6 +119,31 @@ enum kd_status kd_route_query(const struct kd_request *request, const char *name
     return kd_error_field(error, pointer, "the query has %s, and its former name %s too", name, was);
 }
 
+bool kd_route_checks_query(const struct kd_route *route)
+{
+    const bool read = route->takes == KD_TAKES_QUANTITY || kd_taken[route->takes].parameters;
+    return route->queries || !strncmp(route->path, "/v1/", 4) ? !read || route->methods & KD_PATCH : false;
+}
+
+enum kd_status kd_route_only(const struct kd_request *request, struct kd_error *error)
+{
+    enum { MOST = 15 };
+    const unsigned method = kd_route_method(request->method);
+    const char *known[MOST + 1] = { 0 }, *former[MOST + 1] = { 0 };
+    size_t n = 0, n_former = 0;
+    if (!kd_route_checks_query(request->route))
+        return KD_OK;
+    for (const struct kd_query *query = request->route->queries; query && query->name && n < MOST; query++)
+        if (kd_route_for(query->methods, method)) {
+            known[n++] = query->name;
+            if (query->was)
+                former[n_former++] = query->was;
+        }
+    if (!n)
+        known[0] = "token";
+    return kd_target_only(&request->target, known, former, error);
+}
+
 bool kd_route_is_dated(const struct kd_request *request)
 {
     const struct kd_query *query = request->route ? request->route->queries : NULL;

@@ -121,6 +121,10 @@ bool kd_route_has_query(const struct kd_route *route, const char *name);
  * name that the query has, which may be the former one. KD_EINVAL if it has both. */
 enum kd_status kd_route_query(const struct kd_request *request, const char *name, const char **given,
                               const char **value, struct kd_error *error);
+/* Whether the query has only parameters of the route and method, each once, and "token"; KD_EINVAL if not. Queries that
+ * the handler reads by itself, as fields of a scene or parameters of a quantity, and those of pages are not checked. */
+enum kd_status kd_route_only(const struct kd_request *request, struct kd_error *error);
+bool kd_route_checks_query(const struct kd_route *route);
 /* Whether the query has a former name of a parameter. */
 bool kd_route_is_dated(const struct kd_request *request);
 

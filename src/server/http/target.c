@@ -123,17 +123,22 @@ enum kd_status kd_target_distinct(const struct kd_target *target, struct kd_erro
     return KD_OK;
 }
 
-enum kd_status kd_target_only(const struct kd_target *target, const char *const *known, struct kd_error *error)
+static bool lists(const char *const *names, const char *name)
+{
+    while (*names && strcmp(*names, name))
+        names++;
+    return *names;
+}
+
+enum kd_status kd_target_only(const struct kd_target *target, const char *const *known, const char *const *former,
+                              struct kd_error *error)
 {
     char list[100] = "", pointer[sizeof error->pointer] = "", given[60];
     for (size_t i = 0; known[i]; i++)
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", known[i]);
     for (size_t i = 0; i < target->n_pairs; i++) {
         const char *name = target->pairs[i].name;
-        const char *const *one = known;
-        while (*one && strcmp(*one, name))
-            one++;
-        if (*one || !strcmp(name, "token"))
+        if (lists(known, name) || lists(former, name) || !strcmp(name, "token"))
             continue;
         kd_text_pointer(pointer, sizeof pointer, name);
         kd_text_clip(given, sizeof given, name);

@@ -29,8 +29,10 @@ enum kd_status kd_target_origin(char *raw, char **authority);
 
 /* Returns KD_EINVAL if a parameter occurs twice. */
 enum kd_status kd_target_distinct(const struct kd_target *target, struct kd_error *error);
-/* Returns KD_EINVAL if a parameter occurs twice, or is neither "token" nor in known, which ends with NULL. */
-enum kd_status kd_target_only(const struct kd_target *target, const char *const *known, struct kd_error *error);
+/* Returns KD_EINVAL if a parameter occurs twice, or is neither "token" nor in known or former, which end with NULL. The
+ * message lists those of known. */
+enum kd_status kd_target_only(const struct kd_target *target, const char *const *known, const char *const *former,
+                              struct kd_error *error);
 /* Value of a query parameter, or NULL. */
 const char *kd_target_value(const struct kd_target *target, const char *name);
 /* Parses decimal digits. False if text is anything else or the number exceeds most. */

@@ -167,8 +167,6 @@ enum MHD_Result kd_handle_job_preview(struct kd_request *request)
     struct kd_job_sight sight;
     struct kd_buffer png = { 0 };
     char number[24], rows[32], detail[160];
-    if (!kd_reply_only(request, &refused))
-        return refused;
     struct kd_job *job = kd_job_of(request, &refused);
     if (!job)
         return refused;
@@ -248,8 +246,6 @@ enum MHD_Result kd_handle_job_result(struct kd_request *request)
     struct kd_job_status status;
     if (request->task)
         return request->task->kind->answer(request);
-    if (!kd_reply_only(request, &refused))
-        return refused;
     struct kd_job *job = kd_job_of(request, &refused);
     if (!job)
         return refused;

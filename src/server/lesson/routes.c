@@ -73,8 +73,6 @@ static enum MHD_Result open_lesson(struct kd_request *request)
     cJSON *tree = NULL;
     bool quota = false;
     enum MHD_Result result;
-    if (!kd_reply_only(request, &result))
-        return result;
     enum kd_status status;
     KD_TRY(parse(request, &tree, &error));
     KD_TRY(read_change(request, tree, &change, &error));
@@ -129,8 +127,6 @@ static struct kd_lesson *lesson_of(struct kd_request *request, enum MHD_Result *
 static enum MHD_Result serve_lesson(struct kd_request *request)
 {
     enum MHD_Result result;
-    if (!kd_reply_only(request, &result))
-        return result;
     struct kd_lesson *one = lesson_of(request, &result);
     if (!one)
         return result;
@@ -185,8 +181,6 @@ static enum MHD_Result serve_hand(struct kd_request *request)
     cJSON *tree = NULL;
     enum MHD_Result result;
     _Static_assert(KD_LESSON_PUPILS == 64, "the refusal says so");
-    if (!kd_reply_only(request, &result))
-        return result;
     struct kd_lesson *one = lesson_of(request, &result);
     if (!one)
         return result;

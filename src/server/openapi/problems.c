@@ -42,7 +42,8 @@ static bool is_made_once(const struct kd_route *route, unsigned method) { return
 
 static bool checks_what_it_is_given(const struct kd_route *route, unsigned method)
 {
-    return method != KD_DELETE && (has_body(route, method) || route->takes != KD_TAKES_NOTHING);
+    return kd_route_checks_query(route) ||
+           (method != KD_DELETE && (has_body(route, method) || route->takes != KD_TAKES_NOTHING));
 }
 
 static bool makes_films(const struct kd_route *route, unsigned method)

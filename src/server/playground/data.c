@@ -140,8 +140,6 @@ static enum MHD_Result begin(struct kd_request *request, bool debris)
     static const char *const types[] = { PACKED_TYPE, KD_NPY_TYPE };
     uint64_t after, wait_ms, most = 0;
     enum MHD_Result refused;
-    if (!kd_reply_only(request, &refused))
-        return refused;
     if (!kd_target_whole(&request->target, "after", 0, UINT64_MAX, &after))
         return bad_number(request, "after must be a generation, the Kerrd-Generation of your last answer");
     if (!kd_target_whole(&request->target, "wait_ms", KD_WAIT_MS, KD_WAIT_MS_MAX, &wait_ms))

@@ -121,8 +121,6 @@ enum MHD_Result kd_handle_play_events(struct kd_request *request)
 {
     uint64_t since;
     enum MHD_Result refused;
-    if (!kd_reply_only(request, &refused))
-        return refused;
     if (!begins_at(request, &since))
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS,
                                                                 .detail = "since must be the number of an event" });

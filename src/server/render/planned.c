@@ -33,11 +33,21 @@ static bool read_scene(struct kd_planned *p)
     return read || fail(p, error.status, &error, problem);
 }
 
+/* The first format of the request that can hold the scene; the first of all if none can. */
+static const struct kd_format *format_of(const struct kd_request *request, const struct kd_scene *scene)
+{
+    struct kd_error error;
+    for (size_t i = 0; i < sizeof request->accepts / sizeof *request->accepts && request->accepts[i]; i++)
+        if (!kd_format_holds(request->accepts[i], scene, &error))
+            return request->accepts[i];
+    return request->format;
+}
+
 static bool make_plan(struct kd_planned *p, bool check)
 {
     struct kd_error error = { 0 };
     struct kd_capacity capacity;
-    const struct kd_format *format = p->task.request->format;
+    const struct kd_format *format = p->format = format_of(p->task.request, &p->scene);
     kd_render_queue_capacity(p->task.request->server->renders, &capacity);
     p->drawn = p->scene;
     enum kd_status status = check    ? kd_plan_check(&p->scene, &capacity, &error)
@@ -63,8 +73,10 @@ static bool few_pixels(const struct kd_scene *scene)
 
 static struct kd_planned *outcome(struct kd_request *request, struct kd_planned *p, enum MHD_Result *result)
 {
-    if (!p->task.status)
+    if (!p->task.status) {
+        request->format = p->format;
         return p;
+    }
     *result = p->task.status == KD_ECANCELLED ? kd_reply_cancelled(request) : kd_reply_problem(request, &p->problem);
     return NULL;
 }

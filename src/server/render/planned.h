@@ -8,10 +8,11 @@
 #include "scene/scene.h"
 
 struct kd_planned {
-    struct kd_task task;   /* must be the first member */
-    struct kd_scene scene; /* the scene that was requested */
-    struct kd_scene drawn; /* the scene that is rendered and that the plan is for (kd_format_plan) */
-    char hash[65];         /* hash of `scene`; set when the ETag is made from it */
+    struct kd_task task;            /* must be the first member */
+    struct kd_scene scene;          /* the scene that was requested */
+    struct kd_scene drawn;          /* the scene that is rendered and that the plan is for (kd_format_plan) */
+    const struct kd_format *format; /* of the answer, from request->accepts; NULL: no picture */
+    char hash[65];                  /* hash of `scene`; set when the ETag is made from it */
     struct kd_plan plan;
     struct kd_problem problem; /* points to texts in the task's error */
 };

@@ -35,6 +35,19 @@ static struct offer offer_of(bool lossy)
     return offer;
 }
 
+/* Lists the offered formats that Accept takes, the preferred first. */
+static void rank(struct kd_request *request, struct offer offer)
+{
+    _Static_assert(sizeof request->accepts / sizeof *request->accepts >= KD_FORMATS_MAX, "all formats have a place");
+    for (size_t n = 0, best; offer.n; n++) {
+        if ((best = kd_reply_accepted(request, offer.n, type_of, offer.formats)) == offer.n)
+            return;
+        request->accepts[n] = offer.formats[best];
+        offer.n--;
+        memmove(offer.formats + best, offer.formats + best + 1, (offer.n - best) * sizeof *offer.formats);
+    }
+}
+
 static enum MHD_Result refuse(struct kd_request *request, const struct offer *offer)
 {
     struct kd_buffer offered = { 0 }, detail = { 0 };
@@ -88,9 +101,12 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
                        name);
     else {
         const struct offer offer = offer_of(text);
-        const size_t best = name ? 0 : kd_reply_accepted(request, offer.n, type_of, offer.formats);
+        if (name)
+            request->accepts[0] = format;
+        else
+            rank(request, offer);
         request->quality = (unsigned)quality;
-        request->format = name ? format : best < offer.n ? offer.formats[best] : NULL;
+        request->format = request->accepts[0];
         if (!request->format)
             *result = refuse(request, &offer);
         return request->format;
@@ -401,9 +417,6 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
 
 enum MHD_Result kd_handle_shared_picture(struct kd_request *request)
 {
-    enum MHD_Result refused;
-    if (!kd_reply_only(request, &refused))
-        return refused;
     request->format = kd_formats[0];
     return kd_handle_render(request);
 }

@@ -212,9 +212,6 @@ enum MHD_Result kd_handle_thumbnail(struct kd_request *request)
         return kd_reply_problem(request,
                                 &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
     }
-    enum MHD_Result refused;
-    if (!kd_reply_only(request, &refused))
-        return refused;
     struct kd_buffer known = kd_reply_header_list(request, "If-None-Match");
     const bool same = known.data && kd_etag_listed((const char *)known.data, t->etag);
     kd_buffer_finish(&known);

@@ -127,8 +127,6 @@ enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *f
     const bool patches = kinds && !strcmp(request->method, "PATCH");
     if (request->viewer)
         return look(request);
-    if (!kd_reply_only(request, &refused))
-        return refused;
     if (kinds && kd_target_value(&request->target, "lossy") &&
         (!kd_target_whole(&request->target, "lossy", 0, KD_QUALITY_MAX, &lossy) || !lossy))
         return bad_number(request, "lossy must be a whole number from 1 to 100, the quality of frames before the last; "

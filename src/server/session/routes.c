@@ -332,8 +332,6 @@ enum MHD_Result kd_handle_session(struct kd_request *request)
 {
     enum MHD_Result result;
     struct kd_session_state state;
-    if (strcmp(request->method, "PATCH") && !kd_reply_only(request, &result))
-        return result;
     struct kd_session *session = kd_session_of(request, &result);
     if (!session)
         return result;
