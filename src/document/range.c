@@ -42,11 +42,10 @@ static bool parse(const char *text, struct kd_range *range)
 
 static bool holds(const struct kd_row *row, const struct kd_range *range)
 {
-    const bool whole = row->kind == KD_KIND_INT;
-    bool good = kd_row_holds(row, range->first) && kd_row_holds(row, range->last);
-    for (size_t i = 0; good && whole && i < range->count; i++)
-        good = kd_range_at(range, i) == floor(kd_range_at(range, i));
-    return good;
+    bool good = isfinite(range->first) && kd_row_holds(row, range->first) && kd_row_holds(row, range->last);
+    for (size_t i = 0; good && row->kind == KD_KIND_INT && i < range->count; i++)
+        good = kd_row_holds(row, kd_range_at(range, i));
+    return good && isfinite(range->last);
 }
 
 enum kd_status kd_row_range(const struct kd_row *row, const char *text, const char *pointer, struct kd_range *range,
