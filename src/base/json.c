@@ -115,11 +115,17 @@ void kd_json_members(struct kd_json *json, const char *text)
 
 void kd_json_number(struct kd_json *json, const char *name, double value)
 {
-    char text[KD_DECIMAL_SIZE];
-    if (isfinite(value))
-        kd_json_raw(json, name, text, kd_decimal_print(text, value == 0 ? 0 : value)); /* 0 instead of -0 */
-    else
+    char text[KD_JSON_NUMBER];
+    if (!isfinite(value)) {
         kd_json_null(json, name);
+        return;
+    }
+    value = value == 0 ? 0 : value; /* 0 instead of -0 */
+    if (json->print)
+        json->print(text, value);
+    else
+        kd_decimal_print(text, value);
+    kd_json_raw(json, name, text, strlen(text));
 }
 
 void kd_json_string(struct kd_json *json, const char *name, const char *text)

@@ -18,7 +18,7 @@
 
 #include <stdbool.h>
 
-enum { KD_JSON_DEPTH = 32 };
+enum { KD_JSON_DEPTH = 32, KD_JSON_NUMBER = 32 };
 
 struct kd_json {
     struct kd_buffer *out;
@@ -27,6 +27,8 @@ struct kd_json {
     size_t begun; /* size of *out before the document */
     unsigned depth;
     bool lines; /* each member is on a line of its own, for human readers */
+    /* Writes a finite number in another form than kd_decimal_print; NULL: in that form. */
+    void (*print)(char out[KD_JSON_NUMBER], double value);
     struct { bool array, filled; } open[KD_JSON_DEPTH];
 };
 

@@ -51,12 +51,13 @@ static inline void kd_schema_enum(struct kd_json *json, const char *name, kd_sch
     kd_json_end(json);
 }
 
-/* Writes the schema of one word, as an enumeration with one entry. With "const" instead, generated clients would take
- * the word in one branch of a union for the only possible one. */
+/* Writes the schema of one word, as a constant and as an enumeration with one entry. With "const" alone, generated
+ * clients would take the word in one branch of a union for the only possible one. */
 static inline void kd_schema_word(struct kd_json *json, const char *name, const char *word)
 {
     kd_json_object(json, name);
     kd_json_string(json, "type", "string");
+    kd_json_string(json, "const", word);
     kd_json_array(json, "enum");
     kd_json_string(json, NULL, word);
     kd_json_end(json);

@@ -1,23 +1,11 @@
 #include "cli/stats.h"
 
 #include "render/output/notes.h"
-#include "scene/writer.h"
+#include "scene/table.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-static void add_field(struct kd_json *json, const struct kd_field *field, const struct kd_scene *scene)
-{
-    struct kd_buffer text = { 0 };
-    struct kd_writer writer = { .out = &text };
-    kd_write_field(&writer, scene, field, 0);
-    if (writer.status)
-        json->status = writer.status;
-    else
-        kd_json_raw(json, field->name, (const char *)text.data, text.size);
-    kd_buffer_finish(&text);
-}
 
 /* Writes the scene's section accuracy, with the values that the plan has chosen. */
 static void add_setting(struct kd_json *json, const struct kd_stats *stats)
@@ -25,7 +13,7 @@ static void add_setting(struct kd_json *json, const struct kd_stats *stats)
     const struct kd_section *section = kd_section_find("accuracy");
     const struct kd_setting *by = &stats->plan->lens.setting;
     for (size_t i = 0; i < section->count; i++) {
-        const struct kd_field *field = &kd_fields[section->first + i];
+        const struct kd_row *field = &kd_fields[section->first + i];
         if (!strcmp(field->name, "engine"))
             kd_json_string(json, "engine", kd_engine_name(by->engine));
         else if (!strcmp(field->name, "precision"))
@@ -33,7 +21,7 @@ static void add_setting(struct kd_json *json, const struct kd_stats *stats)
         else if (!strcmp(field->name, "steps"))
             kd_json_number(json, "steps", by->steps); /* 0: in closed form */
         else
-            add_field(json, field, stats->scene);
+            kd_row_write(json, field, stats->scene);
     }
 }
 

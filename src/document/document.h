@@ -27,7 +27,9 @@
 
 #include "base/error.h"
 #include "base/json.h"
+#include "document/asset_name.h"
 #include "document/value.h"
+#include "document/words.h"
 
 #include <cjson/cJSON.h>
 #include <stdbool.h>
@@ -43,6 +45,8 @@ enum kd_kind {
     KD_KIND_LIST,   /* struct kd_number_list: an array of `fewest` (0: one) to `room` numbers in the range */
     KD_KIND_VECTOR, /* double[room]: an array of `room` numbers in the range */
     KD_KIND_TEXT,   /* char[room]: a string shorter than that */
+    KD_KIND_ASSET,  /* char[KD_ASSET_NAME]: null, stored as "", or an asset (document/asset_name.h) */
+    KD_KIND_SERIES, /* struct kd_words: some of `words` in any order, each once (document/words.h) */
 };
 enum kd_open { KD_CLOSED, KD_OPEN, KD_OPEN_ABOVE, KD_OPEN_BELOW }; /* ends that a range excludes */
 
@@ -60,7 +64,7 @@ struct kd_row {
     enum kd_open open;
     double above_0;    /* numbers above 0 are at least this */
     const char *words; /* "a|b|c" */
-    double stands;     /* what the word of a REAL stands for: INFINITY or NAN */
+    double stands;     /* what the word of a REAL stands for: INFINITY or NAN; that of an INT is stored as 0 */
     int first;
     const char *typed; /* default as typed text, of a row that may be a range (kd_row_range) */
     size_t room, fewest;
@@ -95,8 +99,17 @@ enum kd_status kd_document_set(const struct kd_document *document, void *to, con
 /* Sets one field that is no array from a value. called: its name in messages. */
 enum kd_status kd_row_put(const struct kd_row *row, void *to, const struct kd_value *value, const char *called,
                           const char *pointer, struct kd_error *error);
-/* Whether a number is in the row's range. */
-bool kd_row_holds(const struct kd_row *row, double number);
+/* The two halves of kd_row_put: whether the row takes the value; and KD_EINVAL with "X is V; it must be ...". */
+bool kd_row_take(const struct kd_row *row, void *to, const struct kd_value *value);
+enum kd_status kd_row_refuse(const struct kd_row *row, const struct kd_value *value, const char *called,
+                             const char *pointer, struct kd_error *error);
+/* A value of any kind but TEXT, LIST, WORDS and VECTOR as a double: a BOOL as 0 or 1, a WORD as its index, the word of
+ * an INT as INFINITY. An ASSET is 1 if there is one; putting 0 removes it. A SERIES is the index of its word if it has
+ * just one without a number, otherwise NAN. */
+double kd_row_get(const struct kd_row *row, const void *from);
+void kd_row_put_number(const struct kd_row *row, void *to, double value);
+/* Whether the row allows this value: it is in the row's range, whole if the kind is, or stands for the row's word. */
+bool kd_row_holds(const struct kd_row *row, double value);
 /* Replaces a LIST by room for n numbers. KD_EINVAL at the pointer if the row does not allow as many. */
 enum kd_status kd_row_make_room(const struct kd_row *row, void *to, size_t n, const char *pointer,
                                 struct kd_number_list **list, struct kd_error *error);
@@ -123,8 +136,14 @@ void kd_row_allowed(const struct kd_row *row, char out[KD_ALLOWED_SIZE]);
 void kd_document_write(struct kd_json *json, const struct kd_document *document, const void *from);
 /* Writes one row's value as a member. A list is left out. */
 void kd_row_write(struct kd_json *json, const struct kd_row *row, const void *from);
+/* The same under another name; NULL within an array. */
+void kd_row_write_as(struct kd_json *json, const char *name, const struct kd_row *row, const void *from);
+/* Writes what kd_row_get gives, in the form that it has in a document. */
+void kd_row_write_value(struct kd_json *json, const char *name, const struct kd_row *row, double value);
 /* Writes the schema of each field, as members of the object "properties" that is open. */
 void kd_document_properties(struct kd_json *json, const struct kd_document *document);
+/* Writes the members of one row's schema without its description. */
+void kd_row_type_members(struct kd_json *json, const struct kd_row *row);
 /* Writes one row's schema as a member. */
 void kd_row_schema(struct kd_json *json, const char *name, const struct kd_row *row);
 /* The same without the row's description. */
@@ -134,11 +153,5 @@ void kd_document_required(struct kd_json *json, const struct kd_document *docume
 /* Writes the array `name` of {"name", "type", "default", "least", "most", "words", "fixed", "help"}, for a page's
  * controls. Lists, vectors and texts are left out. */
 void kd_document_describe(struct kd_json *json, const char *name, const struct kd_document *document);
-
-/* Copies word i of "a|b|c"; false if there are fewer. */
-enum { KD_WORD_ROOM = 64 };
-bool kd_word_at(const char *words, int i, char out[KD_WORD_ROOM]);
-/* Index of a word, -1: none of them. */
-int kd_word_index(const char *words, const char *text);
 
 #endif

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Words of a set, or all of them. */
 static void write_words(struct kd_json *json, const char *name, const char *words, uint32_t set)
@@ -12,7 +13,7 @@ static void write_words(struct kd_json *json, const char *name, const char *word
     char word[KD_WORD_ROOM];
     kd_json_array(json, name);
     for (int i = 0; kd_word_at(words, i, word); i++)
-        if (set & 1u << i)
+        if (i >= 32 || set & 1u << i)
             kd_json_string(json, NULL, word);
     kd_json_end(json);
 }
@@ -24,26 +25,53 @@ static void write_word(struct kd_json *json, const struct kd_row *row, const cha
         kd_json_string(json, name, word);
 }
 
-static void write_row(struct kd_json *json, const struct kd_row *row, const void *at)
+static void write_series(struct kd_json *json, const char *name, const struct kd_row *row, const struct kd_words *words)
 {
-    int word;
+    kd_json_array(json, name);
+    for (int i = 0; i < words->count && i < KD_WORDS_MOST; i++) {
+        char word[KD_WORD_ROOM];
+        kd_words_spell(row->words, words->at[i], word);
+        kd_json_string(json, NULL, word);
+    }
+    kd_json_end(json);
+}
+
+void kd_row_write_value(struct kd_json *json, const char *name, const struct kd_row *row, double value)
+{
     switch (row->kind) {
-    case KD_KIND_REAL: kd_json_number(json, row->name, *(const double *)at); break;
-    case KD_KIND_INT: kd_json_number(json, row->name, *(const uint32_t *)at); break;
-    case KD_KIND_BOOL: kd_json_bool(json, row->name, *(const bool *)at); break;
-    case KD_KIND_WORD:
-        memcpy(&word, at, sizeof word);
-        write_word(json, row, row->name, word);
-        break;
-    case KD_KIND_WORDS: write_words(json, row->name, row->words, *(const uint32_t *)at); break;
+    case KD_KIND_BOOL: kd_json_bool(json, name, value != 0); break;
+    case KD_KIND_WORD: write_word(json, row, name, (int)value + row->first); break;
+    case KD_KIND_ASSET: kd_json_null(json, name); break;
+    case KD_KIND_SERIES: write_series(json, name, row, &(struct kd_words) { 1, { { (int16_t)value, -1 } } }); break;
+    default:
+        if (row->words && !isfinite(value))
+            kd_json_string(json, name, row->words);
+        else
+            kd_json_number(json, name, value);
+    }
+}
+
+void kd_row_write_as(struct kd_json *json, const char *name, const struct kd_row *row, const void *from)
+{
+    const void *at = (const char *)from + row->offset;
+    switch (row->kind) {
+    case KD_KIND_WORDS: write_words(json, name, row->words, *(const uint32_t *)at); break;
     case KD_KIND_VECTOR:
-        kd_json_array(json, row->name);
+        kd_json_array(json, name);
         for (size_t k = 0; k < row->room; k++)
             kd_json_number(json, NULL, ((const double *)at)[k]);
         kd_json_end(json);
         break;
-    case KD_KIND_TEXT: kd_json_string(json, row->name, at); break;
+    case KD_KIND_TEXT: kd_json_string(json, name, at); break;
+    case KD_KIND_SERIES: write_series(json, name, row, at); break;
     case KD_KIND_LIST: break;
+    case KD_KIND_ASSET:
+        if (*(const char *)at) {
+            kd_json_string(json, name, at);
+            break;
+        }
+        /* fall through */
+    default: kd_row_write_value(json, name, row, kd_row_get(row, from));
     }
 }
 
@@ -86,7 +114,7 @@ static void begin_value(struct kd_json *json, const struct kd_document *document
 
 void kd_row_write(struct kd_json *json, const struct kd_row *row, const void *from)
 {
-    write_row(json, row, (const char *)from + row->offset);
+    kd_row_write_as(json, row->name, row, from);
 }
 
 void kd_document_write(struct kd_json *json, const struct kd_document *document, const void *from)
@@ -146,16 +174,61 @@ static void add_number_or_word(struct kd_json *json, const struct kd_row *row)
     kd_json_end(json);
 }
 
+/* Appends the words of a series that may be followed by a number (numbered true), or the others, as alternatives. */
+static size_t add_roots(char *pattern, size_t used, size_t size, const char *words, bool numbered)
+{
+    const char *separator = "";
+    for (int i = 0; i < kd_word_count(words); i++) {
+        bool has;
+        const struct kd_word root = kd_words_root(words, i, &has);
+        if (has != numbered || used >= size)
+            continue;
+        used += (size_t)snprintf(pattern + used, size - used, "%s%.*s", separator, root.length, root.text);
+        separator = "|";
+    }
+    return used;
+}
+
+static void add_series(struct kd_json *json, const char *words)
+{
+    char pattern[1024] = "^(";
+    size_t used = add_roots(pattern, 2, sizeof pattern, words, false);
+    if (strstr(words, "_N")) {
+        used += (size_t)snprintf(pattern + used, sizeof pattern - used, "%s(", used > 2 ? "|" : "");
+        used = add_roots(pattern, used, sizeof pattern, words, true);
+        used += (size_t)snprintf(pattern + used, sizeof pattern - used, ")(_(0|[1-9][0-9]?))?");
+    }
+    if (used + sizeof ")$" > sizeof pattern)
+        json->status = KD_EINVAL;
+    else
+        memcpy(pattern + used, ")$", sizeof ")$");
+    kd_json_string(json, "type", "array");
+    kd_json_number(json, "minItems", 1);
+    kd_json_number(json, "maxItems", KD_WORDS_MOST);
+    kd_json_bool(json, "uniqueItems", true);
+    kd_json_object(json, "items");
+    kd_json_string(json, "type", "string");
+    kd_json_string(json, "pattern", pattern);
+    kd_json_end(json);
+    write_words(json, "x-words", words, UINT32_MAX);
+}
+
 void kd_row_type_members(struct kd_json *json, const struct kd_row *row)
 {
     switch (row->kind) {
     case KD_KIND_REAL:
-        if (row->words) {
+    case KD_KIND_INT:
+        if (row->words)
             add_number_or_word(json, row);
-            break;
-        }
-        /* fall through */
-    case KD_KIND_INT: kd_row_number_members(json, row); break;
+        else
+            kd_row_number_members(json, row);
+        break;
+    case KD_KIND_ASSET:
+        kd_json_members(json,
+                        "\"anyOf\":[{\"type\":\"null\"},{\"type\":\"string\",\"pattern\":\"^(|[A-Za-z][A-Za-z0-9._-]"
+                        "{0,62}|[0-9a-f]{64})$\"}]");
+        break;
+    case KD_KIND_SERIES: add_series(json, row->words); break;
     case KD_KIND_BOOL: kd_json_string(json, "type", "boolean"); break;
     case KD_KIND_WORD: add_words(json, row->words); break;
     case KD_KIND_WORDS:

@@ -3,7 +3,7 @@
 #define KD_QUANTITY_TEXT_H
 
 #include "quantity/quantity.h"
-#include "scene/writer.h"
+#include "document/writer.h"
 
 /* Writes a number in the fewest digits; `missing` if it is not finite. */
 void kd_quantity_write_number(struct kd_writer *w, double value, const char *missing);

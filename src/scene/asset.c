@@ -1,24 +1,8 @@
 #include "scene/asset.h"
 
 #include "scene/table.h"
-#include "document/text.h"
 
 #include <string.h>
-
-#define DIGITS "0123456789"
-#define LETTERS "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-
-bool kd_asset_is_hash(const char *text)
-{
-    return strlen(text) == KD_ASSET_NAME - 1 && strspn(text, DIGITS "abcdef") == KD_ASSET_NAME - 1;
-}
-
-bool kd_asset_is_name(const char *text)
-{
-    size_t length = strlen(text);
-    return length && length < KD_ASSET_NAME - 1 && strcmp(text, "null") && strchr(LETTERS, *text) &&
-           strspn(text, LETTERS DIGITS "._-") == length;
-}
 
 /* Checks that the asset is of the kind that the field requires. */
 static enum kd_status suits(const struct kd_scene *scene, const char *path, const char *pointer,
@@ -46,7 +30,7 @@ static enum kd_status suits(const struct kd_scene *scene, const char *path, cons
     return KD_OK;
 }
 
-static enum kd_status resolve(struct kd_scene *scene, const struct kd_field *field, size_t index,
+static enum kd_status resolve(struct kd_scene *scene, const struct kd_row *field, size_t index,
                               const struct kd_assets *assets, struct kd_error *error)
 {
     struct kd_asset_found found = { 0 };
@@ -60,9 +44,8 @@ static enum kd_status resolve(struct kd_scene *scene, const struct kd_field *fie
         return kd_error_field(error, pointer, "%s is \"%s\", which is not a known asset; it must be %s", path, name,
                               assets->allowed);
     enum kd_status status = suits(scene, path, pointer, &found, error);
-    if (!status)
-        kd_field_put_asset(scene, field, index, found.hash);
-    return status;
+    const struct kd_value hash = { KD_VALUE_STRING, 0, found.hash };
+    return status ? status : kd_field_store(scene, field, index, &hash, error);
 }
 
 enum kd_status kd_scene_resolve(struct kd_scene *scene, const struct kd_assets *assets, struct kd_error *error)
@@ -70,8 +53,8 @@ enum kd_status kd_scene_resolve(struct kd_scene *scene, const struct kd_assets *
     struct kd_scene resolved = *scene;
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
-        const struct kd_section *section = kd_section_find(kd_fields[i].section);
-        for (size_t k = 0; kd_fields[i].kind == KD_FIELD_ASSET && k < kd_section_size(scene, section); k++)
+        const struct kd_section *section = kd_section_find(kd_fields[i].object);
+        for (size_t k = 0; kd_fields[i].kind == KD_KIND_ASSET && k < kd_section_size(scene, section); k++)
             KD_TRY(resolve(&resolved, &kd_fields[i], k, assets, error));
     }
     *scene = resolved;

@@ -9,11 +9,6 @@
 
 #include <stddef.h>
 
-/* A hash is 64 hexadecimal digits, lower case. */
-bool kd_asset_is_hash(const char *text);
-/* A name is a letter, followed by up to 62 letters, digits, dots, dashes and underscores. "null" is not a name. */
-bool kd_asset_is_name(const char *text);
-
 /* What is known about an asset. It is a picture, or a grid of matter (render/emit/matter_grid.h). */
 struct kd_asset_found {
     char hash[KD_ASSET_NAME];

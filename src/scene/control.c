@@ -11,28 +11,28 @@
 const struct kd_control kd_controls[] = { KD_SCENE_CONTROLS(SPAN, FIRST, SWITCH, WITH, VARIES, BUTTON) { .path = "" } };
 const size_t kd_control_count = sizeof kd_controls / sizeof *kd_controls - 1;
 
-static bool is_of(const struct kd_control *control, const struct kd_field *field)
+static bool is_of(const struct kd_control *control, const struct kd_row *field)
 {
-    size_t n = strlen(field->section);
+    size_t n = strlen(field->object);
     if (!n)
         return !strcmp(control->path, field->name);
-    return !strncmp(control->path, field->section, n) && control->path[n] == '.' &&
+    return !strncmp(control->path, field->object, n) && control->path[n] == '.' &&
            !strcmp(control->path + n + 1, field->name);
 }
 
-static const struct kd_control *from(size_t i, const struct kd_field *field, enum kd_control_kind kind)
+static const struct kd_control *from(size_t i, const struct kd_row *field, enum kd_control_kind kind)
 {
     while (i < kd_control_count && (kd_controls[i].kind != kind || !is_of(&kd_controls[i], field)))
         i++;
     return i < kd_control_count ? &kd_controls[i] : NULL;
 }
 
-const struct kd_control *kd_control_find(const struct kd_field *field, enum kd_control_kind kind)
+const struct kd_control *kd_control_find(const struct kd_row *field, enum kd_control_kind kind)
 {
     return from(0, field, kind);
 }
 
-const struct kd_control *kd_control_next(const struct kd_field *field, const struct kd_control *found)
+const struct kd_control *kd_control_next(const struct kd_row *field, const struct kd_control *found)
 {
     return from((size_t)(found - kd_controls) + 1, field, found->kind);
 }

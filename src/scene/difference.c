@@ -1,7 +1,6 @@
 #include "scene/difference.h"
 
 #include "scene/style.h"
-#include "scene/writer.h"
 
 #include <string.h>
 
@@ -25,12 +24,13 @@ static void strip(char *text)
 }
 
 /* Compares values themselves. Comparing them as text would be most of the work: a link compares 30 presets. */
-static bool same(const struct kd_scene *a, const struct kd_scene *b, const struct kd_field *field, size_t index)
+static bool same(const struct kd_scene *a, const struct kd_scene *b, const struct kd_row *field, size_t index)
 {
-    if (field->kind == KD_FIELD_ASSET)
+    if (field->kind == KD_KIND_ASSET)
         return !strcmp(kd_field_asset(a, field, index), kd_field_asset(b, field, index));
-    if (field->kind == KD_FIELD_WORDS)
-        return !memcmp(kd_field_words(a, field, index), kd_field_words(b, field, index), sizeof(struct kd_words));
+    if (field->kind == KD_KIND_SERIES)
+        return !memcmp((const char *)kd_field_in(a, field, index) + field->offset,
+                       (const char *)kd_field_in(b, field, index) + field->offset, sizeof(struct kd_words));
     return kd_field_get(a, field, index) == kd_field_get(b, field, index);
 }
 
@@ -49,15 +49,15 @@ static bool all_same(const struct kd_scene *a, const struct kd_scene *b)
     return true;
 }
 
-static enum kd_status tell(struct telling *t, const struct kd_field *field, size_t index)
+static enum kd_status tell(struct telling *t, const struct kd_row *field, size_t index)
 {
     char path[KD_PATH_SIZE];
-    struct kd_writer writer = { .out = &t->value };
     t->value.size = 0;
+    struct kd_json json = kd_scene_json(&t->value);
     kd_field_path(field, index, path);
-    kd_write_field(&writer, t->scene, field, index);
-    if (writer.status)
-        return writer.status;
+    kd_row_write_as(&json, NULL, field, kd_field_in(t->scene, field, index));
+    if (!kd_field_is_sound(t->scene, field, index) || kd_json_finish(&json))
+        return json.status ? json.status : KD_EINVAL;
     char *value = (char *)t->value.data;
     strip(value);
     enum kd_status status = kd_scene_set(&t->made, path, value, NULL);
@@ -72,7 +72,7 @@ static enum kd_status tell_fields(struct telling *t, const struct kd_section *se
 {
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < section->count && !status; i++) {
-        const struct kd_field *field = &kd_fields[section->first + i];
+        const struct kd_row *field = &kd_fields[section->first + i];
         const bool missing = index >= kd_section_size(&t->made, section);
         if (missing || !same(&t->made, t->scene, field, index))
             status = tell(t, field, index);
@@ -84,7 +84,7 @@ static enum kd_status tell_fields(struct telling *t, const struct kd_section *se
 static enum kd_status tell_all(struct telling *t)
 {
     enum kd_status status = KD_OK;
-    const struct kd_field *style = kd_style_field();
+    const struct kd_row *style = kd_style_field();
     if (style && !same(&t->made, t->scene, style, 0))
         status = tell(t, style, 0);
     for (size_t i = 0; i < KD_SECTION_COUNT; i++)

@@ -29,14 +29,14 @@ static void hint(const char *section, size_t index, const char *name, char out[H
     int best = KD_SPELLING_FAR;
     char meant[KD_PATH_SIZE] = "";
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
-        const struct kd_field *field = &kd_fields[i];
+        const struct kd_row *field = &kd_fields[i];
         /* A different section counts as one edit: the same name in another section is as near as a misspelt name in
          * this one. */
-        int score = kd_spelling_score(name, field->name) + (strcmp(section, field->section) ? 1 : 0) +
-                    (kd_spelling_distance(section, field->section) > 2 ? 1 : 0);
+        int score = kd_spelling_score(name, field->name) + (strcmp(section, field->object) ? 1 : 0) +
+                    (kd_spelling_distance(section, field->object) > 2 ? 1 : 0);
         if (score < best) {
             best = score;
-            kd_field_path(field, strcmp(section, field->section) ? 0 : index, meant);
+            kd_field_path(field, strcmp(section, field->object) ? 0 : index, meant);
         }
     }
     for (size_t i = 0; !*section && i + 1 < KD_SECTION_COUNT; i++) {

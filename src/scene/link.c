@@ -12,8 +12,8 @@ enum kd_status kd_scene_link_check(const struct kd_scene *scene, struct kd_error
 {
     char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
-        const struct kd_field *field = &kd_fields[i];
-        if (field->kind != KD_FIELD_ASSET || !*kd_field_asset(scene, field, 0))
+        const struct kd_row *field = &kd_fields[i];
+        if (field->kind != KD_KIND_ASSET || !*kd_field_asset(scene, field, 0))
             continue;
         kd_field_path(field, 0, path);
         kd_field_pointer(field, 0, pointer);
@@ -84,7 +84,7 @@ done:
 static enum kd_status tell_one(const struct kd_scene_changed *one, struct kd_buffer *out)
 {
     static const char degrees[] = "_deg";
-    const struct kd_field *field;
+    const struct kd_row *field;
     size_t index;
     char name[KD_PATH_SIZE];
     enum kd_status status = kd_field_at(one->path, &field, &index, NULL);
@@ -98,7 +98,7 @@ static enum kd_status tell_one(const struct kd_scene_changed *one, struct kd_buf
     for (char *c = name; *c; c++)
         *c = *c == '_' ? ' ' : *c;
     const char *unit = angle || !strcmp(field->unit, "1") ? "" : field->unit;
-    return kd_buffer_printf(out, "%s%s%s %s%s%s%s", field->section, *field->section ? " " : "", name, one->value,
+    return kd_buffer_printf(out, "%s%s%s %s%s%s%s", field->object, *field->object ? " " : "", name, one->value,
                             angle ? "°" : "", *unit ? " " : "", unit);
 }
 

@@ -6,8 +6,7 @@
 #include "scene/style.h"
 #include "document/text.h"
 #include "scene/tree.h"
-#include "scene/value.h"
-#include "scene/words.h"
+#include "scene/table.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -60,36 +59,36 @@ static enum kd_status not_a(struct reader *reader, const cJSON *item, const char
 static enum kd_status read_section(struct reader *reader, const struct kd_section *section, const cJSON *item);
 
 /* Returns the first item that is not a word of the field, occurs twice, or exceeds the room; NULL: there is none. */
-static const cJSON *read_words(const struct kd_field *field, const cJSON *array, struct kd_words *out)
+static const cJSON *read_words(const char *known, const cJSON *array, struct kd_words *out)
 {
     *out = (struct kd_words) { 0 };
     for (const cJSON *item = array->child; item; item = item->next)
-        if (!cJSON_IsString(item) || !kd_words_add(field, item->valuestring, strlen(item->valuestring), out))
+        if (!cJSON_IsString(item) || !kd_words_add(known, item->valuestring, strlen(item->valuestring), out))
             return item;
     return NULL;
 }
 
-static enum kd_status store_words(struct reader *reader, const struct kd_field *field, size_t index, const cJSON *item)
+static enum kd_status store_words(struct reader *reader, const struct kd_row *field, size_t index, const cJSON *item)
 {
     char pointer[KD_PATH_SIZE], path[KD_PATH_SIZE], given[KD_VALUE_SIZE], allowed[KD_ALLOWED_SIZE];
     struct kd_words words = { 0 };
-    const cJSON *bad = cJSON_IsArray(item) ? read_words(field, item, &words) : item;
+    const cJSON *bad = cJSON_IsArray(item) ? read_words(field->words, item, &words) : item;
     if (!bad && words.count) {
-        kd_field_put_words(&reader->scene, field, index, &words);
+        *(struct kd_words *)(void *)((char *)kd_field_in(&reader->scene, field, index) + field->offset) = words;
         return KD_OK;
     }
     struct kd_value value = kd_tree_value(bad ? bad : item);
     kd_field_pointer(field, index, pointer);
     kd_field_path(field, index, path);
     kd_value_describe(&value, given);
-    kd_value_allowed(field, allowed);
+    kd_row_allowed(field, allowed);
     return kd_error_field(reader->error, pointer, "%s %s %s; it must be an array: %s", path,
                           cJSON_IsArray(item) && bad ? "holds" : "is", bad ? given : "an empty array", allowed);
 }
 
 static enum kd_status read_field(struct reader *reader, struct object *object, const cJSON *item)
 {
-    const struct kd_field *field = kd_field_find(object->section->name, item->string);
+    const struct kd_row *field = kd_field_find(object->section->name, item->string);
     const struct kd_section *part = field ? NULL : kd_section_part(object->section, item->string);
     if (part)
         return read_section(reader, part, item);
@@ -104,9 +103,9 @@ static enum kd_status read_field(struct reader *reader, struct object *object, c
         kd_field_put(&reader->scene, field, object->index, field->initial);
         return KD_OK;
     }
-    if (!status && field->kind == KD_FIELD_WORDS)
+    if (!status && field->kind == KD_KIND_SERIES)
         return store_words(reader, field, object->index, item);
-    return status ? status : kd_value_store(&reader->scene, field, object->index, &value, reader->error);
+    return status ? status : kd_field_store(&reader->scene, field, object->index, &value, reader->error);
 }
 
 static void reset(struct reader *reader, const struct kd_section *section, size_t index)
@@ -249,7 +248,7 @@ static enum kd_status read_member(struct reader *reader, struct object *top, con
     if (!strcmp(item->string, "version")) {
         struct kd_value value = kd_tree_value(item);
         enum kd_status status = once(reader, &reader->seen_version, "/version");
-        return status ? status : kd_value_version(&value, reader->error);
+        return status ? status : kd_scene_version(&value, reader->error);
     }
     const struct kd_section *section =
         *item->string && !strchr(item->string, '.') ? kd_section_find(item->string) : NULL;

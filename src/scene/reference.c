@@ -2,8 +2,8 @@
 #include "scene/presets.h"
 #include "scene/rules.h"
 #include "scene/style.h"
-#include "scene/value.h"
-#include "scene/writer.h"
+#include "scene/table.h"
+#include "document/writer.h"
 
 #include <string.h>
 
@@ -29,16 +29,31 @@ static void write_escaped(struct kd_writer *w, const char *text)
         kd_write(w, *c == '|' ? "\\%c" : "%c", *c);
 }
 
-static void write_field(struct kd_writer *w, const struct kd_field *field)
+/* Writes a value in the form that it has in a document. */
+static void write_value(struct kd_writer *w, const struct kd_row *field, double value)
 {
-    static const char *const types[] = { "number", "number or word", "whole number", "true or false",
-                                         "word",   "asset",          "words" };
+    if (w->status)
+        return;
+    struct kd_buffer text = { 0 };
+    struct kd_json json = kd_scene_json(&text);
+    kd_row_write_value(&json, NULL, field, value);
+    w->status = kd_json_finish(&json);
+    kd_write(w, "%s", (const char *)text.data);
+    kd_buffer_finish(&text);
+}
+
+static void write_field(struct kd_writer *w, const struct kd_row *field)
+{
+    static const char *const types[] = { [KD_KIND_REAL] = "number",        [KD_KIND_INT] = "whole number",
+                                         [KD_KIND_BOOL] = "true or false", [KD_KIND_WORD] = "word",
+                                         [KD_KIND_ASSET] = "asset",        [KD_KIND_SERIES] = "words" };
+    const bool or_word = field->words && (field->kind == KD_KIND_REAL || field->kind == KD_KIND_INT);
     char allowed[KD_ALLOWED_SIZE];
-    kd_value_allowed(field, allowed);
-    kd_write(w, "| `%s%s%s%s` | %s | %s | `", field->section, *field->section ? "." : "", field->stride ? "N." : "",
-             field->name, kd_natures[field->nature].word,
-             field->kind == KD_FIELD_INT && field->words ? "whole number or word" : types[field->kind]);
-    kd_write_value(w, field, field->initial);
+    kd_row_allowed(field, allowed);
+    kd_write(w, "| `%s%s%s%s` | %s | %s%s | `", field->object, *field->object ? "." : "",
+             kd_section_find(field->object)->most ? "N." : "", field->name,
+             kd_natures[kd_field_pages[field - kd_fields].nature].word, types[field->kind], or_word ? " or word" : "");
+    write_value(w, field, field->initial);
     kd_write(w, "` | ");
     const char *whole = "a whole number from "; /* left out, because the type column already says "whole number" */
     write_escaped(w, strncmp(allowed, whole, strlen(whole)) ? allowed : allowed + strlen(whole));
@@ -76,12 +91,12 @@ static void write_section(struct kd_writer *w, const struct kd_section *section)
 
 static void write_styles(struct kd_writer *w)
 {
-    const struct kd_field *names = kd_style_field();
+    const struct kd_row *names = kd_style_field();
     kd_write(w, "\n## Styles\n\nA document with `style.name` sets the fields of that style, except those in the "
                 "document; so does a patch or a\nquery. On the command line the order of `--set` counts. The canonical "
                 "form has every field, so that nothing else depends on the name.\n\n| field |");
     for (int style = 0; style < KD_STYLES; style++) {
-        const struct kd_word word = kd_field_word(names, style + 1);
+        const struct kd_word word = kd_word(names->words, style + 1);
         kd_write(w, " `%.*s` |", word.length, word.text);
     }
     kd_write(w, "\n|---|");
@@ -93,7 +108,7 @@ static void write_styles(struct kd_writer *w)
         for (int style = 0; style < KD_STYLES; style++) {
             if (!isnan(row->values[style])) {
                 kd_write(w, " `");
-                kd_write_value(w, kd_field_find(row->section, row->name), row->values[style]);
+                write_value(w, kd_field_find(row->section, row->name), row->values[style]);
                 kd_write(w, "`");
             }
             kd_write(w, " |");

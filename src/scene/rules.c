@@ -94,11 +94,11 @@ static enum kd_status uncharged(const struct kd_scene *scene, struct kd_error *e
     if (scene->spacetime.charge == 0)
         return KD_OK;
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
-        const struct kd_field *field = kd_field_find(parts[i].section, parts[i].name);
+        const struct kd_row *field = kd_field_find(parts[i].section, parts[i].name);
         const double value = kd_field_get(scene, field, 0);
         if (parts[i].refused ? value != parts[i].refused : value == 0)
             continue;
-        const struct kd_word word = field->words ? kd_field_word(field, (int)value) : (struct kd_word) { 0 };
+        const struct kd_word word = kd_word(field->words, (int)value);
         const char *quote = field->words ? "\"" : "";
         const struct shown number = show(value);
         char pointer[40];
@@ -400,7 +400,7 @@ static enum kd_status jets(const struct kd_scene *scene, struct kd_error *error)
 
 static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error)
 {
-    const struct kd_field *r = kd_field_find("spots", "r");
+    const struct kd_row *r = kd_field_find("spots", "r");
     double least = kd_kerr_isco(kd_scene_hole(scene));
     for (size_t i = 0; i < scene->spots.count; i++) {
         const struct kd_spot *spot = &scene->spots.at[i];
@@ -422,7 +422,7 @@ static enum kd_status body_field(const char *name, size_t index, const char *is,
                                  struct kd_error *error)
 {
     char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
-    const struct kd_field *field = kd_field_find("bodies", name);
+    const struct kd_row *field = kd_field_find("bodies", name);
     kd_field_path(field, index, path);
     kd_field_pointer(field, index, pointer);
     return kd_error_field(error, pointer, "%s is %s; it must be %s", path, is, allowed);
@@ -485,15 +485,15 @@ static enum kd_status ringdown(const struct kd_scene *scene, struct kd_error *er
 
 static enum kd_status field_uas(const struct kd_scene *scene, struct kd_error *error)
 {
-    const struct kd_field *field = kd_field_find("camera", "field_m");
+    const struct kd_row *field = kd_field_find("camera", "field_m");
     const double width = kd_scene_field_of_uas(scene), of_m = scene->camera.field_uas / width;
-    if (isinf(scene->camera.field_uas) || kd_field_holds(field, width))
+    if (isinf(scene->camera.field_uas) || kd_row_holds(field, width))
         return KD_OK;
     return kd_error_field(error, "/camera/field_uas",
                           "camera.field_uas is %s microarcseconds; it must be %s to %s, camera.field_m %s to %s, at "
                           "this spacetime.mass_msun and spacetime.distance_pc",
-                          show(scene->camera.field_uas).text, show(of_m * field->minimum).text,
-                          show(of_m * field->maximum).text, show(field->minimum).text, show(field->maximum).text);
+                          show(scene->camera.field_uas).text, show(of_m * field->least).text,
+                          show(of_m * field->most).text, show(field->least).text, show(field->most).text);
 }
 
 static enum kd_status beam(const struct kd_scene *scene, struct kd_error *error)

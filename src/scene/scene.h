@@ -5,6 +5,8 @@
 
 #include "base/buffer.h"
 #include "base/error.h"
+#include "document/asset_name.h"
+#include "document/words.h"
 #include "physics/spacetime/observer.h"
 #include "scene/fields.h"
 
@@ -14,16 +16,6 @@
 #include <stdint.h>
 
 #define KD_SCENE_VERSION 1
-#define KD_ASSET_NAME \
-    65 /* room for an asset's SHA-256 in hexadecimal digits, or for its name, and a NUL; "": there is no asset */
-
-/* The value of a WORDS field. number: the N of a word "b_N"; -1: the word has none. Entries from count on are 0, so
- * that equal scenes have equal bytes. */
-#define KD_WORDS_MOST 16
-struct kd_words {
-    int32_t count;
-    struct kd_numbered_word { int16_t word, number; } at[KD_WORDS_MOST];
-};
 
 #define KD_M_REAL(s, name, ...) double name;
 #define KD_M_INT(s, name, ...) int32_t name;

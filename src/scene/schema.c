@@ -2,315 +2,232 @@
 #include "scene/control.h"
 #include "scene/rules.h"
 #include "scene/style.h"
-#include "scene/words.h"
-#include "scene/writer.h"
 
+#include <stdio.h>
 #include <string.h>
 
-static void write_range(struct kd_writer *w, const char *type, const struct kd_field *field)
+/* Writes what the rules of a field are in a schema. */
+static void add_rules(struct kd_json *json, const struct kd_row *field)
 {
-    kd_write(w, "\"type\":\"%s\",\"minimum\":", type);
-    kd_write_number(w, field->minimum);
-    kd_write(w, ",\"maximum\":");
-    kd_write_number(w, field->maximum);
-}
-
-static void write_multiple(struct kd_writer *w, const struct kd_field *field)
-{
-    for (size_t i = 0; i < kd_rule_count; i++)
-        if (kd_rules[i].multiple && !strcmp(kd_rules[i].section, field->section) &&
-            !strcmp(kd_rules[i].name, field->name))
-            kd_write(w, ",\"multipleOf\":%d", kd_rules[i].multiple);
-}
-
-static void write_above_0(struct kd_writer *w, const struct kd_field *field)
-{
-    for (size_t i = 0; i < kd_rule_count; i++)
-        if (kd_rules[i].above_0 > 0 && !strcmp(kd_rules[i].section, field->section) &&
-            !strcmp(kd_rules[i].name, field->name)) {
-            kd_write(w, ",\"not\":{\"exclusiveMinimum\":0,\"exclusiveMaximum\":");
-            kd_write_number(w, kd_rules[i].above_0);
-            kd_write(w, "}");
+    for (size_t i = 0; i < kd_rule_count; i++) {
+        const struct kd_rule *rule = &kd_rules[i];
+        if (!rule->name || strcmp(rule->section, field->object) || strcmp(rule->name, field->name))
+            continue;
+        if (rule->multiple)
+            kd_json_number(json, "multipleOf", rule->multiple);
+        if (rule->above_0 > 0) {
+            kd_json_object(json, "not");
+            kd_json_number(json, "exclusiveMinimum", 0);
+            kd_json_number(json, "exclusiveMaximum", rule->above_0);
+            kd_json_end(json);
         }
-}
-
-static void write_words(struct kd_writer *w, const struct kd_field *field)
-{
-    kd_write(w, "\"type\":\"string\",\"enum\":[");
-    for (int i = 0; i < kd_field_word_count(field); i++) {
-        kd_write(w, "%s", i ? "," : "");
-        kd_write_value(w, field, i);
-    }
-    kd_write(w, "]");
-}
-
-/* Writes alternatives of a pattern. numbered true: the words that may be followed by a number, as an open group; false:
- * the other words. */
-static void write_pattern(struct kd_writer *w, const struct kd_field *field, bool numbered)
-{
-    const char *before = numbered ? "(" : "";
-    for (int i = 0; i < kd_field_word_count(field); i++) {
-        bool has;
-        int length = kd_words_length(field, i, &has);
-        if (has == numbered)
-            kd_write(w, "%s%.*s", before, length, kd_field_word(field, i).text);
-        before = has == numbered ? "|" : before;
     }
 }
 
-static void write_many(struct kd_writer *w, const struct kd_field *field)
+static void add_group(struct kd_json *json, const struct kd_section *section)
 {
-    bool alone = false, numbered = false;
-    for (int i = 0; i < kd_field_word_count(field); i++) {
-        bool has;
-        kd_words_length(field, i, &has);
-        alone |= !has;
-        numbered |= has;
-    }
-    kd_write(w,
-             "\"type\":\"array\",\"minItems\":1,\"maxItems\":%d,\"uniqueItems\":true,\"items\":{\"type\":\"string\","
-             "\"pattern\":\"^(",
-             KD_WORDS_MOST);
-    write_pattern(w, field, false);
-    kd_write(w, "%s", alone && numbered ? "|" : "");
-    if (numbered) {
-        write_pattern(w, field, true);
-        kd_write(w, ")(_(0|[1-9][0-9]?))?");
-    }
-    kd_write(w, ")$\"},\"x-words\":[");
-    for (int i = 0; i < kd_field_word_count(field); i++)
-        kd_write(w, "%s\"%.*s\"", i ? "," : "", kd_field_word(field, i).length, kd_field_word(field, i).text);
-    kd_write(w, "]");
-}
-
-static void write_type(struct kd_writer *w, const struct kd_field *field)
-{
-    switch (field->kind) {
-    case KD_FIELD_REAL:
-        write_range(w, "number", field);
-        write_above_0(w, field);
-        return;
-    case KD_FIELD_INT:
-        if (field->words)
-            break;
-        write_range(w, "integer", field);
-        write_multiple(w, field);
-        return;
-    case KD_FIELD_BOOL: kd_write(w, "\"type\":\"boolean\""); return;
-    case KD_FIELD_ENUM: write_words(w, field); return;
-    case KD_FIELD_WORD: break;
-    case KD_FIELD_ASSET:
-        kd_write(w, "\"anyOf\":[{\"type\":\"null\"},{\"type\":\"string\",\"pattern\":\"^(|[A-Za-z][A-Za-z0-9._-]{0,62}|"
-                    "[0-9a-f]{64})$\"}]");
-        return;
-    case KD_FIELD_WORDS: write_many(w, field); return;
-    }
-    /* The word comes first, because client generators use the first type that fits a default, and "infinity" parses as
-     * a number. It is also given as an enumeration. If it were only a const within a union, they would generate code
-     * that accepts nothing else. */
-    kd_write(w, "\"anyOf\":[{\"type\":\"string\",\"const\":");
-    kd_write_string(w, field->words);
-    kd_write(w, ",\"enum\":[");
-    kd_write_string(w, field->words);
-    kd_write(w, "]},{");
-    write_range(w, field->kind == KD_FIELD_INT ? "integer" : "number", field);
-    kd_write(w, "}]");
-}
-
-static void write_group(struct kd_writer *w, const struct kd_section *section)
-{
-    kd_write(w, ",\"x-group\":\"%s\"", kd_groups[section->group]);
+    kd_json_string(json, "x-group", kd_groups[section->group]);
 }
 
 /* Writes the fields that each style sets. They are named by path. */
-static void write_styles(struct kd_writer *w, const struct kd_field *names)
+static void add_styles(struct kd_json *json, const struct kd_row *names)
 {
-    kd_write(w, ",\"x-sets\":{");
+    kd_json_object(json, "x-sets");
     for (int style = 0; style < KD_STYLES; style++) {
-        const struct kd_word word = kd_field_word(names, style + 1);
-        kd_write(w, "%s\"%.*s\":{", style ? "," : "", word.length, word.text);
-        for (size_t i = 0, n = 0; i < kd_style_row_count; i++) {
+        char word[KD_WORD_ROOM];
+        kd_word_at(names->words, style + 1, word);
+        kd_json_object(json, word);
+        for (size_t i = 0; i < kd_style_row_count; i++) {
             const struct kd_style_row *row = &kd_style_rows[i];
-            if (isnan(row->values[style]))
-                continue;
-            kd_write(w, "%s\"%s.%s\":", n++ ? "," : "", row->section, row->name);
-            kd_write_value(w, kd_field_find(row->section, row->name), row->values[style]);
+            const struct kd_row *field = kd_field_find(row->section, row->name);
+            char path[KD_PATH_SIZE];
+            kd_field_path(field, 0, path);
+            if (!isnan(row->values[style]))
+                kd_row_write_value(json, path, field, row->values[style]);
         }
-        kd_write(w, "}");
+        kd_json_end(json);
     }
-    kd_write(w, "}");
-}
-
-/* Writes "a|b" as a JSON array of strings. */
-static void write_list(struct kd_writer *w, const char *text)
-{
-    kd_write(w, "[");
-    for (const char *at = text; at;) {
-        int length = (int)strcspn(at, "|");
-        kd_write(w, "%s\"%.*s\"", at == text ? "" : ",", length, at);
-        at = at[length] ? at + length + 1 : NULL;
-    }
-    kd_write(w, "]");
+    kd_json_end(json);
 }
 
 /* Writes the value of a control, or an array if it has several. */
-static void write_with(struct kd_writer *w, const struct kd_field *field, const struct kd_control *control)
+static void add_with(struct kd_json *json, const struct kd_row *field, const struct kd_control *control)
 {
-    const struct kd_field *other = kd_field_find(field->section, control->text);
+    const struct kd_row *other = kd_field_find(field->object, control->text);
     const bool several = kd_control_next(field, control);
-    kd_write(w, "{\"%s\":%s", control->text, several ? "[" : "");
-    for (const struct kd_control *c = control; c; c = kd_control_next(field, c)) {
-        kd_write(w, "%s", c == control ? "" : ",");
-        kd_write_value(w, other, c->a);
-    }
-    kd_write(w, "%s}", several ? "]" : "");
+    kd_json_object(json, "x-with");
+    if (several)
+        kd_json_array(json, control->text);
+    for (const struct kd_control *c = control; c; c = kd_control_next(field, c))
+        kd_row_write_value(json, several ? NULL : control->text, other, c->a);
+    if (several)
+        kd_json_end(json);
+    kd_json_end(json);
 }
 
-static void write_control(struct kd_writer *w, const struct kd_field *field, const struct kd_control *control)
+static void add_control(struct kd_json *json, const struct kd_row *field, const struct kd_control *control)
 {
-    static const char *const keys[] = {
-        [KD_CONTROL_SPAN] = "span", [KD_CONTROL_FIRST] = "first",   [KD_CONTROL_SWITCH] = "switch",
-        [KD_CONTROL_WITH] = "with", [KD_CONTROL_VARIES] = "varies", [KD_CONTROL_BUTTON] = "button",
-    };
-    kd_write(w, ",\"x-%s\":", keys[control->kind]);
+    char word[KD_WORD_ROOM];
     switch (control->kind) {
     case KD_CONTROL_SPAN:
-        kd_write(w, "[");
-        kd_write_number(w, control->a);
-        kd_write(w, ",");
-        kd_write_number(w, control->b);
-        kd_write(w, "]");
+        kd_json_array(json, "x-span");
+        kd_json_number(json, NULL, control->a);
+        kd_json_number(json, NULL, control->b);
+        kd_json_end(json);
         return;
-    case KD_CONTROL_FIRST: kd_write_value(w, field, control->a); return;
-    case KD_CONTROL_SWITCH: kd_write(w, "true"); return;
-    case KD_CONTROL_WITH: write_with(w, field, control); return;
-    case KD_CONTROL_VARIES: write_list(w, control->text); return;
+    case KD_CONTROL_FIRST: kd_row_write_value(json, "x-first", field, control->a); return;
+    case KD_CONTROL_SWITCH: kd_json_bool(json, "x-switch", true); return;
+    case KD_CONTROL_WITH: add_with(json, field, control); return;
+    case KD_CONTROL_VARIES:
+        kd_json_array(json, "x-varies");
+        for (int i = 0; kd_word_at(control->text, i, word); i++)
+            kd_json_string(json, NULL, word);
+        kd_json_end(json);
+        return;
     case KD_CONTROL_BUTTON:
-        kd_write(w, "{\"title\":\"%s\",\"value\":", control->text);
-        kd_write_value(w, field, control->a);
-        kd_write(w, "}");
+        kd_json_object(json, "x-button");
+        kd_json_string(json, "title", control->text);
+        kd_row_write_value(json, "value", field, control->a);
+        kd_json_end(json);
         return;
     }
 }
 
-static void write_controls(struct kd_writer *w, const struct kd_field *field)
+static void add_field(struct kd_json *json, const struct kd_row *field)
 {
+    const struct kd_field_page *page = &kd_field_pages[field - kd_fields];
+    kd_json_object(json, field->name);
+    kd_row_type_members(json, field);
+    add_rules(json, field);
+    kd_row_write_value(json, "default", field, field->initial);
+    kd_json_string(json, "description", field->help);
+    kd_json_string(json, "x-nature", kd_natures[page->nature].word);
+    if (field == kd_style_field())
+        add_styles(json, field);
+    if (page->place == KD_FIELD_FRONT)
+        kd_json_bool(json, "x-front", true);
     for (int kind = KD_CONTROL_SPAN; kind <= KD_CONTROL_BUTTON; kind++) {
         const struct kd_control *control = kd_control_find(field, (enum kd_control_kind)kind);
         if (control)
-            write_control(w, field, control);
+            add_control(json, field, control);
     }
+    if (!*field->object)
+        add_group(json, kd_section_find(""));
+    if (*field->unit && strcmp(field->unit, "1"))
+        kd_json_string(json, "x-unit", field->unit);
+    kd_json_end(json);
 }
 
-static void write_field(struct kd_writer *w, const struct kd_field *field)
+static void add_fields(struct kd_json *json, const struct kd_section *section)
 {
-    kd_write(w, "\"%s\":{", field->name);
-    write_type(w, field);
-    kd_write(w, ",\"default\":");
-    kd_write_value(w, field, field->initial);
-    kd_write(w, ",\"description\":");
-    kd_write_string(w, field->help);
-    kd_write(w, ",\"x-nature\":\"%s\"", kd_natures[field->nature].word);
-    if (field == kd_style_field())
-        write_styles(w, field);
-    if (field->place == KD_FIELD_FRONT)
-        kd_write(w, ",\"x-front\":true");
-    write_controls(w, field);
-    if (!*field->section)
-        write_group(w, kd_section_find(""));
-    if (*field->unit && strcmp(field->unit, "1")) {
-        kd_write(w, ",\"x-unit\":");
-        kd_write_string(w, field->unit);
-    }
-    kd_write(w, "}");
+    for (size_t i = 0; i < section->count; i++)
+        add_field(json, &kd_fields[section->first + i]);
 }
 
-static void write_fields(struct kd_writer *w, const struct kd_section *section)
-{
-    for (size_t i = 0; i < section->count; i++) {
-        kd_write(w, "%s", i ? "," : "");
-        write_field(w, &kd_fields[section->first + i]);
-    }
-}
+static void add_section(struct kd_json *json, const struct kd_section *section);
 
-static void write_section(struct kd_writer *w, const struct kd_section *section);
-
-/* Writes the part of an object's schema that follows the description, and closes it. */
-static void write_object(struct kd_writer *w, const struct kd_section *section)
+static void add_object(struct kd_json *json, const struct kd_section *section)
 {
-    kd_write(w, "\"type\":\"object\",\"additionalProperties\":false,\"properties\":{");
-    write_fields(w, section);
+    kd_json_string(json, "type", "object");
+    kd_json_bool(json, "additionalProperties", false);
+    kd_json_object(json, "properties");
+    add_fields(json, section);
     for (size_t i = 0; i < KD_SECTION_COUNT; i++)
-        if (kd_section_is_part(&kd_sections[i], section)) {
-            kd_write(w, ",");
-            write_section(w, &kd_sections[i]);
-        }
-    kd_write(w, "}}");
+        if (kd_section_is_part(&kd_sections[i], section))
+            add_section(json, &kd_sections[i]);
+    kd_json_end(json);
 }
 
-static void write_section(struct kd_writer *w, const struct kd_section *section)
+static void add_section(struct kd_json *json, const struct kd_section *section)
 {
-    kd_write(w, "\"%s\":{\"description\":", kd_section_member(section));
-    kd_write_string(w, section->help);
-    write_group(w, section);
-    kd_write(w, ",");
+    kd_json_object(json, kd_section_member(section));
+    kd_json_string(json, "description", section->help);
+    add_group(json, section);
+    if (section->most) {
+        kd_json_string(json, "type", "array");
+        kd_json_number(json, "maxItems", (double)section->most);
+        kd_json_array(json, "default");
+        kd_json_end(json);
+        kd_json_object(json, "items");
+    }
+    add_object(json, section);
     if (section->most)
-        kd_write(w, "\"type\":\"array\",\"maxItems\":%zu,\"default\":[],\"items\":{", section->most);
-    write_object(w, section);
-    if (section->most)
-        kd_write(w, "}");
+        kd_json_end(json);
+    kd_json_end(json);
 }
 
 /* Writes the schema of an old name; x-now is the present path. */
-static void write_old_name(struct kd_writer *w, const struct kd_old_name *old)
+static void add_old_name(struct kd_json *json, const struct kd_old_name *old)
 {
-    kd_write(w, ",\"%s\":{\"description\":\"an old name of %s.%zu\",\"deprecated\":true,\"x-now\":\"%s.%zu\",",
-             old->name, old->section, old->index, old->section, old->index);
-    write_object(w, kd_section_find(old->section));
+    char now[KD_PATH_SIZE], description[KD_PATH_SIZE + 24];
+    snprintf(now, sizeof now, "%s.%zu", old->section, old->index);
+    snprintf(description, sizeof description, "an old name of %s", now);
+    kd_json_object(json, old->name);
+    kd_json_string(json, "description", description);
+    kd_json_bool(json, "deprecated", true);
+    kd_json_string(json, "x-now", now);
+    add_object(json, kd_section_find(old->section));
+    kd_json_end(json);
 }
 
 /* Writes the possible values of x-nature and x-group: natures with their meanings, groups in the order of the page. */
-static void write_words_of_fields(struct kd_writer *w)
+static void add_natures_and_groups(struct kd_json *json)
 {
-    kd_write(w, "\"x-natures\":{");
-    for (size_t i = 0; i < KD_NATURE_COUNT; i++) {
-        kd_write(w, "%s\"%s\":", i ? "," : "", kd_natures[i].word);
-        kd_write_string(w, kd_natures[i].help);
-    }
-    kd_write(w, "},\"x-groups\":[");
+    kd_json_object(json, "x-natures");
+    for (size_t i = 0; i < KD_NATURE_COUNT; i++)
+        kd_json_string(json, kd_natures[i].word, kd_natures[i].help);
+    kd_json_end(json);
+    kd_json_array(json, "x-groups");
     for (size_t i = 0; i < KD_GROUP_COUNT; i++)
-        kd_write(w, "%s\"%s\"", i ? "," : "", kd_groups[i]);
-    kd_write(w, "],");
+        kd_json_string(json, NULL, kd_groups[i]);
+    kd_json_end(json);
 }
+
+/* An old name excludes the list. */
+static void add_exclusions(struct kd_json *json)
+{
+    kd_json_object(json, "dependentSchemas");
+    for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++) {
+        kd_json_object(json, kd_old_names[i].name);
+        kd_json_object(json, "not");
+        kd_json_array(json, "required");
+        kd_json_string(json, NULL, kd_old_names[i].section);
+        kd_json_end(json);
+        kd_json_end(json);
+        kd_json_end(json);
+    }
+    kd_json_end(json);
+}
+
+#define DIGITS_OF(x) #x
+#define DIGITS(x) DIGITS_OF(x)
 
 enum kd_status kd_scene_schema(struct kd_buffer *out)
 {
-    struct kd_writer writer = { .out = out }, *w = &writer;
-    kd_write(w,
-             "{\"$schema\":\"https://json-schema.org/draft/2020-12/schema\",\"title\":\"kerrd scene, version %d\","
-             "\"type\":\"object\",\"additionalProperties\":false,",
-             KD_SCENE_VERSION);
-    write_words_of_fields(w);
-    kd_write(w,
-             "\"properties\":{"
-             "\"version\":{\"type\":\"integer\",\"enum\":[%d],\"const\":%d,\"description\":\"version of this document "
-             "format\"}", /* both forms, because client generators mishandle a number that is given only as a const */
-             KD_SCENE_VERSION, KD_SCENE_VERSION);
+    struct kd_json writer = kd_scene_json(out), *json = &writer;
+    kd_json_object(json, NULL);
+    kd_json_string(json, "$schema", "https://json-schema.org/draft/2020-12/schema");
+    kd_json_string(json, "title", "kerrd scene, version " DIGITS(KD_SCENE_VERSION));
+    kd_json_string(json, "type", "object");
+    kd_json_bool(json, "additionalProperties", false);
+    add_natures_and_groups(json);
+    kd_json_object(json, "properties");
+    /* both forms, because client generators mishandle a number that is given only as a const */
+    kd_json_object(json, "version");
+    kd_json_members(json,
+                    "\"type\":\"integer\",\"enum\":[" DIGITS(KD_SCENE_VERSION) "],\"const\":" DIGITS(KD_SCENE_VERSION));
+    kd_json_string(json, "description", "version of this document format");
+    kd_json_end(json);
     for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
-        if (strchr(kd_sections[i].name, '.')) /* a nested section is written with its parent */
-            continue;
-        kd_write(w, ",");
-        if (*kd_sections[i].name)
-            write_section(w, &kd_sections[i]);
-        else
-            write_fields(w, &kd_sections[i]);
+        if (!*kd_sections[i].name)
+            add_fields(json, &kd_sections[i]);
+        else if (!strchr(kd_sections[i].name, '.')) /* a nested section is written with its parent */
+            add_section(json, &kd_sections[i]);
     }
     for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++)
-        write_old_name(w, &kd_old_names[i]);
-    kd_write(w, "},\"dependentSchemas\":{");
-    for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++)
-        kd_write(w, "%s\"%s\":{\"not\":{\"required\":[\"%s\"]}}", i ? "," : "", kd_old_names[i].name,
-                 kd_old_names[i].section);
-    kd_write(w, "}}");
-    return writer.status;
+        add_old_name(json, &kd_old_names[i]);
+    kd_json_end(json);
+    add_exclusions(json);
+    kd_json_end(json);
+    return kd_json_finish(json);
 }

@@ -4,7 +4,7 @@
 #include "scene/sky_scale.h"
 #include "scene/style.h"
 #include "document/text.h"
-#include "scene/value.h"
+#include "scene/table.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -109,7 +109,7 @@ bool kd_scene_same_path(const char *a, const char *b)
     return !strcmp(one, other);
 }
 
-static enum kd_status find_field(const char *path, struct place *place, const struct kd_field **out,
+static enum kd_status find_field(const char *path, struct place *place, const struct kd_row **out,
                                  struct kd_error *error)
 {
     enum kd_status status = find_place(path, place, error);
@@ -119,7 +119,7 @@ static enum kd_status find_field(const char *path, struct place *place, const st
     return *out ? KD_OK : kd_hint_unknown(error, place->section->name, place->index, place->name);
 }
 
-enum kd_status kd_field_at(const char *path, const struct kd_field **out, size_t *index, struct kd_error *error)
+enum kd_status kd_field_at(const char *path, const struct kd_row **out, size_t *index, struct kd_error *error)
 {
     struct place place;
     enum kd_status status = find_field(path, &place, out, error);
@@ -130,11 +130,11 @@ enum kd_status kd_field_at(const char *path, const struct kd_field **out, size_t
 enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char *text, struct kd_error *error)
 {
     struct kd_value value = kd_value_typed(text);
-    const struct kd_field *field;
+    const struct kd_row *field;
     struct place place;
     bool given[KD_FIELD_COUNT] = { false };
     if (!strcmp(path, "version"))
-        return kd_value_version(&value, error);
+        return kd_scene_version(&value, error);
     enum kd_status status;
     KD_TRY(find_field(path, &place, &field, error));
 
@@ -144,7 +144,7 @@ enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char
         KD_TRY(kd_element_reach(place.section, size, place.index, error));
     if (place.index >= size)
         kd_section_resize(&grown, place.section, place.index + 1);
-    KD_TRY(kd_value_store(&grown, field, place.index, &value, error));
+    KD_TRY(kd_field_store(&grown, field, place.index, &value, error));
     if (field == kd_style_field())
         kd_style_apply(&grown, NULL);
     given[field - kd_fields] = true;

@@ -12,11 +12,11 @@ double kd_scene_field_of_uas(const struct kd_scene *scene) { return scene->camer
 
 void kd_scene_settle(struct kd_scene *scene, const bool *given)
 {
-    const struct kd_field *in_m = kd_field_find("camera", "field_m"), *on_sky = kd_field_find("camera", "field_uas");
+    const struct kd_row *in_m = kd_field_find("camera", "field_m"), *on_sky = kd_field_find("camera", "field_uas");
     if (given && given[in_m - kd_fields] && !given[on_sky - kd_fields])
         scene->camera.field_uas = INFINITY;
     const double width = kd_scene_field_of_uas(scene);
-    if (isfinite(scene->camera.field_uas) && kd_field_holds(in_m, width))
+    if (isfinite(scene->camera.field_uas) && kd_row_holds(in_m, width))
         scene->camera.field_m = width;
 }
 

@@ -15,7 +15,7 @@ extern const struct kd_style_row kd_style_rows[];
 extern const size_t kd_style_row_count;
 
 /* The row of the field style.name; NULL if the table of fields has none. */
-const struct kd_field *kd_style_field(void);
+const struct kd_row *kd_style_field(void);
 /* Applies the scene's style. given: fields to leave unchanged, by their index in kd_fields; NULL: none. */
 void kd_style_apply(struct kd_scene *scene, const bool *given);
 

@@ -18,7 +18,7 @@ struct reader {
     const struct kd_assets *assets;
     struct kd_error *error;
     /* The axis that is being read. It is the last one of the sweep. */
-    const struct kd_field *field;
+    const struct kd_row *field;
     size_t index; /* index of the list element that has the field */
     char pointer[100];
 };
@@ -62,7 +62,7 @@ static enum kd_status begin(struct reader *r, const char *path)
 /* Text of a value in the form in which the scene stores it: an asset by its hash. */
 static const char *resolved(const struct reader *r, const struct kd_scene *scene, const char *text)
 {
-    return r->field->kind == KD_FIELD_ASSET ? kd_field_asset(scene, r->field, r->index) : text;
+    return r->field->kind == KD_KIND_ASSET ? kd_field_asset(scene, r->field, r->index) : text;
 }
 
 /* Appends a value to the axis. at: the value's pointer. */
@@ -91,8 +91,8 @@ static enum kd_status add(struct reader *r, const char *text, const char *at)
         return no_memory(r);
     }
     axis->values[axis->n++] =
-        (struct kd_sweep_value) { copy, value.kind == KD_VALUE_NUMBER && r->field->kind != KD_FIELD_ASSET ? value.number
-                                                                                                          : NAN };
+        (struct kd_sweep_value) { copy, value.kind == KD_VALUE_NUMBER && r->field->kind != KD_KIND_ASSET ? value.number
+                                                                                                         : NAN };
     return KD_OK;
 }
 
@@ -244,10 +244,10 @@ static enum kd_status add_item(struct reader *r, const cJSON *item, const char *
         return add_number(r, item->valuedouble, at);
     if (cJSON_IsBool(item))
         return add(r, cJSON_IsTrue(item) ? "true" : "false", at);
-    if (cJSON_IsArray(item) && r->field->kind == KD_FIELD_WORDS)
+    if (cJSON_IsArray(item) && r->field->kind == KD_KIND_SERIES)
         return add_words(r, item, at);
     if (cJSON_IsString(item) &&
-        (r->field->kind == KD_FIELD_ASSET || kd_value_typed(item->valuestring).kind == KD_VALUE_STRING))
+        (r->field->kind == KD_KIND_ASSET || kd_value_typed(item->valuestring).kind == KD_VALUE_STRING))
         return add(r, item->valuestring, at);
     return kd_member_refuse(item, at, "a value of its field: a number, a word, true or false", r->error);
 }
@@ -297,7 +297,7 @@ static enum kd_status add_typed(struct reader *r, char *values)
         if (comma)
             *comma++ = 0;
         const struct kd_value typed = kd_value_typed(value);
-        status = typed.kind == KD_VALUE_NUMBER && r->field->kind != KD_FIELD_ASSET
+        status = typed.kind == KD_VALUE_NUMBER && r->field->kind != KD_KIND_ASSET
                      ? add_number(r, typed.number, r->pointer)
                      : add(r, value, r->pointer);
     }

@@ -8,14 +8,13 @@
 #define SECTION_NAME(s) \
     (KD_SCENE_PARTS(PART_NAME, s) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, top) ? "" : #s)
 
-/* These hold, for each section, the type of its rows, their offset in the scene, and the distance from one list element
- * to the next. */
+/* These hold, for each section, the type of its rows and their offset in the scene. */
 #define PLACE(name, ROWS, group, help) \
     struct rows_of_##name { KD_M_ROWS(ROWS) }; \
-    enum { BASE_##name = offsetof(struct kd_scene, name), STRIDE_##name = 0 };
+    enum { BASE_##name = offsetof(struct kd_scene, name) };
 #define LIST_PLACE(name, element, ROWS, group, most, help) \
     struct rows_of_##name { KD_M_ROWS(ROWS) }; \
-    enum { BASE_##name = offsetof(struct kd_scene, name.at), STRIDE_##name = sizeof(struct kd_##element) };
+    enum { BASE_##name = offsetof(struct kd_scene, name.at) };
 KD_SCENE_SECTIONS(PLACE, LIST_PLACE)
 
 const struct kd_nature kd_natures[KD_NATURE_COUNT] = {
@@ -29,28 +28,27 @@ const char *const kd_groups[KD_GROUP_COUNT] = {
     [KD_GROUP_CAMERA] = "camera", [KD_GROUP_MORE] = "more",
 };
 
-#define AT(s, n, nature_, place_) \
-    .section = SECTION_NAME(s), .name = #n, .offset = BASE_##s + offsetof(struct rows_of_##s, n), \
-    .stride = STRIDE_##s, .nature = KD_FIELD_##nature_, .place = KD_FIELD_##place_
-#define RANGE(lo, hi, u) .minimum = lo, .maximum = hi, .unit = u
+#define ROW(s, n) .object = SECTION_NAME(s), .name = #n, .offset = BASE_##s + offsetof(struct rows_of_##s, n)
+#define RANGE(d, lo, hi, u) .initial = d, .least = lo, .most = hi, .unit = u
 
-#define REAL(s, n, of, at, d, lo, hi, u, h) \
-    { AT(s, n, of, at), .kind = KD_FIELD_REAL, .initial = d, RANGE(lo, hi, u), .help = h },
+#define REAL(s, n, of, at, d, lo, hi, u, h) { ROW(s, n), .kind = KD_KIND_REAL, RANGE(d, lo, hi, u), .help = h },
 #define WORD(s, n, of, at, d, lo, hi, u, h, w) \
-    { AT(s, n, of, at), .kind = KD_FIELD_WORD, .initial = d, RANGE(lo, hi, u), .help = h, .words = w },
+    { ROW(s, n), .kind = KD_KIND_REAL, RANGE(d, lo, hi, u), .help = h, .words = w, .stands = INFINITY },
 #define INT(s, n, of, at, d, lo, hi, u, h, ...) \
-    { AT(s, n, of, at), .kind = KD_FIELD_INT, \
-      .initial = d,     RANGE(lo, hi, u), \
-      .help = h,        __VA_OPT__(.words = __VA_ARGS__) },
-#define BOOL(s, n, of, at, d, h) { AT(s, n, of, at), .kind = KD_FIELD_BOOL, .initial = d, RANGE(0, 1, ""), .help = h },
-#define ENUM(s, n, of, at, d, h, w) \
-    { AT(s, n, of, at), .kind = KD_FIELD_ENUM, .initial = d, RANGE(0, 0, ""), .help = h, .words = w },
-#define ASSET(s, n, of, at, h) { AT(s, n, of, at), .kind = KD_FIELD_ASSET, RANGE(0, 1, ""), .help = h },
-#define WORDS(s, n, of, at, h, w) { AT(s, n, of, at), .kind = KD_FIELD_WORDS, RANGE(0, 0, ""), .help = h, .words = w },
+    { ROW(s, n), .kind = KD_KIND_INT, RANGE(d, lo, hi, u), .help = h, __VA_OPT__(.words = __VA_ARGS__) },
+#define BOOL(s, n, of, at, d, h) { ROW(s, n), .kind = KD_KIND_BOOL, RANGE(d, 0, 1, ""), .help = h },
+#define ENUM(s, n, of, at, d, h, w) { ROW(s, n), .kind = KD_KIND_WORD, RANGE(d, 0, 0, ""), .help = h, .words = w },
+#define ASSET(s, n, of, at, h) { ROW(s, n), .kind = KD_KIND_ASSET, RANGE(0, 0, 1, ""), .help = h },
+#define WORDS(s, n, of, at, h, w) { ROW(s, n), .kind = KD_KIND_SERIES, RANGE(0, 0, 0, ""), .help = h, .words = w },
 
 #define FIELDS(name, ROWS, group, help) ROWS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)
 #define LIST_FIELDS(name, element, ROWS, group, most, help) FIELDS(name, ROWS, group, help)
-const struct kd_field kd_fields[KD_FIELD_COUNT] = { KD_SCENE_SECTIONS(FIELDS, LIST_FIELDS) };
+const struct kd_row kd_fields[KD_FIELD_COUNT] = { KD_SCENE_SECTIONS(FIELDS, LIST_FIELDS) };
+
+#define PAGE(s, n, of, at, ...) { KD_FIELD_##of, KD_FIELD_##at },
+#define PAGES(name, ROWS, group, help) ROWS(PAGE, PAGE, PAGE, PAGE, PAGE, PAGE, PAGE)
+#define LIST_PAGES(name, element, ROWS, group, most, help) PAGES(name, ROWS, group, help)
+const struct kd_field_page kd_field_pages[KD_FIELD_COUNT] = { KD_SCENE_SECTIONS(PAGES, LIST_PAGES) };
 
 /* Enumerators that count rows across sections: FIRST_ is the section's first row. */
 #define EXTENT(name, ROWS, group, help) \
@@ -70,7 +68,8 @@ enum { KD_SCENE_SECTIONS(EXTENT, LIST_EXTENT) };
       .first = FIRST_##n, \
       .count = LAST_##n - FIRST_##n + 1, \
       .most = limit, \
-      .size_at = offsetof(struct kd_scene, n.count) },
+      .size_at = offsetof(struct kd_scene, n.count), \
+      .stride = sizeof(struct kd_##element) },
 const struct kd_section kd_sections[KD_SECTION_COUNT] = { KD_SCENE_SECTIONS(SECTION, LIST) };
 
 #define OLD(n, list, i) { .name = #n, .section = #list, .index = i },
@@ -110,10 +109,10 @@ void kd_section_pointer(const struct kd_section *section, char out[KD_PATH_SIZE]
         *c = *c == '.' ? '/' : *c;
 }
 
-const struct kd_field *kd_field_find(const char *section, const char *name)
+const struct kd_row *kd_field_find(const char *section, const char *name)
 {
     for (size_t i = 0; i < KD_FIELD_COUNT; i++)
-        if (!strcmp(kd_fields[i].section, section) && !strcmp(kd_fields[i].name, name))
+        if (!strcmp(kd_fields[i].object, section) && !strcmp(kd_fields[i].name, name))
             return &kd_fields[i];
     return NULL;
 }
@@ -166,130 +165,72 @@ void kd_section_trim(struct kd_scene *scene, const struct kd_section *list, size
     kd_section_resize(scene, list, size);
 }
 
-static double alone(const struct kd_words *words)
+const void *kd_field_in(const struct kd_scene *scene, const struct kd_row *field, size_t index)
 {
-    return words->count == 1 && words->at[0].number < 0 ? words->at[0].word : NAN;
+    return (const char *)scene + (index ? index * kd_section_find(field->object)->stride : 0);
 }
 
-double kd_field_get(const struct kd_scene *scene, const struct kd_field *field, size_t index)
+double kd_field_get(const struct kd_scene *scene, const struct kd_row *field, size_t index)
 {
-    const void *at = (const char *)scene + field->offset + index * field->stride;
-    switch (field->kind) {
-    case KD_FIELD_REAL:
-    case KD_FIELD_WORD: return *(const double *)at;
-    case KD_FIELD_INT:
-        if (field->words && !*(const int32_t *)at)
-            return INFINITY;
-        /* fall through */
-    case KD_FIELD_ENUM: return *(const int32_t *)at;
-    case KD_FIELD_BOOL: return *(const bool *)at;
-    case KD_FIELD_ASSET: return *(const char *)at != 0;
-    case KD_FIELD_WORDS: return alone(at);
-    }
-    return NAN;
+    return kd_row_get(field, kd_field_in(scene, field, index));
 }
 
-void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t index, double value)
+static void *in(struct kd_scene *scene, const struct kd_row *field, size_t index)
 {
-    void *at = (char *)scene + field->offset + index * field->stride;
-    switch (field->kind) {
-    case KD_FIELD_REAL:
-    case KD_FIELD_WORD: *(double *)at = value == 0 ? 0 : value; break; /* no -0, so that equal scenes give equal text */
-    case KD_FIELD_INT:
-    case KD_FIELD_ENUM: *(int32_t *)at = isinf(value) ? 0 : (int32_t)value; break;
-    case KD_FIELD_BOOL: *(bool *)at = value != 0; break;
-    case KD_FIELD_ASSET:
-        if (value == 0)
-            memset(at, 0, KD_ASSET_NAME);
-        break;
-    case KD_FIELD_WORDS: *(struct kd_words *)at = (struct kd_words) { 1, { { (int16_t)value, -1 } } }; break;
-    }
+    return (char *)scene + (index ? index * kd_section_find(field->object)->stride : 0);
 }
 
-const char *kd_field_asset(const struct kd_scene *scene, const struct kd_field *field, size_t index)
+void kd_field_put(struct kd_scene *scene, const struct kd_row *field, size_t index, double value)
 {
-    return (const char *)scene + field->offset + index * field->stride;
+    kd_row_put_number(field, in(scene, field, index), value);
 }
 
-/* All bytes after the name are set to 0, so that equal scenes have equal bytes. */
-void kd_field_put_asset(struct kd_scene *scene, const struct kd_field *field, size_t index, const char *text)
+enum kd_status kd_field_store(struct kd_scene *scene, const struct kd_row *field, size_t index,
+                              const struct kd_value *value, struct kd_error *error)
 {
-    char *at = (char *)scene + field->offset + index * field->stride;
-    size_t length = strnlen(text, KD_ASSET_NAME - 1);
-    memset(at, 0, KD_ASSET_NAME);
-    memcpy(at, text, length);
+    char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
+    if (kd_row_take(field, in(scene, field, index), value))
+        return KD_OK;
+    kd_field_path(field, index, path);
+    kd_field_pointer(field, index, pointer);
+    return kd_row_refuse(field, value, path, pointer, error);
 }
 
-const struct kd_words *kd_field_words(const struct kd_scene *scene, const struct kd_field *field, size_t index)
+const char *kd_field_asset(const struct kd_scene *scene, const struct kd_row *field, size_t index)
 {
-    return (const void *)((const char *)scene + field->offset + index * field->stride);
+    return (const char *)kd_field_in(scene, field, index) + field->offset;
 }
 
-void kd_field_put_words(struct kd_scene *scene, const struct kd_field *field, size_t index,
-                        const struct kd_words *words)
+bool kd_field_is_sound(const struct kd_scene *scene, const struct kd_row *field, size_t index)
 {
-    memcpy((char *)scene + field->offset + index * field->stride, words, sizeof *words);
+    const void *in = kd_field_in(scene, field, index);
+    const char *at = (const char *)in + field->offset;
+    return field->kind == KD_KIND_SERIES  ? kd_words_hold(field->words, (const void *)at)
+           : field->kind == KD_KIND_ASSET ? !*at || kd_asset_is_hash(at)
+                                          : kd_row_holds(field, kd_row_get(field, in));
 }
 
-bool kd_field_holds(const struct kd_field *field, double value)
+enum kd_status kd_scene_version(const struct kd_value *value, struct kd_error *error)
 {
-    bool in_range = value >= field->minimum && value <= field->maximum;
-    switch (field->kind) {
-    case KD_FIELD_REAL: return in_range;
-    case KD_FIELD_WORD: return in_range || value == INFINITY;
-    case KD_FIELD_INT:
-        if (field->words && value == INFINITY)
-            return true;
-        /* fall through */
-    case KD_FIELD_BOOL:
-    case KD_FIELD_ASSET: return in_range && value == floor(value);
-    case KD_FIELD_ENUM:
-    case KD_FIELD_WORDS: return value >= 0 && value < kd_field_word_count(field) && value == floor(value);
-    }
-    return false;
-}
-
-int kd_field_word_count(const struct kd_field *field)
-{
-    int count = 1;
-    for (const char *c = field->words; *c; c++)
-        count += *c == '|';
-    return count;
-}
-
-struct kd_word kd_field_word(const struct kd_field *field, int index)
-{
-    const char *text = field->words;
-    for (; index > 0; index--)
-        text = strchr(text, '|') + 1;
-    return (struct kd_word) { text, (int)strcspn(text, "|") };
-}
-
-int kd_field_word_index(const struct kd_field *field, const char *text)
-{
-    for (int i = 0; i < kd_field_word_count(field); i++) {
-        struct kd_word word = kd_field_word(field, i);
-        if (strlen(text) == (size_t)word.length && !memcmp(text, word.text, (size_t)word.length))
-            return i;
-    }
-    return -1;
+    if (value->kind == KD_VALUE_NUMBER && value->number == KD_SCENE_VERSION)
+        return KD_OK;
+    char given[KD_VALUE_SIZE];
+    kd_value_describe(value, given);
+    return kd_error_field(error, "/version", "version is %s; it must be %d", given, KD_SCENE_VERSION);
 }
 
 /* Writes a field's section, list index and name, with `mark` between them. */
-static void spell(const struct kd_field *field, size_t index, const char *mark, char out[KD_PATH_SIZE])
+static void spell(const struct kd_row *field, size_t index, const char *mark, char out[KD_PATH_SIZE])
 {
     char element[24] = "";
-    if (field->stride)
+    if (kd_section_find(field->object)->most)
         snprintf(element, sizeof element, "%s%zu", mark, index);
-    snprintf(out, KD_PATH_SIZE, "%s%s%s%s", field->section, element, *field->section ? mark : "", field->name);
+    snprintf(out, KD_PATH_SIZE, "%s%s%s%s", field->object, element, *field->object ? mark : "", field->name);
 }
 
-void kd_field_path(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE])
-{
-    spell(field, index, ".", out);
-}
+void kd_field_path(const struct kd_row *field, size_t index, char out[KD_PATH_SIZE]) { spell(field, index, ".", out); }
 
-void kd_field_pointer(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE])
+void kd_field_pointer(const struct kd_row *field, size_t index, char out[KD_PATH_SIZE])
 {
     char path[KD_PATH_SIZE];
     spell(field, index, "/", path);

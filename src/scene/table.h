@@ -3,17 +3,8 @@
 #ifndef KD_SCENE_TABLE_H
 #define KD_SCENE_TABLE_H
 
+#include "document/document.h"
 #include "scene/scene.h"
-
-enum kd_field_kind {
-    KD_FIELD_REAL,
-    KD_FIELD_WORD,
-    KD_FIELD_INT,
-    KD_FIELD_BOOL,
-    KD_FIELD_ENUM,
-    KD_FIELD_ASSET,
-    KD_FIELD_WORDS
-};
 
 /* The columns nature, place and group of scene/fields.h. */
 enum kd_field_nature { KD_FIELD_PHYSICS, KD_FIELD_MODEL, KD_FIELD_LOOK };
@@ -21,21 +12,9 @@ enum kd_field_place { KD_FIELD_FRONT, KD_FIELD_REST };
 enum kd_section_group { KD_GROUP_LOOK, KD_GROUP_GAS, KD_GROUP_HOLE, KD_GROUP_CAMERA, KD_GROUP_MORE };
 enum { KD_NATURE_COUNT = KD_FIELD_LOOK + 1, KD_GROUP_COUNT = KD_GROUP_MORE + 1 };
 
-struct kd_field {
-    const char *section; /* "" for members of the document itself */
-    const char *name;
-    enum kd_field_kind kind;
+struct kd_field_page {
     enum kd_field_nature nature;
     enum kd_field_place place;
-    /* Offset in struct kd_scene; for a list, that of the first element's field. The type there is double, int32_t (INT,
-     * ENUM), bool, text (ASSET) or struct kd_words. */
-    size_t offset;
-    size_t stride; /* bytes from one element of a list to the next; 0 for other sections */
-    double initial, minimum, maximum;
-    const char *unit; /* "1": a pure number; "": BOOL, ENUM, ASSET and WORDS have none */
-    const char *help;
-    /* WORD: the word for INFINITY. INT: the word for 0, or NULL. ENUM and WORDS: "a|b|c". Otherwise NULL. */
-    const char *words;
 };
 
 struct kd_nature { const char *word, *help; };
@@ -47,6 +26,7 @@ struct kd_section {
     size_t first, count; /* the section's rows in kd_fields */
     size_t most;         /* limit of the elements of a list; 0: the section is not a list */
     size_t size_at;      /* for a list: offset in struct kd_scene of the number of its elements, a size_t */
+    size_t stride;       /* bytes from one element of a list to the next; 0 for other sections */
 };
 
 /* An old name of a list element. */
@@ -77,7 +57,9 @@ enum { KD_LIST_MOST = sizeof(union kd_list_room) };
  * 0. */
 extern const struct kd_nature kd_natures[KD_NATURE_COUNT];
 extern const char *const kd_groups[KD_GROUP_COUNT]; /* "look", "gas", ... */
-extern const struct kd_field kd_fields[KD_FIELD_COUNT];
+/* Rows of struct kd_scene; for a list, of its first element. `object` is the section's name. */
+extern const struct kd_row kd_fields[KD_FIELD_COUNT];
+extern const struct kd_field_page kd_field_pages[KD_FIELD_COUNT];
 extern const struct kd_section kd_sections[KD_SECTION_COUNT];
 extern const struct kd_old_name kd_old_names[KD_OLD_NAME_COUNT];
 
@@ -92,7 +74,7 @@ const struct kd_section *kd_section_part(const struct kd_section *section, const
 bool kd_section_is_part(const struct kd_section *section, const struct kd_section *whole);
 const char *kd_section_member(const struct kd_section *section);
 void kd_section_pointer(const struct kd_section *section, char out[KD_PATH_SIZE]);
-const struct kd_field *kd_field_find(const char *section, const char *name);
+const struct kd_row *kd_field_find(const char *section, const char *name);
 const struct kd_old_name *kd_old_name_find(const char *name);
 
 /* kd_section_size: number of elements of a list; 1 for other sections. kd_section_resize resets the elements that it
@@ -105,41 +87,31 @@ void kd_section_reset(struct kd_scene *scene, const struct kd_section *section, 
  * old name of an element does not tell whether the element exists. */
 void kd_section_trim(struct kd_scene *scene, const struct kd_section *list, size_t least);
 
-/* Read and write a field of any kind as a double: int32_t exactly, bool as 0 or 1, ENUM as the index of the word. ASSET
- * is 1 if there is an asset; writing 0 removes it. WORDS is the index of the word if there is just one, otherwise
- * NAN. */
-double kd_field_get(const struct kd_scene *scene, const struct kd_field *field, size_t index);
-void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t index, double value);
-
-/* Read and write the text of an ASSET; "": none. The text must be shorter than KD_ASSET_NAME. */
-const char *kd_field_asset(const struct kd_scene *scene, const struct kd_field *field, size_t index);
-void kd_field_put_asset(struct kd_scene *scene, const struct kd_field *field, size_t index, const char *text);
-
-/* Read and write a WORDS field (scene/words.h). */
-const struct kd_words *kd_field_words(const struct kd_scene *scene, const struct kd_field *field, size_t index);
-void kd_field_put_words(struct kd_scene *scene, const struct kd_field *field, size_t index,
-                        const struct kd_words *words);
-
-/* Whether a field may have this value: it is in range, an integer if the kind requires one, INFINITY only if that
- * stands for a word. */
-bool kd_field_holds(const struct kd_field *field, double value);
-
-/* Words of an ENUM or WORDS field. The text of a word is not NUL-terminated, so print it with %.*s. */
-struct kd_word {
-    const char *text;
-    int length;
-};
-int kd_field_word_count(const struct kd_field *field);
-struct kd_word kd_field_word(const struct kd_field *field, int index);
-int kd_field_word_index(const struct kd_field *field, const char *text); /* -1: the text is not a word of the field */
+/* The struct that has the field: the scene, moved to an element of a list. For functions of rows. */
+const void *kd_field_in(const struct kd_scene *scene, const struct kd_row *field, size_t index);
+/* As kd_row_get and kd_row_put_number. */
+double kd_field_get(const struct kd_scene *scene, const struct kd_row *field, size_t index);
+void kd_field_put(struct kd_scene *scene, const struct kd_row *field, size_t index, double value);
+/* Stores the value. On failure returns KD_EINVAL with the field's pointer, the value and what is allowed; *scene is
+ * then unchanged. */
+enum kd_status kd_field_store(struct kd_scene *scene, const struct kd_row *field, size_t index,
+                              const struct kd_value *value, struct kd_error *error);
+/* Whether the scene's value is one that the row allows, and an asset named by its hash. */
+bool kd_field_is_sound(const struct kd_scene *scene, const struct kd_row *field, size_t index);
+/* The text of an ASSET; "": none. */
+const char *kd_field_asset(const struct kd_scene *scene, const struct kd_row *field, size_t index);
+/* Begins a JSON text with numbers in the form of the canonical document: 1e-5, not 0.00001. */
+struct kd_json kd_scene_json(struct kd_buffer *out);
+/* Checks the member "version", which must be 1. */
+enum kd_status kd_scene_version(const struct kd_value *value, struct kd_error *error);
 
 /* Finds a field by its dotted path, in the way of kd_scene_set, and the index of its element, which need not exist yet.
  * KD_EINVAL with a pointer. */
-enum kd_status kd_field_at(const char *path, const struct kd_field **out, size_t *index, struct kd_error *error);
+enum kd_status kd_field_at(const char *path, const struct kd_row **out, size_t *index, struct kd_error *error);
 
 /* Write a field's path and its JSON pointer: "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and
  * "/spots/3/r"; "disk.gas.seed" and "/disk/gas/seed". */
-void kd_field_path(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);
-void kd_field_pointer(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);
+void kd_field_path(const struct kd_row *field, size_t index, char out[KD_PATH_SIZE]);
+void kd_field_pointer(const struct kd_row *field, size_t index, char out[KD_PATH_SIZE]);
 
 #endif

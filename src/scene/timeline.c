@@ -16,15 +16,12 @@ void kd_timeline_finish(struct kd_timeline *timeline)
 
 double kd_timeline_end(const struct kd_timeline *t) { return t->n_keys ? t->keys[t->n_keys - 1].at : 0; }
 
-static bool continuous(const struct kd_field *field)
-{
-    return field->kind == KD_FIELD_REAL || field->kind == KD_FIELD_WORD;
-}
+static bool continuous(const struct kd_row *field) { return field->kind == KD_KIND_REAL; }
 
 /* A number that every key has: a field, or the proper time if `field` is NULL. */
 struct column {
     const struct kd_timeline *timeline;
-    const struct kd_field *field;
+    const struct kd_row *field;
     size_t index;
     size_t from; /* the key at which t is 0; whole turns of other keys are counted from this one */
     bool ratios; /* it is interpolated logarithmically */
@@ -106,25 +103,25 @@ static double between(const struct column *c, size_t key, double t)
     if (c->by != KD_CATMULL_ROM)
         /* the monotone cubic lies between the two values, but rounding may exceed them */
         value = fmax(fmin(from, to), fmin(fmax(from, to), value));
-    if (c->turns && !(value >= c->field->minimum && value <= c->field->maximum))
+    if (c->turns && !(value >= c->field->least && value <= c->field->most))
         value = remainder(value, 360);
     return c->ratios ? exp(value) : value;
 }
 
-static bool is_distance(const struct kd_field *field)
+static bool is_distance(const struct kd_row *field)
 {
-    return !strcmp(field->section, "camera") &&
+    return !strcmp(field->object, "camera") &&
            (!strcmp(field->name, "r") || !strcmp(field->name, "field_m") || !strcmp(field->name, "field_uas"));
 }
 
-static bool is_turn(const struct kd_field *field)
+static bool is_turn(const struct kd_row *field)
 {
-    return !strcmp(field->unit, "degrees") && field->maximum - field->minimum >= 360;
+    return !strcmp(field->unit, "degrees") && field->most - field->least >= 360;
 }
 
 /* Whether a field keeps its value between two keys. Catmull and Rom's cubic may change it even if both keys have the
  * same value. */
-static bool stays(const struct kd_timeline *timeline, size_t key, const struct kd_field *field, size_t index)
+static bool stays(const struct kd_timeline *timeline, size_t key, const struct kd_row *field, size_t index)
 {
     const struct kd_scene *from = &timeline->keys[key].scene, *to = &timeline->keys[key + 1].scene;
     return timeline->interpolation != KD_CATMULL_ROM &&
@@ -142,7 +139,7 @@ static void section_between(const struct kd_timeline *timeline, size_t key, doub
         kd_section_resize(out, section, size = next);
     for (size_t index = 0; index < size; index++)
         for (size_t i = section->first; i < section->first + section->count; i++) {
-            const struct kd_field *field = &kd_fields[i];
+            const struct kd_row *field = &kd_fields[i];
             const struct column column = { timeline,
                                            field,
                                            index,

@@ -3,13 +3,12 @@
 #include "scene/element.h"
 #include "document/number.h"
 #include "scene/rules.h"
-#include "scene/value.h"
-#include "scene/words.h"
+#include "scene/table.h"
 
 #include <string.h>
 
 /* Checks that an asset is named by its hash. A name that is not resolved is an error. */
-static enum kd_status asset(const struct kd_scene *scene, const struct kd_field *field, size_t index,
+static enum kd_status asset(const struct kd_scene *scene, const struct kd_row *field, size_t index,
                             struct kd_error *error)
 {
     char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
@@ -23,19 +22,18 @@ static enum kd_status asset(const struct kd_scene *scene, const struct kd_field 
 }
 
 /* Checks a field's range. The parser checks it too, but a scene that a caller has filled in has passed no parser. */
-static enum kd_status range(const struct kd_scene *scene, const struct kd_field *field, size_t index,
+static enum kd_status range(const struct kd_scene *scene, const struct kd_row *field, size_t index,
                             struct kd_error *error)
 {
     double value = kd_field_get(scene, field, index);
-    if (field->kind == KD_FIELD_ASSET)
+    if (field->kind == KD_KIND_ASSET)
         return asset(scene, field, index, error);
-    if (field->kind == KD_FIELD_WORDS ? kd_words_hold(field, kd_field_words(scene, field, index))
-                                      : kd_field_holds(field, value))
+    if (kd_field_is_sound(scene, field, index))
         return KD_OK;
     char number[KD_NUMBER_SIZE], path[KD_PATH_SIZE], pointer[KD_PATH_SIZE], allowed[KD_ALLOWED_SIZE];
     kd_field_path(field, index, path);
     kd_field_pointer(field, index, pointer);
-    kd_value_allowed(field, allowed);
+    kd_row_allowed(field, allowed);
     kd_number_format(number, value);
     return kd_error_field(error, pointer, "%s is %s; it must be %s", path, number, allowed);
 }

@@ -93,20 +93,19 @@ void kd_fuzz_json(const struct kd_buffer *text)
     cJSON_Delete(root);
 }
 
-/* Reimplements kd_field_holds, which is under test, from the row of scene/table.h. */
-static bool allows(const struct kd_field *field, double value)
+/* Reimplements kd_row_holds, which is under test, from the row of scene/table.h. */
+static bool allows(const struct kd_row *field, double value)
 {
-    double most = field->maximum;
+    double most = field->most;
     if (isinf(value))
-        return field->kind == KD_FIELD_WORD || (field->kind == KD_FIELD_INT && field->words && value > 0);
-    if (field->kind == KD_FIELD_ENUM) {
+        return (field->kind == KD_KIND_REAL || field->kind == KD_KIND_INT) && field->words && value > 0;
+    if (field->kind == KD_KIND_WORD) {
         most = 0;
         for (const char *bar = field->words; (bar = strchr(bar, '|')); bar++)
             most++;
     }
-    const double least = field->kind == KD_FIELD_ENUM ? 0 : field->minimum;
-    return !isnan(value) && !(value < least) && !(value > most) &&
-           (field->kind == KD_FIELD_REAL || field->kind == KD_FIELD_WORD || fmod(value, 1) == 0);
+    const double least = field->kind == KD_KIND_WORD ? 0 : field->least;
+    return !isnan(value) && !(value < least) && !(value > most) && (field->kind == KD_KIND_REAL || fmod(value, 1) == 0);
 }
 
 void kd_fuzz_fields(const struct kd_scene *scene)
@@ -118,7 +117,7 @@ void kd_fuzz_fields(const struct kd_scene *scene)
         for (size_t index = 0; index < n; index++)
             for (size_t k = section->first; k < section->first + section->count; k++) {
                 const double value = kd_field_get(scene, &kd_fields[k], index);
-                CHECK(kd_fields[k].kind == KD_FIELD_ASSET || kd_fields[k].kind == KD_FIELD_WORDS ||
+                CHECK(kd_fields[k].kind == KD_KIND_ASSET || kd_fields[k].kind == KD_KIND_SERIES ||
                           allows(&kd_fields[k], value),
                       "%s.%s holds %g, which its row does not allow", section->name, kd_fields[k].name, value);
             }
@@ -139,7 +138,7 @@ static struct kd_scene without_names(const struct kd_scene *scene)
 {
     struct kd_scene known = *scene;
     for (size_t k = 0; k < KD_FIELD_COUNT; k++)
-        if (kd_fields[k].kind == KD_FIELD_ASSET)
+        if (kd_fields[k].kind == KD_KIND_ASSET)
             kd_field_put(&known, &kd_fields[k], 0, 0);
     return known;
 }

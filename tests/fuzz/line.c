@@ -58,7 +58,7 @@ static void read_axes(const struct words *words, const struct kd_scene *scene)
 static bool has_name(const struct kd_scene *scene)
 {
     for (size_t k = 0; k < KD_FIELD_COUNT; k++)
-        if (kd_fields[k].kind == KD_FIELD_ASSET && kd_field_get(scene, &kd_fields[k], 0))
+        if (kd_fields[k].kind == KD_KIND_ASSET && kd_field_get(scene, &kd_fields[k], 0))
             return true;
     return false;
 }

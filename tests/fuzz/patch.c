@@ -46,7 +46,7 @@ static bool has_asset(const struct kd_scene *scene)
 {
     bool has = false;
     for (size_t k = 0; k < KD_FIELD_COUNT; k++)
-        has |= kd_fields[k].kind == KD_FIELD_ASSET && kd_field_get(scene, &kd_fields[k], 0);
+        has |= kd_fields[k].kind == KD_KIND_ASSET && kd_field_get(scene, &kd_fields[k], 0);
     return has;
 }
 

@@ -67,8 +67,8 @@ static void every_field_counts(void **state)
             if (near)
                 scene.camera.r = 20;
             check(&scene);
-            const struct kd_field *field = &kd_fields[i];
-            if (field->stride || field->kind == KD_FIELD_ASSET)
+            const struct kd_row *field = &kd_fields[i];
+            if (kd_section_find(field->object)->most || field->kind == KD_KIND_ASSET)
                 continue; /* fields of lists, and names: the camera has none */
             double value = kd_field_get(&scene, field, 0);
             const double others[] = { value * 0.9 + 0.05, value + 1, 1 - value };

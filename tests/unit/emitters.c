@@ -192,12 +192,12 @@ static int follow_each_field(const char *document)
     assert_int_equal(kd_scene_from_json(&base, document, strlen(document), &error), KD_OK);
     assert_int_equal(kd_scene_validate(&base, &error), KD_OK);
     for (int i = 0; i < KD_FIELD_COUNT; i++) {
-        const struct kd_field *f = &kd_fields[i];
+        const struct kd_row *f = &kd_fields[i];
         double was = kd_field_get(&base, f, 0);
-        const double others[] = { was * 1.1 + 0.01, was + 1, was - 1, f->minimum, f->maximum, was * 0.9 };
+        const double others[] = { was * 1.1 + 0.01, was + 1, was - 1, f->least, f->most, was * 0.9 };
         for (size_t k = 0; k < sizeof others / sizeof *others; k++) {
             scene = base;
-            if (others[k] == was || !kd_field_holds(f, others[k]))
+            if (others[k] == was || !kd_row_holds(f, others[k]))
                 continue;
             kd_field_put(&scene, f, 0, others[k]);
             if (kd_scene_validate(&scene, &error))

@@ -36,16 +36,16 @@ static void refuse(struct kd_accuracy_request asked_accuracy, bool float64, cons
 static void words_are_names(void **state)
 {
     (void)state;
-    const struct kd_field *engine = kd_field_find("accuracy", "engine"),
-                          *precision = kd_field_find("accuracy", "precision");
-    assert_int_equal(kd_field_word_count(engine), KD_ENGINE_COUNT + 1);
+    const struct kd_row *engine = kd_field_find("accuracy", "engine"),
+                        *precision = kd_field_find("accuracy", "precision");
+    assert_int_equal(kd_word_count(engine->words), KD_ENGINE_COUNT + 1);
     for (int i = 0; i < KD_ENGINE_COUNT; i++)
-        assert_int_equal(kd_field_word_index(engine, kd_engine_name((enum kd_engine)i)), i + 1);
+        assert_int_equal(kd_word_index(engine->words, kd_engine_name((enum kd_engine)i)), i + 1);
     for (int i = 0; i < 2; i++)
-        assert_int_equal(kd_field_word_index(precision, kd_precision_name((enum kd_precision)i)), i + 1);
-    assert_int_equal(kd_field_word_index(engine, "auto"), 0);
-    assert_int_equal(kd_field_word_index(precision, "auto"), 0);
-    assert_true(kd_field_find("accuracy", "steps")->maximum == KD_STEPS_MAX);
+        assert_int_equal(kd_word_index(precision->words, kd_precision_name((enum kd_precision)i)), i + 1);
+    assert_int_equal(kd_word_index(engine->words, "auto"), 0);
+    assert_int_equal(kd_word_index(precision->words, "auto"), 0);
+    assert_true(kd_field_find("accuracy", "steps")->most == KD_STEPS_MAX);
 
     struct kd_scene scene;
     kd_scene_defaults(&scene);

@@ -185,10 +185,10 @@ static void test_baselines(void **state)
 static void test_frequencies_of_volumes_are_those_of_scenes(void **state)
 {
     (void)state;
-    const struct kd_field *row = kd_field_find("volume", "frequency_ghz");
+    const struct kd_row *row = kd_field_find("volume", "frequency_ghz");
     assert_non_null(row);
-    near(row->minimum * 1e9, KD_INTEGRAL_LEAST_HZ, 1e-9 * KD_INTEGRAL_LEAST_HZ);
-    near(row->maximum * 1e9, KD_INTEGRAL_MOST_HZ, 1e-9 * KD_INTEGRAL_MOST_HZ);
+    near(row->least * 1e9, KD_INTEGRAL_LEAST_HZ, 1e-9 * KD_INTEGRAL_LEAST_HZ);
+    near(row->most * 1e9, KD_INTEGRAL_MOST_HZ, 1e-9 * KD_INTEGRAL_MOST_HZ);
 }
 
 int main(void)

@@ -6,7 +6,6 @@
 #include "render/output/format.h"
 #include "render/accuracy/table.h"
 #include "render/emit/emitter.h"
-#include "scene/words.h"
 
 static struct kd_scene scene_of(const char *json)
 {
@@ -28,20 +27,20 @@ static struct kd_capacity device(void)
     return c;
 }
 
-static const struct kd_field *field(void) { return kd_field_find("image", "layers"); }
+static const struct kd_row *field(void) { return kd_field_find("image", "layers"); }
 
 static void words_are_the_layers(void **state)
 {
     (void)state;
-    assert_int_equal(kd_field_word_count(field()), KD_LAYER_COUNT);
+    assert_int_equal(kd_word_count(field()->words), KD_LAYER_COUNT);
     for (int i = 0; i < KD_LAYER_COUNT; i++) {
         const struct kd_layer_kind *kind = &kd_layer_kinds[i];
-        char name[KD_WORD_SIZE];
+        char name[KD_WORD_ROOM];
         bool numbered;
-        kd_words_spell(field(), (struct kd_numbered_word) { (int16_t)i, -1 }, name);
+        kd_words_spell(field()->words, (struct kd_numbered_word) { (int16_t)i, -1 }, name);
         assert_non_null(kind->name);
         assert_string_equal(name, kind->name);
-        kd_words_length(field(), i, &numbered);
+        kd_words_root(field()->words, i, &numbered);
         assert_int_equal(numbered, i != KD_LAYER_order && i != KD_LAYER_brightness_temperature &&
                                        i != KD_LAYER_specific_intensity && i != KD_LAYER_stokes_v &&
                                        i != KD_LAYER_jy_per_pixel &&

@@ -365,7 +365,7 @@ static void random_damage_is_harmless(void **state)
                 assert_true(!section->most || kd_section_size(&target, section) <= section->most);
                 for (size_t index = 0; index < (section->most ? section->most : 1); index++)
                     for (size_t f = section->first; f < section->first + section->count; f++)
-                        assert_true(kd_field_holds(&kd_fields[f], kd_field_get(&target, &kd_fields[f], index)));
+                        assert_true(kd_row_holds(&kd_fields[f], kd_field_get(&target, &kd_fields[f], index)));
             }
         }
         free(text);

@@ -8,7 +8,7 @@
 #include <limits.h>
 
 /* A value, as JSON and as text of a command line, is accepted in both ways or in neither. */
-static void expect(const struct kd_field *field, const char *json, const char *text, bool accepted, double stored)
+static void expect(const struct kd_row *field, const char *json, const char *text, bool accepted, double stored)
 {
     struct kd_scene a, b, before;
     struct kd_error error = { 0 };
@@ -38,14 +38,14 @@ static void expect(const struct kd_field *field, const char *json, const char *t
     }
 }
 
-static void expect_number(const struct kd_field *field, double value, bool accepted)
+static void expect_number(const struct kd_row *field, double value, bool accepted)
 {
     char text[KD_NUMBER_SIZE];
     kd_number_format(text, value);
     expect(field, text, text, accepted, value);
 }
 
-static void expect_word(const struct kd_field *field, const char *word, bool accepted, double stored)
+static void expect_word(const struct kd_row *field, const char *word, bool accepted, double stored)
 {
     char json[96];
     snprintf(json, sizeof json, "\"%s\"", word);
@@ -56,19 +56,19 @@ static void bounds_are_inclusive(void **state)
 {
     (void)state;
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
-        const struct kd_field *field = &kd_fields[i];
-        bool whole = field->kind == KD_FIELD_INT;
-        if (field->kind == KD_FIELD_BOOL || field->kind == KD_FIELD_ENUM || field->kind == KD_FIELD_WORDS ||
-            field->kind == KD_FIELD_ASSET)
+        const struct kd_row *field = &kd_fields[i];
+        bool whole = field->kind == KD_KIND_INT;
+        if (field->kind == KD_KIND_BOOL || field->kind == KD_KIND_WORD || field->kind == KD_KIND_SERIES ||
+            field->kind == KD_KIND_ASSET)
             continue;
-        expect_number(field, field->minimum, true);
-        expect_number(field, field->maximum, true);
-        expect_number(field, whole ? field->minimum - 1 : nextafter(field->minimum, -INFINITY), false);
-        expect_number(field, whole ? field->maximum + 1 : nextafter(field->maximum, INFINITY), false);
+        expect_number(field, field->least, true);
+        expect_number(field, field->most, true);
+        expect_number(field, whole ? field->least - 1 : nextafter(field->least, -INFINITY), false);
+        expect_number(field, whole ? field->most + 1 : nextafter(field->most, INFINITY), false);
         expect_number(field, 1e300, false);
         if (whole) {
-            expect_number(field, field->minimum + 0.5, false);
-            expect_number(field, 4294967296.0 + field->minimum, false); /* wraps to the minimum in 32 bits */
+            expect_number(field, field->least + 0.5, false);
+            expect_number(field, 4294967296.0 + field->least, false); /* wraps to the minimum in 32 bits */
         }
     }
 }
@@ -77,18 +77,18 @@ static void words_are_exact(void **state)
 {
     (void)state;
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
-        const struct kd_field *field = &kd_fields[i];
-        if (field->kind == KD_FIELD_ASSET)
+        const struct kd_row *field = &kd_fields[i];
+        if (field->kind == KD_KIND_ASSET)
             continue;
         expect_word(field, "no-such-word", false, 0);
         expect_word(field, "", false, 0);
-        if (field->kind == KD_FIELD_WORD || (field->kind == KD_FIELD_INT && field->words))
+        if (field->words && (field->kind == KD_KIND_REAL || field->kind == KD_KIND_INT))
             expect_word(field, field->words, true, INFINITY);
-        if (field->kind != KD_FIELD_ENUM)
+        if (field->kind != KD_KIND_WORD)
             continue;
-        for (int w = 0; w < kd_field_word_count(field); w++) {
+        for (int w = 0; w < kd_word_count(field->words); w++) {
             char word[64], longer[72];
-            struct kd_word span = kd_field_word(field, w);
+            struct kd_word span = kd_word(field->words, w);
             snprintf(word, sizeof word, "%.*s", span.length, span.text);
             expect_word(field, word, true, w);
             snprintf(longer, sizeof longer, "%s ", word);
@@ -106,9 +106,9 @@ static void types_are_strict(void **state)
     (void)state;
     static const char *const never[] = { "null", "[]", "[1]", "{}", "{\"x\":1}" };
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
-        const struct kd_field *field = &kd_fields[i];
-        bool truth = field->kind == KD_FIELD_BOOL;
-        if (field->kind == KD_FIELD_ASSET) /* the text given to --set is a name, whatever it would be in JSON */
+        const struct kd_row *field = &kd_fields[i];
+        bool truth = field->kind == KD_KIND_BOOL;
+        if (field->kind == KD_KIND_ASSET) /* the text given to --set is a name, whatever it would be in JSON */
             continue;
         for (size_t n = 0; n < sizeof never / sizeof *never; n++)
             expect(field, never[n], never[n], false, 0);
@@ -138,8 +138,8 @@ static void assets_have_names(void **state)
     };
     size_t n = 0;
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
-        const struct kd_field *field = &kd_fields[i];
-        if (field->kind != KD_FIELD_ASSET)
+        const struct kd_row *field = &kd_fields[i];
+        if (field->kind != KD_KIND_ASSET)
             continue;
         n++;
         expect_word(field, hash, true, 1);
@@ -282,14 +282,14 @@ static void schema_names_each_field(void **state)
     assert_int_equal(cJSON_GetArraySize(root),
                      1 + outer_sections() + kd_sections[KD_SECTION_COUNT - 1].count + KD_OLD_NAME_COUNT);
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
-        const struct kd_field *field = &kd_fields[i];
+        const struct kd_row *field = &kd_fields[i];
         const cJSON *home = root;
-        if (*field->section) {
-            const cJSON *section = schema_of(root, field->section);
-            if (field->stride) {
+        if (*field->object) {
+            const cJSON *section = schema_of(root, field->object);
+            if (kd_section_find(field->object)->most) {
                 assert_string_equal(cJSON_GetObjectItemCaseSensitive(section, "type")->valuestring, "array");
                 assert_int_equal(cJSON_GetObjectItemCaseSensitive(section, "maxItems")->valuedouble,
-                                 kd_section_find(field->section)->most);
+                                 kd_section_find(field->object)->most);
                 section = cJSON_GetObjectItemCaseSensitive(section, "items");
             }
             assert_true(cJSON_IsFalse(cJSON_GetObjectItemCaseSensitive(section, "additionalProperties")));
@@ -300,11 +300,11 @@ static void schema_names_each_field(void **state)
         assert_string_equal(cJSON_GetObjectItemCaseSensitive(row, "description")->valuestring, field->help);
         assert_non_null(cJSON_GetObjectItemCaseSensitive(row, "default"));
         assert_string_equal(cJSON_GetObjectItemCaseSensitive(row, "x-nature")->valuestring,
-                            kd_natures[field->nature].word);
+                            kd_natures[kd_field_pages[i].nature].word);
         assert_int_equal(cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(row, "x-front")),
-                         field->place == KD_FIELD_FRONT);
-        if (field->kind == KD_FIELD_REAL)
-            assert_true(cJSON_GetObjectItemCaseSensitive(row, "maximum")->valuedouble == field->maximum);
+                         kd_field_pages[i].place == KD_FIELD_FRONT);
+        if (field->kind == KD_KIND_REAL && !field->words)
+            assert_true(cJSON_GetObjectItemCaseSensitive(row, "maximum")->valuedouble == field->most);
     }
     for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++) {
         const cJSON *old = cJSON_GetObjectItemCaseSensitive(root, kd_old_names[i].name);
@@ -318,6 +318,11 @@ static void schema_names_each_field(void **state)
     kd_buffer_finish(&text);
 }
 
+static enum kd_field_nature nature_of(const char *section, const char *name)
+{
+    return kd_field_pages[kd_field_find(section, name) - kd_fields].nature;
+}
+
 /* Each group on the page has some fields in front, so that none opens empty. Some known fields have the right
  * nature. */
 static void natures_and_groups(void **state)
@@ -326,13 +331,13 @@ static void natures_and_groups(void **state)
     size_t in_front[KD_GROUP_COUNT] = { 0 };
     for (size_t s = 0; s < KD_SECTION_COUNT; s++)
         for (size_t i = 0; i < kd_sections[s].count; i++)
-            in_front[kd_sections[s].group] += kd_fields[kd_sections[s].first + i].place == KD_FIELD_FRONT;
+            in_front[kd_sections[s].group] += kd_field_pages[kd_sections[s].first + i].place == KD_FIELD_FRONT;
     for (size_t g = 0; g < KD_GROUP_COUNT; g++)
         if (in_front[g] == 0)
             fail_msg("no field stands in front of the group %s", kd_groups[g]);
-    assert_int_equal(kd_field_find("spacetime", "spin")->nature, KD_FIELD_PHYSICS);
-    assert_int_equal(kd_field_find("disk", "peak_temperature_k")->nature, KD_FIELD_MODEL);
-    assert_int_equal(kd_field_find("style", "tone_map")->nature, KD_FIELD_LOOK);
+    assert_int_equal(nature_of("spacetime", "spin"), KD_FIELD_PHYSICS);
+    assert_int_equal(nature_of("disk", "peak_temperature_k"), KD_FIELD_MODEL);
+    assert_int_equal(nature_of("style", "tone_map"), KD_FIELD_LOOK);
 }
 
 /* Each control belongs to exactly one field, which refers to it. */
@@ -341,7 +346,7 @@ static void controls_are_of_fields(void **state)
     (void)state;
     for (size_t k = 0; k < kd_control_count; k++) {
         const struct kd_control *c = &kd_controls[k];
-        const struct kd_field *of = NULL;
+        const struct kd_row *of = NULL;
         for (int i = 0; i < KD_FIELD_COUNT; i++)
             for (const struct kd_control *found = kd_control_find(&kd_fields[i], c->kind); found;
                  found = kd_control_next(&kd_fields[i], found))
@@ -353,12 +358,11 @@ static void controls_are_of_fields(void **state)
         if (first != c && (c->kind != KD_CONTROL_WITH || strcmp(first->text, c->text) || first->a == c->a))
             fail_msg("%s has two controls of this kind", c->path);
         if (c->kind == KD_CONTROL_SPAN)
-            assert_true(of->minimum <= c->a && c->a < c->b && c->b <= of->maximum);
+            assert_true(of->least <= c->a && c->a < c->b && c->b <= of->most);
         if (c->kind == KD_CONTROL_FIRST || c->kind == KD_CONTROL_BUTTON)
-            assert_true(kd_field_holds(of, c->a) && c->a != of->initial);
+            assert_true(kd_row_holds(of, c->a) && c->a != of->initial);
         if (c->kind == KD_CONTROL_WITH)
-            assert_true(kd_field_find(of->section, c->text) &&
-                        kd_field_holds(kd_field_find(of->section, c->text), c->a));
+            assert_true(kd_field_find(of->object, c->text) && kd_row_holds(kd_field_find(of->object, c->text), c->a));
     }
     assert_true(kd_control_count > 30);
 }

@@ -20,12 +20,12 @@ static void assert_round_trip(const struct kd_scene *scene)
     if (support_parse(&back, text, &error))
         fail_msg("%s: %s in %s", error.pointer, error.message, text);
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
-        const struct kd_section *section = kd_section_find(kd_fields[i].section);
+        const struct kd_section *section = kd_section_find(kd_fields[i].object);
         assert_int_equal(kd_section_size(scene, section), kd_section_size(&back, section));
         for (size_t index = 0; index < kd_section_size(scene, section); index++) {
             double a = kd_field_get(scene, &kd_fields[i], index), b = kd_field_get(&back, &kd_fields[i], index);
             if (memcmp(&a, &b, sizeof a))
-                fail_msg("%s.%zu.%s: %a became %a", kd_fields[i].section, index, kd_fields[i].name, a, b);
+                fail_msg("%s.%zu.%s: %a became %a", kd_fields[i].object, index, kd_fields[i].name, a, b);
         }
     }
     assert_memory_equal(scene, &back, sizeof back);
@@ -447,17 +447,20 @@ static void hash_feels_each_field(void **state)
     assert_string_not_equal(hash, original);
     assert_int_equal(strspn(original, "0123456789abcdef"), 64);
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
-        const struct kd_field *field = &kd_fields[i];
+        const struct kd_row *field = &kd_fields[i];
         struct kd_scene scene = defaults;
-        size_t last = kd_section_size(&scene, kd_section_find(field->section)) - 1;
+        size_t last = kd_section_size(&scene, kd_section_find(field->object)) - 1;
         double value = kd_field_get(&scene, field, last);
         switch (field->kind) {
-        case KD_FIELD_WORD: value = field->minimum; break;
-        case KD_FIELD_REAL: value = nextafter(value, value < field->maximum ? INFINITY : -INFINITY); break;
-        default: value = kd_field_holds(field, value + 1) ? value + 1 : value - 1;
+        case KD_KIND_REAL:
+            value = field->words ? field->least : nextafter(value, value < field->most ? INFINITY : -INFINITY);
+            break;
+        default: value = kd_row_holds(field, value + 1) ? value + 1 : value - 1;
         }
-        if (field->kind == KD_FIELD_ASSET)
-            kd_field_put_asset(&scene, field, last, original); /* any hash */
+        if (field->kind == KD_KIND_ASSET)
+            assert_int_equal(kd_field_store(&scene, field, last, /* any hash */
+                                            &(struct kd_value) { KD_VALUE_STRING, 0, original }, NULL),
+                             KD_OK);
         else
             kd_field_put(&scene, field, last, value);
         assert_int_equal(kd_scene_hash(&scene, seen[i]), KD_OK);

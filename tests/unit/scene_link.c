@@ -81,21 +81,21 @@ static void changes_come_back(void **state)
         assert_int_equal(kd_scene_preset(&preset, kd_presets[p].name, NULL), KD_OK);
         many = preset;
         for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
-            const struct kd_field *field = &kd_fields[i];
-            if (field->kind == KD_FIELD_ASSET || field->kind == KD_FIELD_WORDS)
+            const struct kd_row *field = &kd_fields[i];
+            if (field->kind == KD_KIND_ASSET || field->kind == KD_KIND_SERIES)
                 continue;
             const double u = support_uniform(&seed),
-                         value = field->kind == KD_FIELD_BOOL   ? u < 0.5
-                                 : field->kind == KD_FIELD_ENUM ? floor(u * kd_field_word_count(field))
-                                 : field->kind == KD_FIELD_INT ? field->minimum
-                                                               : field->minimum + u * (field->maximum - field->minimum);
+                         value = field->kind == KD_KIND_BOOL   ? u < 0.5
+                                 : field->kind == KD_KIND_WORD ? floor(u * kd_word_count(field->words))
+                                 : field->kind == KD_KIND_INT  ? field->least
+                                                               : field->least + u * (field->most - field->least);
             struct kd_scene scene = preset;
             char path[KD_PATH_SIZE], text[40];
             kd_field_path(field, 0, path);
-            if (field->kind == KD_FIELD_ENUM)
-                snprintf(text, sizeof text, "%.*s", kd_field_word(field, (int)value).length,
-                         kd_field_word(field, (int)value).text);
-            else if (field->kind == KD_FIELD_BOOL)
+            if (field->kind == KD_KIND_WORD)
+                snprintf(text, sizeof text, "%.*s", kd_word(field->words, (int)value).length,
+                         kd_word(field->words, (int)value).text);
+            else if (field->kind == KD_KIND_BOOL)
                 strcpy(text, value != 0 ? "true" : "false");
             else
                 snprintf(text, sizeof text, "%.17g", value);
@@ -118,7 +118,7 @@ static void a_style_does_not_hide_what_it_sets(void **state)
 {
     (void)state;
     for (size_t i = 0; i < kd_style_row_count; i++) {
-        const struct kd_field *field = kd_field_find(kd_style_rows[i].section, kd_style_rows[i].name);
+        const struct kd_row *field = kd_field_find(kd_style_rows[i].section, kd_style_rows[i].name);
         struct kd_scene scene;
         struct kd_buffer line = { 0 };
         char told[2 * KD_PATH_SIZE];
@@ -131,7 +131,7 @@ static void a_style_does_not_hide_what_it_sets(void **state)
         assert_same(&scene, link);
         free(link);
         assert_int_equal(kd_scene_line(&scene, &line), KD_OK);
-        snprintf(told, sizeof told, "%s.%s=", field->section, field->name);
+        snprintf(told, sizeof told, "%s.%s=", field->object, field->name);
         assert_non_null(strstr((const char *)line.data, told));
         kd_buffer_finish(&line);
     }

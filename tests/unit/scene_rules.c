@@ -287,26 +287,28 @@ static void inner_edge_may_touch_the_isco(void **state)
 }
 
 /* A scene filled in by hand, without any parser. */
-static void put_wrong(struct kd_scene *scene, const struct kd_field *field, size_t index)
+static void put_wrong(struct kd_scene *scene, const struct kd_row *field, size_t index)
 {
-    if (field->kind == KD_FIELD_ASSET)
-        kd_field_put_asset(scene, field, index, "nobody-knows");
+    if (field->kind == KD_KIND_ASSET)
+        assert_int_equal(
+            kd_field_store(scene, field, index, &(struct kd_value) { KD_VALUE_STRING, 0, "nobody-knows" }, NULL),
+            KD_OK);
     else
-        kd_field_put(scene, field, index, field->kind >= KD_FIELD_INT ? -7 : -INFINITY);
+        kd_field_put(scene, field, index, field->kind >= KD_KIND_INT ? -7 : -INFINITY);
 }
 
 static void ranges_are_checked_again(void **state)
 {
     (void)state;
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
-        const struct kd_field *field = &kd_fields[i];
+        const struct kd_row *field = &kd_fields[i];
         struct kd_scene scene;
         struct kd_error error;
         char pointer[KD_PATH_SIZE];
-        if (field->kind == KD_FIELD_BOOL)
+        if (field->kind == KD_KIND_BOOL)
             continue;
         kd_scene_defaults(&scene);
-        const struct kd_section *section = kd_section_find(field->section);
+        const struct kd_section *section = kd_section_find(field->object);
         size_t last = section->most ? section->most - 1 : 0;
         put_wrong(&scene, field, last);
         kd_field_pointer(field, last, pointer);

@@ -28,23 +28,23 @@ static double value(const struct kd_scene *scene, const struct kd_style_row *row
 static void each_sets_its_fields(void **state)
 {
     (void)state;
-    const struct kd_field *names = kd_style_field();
-    assert_int_equal(kd_field_word_count(names), KD_STYLES + 1);
+    const struct kd_row *names = kd_style_field();
+    assert_int_equal(kd_word_count(names->words), KD_STYLES + 1);
     for (int style = 0; style < KD_STYLES; style++) {
         char json[64];
-        const struct kd_word word = kd_field_word(names, style + 1);
+        const struct kd_word word = kd_word(names->words, style + 1);
         snprintf(json, sizeof json, "{\"style\":{\"name\":\"%.*s\"}}", word.length, word.text);
         struct kd_scene scene = of(json), defaults = of("{}");
         for (size_t i = 0; i < kd_style_row_count; i++) {
             const struct kd_style_row *row = &kd_style_rows[i];
-            const struct kd_field *field = kd_field_find(row->section, row->name);
+            const struct kd_row *field = kd_field_find(row->section, row->name);
             assert_non_null(field);
-            assert_true(!field->stride && field != names);
+            assert_true(!kd_section_find(field->object)->most && field != names);
             if (isnan(row->values[style])) {
                 assert_true(value(&scene, row) == field->initial);
                 continue;
             }
-            assert_true(kd_field_holds(field, row->values[style]) && value(&scene, row) == row->values[style]);
+            assert_true(kd_row_holds(field, row->values[style]) && value(&scene, row) == row->values[style]);
             kd_field_put(&scene, field, 0, field->initial);
         }
         kd_field_put(&scene, names, 0, names->initial);

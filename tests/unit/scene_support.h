@@ -26,15 +26,15 @@ static inline uint64_t support_random(uint64_t *state)
 static inline double support_uniform(uint64_t *state) { return (double)(support_random(state) >> 11) * 0x1p-53; }
 
 /* {"section":{"name":value}}, {"list":[{"name":value}]} or {"name":value} */
-static inline void support_document(char out[256], const struct kd_field *field, const char *value)
+static inline void support_document(char out[256], const struct kd_row *field, const char *value)
 {
-    bool list = field->stride;
-    const char *dot = strchr(field->section, '.'); /* a section nested in another */
+    bool list = kd_section_find(field->object)->most;
+    const char *dot = strchr(field->object, '.'); /* a section nested in another */
     if (dot)
-        snprintf(out, 256, "{\"%.*s\":{\"%s\":{\"%s\":%s}}}", (int)(dot - field->section), field->section, dot + 1,
+        snprintf(out, 256, "{\"%.*s\":{\"%s\":{\"%s\":%s}}}", (int)(dot - field->object), field->object, dot + 1,
                  field->name, value);
-    else if (*field->section)
-        snprintf(out, 256, "{\"%s\":%s{\"%s\":%s}%s}", field->section, list ? "[" : "", field->name, value,
+    else if (*field->object)
+        snprintf(out, 256, "{\"%s\":%s{\"%s\":%s}%s}", field->object, list ? "[" : "", field->name, value,
                  list ? "]" : "");
     else
         snprintf(out, 256, "{\"%s\":%s}", field->name, value);
@@ -53,19 +53,19 @@ static inline char *support_canonical(const struct kd_scene *scene)
     return (char *)text.data;
 }
 
-static inline double support_value(const struct kd_field *field, uint64_t *state)
+static inline double support_value(const struct kd_row *field, uint64_t *state)
 {
-    bool words = field->kind == KD_FIELD_ENUM;
-    double low = field->minimum, high = words ? kd_field_word_count(field) - 1 : field->maximum;
+    bool words = field->kind == KD_KIND_WORD;
+    double low = field->least, high = words ? kd_word_count(field->words) - 1 : field->most;
     double value = low + (high - low) * support_uniform(state);
     uint64_t pick = support_random(state) % 8;
     if (pick == 0)
         value = support_random(state) % 2 ? low : high;
     else if (pick == 1 && low < 0)
         value = 1e-300 * (support_uniform(state) - 0.5);
-    else if (pick == 2 && field->kind != KD_FIELD_ENUM && field->words)
+    else if (pick == 2 && field->kind != KD_KIND_WORD && field->words)
         value = INFINITY;
-    if (field->kind >= KD_FIELD_INT && isfinite(value))
+    if (field->kind >= KD_KIND_INT && isfinite(value))
         value = floor(value + 0.5);
     return value < low ? low : value > high && isfinite(value) ? high : value;
 }

@@ -3,7 +3,7 @@
 #ifndef KD_CLI_REFERENCE_COMPLETIONS_H
 #define KD_CLI_REFERENCE_COMPLETIONS_H
 
-#include "scene/writer.h"
+#include "document/writer.h"
 
 void kd_completions_bash(struct kd_writer *w);
 void kd_completions_zsh(struct kd_writer *w);

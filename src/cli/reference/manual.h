@@ -2,7 +2,9 @@
 #ifndef KD_CLI_REFERENCE_MANUAL_H
 #define KD_CLI_REFERENCE_MANUAL_H
 
-#include "scene/writer.h"
+#include "document/writer.h"
+
+#include <stdbool.h>
 
 #include <stdbool.h>
 

@@ -4,7 +4,7 @@
 #define KD_CLI_REFERENCE_OPTIONS_H
 
 #include "cli/reference/values.h"
-#include "scene/writer.h"
+#include "document/writer.h"
 
 #include <argp.h>
 #include <stdbool.h>

@@ -2,7 +2,7 @@
 #ifndef KD_CLI_REFERENCE_SETTINGS_H
 #define KD_CLI_REFERENCE_SETTINGS_H
 
-#include "scene/writer.h"
+#include "document/writer.h"
 
 void kd_settings_page(struct kd_writer *w);
 

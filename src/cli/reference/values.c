@@ -4,7 +4,7 @@
 #include "playground/preset.h"
 #include "quantity/quantity.h"
 #include "render/output/particle_list.h"
-#include "scene/words.h"
+#include "scene/table.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -109,20 +109,19 @@ void kd_argument_words(enum kd_argument takes, const char *argument, struct kd_w
 
 /* Writes the words of a field as "a|b|c". If a word stands for words with a number, such as name_N, it is written
  * without the number. */
-static void words_of(const struct kd_field *field, char *out, size_t size)
+static void words_of(const struct kd_row *field, char *out, size_t size)
 {
     *out = 0;
-    if (field->kind == KD_FIELD_BOOL)
+    if (field->kind == KD_KIND_BOOL)
         snprintf(out, size, "true|false");
-    else if (field->kind != KD_FIELD_ENUM && field->kind != KD_FIELD_WORDS)
+    else if (field->kind != KD_KIND_WORD && field->kind != KD_KIND_SERIES)
         snprintf(out, size, "%s", field->words ? field->words : "");
     else
-        for (int i = 0; i < kd_field_word_count(field); i++) {
+        for (int i = 0; i < kd_word_count(field->words); i++) {
             const size_t used = strlen(out);
             bool numbered = false;
-            const int length =
-                field->kind == KD_FIELD_WORDS ? kd_words_length(field, i, &numbered) : kd_field_word(field, i).length;
-            snprintf(out + used, size - used, "%s%.*s", i ? "|" : "", length, kd_field_word(field, i).text);
+            const struct kd_word word = kd_words_root(field->words, i, &numbered);
+            snprintf(out + used, size - used, "%s%.*s", i ? "|" : "", word.length, word.text);
         }
 }
 
@@ -132,7 +131,7 @@ void kd_argument_fields(kd_named_value_fn one, struct kd_writer *w)
         char name[KD_PATH_SIZE], words[1000];
         kd_field_path(&kd_fields[i], 0, name);
         words_of(&kd_fields[i], words, sizeof words);
-        one(w, name, words, kd_fields[i].kind == KD_FIELD_WORDS, kd_fields[i].help);
+        one(w, name, words, kd_fields[i].kind == KD_KIND_SERIES, kd_fields[i].help);
     }
 }
 

@@ -3,7 +3,9 @@
 #ifndef KD_CLI_REFERENCE_VALUES_H
 #define KD_CLI_REFERENCE_VALUES_H
 
-#include "scene/writer.h"
+#include "document/writer.h"
+
+#include <stdbool.h>
 
 enum kd_argument {
     KD_ARGUMENT_NOTHING,

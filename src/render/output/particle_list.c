@@ -38,7 +38,7 @@ enum kd_status kd_particle_list_init(struct kd_particle_list *list, const struct
     };
     if (list->grid.count)
         return KD_OK;
-    const struct kd_word word = kd_field_word(kd_field_find("disk", "model"), scene->disk.model);
+    const struct kd_word word = kd_word(kd_field_find("disk", "model")->words, scene->disk.model);
     return kd_error_field(error, "/disk/model",
                           "disk.model is \"%.*s\"; for a list of particles it must be \"particles\"", word.length,
                           word.text);

@@ -30,16 +30,16 @@ static bool is_among(const struct named *names, size_t n, const char *section, c
 }
 #define AMONG(names, section, name) is_among(names, sizeof(names) / sizeof *(names), section, name)
 
-static uint64_t add_field(uint64_t hash, const struct kd_scene *scene, const struct kd_field *field, size_t index)
+static uint64_t add_field(uint64_t hash, const struct kd_scene *scene, const struct kd_row *field, size_t index)
 {
-    if (AMONG(left_out, field->section, field->name))
+    if (AMONG(left_out, field->object, field->name))
         return hash;
-    if (field->kind == KD_FIELD_ASSET) {
+    if (field->kind == KD_KIND_ASSET) {
         const char *asset = kd_field_asset(scene, field, index);
         return kd_hash(hash, asset, strlen(asset));
     }
     double value = kd_field_get(scene, field, index);
-    if (AMONG(roughly, field->section, field->name))
+    if (AMONG(roughly, field->object, field->name))
         value = round(log2(value));
     return kd_hash(hash, &value, sizeof value);
 }

@@ -1,0 +1,14 @@
+/* Names of assets: bytes that a document refers to. Pure, any thread. */
+#ifndef KD_DOCUMENT_ASSET_NAME_H
+#define KD_DOCUMENT_ASSET_NAME_H
+
+#include <stdbool.h>
+
+/* Room for an asset's SHA-256 in hexadecimal digits, or for its name, and a NUL. */
+#define KD_ASSET_NAME 65
+
+bool kd_asset_is_hash(const char *text);
+/* Whether it may be a name: a letter, then letters, digits, '.', '_' and '-'; fewer than 64. */
+bool kd_asset_is_name(const char *text);
+
+#endif

@@ -1,0 +1,41 @@
+/* Lists of words such as "a|b|c", and series of them: some words in any order, each at most once. A word that is listed as
+ * "b_N" stands for b, b_0, b_1, ... in a series. Pure, any thread. */
+#ifndef KD_DOCUMENT_WORDS_H
+#define KD_DOCUMENT_WORDS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { KD_WORD_ROOM = 64, KD_WORD_NUMBER_MAX = 99, KD_WORDS_MOST = 16 };
+
+/* Not NUL-terminated, so print it with %.*s. */
+struct kd_word {
+    const char *text; /* NULL: there are fewer words */
+    int length;
+};
+int kd_word_count(const char *words);
+struct kd_word kd_word(const char *words, int i);
+/* Copies word i; false if there are fewer. */
+bool kd_word_at(const char *words, int i, char out[KD_WORD_ROOM]);
+/* Index of a word, -1: none of them. */
+int kd_word_index(const char *words, const char *text);
+
+/* number: the N of a word "b_N"; -1: the word has none. Entries from count on are 0, so that equal series have equal
+ * bytes. */
+struct kd_words {
+    int32_t count;
+    struct kd_numbered_word { int16_t word, number; } at[KD_WORDS_MOST];
+};
+
+/* Word i without its "_N". *numbered: whether it has "_N". */
+struct kd_word kd_words_root(const char *known, int i, bool *numbered);
+/* Adds a word. Returns false if it is not known, is there already, or exceeds the room; *words is then unchanged. */
+bool kd_words_add(const char *known, const char *text, size_t length, struct kd_words *words);
+/* Reads "a,b_1" from a command line or a link. Returns false if kd_words_add does, or if the text is empty. */
+bool kd_words_read(const char *known, const char *text, struct kd_words *out);
+bool kd_words_hold(const char *known, const struct kd_words *words);
+/* Writes the name of a word, with its number. */
+void kd_words_spell(const char *known, struct kd_numbered_word word, char out[KD_WORD_ROOM]);
+
+#endif
