@@ -6,7 +6,7 @@ import { buildForm } from './form.js';
 import { number, t } from './i18n.js';
 import { meansSomething } from './known.js';
 import { plot } from './plot.js';
-import { postJson } from './server.js';
+import { holeOf, postJson } from './server.js';
 
 const rest_ms = 400; // since the last change, such as one of a drag
 const floor = 1e-5; // share of the largest value below which nothing is drawn
@@ -18,11 +18,9 @@ const isRadio = scene =>
 
 // The scene's disk as parameters of integrals over thin disks.
 function disk(scene) {
-  if (scene.get('spacetime.charge'))
-    throw new Error(t('known for an uncharged hole only', 'noto solo per un buco scarico'));
   const inner = scene.get('disk.inner');
   return {
-    spin: scene.get('spacetime.spin'),
+    ...holeOf(scene),
     inclination_deg: scene.get('camera.inclination_deg'),
     outer: scene.get('disk.outer'),
     ...(typeof inner === 'number' ? { inner } : {}),

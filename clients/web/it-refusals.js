@@ -106,8 +106,8 @@ const refusals = [
     '{} è {}; con spacetime.charge {} deve essere {}, perché lo si conosce solo per un buco scarico',
   ],
   [
-    "spacetime.charge is {}; it must be 0: the playground's bodies move round an uncharged hole",
-    'spacetime.charge è {}; deve essere 0: i corpi si muovono attorno a un buco scarico',
+    "spacetime.charge is {}; it must be {}: the playground's bodies move round a hole of that charge",
+    'spacetime.charge è {}; deve essere {}: i corpi si muovono attorno a un buco di quella carica',
   ],
   ['{} is {}; it must be at least {}, the ISCO of {} {}', '{} è {}; deve essere almeno {}, l’ISCO per {} {}'],
   ['{} is {}; it must be more than {}, the horizon of {} {}', '{} è {}; deve essere più di {}, l’orizzonte per {} {}'],

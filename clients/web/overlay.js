@@ -232,7 +232,7 @@ const overlays = [
   ['orbit', orbit, 'Orbit of the Orbits view, lensed', 'Orbita della vista Orbite, deviata dalla lente'],
 ];
 
-const uncharged = ['polarization', 'ring']; // these are known for an uncharged hole only
+const uncharged = ['polarization']; // known for an uncharged hole only
 const slow = ['orbit']; // takes seconds: the other lines are drawn first
 
 export function buildOverlays(root, stage, scene) {
