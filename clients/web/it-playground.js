@@ -64,6 +64,8 @@ export const sentences = {
   'gravity of the hole: a potential, in which bodies also attract one another, or exact geodesics of test bodies':
     'l’attrazione del buco: un potenziale, in cui anche i corpi si attraggono; oppure geodetiche esatte di corpi di prova',
   'spin of the hole (gravity "kerr" only)': 'spin del buco (solo con la gravità di Kerr)',
+  'charge Q of the hole in M (gravity "kerr" only); the bodies are neutral; a^2 + Q^2 < 1':
+    'carica Q del buco in M (solo con la gravità di Kerr); i corpi sono neutri; a^2 + Q^2 < 1',
   "softening length in M of the bodies' mutual attraction":
     'lunghezza in M di ammorbidimento dell’attrazione fra i corpi',
   'longest sub-step in M, and the interval at which debris is advanced':

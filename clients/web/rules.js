@@ -5,10 +5,11 @@ import { helpOf, t, word } from './i18n.js';
 import { stepByArrows } from './slider.js';
 
 const front = ['waves', 'amplification', 'tides', 'mergers'];
-const fixed = ['gravity', 'spin'];
+const fixed = ['gravity', 'spin', 'charge'];
 const names = {
   gravity: t('Gravity', 'Gravità'),
   spin: t('Spin', 'Spin'),
+  charge: t('Charge', 'Carica'),
   waves: t('Gravitational waves take energy', 'Le onde gravitazionali tolgono energia'),
   amplification: t('Their loss, times', 'La perdita, moltiplicata per'),
   tides: t('Tides tear stars', 'Le maree strappano le stelle'),
@@ -27,7 +28,7 @@ const names = {
 };
 
 // All other settings are parameters of a model.
-const natures = { spin: 'physics', h_max: 'physics', safety: 'physics', budget: 'physics' };
+const natures = { spin: 'physics', charge: 'physics', h_max: 'physics', safety: 'physics', budget: 'physics' };
 
 function control(row, id, changed) {
   const mark = badge(natures[row.name] ?? 'model', `${id}-nature`);
@@ -109,5 +110,6 @@ export function rules(root, rows, changed, anew) {
     for (const name of ['amplification', 'waves', 'tides', 'mergers', 'softening'])
       if (made.has(name))
         made.get(name).node.hidden = settings.gravity === 'kerr' || (name === 'amplification' && !settings.waves);
+    if (made.has('charge')) made.get('charge').node.hidden = settings.gravity !== 'kerr';
   };
 }
