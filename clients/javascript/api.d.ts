@@ -1153,6 +1153,8 @@ export interface OrbitPaths {
 export interface LineRequest {
   /** spin of the hole; below 0 the disk rotates against the hole [M]; -1 to 1. */
   spin?: number;
+  /** charge Q of the hole; the gas is neutral; a^2 + Q^2 < 1 [M]; -1 to 1. */
+  charge?: number;
   /** angle between the axis and the observer, who is at infinity; not 87 to 93 [deg]; 0 to 87; 93 to 180. */
   inclination_deg?: number;
   /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
@@ -1199,6 +1201,7 @@ export interface LineProfile {
   integral: 'line';
   parameters: {
     spin: number;
+    charge: number;
     inclination_deg: number;
     inner: number;
     outer: number;
@@ -1247,6 +1250,8 @@ export interface LineProfile {
 export interface TransferFunctionRequest {
   /** spin of the hole; below 0 the disk rotates against the hole [M]; -1 to 1. */
   spin?: number;
+  /** charge Q of the hole; the gas is neutral; a^2 + Q^2 < 1 [M]; -1 to 1. */
+  charge?: number;
   /** angle between the axis and the observer, who is at infinity; not 87 to 93 [deg]; 0.1 to 87; 93 to 179.9. */
   inclination_deg?: number;
   /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
@@ -1270,6 +1275,7 @@ export interface TransferFunction {
   integral: 'transfer-function';
   parameters: {
     spin: number;
+    charge: number;
     inclination_deg: number;
     inner: number;
     outer: number;
@@ -1315,6 +1321,8 @@ export interface SpectrumRequest {
   scene?: Scene;
   /** spin of the hole; below 0 the disk rotates against the hole [M]; -1 to 1. */
   spin?: number;
+  /** charge Q of the hole; the gas is neutral; a^2 + Q^2 < 1 [M]; -1 to 1. */
+  charge?: number;
   /** angle between the axis and the observer, who is at infinity; not 87 to 93 [deg]; 0 to 87; 93 to 180. */
   inclination_deg?: number;
   /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
@@ -1366,6 +1374,7 @@ export interface DiskSpectrum {
   integral: 'spectrum';
   parameters: {
     spin: number;
+    charge: number;
     inclination_deg: number;
     inner: number;
     outer: number;
@@ -1967,6 +1976,8 @@ export interface Playground {
   gravity?: 'paczynski-wiita' | 'kerr';
   /** spin of the hole (gravity "kerr" only); -0.999 to 0.999. */
   spin?: number;
+  /** charge Q of the hole in M (gravity "kerr" only); the bodies are neutral; a^2 + Q^2 < 1; 0 to 0.999. */
+  charge?: number;
   /** softening length in M of the bodies' mutual attraction; 0.0001 to 1000. */
   softening?: number;
   /** longest sub-step in M, and the interval at which debris is advanced; 1e-06 to 1000000. */
@@ -2023,6 +2034,8 @@ export interface PlaygroundChange {
   gravity?: 'paczynski-wiita' | 'kerr';
   /** spin of the hole (gravity "kerr" only); -0.999 to 0.999. */
   spin?: number;
+  /** charge Q of the hole in M (gravity "kerr" only); the bodies are neutral; a^2 + Q^2 < 1; 0 to 0.999. */
+  charge?: number;
   /** softening length in M of the bodies' mutual attraction; 0.0001 to 1000. */
   softening?: number;
   /** longest sub-step in M, and the interval at which debris is advanced; 1e-06 to 1000000. */
@@ -2067,6 +2080,7 @@ export interface PlaygroundChange {
 export interface PlaygroundSettings {
   gravity: string;
   spin: number;
+  charge: number;
   softening: number;
   h_max: number;
   safety: number;
@@ -6114,6 +6128,8 @@ export interface Operations {
         hole?: 'm87' | 'sgra' | 'none';
         /** spin parameter a [M]; -1 to 1; default 0. */
         spin?: number | string;
+        /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
+        charge?: number | string;
         /** polar angle of the observer, for the shadow of a hole with spin [degrees]; 0 to 180; default 0. */
         inclination_deg?: number | string;
         /** mass of the hole [solar masses]; 0.001 to 1e+12; default "hole". */
@@ -6132,6 +6148,7 @@ export interface Operations {
         parameters: {
           hole: 'm87' | 'sgra' | 'none';
           spin: number | number[];
+          charge: number | number[];
           inclination_deg: number | number[];
           mass_msun: 'hole' | number | number[];
           distance_pc: 'hole' | number | number[];
@@ -6149,7 +6166,7 @@ export interface Operations {
           m_s: number | null | (number | null)[];
           /** angle of M on the sky. */
           m_uas: number | null | (number | null)[];
-          /** mean diameter of the shadow for this spin and inclination; 2 sqrt(27) M for a = 0. */
+          /** mean diameter of the shadow for this hole and inclination; 2 sqrt(27) M for a = Q = 0. */
           shadow_uas: number | null | (number | null)[];
           /** measured diameter of the ring; null if hole is none. */
           ring_uas: number | null | (number | null)[];
@@ -6167,13 +6184,14 @@ export interface Operations {
           isco_period_s: number | null | (number | null)[];
           /** the same for the circular photon orbit, towards +phi. */
           photon_period_s: number | null | (number | null)[];
-          /** proper time from horizon to singularity of a fall from rest at infinity, a = 0: 4/3 M. */
+          /** proper time from horizon to singularity of a fall from rest at infinity, a = Q = 0: 4/3 M. */
           fall_s: number | null | (number | null)[];
-          /** longest proper time from horizon to singularity, a = 0: pi M. */
+          /** longest proper time from horizon to singularity, a = Q = 0: pi M. */
           fall_longest_s: number | null | (number | null)[];
         };
         units: {
           spin: string;
+          charge: string;
           inclination_deg: string;
           mass_msun: string;
           distance_pc: string;

@@ -32,7 +32,8 @@ static const struct argp_option options[] = {
     { "axis", 'x', "FIELD=VALUES", 0,
       "makes FIELD a parameter of the table. VALUES are numbers and ranges START:STOP/COUNT, separated by commas. A "
       "reader interpolates linearly between them; if log: precedes VALUES, it interpolates in their logarithm. Fields "
-      "are spin, inclination_deg, inner, inner_isco (over the ISCO), outer, index, outer_index, break_r, height, "
+      "are spin, charge, inclination_deg, inner, inner_isco (over the ISCO), outer, index, outer_index, break_r, "
+      "height, "
       "photon_index. May be repeated",
       0 },
     { "set", 's', "FIELD=VALUE", 0, "a field of kerrd line that has one value; may be repeated", 0 },
@@ -243,7 +244,7 @@ done:
     return status;
 }
 
-/* Rows between two writes: pieces of successive nodes with one spin and inclination, computed side by side. */
+/* Rows between two writes: pieces of successive nodes with one hole and inclination, computed side by side. */
 struct batch {
     const struct kd_table *table;
     uint8_t *rows;

@@ -40,7 +40,7 @@ static bool parse(const char *text, struct kd_range *range, double *count)
 
 static bool holds(const struct kd_row *row, double value)
 {
-    return isfinite(value) && kd_row_holds(row, value) && (row->kind != KD_KIND_INT || value == floor(value));
+    return isfinite(value) && kd_row_holds(row, value);
 }
 
 /* Whether all values are allowed. If not, *wrong is one that is not; an end of the range, where possible. */

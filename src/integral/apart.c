@@ -15,8 +15,8 @@
 #define OF_A_SCENE "\"anyOf\":[" HAS("scene") "," HAS("preset") "]"
 #define OF_A_DISK \
     HAS("spin") \
-    "," HAS("inclination_deg") "," HAS("inner") "," HAS("outer") "," HAS("limb") "," HAS("mass_msun") "," HAS( \
-        "distance_pc") "," HAS("mdot_edd") "," HAS("colour_correction") "," HAS("returning")
+    "," HAS("charge") "," HAS("inclination_deg") "," HAS("inner") "," HAS("outer") "," HAS("limb") "," HAS( \
+        "mass_msun") "," HAS("distance_pc") "," HAS("mdot_edd") "," HAS("colour_correction") "," HAS("returning")
 #define OF_A_VOLUME \
     "{\"minimum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_LEAST_HZ) ",\"maximum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_MOST_HZ) "}"
 

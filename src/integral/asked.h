@@ -5,6 +5,7 @@
 #include "document/document.h"
 #include "observe/align.h"
 #include "physics/disk/line_profile.h"
+#include "physics/spacetime/hole.h"
 #include "scene/asset.h"
 #include "scene/scene.h"
 
@@ -28,7 +29,7 @@ enum kd_integral {
 
 struct kd_integral_request {
     enum kd_integral what;
-    double spin, inclination_deg, inner, outer; /* inner NaN: the ISCO */
+    double spin, charge, inclination_deg, inner, outer; /* inner NaN: the ISCO */
     enum kd_line_emissivity emissivity;
     double index, outer_index, break_r, height, photon_index, tolerance;
     enum kd_limb limb;
@@ -72,6 +73,9 @@ struct kd_integral_request {
     uint32_t products, solve; /* bit masks: products of enum kd_product; solve: KD_ALIGN_... */
     uint64_t seen;            /* bit mask of the fields that were given */
 };
+
+/* The hole of a thin disk, for use as an argument. The value lives until the end of the enclosing block. */
+#define kd_integral_hole(r) ((const struct kd_hole[]) { kd_hole_charged((r)->spin, (r)->charge) })
 
 /* The first is true if the integral needs pictures, the second if these are maps of light to be Fourier-transformed. */
 static inline bool kd_integral_is_pictured(enum kd_integral what) { return what >= KD_INTEGRAL_VOLUME; }

@@ -19,7 +19,11 @@ bool kd_integral_given(const struct kd_integral_request *request, const char *na
 
 static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error *error)
 {
-    double isco = kd_kerr_isco(kd_hole(r->spin));
+    const struct kd_hole *const hole = kd_integral_hole(r);
+    const double isco = kd_kerr_isco(hole);
+    const enum kd_status status = kd_hole_check(hole, error);
+    if (status)
+        return status;
     if (fabs(r->inclination_deg - 90) < KD_DISK_IMAGE_EDGE_ON)
         return kd_error_field(error, "/inclination_deg",
                               "inclination_deg is %.9g, too close to edge on; it must be 0 to 87 or 93 to 180",
@@ -29,7 +33,7 @@ static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error 
     if (r->inner < isco * (1 - 1e-9))
         return kd_error_field(
             error, "/inner",
-            "inner is %.9g, within the ISCO of this spin, %.9g M; it must be at least that, or \"isco\"", r->inner,
+            "inner is %.9g, within the ISCO of this hole, %.9g M; it must be at least that, or \"isco\"", r->inner,
             isco);
     if (r->returning && r->inner > isco * (1 + 1e-9))
         return kd_error_field(error, "/inner",
@@ -75,10 +79,10 @@ static enum kd_status check_emissivity(const struct kd_integral_request *r, stru
             return kd_error_field(error, pointer, "%s cannot be used here; it belongs to emissivity %s",
                                   belongs[i].name, belongs[i].words);
         }
-    double least = 1.05 * kd_hole(r->spin)->outer;
+    double least = 1.05 * kd_integral_hole(r)->outer;
     if (r->emissivity == KD_LINE_LAMPPOST && r->height < least)
         return kd_error_field(error, "/height",
-                              "height is %.9g; it must be at least %.9g, 1.05 times the horizon of this spin",
+                              "height is %.9g; it must be at least %.9g, 1.05 times the horizon of this hole",
                               r->height, least);
     return KD_OK;
 }
@@ -202,9 +206,10 @@ done:
 
 static enum kd_status check_frequencies(struct kd_integral_request *r, struct kd_error *error)
 {
-    double hottest = fmax(r->inner, kd_disk_peak_page_thorne(kd_hole(r->spin)));
-    double t = r->colour_correction * kd_disk_temperature(kd_disk_flux_page_thorne(kd_hole(r->spin), hottest),
-                                                          kd_hole(r->spin), r->mass_msun, r->mdot_edd);
+    const struct kd_hole *const hole = kd_integral_hole(r);
+    const double hottest = fmax(r->inner, kd_disk_peak_page_thorne(hole)),
+                 flux = kd_disk_flux_page_thorne(hole, hottest);
+    const double t = r->colour_correction * kd_disk_temperature(flux, hole, r->mass_msun, r->mdot_edd);
     if (isnan(r->frequency_min_hz))
         r->frequency_min_hz = 1e-3 * t * KD_K_J_K / KD_H_J_S;
     if (isnan(r->frequency_max_hz))

@@ -380,15 +380,17 @@ static double largest_flux(const struct kd_returning *table)
 static enum kd_status returning_of(const struct kd_integral_request *r, struct kd_returning **table,
                                    struct kd_error *error)
 {
+    const struct kd_hole *const hole = kd_integral_hole(r);
+    const struct kd_hole_parameter largest = kd_hole_largest(hole);
     *table = malloc(sizeof **table);
-    if (!*table || !kd_returning_init(*table, kd_hole(r->spin), r->limb))
+    if (!*table || !kd_returning_init(*table, hole, r->limb))
         return kd_error_set(error, KD_ENOMEM, "out of memory for the kernel of returning light");
     if (!((*table)->error < KD_RETURNING_WRONG))
         return kd_error_field(
-            error, "/spin",
-            "spin is %.17g, so close to an extremal hole that the energy balance of returning light is "
-            "wrong by %.1g; it must be right to %g",
-            r->spin, (*table)->error, KD_RETURNING_WRONG);
+            error, largest.pointer,
+            "%s is %.17g, so close to an extremal hole that the energy balance of returning light is wrong by %.1g; it "
+            "must be right to %g",
+            largest.name, largest.value, (*table)->error, KD_RETURNING_WRONG);
     return KD_OK;
 }
 
@@ -399,8 +401,8 @@ static enum kd_status compute_spectrum(const struct kd_integral_request *r, cons
                                               r->distance_pc, r->mdot_edd, r->colour_correction,
                                               r->limb,        NULL };
     struct kd_returning *table = NULL;
-    double hottest = fmax(r->inner, kd_disk_peak_page_thorne(kd_hole(r->spin))),
-           distance = r->distance_pc * KD_PARSEC_M;
+    const struct kd_hole *const hole = kd_integral_hole(r);
+    const double hottest = fmax(r->inner, kd_disk_peak_page_thorne(hole)), distance = r->distance_pc * KD_PARSEC_M;
     enum kd_status status;
     KD_TRY(kd_integral_make_columns(answer, r->frequencies, error));
     double *const *c = answer->columns;
@@ -415,13 +417,11 @@ static enum kd_status compute_spectrum(const struct kd_integral_request *r, cons
         c[3][i] = 4 * M_PI * distance * distance * c[0][i] * c[1][i];
     }
     answer->values[0] = image->isco;
-    answer->values[1] =
-        kd_disk_temperature(table ? largest_flux(table) : kd_disk_flux_page_thorne(kd_hole(r->spin), hottest),
-                            kd_hole(r->spin), r->mass_msun, r->mdot_edd);
+    answer->values[1] = kd_disk_temperature(table ? largest_flux(table) : kd_disk_flux_page_thorne(hole, hottest), hole,
+                                            r->mass_msun, r->mdot_edd);
     answer->values[3] += table ? table->error : 0;
     answer->told[answer->n_told++] = table ? with_returning : no_returning;
-    answer->values[2] = kd_kerr_efficiency(kd_hole(r->spin)) *
-                        kd_disk_rate(kd_hole(r->spin), r->mass_msun, r->mdot_edd) * KD_C_M_S * KD_C_M_S;
+    answer->values[2] = kd_kerr_efficiency(hole) * kd_disk_rate(hole, r->mass_msun, r->mdot_edd) * KD_C_M_S * KD_C_M_S;
 done:
     free(table);
     return status;
@@ -436,7 +436,7 @@ enum kd_status kd_integral_compute(const struct kd_integral_request *request, st
     struct kd_disk_image *image = NULL;
     enum kd_status status;
     *answer = (struct kd_integral_answer) { .request = request };
-    KD_TRY(kd_cached_disk_image(kd_hole(request->spin), request->inclination_deg, &image, error));
+    KD_TRY(kd_cached_disk_image(kd_integral_hole(request), request->inclination_deg, &image, error));
     KD_TRY(compute[request->what](request, image, answer, error));
 done:
     free(image);

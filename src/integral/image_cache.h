@@ -1,4 +1,4 @@
-/* Cache of recent disk images: fits ask for the same spin and inclination repeatedly. Any thread. */
+/* Cache of recent disk images: fits ask for the same hole and inclination repeatedly. Any thread. */
 #ifndef KD_INTEGRAL_IMAGE_CACHE_H
 #define KD_INTEGRAL_IMAGE_CACHE_H
 

@@ -18,11 +18,12 @@
 #define ISCO "inner_isco"
 
 /* Fields that may be axes, with the names that they have in the file, which has at most twelve letters. The image of
- * the disk depends on the first two. */
+ * the disk depends on the first three. */
 static const struct {
     const char *field, *name;
 } allowed[] = {
     { "spin", "spin" },
+    { "charge", "charge" },
     { "inclination_deg", "inclination" },
     { "inner", "inner" },
     { "outer", "outer" },
@@ -32,7 +33,7 @@ static const struct {
     { "height", "height" },
     { "photon_index", "photon_index" },
 };
-enum { IMAGE_AXES = 2 };
+enum { IMAGE_AXES = 3 };
 
 /* Default axes, chosen so that interpolated profiles of r^-3 are within 0.3 % of the line (docs/xspec.md). What else
  * the emissivity depends on has one value unless it is given an axis: a table in three dimensions with this accuracy
@@ -50,6 +51,15 @@ static const char *name_of(const struct kd_table_axis *axis)
         if (!strcmp(allowed[i].field, axis->field->name))
             return allowed[i].name;
     return ISCO;
+}
+
+/* Number of the image's axes that come before this one; IMAGE_AXES for all others. */
+static size_t rank_of(const struct kd_table_axis *axis)
+{
+    size_t i = 0;
+    while (i < IMAGE_AXES && strcmp(allowed[i].field, axis->field->name))
+        i++;
+    return i;
 }
 
 static const char *given_name(const struct kd_table_axis *axis) { return axis->isco ? ISCO : axis->field->name; }
@@ -160,10 +170,11 @@ static enum kd_status read_axis(const struct kd_integral_request *request, const
     snprintf(pointer, sizeof pointer, "/%s", name);
     *axis = (struct kd_table_axis) { .field = field_named(request, name), .isco = !strcmp(name, ISCO) };
     if (!axis->field)
-        return kd_error_field(error, pointer,
-                              "%s is no axis; it must be spin, inclination_deg, inner, inner_isco, outer, index, "
-                              "outer_index, break_r, height or photon_index",
-                              name);
+        return kd_error_field(
+            error, pointer,
+            "%s is no axis; it must be spin, charge, inclination_deg, inner, inner_isco, outer, index, "
+            "outer_index, break_r, height or photon_index",
+            name);
     const char *at = text + length + (text[length] == '=');
     axis->log = !strncmp(at, "log:", 4);
     at += axis->log ? 4 : 0;
@@ -189,10 +200,9 @@ static enum kd_status add_axis(struct kd_table *table, const char *text, struct 
             return kd_error_field(error, pointer, "%s has two axes; it must have one", axis.field->name);
     if (table->base.seen & bit_of(axis.field))
         return kd_error_field(error, pointer, "%s has an axis and a value; it must have one of them", axis.field->name);
-    for (size_t k = 0; k < IMAGE_AXES; k++)
-        if (!strcmp(allowed[k].field, axis.field->name))
-            for (at = 0; at < k && at < table->n_axes && !strcmp(allowed[at].field, table->axes[at].field->name);)
-                at++;
+    for (size_t i = table->n_axes; i-- > 0;)
+        if (rank_of(&table->axes[i]) > rank_of(&axis))
+            at = i;
     memmove(table->axes + at + 1, table->axes + at, (table->n_axes++ - at) * sizeof *table->axes);
     table->axes[at] = axis;
     return KD_OK;
@@ -230,7 +240,7 @@ static enum kd_status node_of(const struct kd_table *table, size_t node, struct 
             *field_at(out, axis) = value;
     }
     if (over > 0)
-        out->inner = over * kd_kerr_isco(kd_hole(out->spin));
+        out->inner = over * kd_kerr_isco(kd_integral_hole(out));
     return kd_integral_request_check(out, error);
 }
 
@@ -288,11 +298,7 @@ enum kd_status kd_table_init(struct kd_table *table, struct kd_integral_request 
         }
         table->base.seen |= bit_of(axis->field);
         table->nodes *= axis->n;
-        table->run *=
-            i < IMAGE_AXES && !axis->isco &&
-                    (!strcmp(axis->field->name, allowed[0].field) || !strcmp(axis->field->name, allowed[1].field))
-                ? 1
-                : axis->n;
+        table->run *= rank_of(axis) < IMAGE_AXES ? 1 : axis->n;
         if (table->nodes > KD_TABLE_NODES)
             KD_TRY(kd_error_set(error, KD_ETOOBIG, "the axes make more than %u nodes, the most that a table may have",
                                 KD_TABLE_NODES));
@@ -602,7 +608,7 @@ enum kd_status kd_table_rows(const struct kd_table *table, size_t first, size_t 
     for (size_t i = first; i < first + n; i++) {
         KD_TRY(node_of(table, i, &node, error));
         if (!image)
-            KD_TRY(kd_cached_disk_image(kd_hole(node.spin), node.inclination_deg, &image, error));
+            KD_TRY(kd_cached_disk_image(kd_integral_hole(&node), node.inclination_deg, &image, error));
         KD_TRY(row_of(table, &node, image, edges, share, worst, error));
         put_values(table, i, &rows);
         for (uint32_t k = 0; k < bins; k++)

@@ -30,9 +30,9 @@ struct kd_table_axis {
 
 struct kd_table {
     struct kd_integral_request base; /* checked for the first node */
-    struct kd_table_axis *axes;      /* the spin and the inclination come first, as far as they are axes */
+    struct kd_table_axis *axes;      /* spin, charge and inclination come first, as far as they are axes */
     size_t n_axes, nodes;
-    size_t run; /* successive nodes with one spin and inclination, which have the disk's image in common */
+    size_t run; /* successive nodes with one hole and inclination, which have the disk's image in common */
     char name[KD_TABLE_NAME + 1];
 };
 

@@ -1,6 +1,5 @@
 #include "playground/playground.h"
 
-#include "physics/spacetime/hole.h"
 #include "playground/hole.h"
 #include "playground/wave.h"
 
@@ -13,6 +12,16 @@
 
 static bool kerr(const struct kd_playground *p) { return p->params.gravity == KD_GRAVITY_KERR; }
 
+static enum kd_status check_hole(const struct kd_playground_params *params, struct kd_error *error)
+{
+    if (params->gravity == KD_GRAVITY_KERR)
+        return kd_hole_check(kd_playground_hole(params), error);
+    if (params->charge != 0)
+        return kd_error_field(error, "/charge", "charge is %.9g; without gravity \"kerr\" it must be 0",
+                              params->charge);
+    return KD_OK;
+}
+
 enum kd_status kd_playground_create(const struct kd_playground_params *params, struct kd_playground **out,
                                     struct kd_error *error)
 {
@@ -20,7 +29,8 @@ enum kd_status kd_playground_create(const struct kd_playground_params *params, s
     if (!p)
         return kd_error_set(error, KD_ENOMEM, "no memory for a playground");
     p->params = *params;
-    enum kd_status status;
+    enum kd_status status = check_hole(params, error);
+    KD_TRY(status);
     KD_TRY(kd_debris_resize(&p->debris, params->debris_capacity, error));
     KD_TRY(kd_playground_mutual_reserve(&p->mutual, 1, error));
 done:
@@ -109,7 +119,7 @@ static enum kd_status put(struct kd_playground *p, size_t i, const struct kd_pla
 {
     enum kd_status status = check(p, body, error);
     if (!status && kerr(p))
-        status = kd_geodesic_begin(&p->geodesics[i], kd_hole(p->params.spin), body->x, body->v, p->t, error);
+        status = kd_geodesic_begin(&p->geodesics[i], kd_playground_hole(&p->params), body->x, body->v, p->t, error);
     if (status)
         return status;
     p->bodies[i] = *body;
@@ -197,6 +207,8 @@ enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playgr
         return kd_error_field(error, "/gravity", "gravity cannot change after a playground is made");
     if (params->spin != p->params.spin)
         return kd_error_field(error, "/spin", "spin cannot change after a playground is made");
+    if (params->charge != p->params.charge)
+        return kd_error_field(error, "/charge", "charge cannot change after a playground is made");
     struct kd_playground_params looks = *params; /* only appearance may differ */
     looks.debris_temperature_k = p->params.debris_temperature_k;
     looks.debris_depth = p->params.debris_depth;

@@ -238,12 +238,14 @@ done:
 enum kd_status kd_playground_may_show(const struct kd_playground *p, const struct kd_scene *scene,
                                       struct kd_error *error)
 {
-    if (scene->spacetime.charge != 0)
+    const bool kerr = p->params.gravity == KD_GRAVITY_KERR;
+    const double charge = kerr ? p->params.charge : 0;
+    if (scene->spacetime.charge != charge)
         return kd_error_field(
             error, "/spacetime/charge",
-            "spacetime.charge is %.9g; it must be 0: the playground's bodies move round an uncharged hole",
-            scene->spacetime.charge);
-    if (p->params.gravity == KD_GRAVITY_KERR && p->params.spin != scene->spacetime.spin)
+            "spacetime.charge is %.9g; it must be %.9g: the playground's bodies move round a hole of that charge",
+            scene->spacetime.charge, charge);
+    if (kerr && p->params.spin != scene->spacetime.spin)
         return kd_error_field(
             error, "/spacetime/spin",
             "spacetime.spin is %.9g; it must be %.9g: the playground's bodies move round a hole of that spin",
@@ -291,6 +293,7 @@ enum kd_status kd_playground_usual_scene(const struct kd_playground_preset *pres
     if (preset)
         KD_TRY(kd_scene_patch(out, preset->scene, strlen(preset->scene), error));
     out->spacetime.spin = p->params.spin;
+    out->spacetime.charge = p->params.charge;
     if (!preset)
         KD_TRY(kd_playground_widen(p, out, error));
     KD_TRY(kd_scene_validate(out, error));

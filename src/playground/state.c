@@ -1,7 +1,6 @@
 #include "playground/state.h"
 
 #include "base/pause.h"
-#include "physics/spacetime/hole.h"
 #include "playground/base64.h"
 #include "playground/fields.h"
 #include "playground/hole.h"
@@ -267,7 +266,7 @@ static enum kd_status read_body(struct kd_playground *p, size_t i, const cJSON *
     KD_TRY(kd_playground_numbers(state, KD_GEODESIC_STATE, MOST, cJSON_GetObjectItemCaseSensitive(item, "geodesic"),
                                  pointer, error));
     KD_TRY(read_numbers(&begun, geodesic, N(geodesic), item, pointer, error));
-    KD_TRY(kd_geodesic_begin(&p->geodesics[i], kd_hole(p->params.spin), x, v, begun.from_t, error));
+    KD_TRY(kd_geodesic_begin(&p->geodesics[i], kd_playground_hole(&p->params), x, v, begun.from_t, error));
     kd_geodesic_restore(&p->geodesics[i], state);
 done:
     return status;

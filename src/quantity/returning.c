@@ -58,13 +58,13 @@ struct memory { struct kd_returning table; };
 static enum kd_status begin(const struct parameters *p, struct memory *m, struct outputs *o, struct kd_error *error)
 {
     const struct kd_hole hole = kd_hole_charged(p->spin, p->charge);
-    if (kd_hole_check(KD_QUANTITY_HOLE(p), error))
+    const struct kd_hole_parameter largest = kd_hole_largest(&hole);
+    if (kd_hole_check(&hole, error))
         return KD_EINVAL;
     if (!kd_returning_init(&m->table, &hole, (enum kd_limb)p->limb))
         return kd_error_set(error, KD_ENOMEM, "out of memory for the kernel of returning light");
     if (!(m->table.error < KD_RETURNING_WRONG))
-        return kd_quantity_outside(error, fabs(p->charge) > fabs(p->spin) ? "charge" : "spin",
-                                   fabs(p->charge) > fabs(p->spin) ? p->charge : p->spin,
+        return kd_quantity_outside(error, largest.name, largest.value,
                                    "so close to an extremal hole that the energy balance is wrong by %.1g; it must be "
                                    "right to %g",
                                    m->table.error, KD_RETURNING_WRONG);

@@ -10,6 +10,7 @@
     P(hole, .typed = "m87", .kind = KD_KIND_WORD, .words = "m87|sgra|none", \
       .help = "a hole whose ring has been measured: M87*, Sgr A*") \
     P(spin, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, .help = "spin parameter a") \
+    KD_PARAMETER_CHARGE(P) \
     P(inclination_deg, .unit = "degrees", .typed = "0", .least = 0, .most = 180, \
       .help = "polar angle of the observer, for the shadow of a hole with spin") \
     P(mass_msun, .unit = "solar masses", .typed = "hole", .least = 1e-3, .most = 1e12, .words = "hole", \
@@ -23,7 +24,7 @@
     O(m_s, .unit = "s", .help = "M as a time, G m/c^3") \
     O(m_uas, .unit = "microarcseconds", .help = "angle of M on the sky") \
     O(shadow_uas, .unit = "microarcseconds", \
-      .help = "mean diameter of the shadow for this spin and inclination; 2 sqrt(27) M for a = 0") \
+      .help = "mean diameter of the shadow for this hole and inclination; 2 sqrt(27) M for a = Q = 0") \
     O(ring_uas, .unit = "microarcseconds", .help = "measured diameter of the ring; null if hole is none") \
     O(ring_error_uas, .unit = "microarcseconds", .help = "its error, one sigma") \
     O(ring_over_shadow, .unit = "1", .help = "ratio of measured to computed diameter") \
@@ -33,8 +34,8 @@
     O(isco_period_s, .unit = "s", .help = "period of the ISCO for an observer far away") \
     O(photon_period_s, .unit = "s", .help = "the same for the circular photon orbit, towards +phi") \
     O(fall_s, .unit = "s", \
-      .help = "proper time from horizon to singularity of a fall from rest at infinity, a = 0: 4/3 M") \
-    O(fall_longest_s, .unit = "s", .help = "longest proper time from horizon to singularity, a = 0: pi M")
+      .help = "proper time from horizon to singularity of a fall from rest at infinity, a = Q = 0: 4/3 M") \
+    O(fall_longest_s, .unit = "s", .help = "longest proper time from horizon to singularity, a = Q = 0: pi M")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
@@ -48,7 +49,7 @@ static const char *const sources[] = {
 };
 static const char *const approximations[] = {
     "the measured ring is that of the emission, some per cent larger than the edge of the shadow",
-    "times of fall are those of a = 0",
+    "times of fall are those of a = Q = 0",
     NULL,
 };
 
@@ -57,7 +58,7 @@ struct memory { double shadow; }; /* mean radius of the shadow, M */
 static double shadow_of(const struct parameters *p)
 {
     struct kd_critical curve = kd_critical_of(&(struct kd_critical_observer) {
-        .hole = kd_hole_of(p->spin),
+        .hole = *KD_QUANTITY_HOLE(p),
         .radius = INFINITY,
         .cos_theta = kd_cos_deg(p->inclination_deg),
         .sin_theta = kd_sin_deg(p->inclination_deg),
@@ -70,6 +71,9 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
     struct memory *m = memory;
+    const struct kd_hole *const black = KD_QUANTITY_HOLE(p);
+    if (fresh && kd_hole_check(black, error))
+        return KD_EINVAL;
     if (fresh)
         m->shadow = shadow_of(p);
     const struct kd_scale_hole *hole = p->hole < KD_SCALE_HOLES ? &kd_scale_holes[(int)p->hole] : NULL;
@@ -90,12 +94,12 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     o->ring_uas = hole ? hole->ring_uas : NAN;
     o->ring_error_uas = hole ? hole->ring_error_uas : NAN;
     o->ring_over_shadow = o->ring_uas / o->shadow_uas;
-    double horizon = kd_hole(p->spin)->outer;
+    const double horizon = black->outer;
     o->horizon_km = horizon * o->m_km;
     o->horizon_au = o->horizon_km * 1e3 / KD_AU_M;
     o->light_crossing_s = 2 * horizon * o->m_s;
-    o->isco_period_s = 2 * M_PI / kd_kerr_omega(kd_hole(p->spin), kd_kerr_isco(kd_hole(p->spin))) * o->m_s;
-    o->photon_period_s = 2 * M_PI / kd_kerr_omega(kd_hole(p->spin), kd_kerr_photon_orbit(kd_hole(p->spin))) * o->m_s;
+    o->isco_period_s = 2 * M_PI / kd_kerr_omega(black, kd_kerr_isco(black)) * o->m_s;
+    o->photon_period_s = 2 * M_PI / kd_kerr_omega(black, kd_kerr_photon_orbit(black)) * o->m_s;
     o->fall_s = KD_SCALE_FALL * o->m_s;
     o->fall_longest_s = KD_SCALE_FALL_LONGEST * o->m_s;
     return KD_OK;

@@ -96,6 +96,22 @@ class Table(support.Case):
             off = numpy.abs(numpy.cumsum(spectra["INTPSPEC"][k], dtype=float) - numpy.cumsum(share)).max()
             self.assertLess(off, 3e-6, nodes[k])
 
+    def test_charge_is_an_axis(self):
+        """It comes after the spin, and each of its values has the image of its hole."""
+        axes = "charge=0,0.8", "inclination_deg=40,50", "index=2,3"
+        self.good(
+            "table", *(f"-x{axis}" for axis in axes), "-s", "spin=0.5", "-s", "bins=50", "-o", self.path("q.fits")
+        )
+        file = self.opened("q.fits")
+        self.assertEqual([row["NAME"] for row in file["PARAMETERS"].data], ["charge", "inclination", "index"])
+        spectra = file["SPECTRA"].data
+        for k in 1, 4, 7:
+            q, i, index = (float(v) for v in spectra["PARAMVAL"][k])
+            shown = "--spin=0.5", f"--charge={q}", f"--inclination-deg={i}", f"--index={index}"
+            share = self.line(*shown, *ENERGIES, "--bins=50")[:, 2]
+            off = numpy.abs(numpy.cumsum(spectra["INTPSPEC"][k], dtype=float) - numpy.cumsum(share)).max()
+            self.assertLess(off, 3e-6, (q, i, index))
+
     def test_axes(self):
         """An inner edge over the ISCO, a fixed inclination, and an axis of ranges."""
         axes = "-x", "inner_isco=1,2:4/3", "-x", "spin=0,0.9"
@@ -173,7 +189,7 @@ class Table(support.Case):
             (2, "index has two axes", ["-x", "index=2,3", "-x", "index=4,5", *out]),
             (2, "inner has two axes", ["-x", "inner=6,7", "-x", "inner_isco=1,2", *out]),
             (2, "index has an axis and a value", ["-x", "index=2,3", "-s", "index=2", *out]),
-            (2, "within the ISCO of this spin", ["-x", "spin=0,0.9", "-x", "inner=3,4", *out]),
+            (2, "within the ISCO of this hole", ["-x", "spin=0,0.9", "-x", "inner=3,4", *out]),
             (2, "belongs to emissivity lamppost", ["-x", "height=3,4", *out]),
             (2, "counts is energy", ["-s", "counts=energy", *out]),
             (2, "the first edge is 0", ["-s", "energy_min=0", *out]),

@@ -149,9 +149,10 @@ TIMELINE = (
     "keyframes/%zu/proper_time is %s; it must be |0 unless camera.observer stays, orbits in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
 )
 RADII = (
-    'inner is %.9g, within the ISCO of this spin, %.9g M; it must be at least that, or "isco"',
+    HOLE,
+    'inner is %.9g, within the ISCO of this hole, %.9g M; it must be at least that, or "isco"',
     "outer is %.9g and inner is %.9g; outer must be larger than inner",
-    "spin is %.17g, too close to an extremal hole for double precision to follow the disk's image at inclination_deg %.9g",
+    "%s is %.17g, too close to an extremal hole for double precision to follow the disk's image at inclination_deg %.9g",
 )
 SESSION = (
     "image.layers has %zu layers; in a session, which shows one picture, it must have one",
@@ -220,10 +221,10 @@ TOGETHER = [
         RADII
         + (
             "%s is %.9g after %.9g; each must be larger than the one before",
-            "height is %.9g; it must be at least %.9g, 1.05 times the horizon of this spin",
+            "height is %.9g; it must be at least %.9g, 1.05 times the horizon of this hole",
             "energy_max is %.9g and energy_min %.9g; energy_max must be larger than energy_min",
             "height is %.9g, from where no rays to all radii of the disk were found",
-            "spin is %.17g, so close to an extremal hole that the profile is not a number",
+            "%s is %.17g, so close to an extremal hole that the profile is not a number",
         ),
     ),
     (
@@ -242,8 +243,8 @@ TOGETHER = [
         + (
             "%s is %.9g after %.9g; each must be larger than the one before",
             "frequency_max_hz is %.9g and frequency_min_hz %.9g; frequency_max_hz must be larger than frequency_min_hz",
-            "spin is %.17g, so close to an extremal hole that the flux at %.9g Hz is not a number",
-            "spin is %.17g, so close to an extremal hole that the energy balance of returning light is wrong by %.1g; it must be right to %g",
+            "%s is %.17g, so close to an extremal hole that the flux at %.9g Hz is not a number",
+            "%s is %.17g, so close to an extremal hole that the energy balance of returning light is wrong by %.1g; it must be right to %g",
             'inner is %.9g; with returning "yes" it must be the ISCO, %.9g M, or "isco"',
             "volume.model has no light of one frequency in physical units, as a spectrum needs; it must be a model with volume.frequency_ghz, such as gold or riaf; without scene and preset the spectrum is that of a thin disk",
             'a spectrum needs a scene where only the volume shines: disk.model and sky.model must be "none", and there must be no jets, spots or bodies',
@@ -433,6 +434,9 @@ TOGETHER = [
         "(POST|PATCH) /v1/playground|POST /v1/jobs",
         (
             "spacetime.spin is %.9g; it must be %.9g: the playground's bodies move round a hole of that spin",
+            "spacetime.charge is %.9g; it must be %.9g: the playground's bodies move round a hole of that charge",
+            HOLE,
+            'charge is %.9g; without gravity "kerr" it must be 0',
             "velocity is %.9g c; it must be %s",
             "position is %.9g M from the hole; it must be more than %g M, inside which the hole captures everything",
             "a snapshot cannot have this body, because it is captured by the hole or faster than c",
@@ -449,6 +453,7 @@ TOGETHER = [
             "there is no body with this id, or it no longer exists",
             "gravity cannot change after a playground is made",
             "spin cannot change after a playground is made",
+            "charge cannot change after a playground is made",
         ),
     ),
     (

@@ -84,6 +84,7 @@ class Physics(daemon.Case):
             "sky",
             "separatrix",
             "returning",
+            "scale",
         }
         for quantity in self.quantities():
             query = f"/v1/physics/{quantity['name']}?"
@@ -530,6 +531,41 @@ class Integrals(daemon.Case):
         self.assertAlmostEqual(sum(parts) * width / line["values"]["total"], 1, delta=1e-3)
         blue = sum(part for g, part in zip(told["g"], parts) if g > 1) / sum(parts)
         self.assertAlmostEqual(blue, line["columns"]["share"][2], delta=5e-3)
+
+    def test_charge(self):
+        """The disk is that of the charged hole. Face-on, without spin, each ring has one energy, 1/u^t = sqrt(1 - 3/r +
+        2 Q^2/r^2), so that the line ends at that of the ISCO, which is the root of r^3 - 6 r^2 + 9 Q^2 r - 4 Q^4."""
+        q, isco = 0.9, 4.51374504671510329
+        hole = {"spin": 0, "charge": q}
+        red, blue = ((1 - 3 / r + 2 * q * q / r**2) ** 0.5 for r in (isco, 30))
+        edges = [0.1, red - 2e-4, red + 1e-2, blue + 2e-4]
+        line = strict(self.post("line", {**hole, "inclination_deg": 0, "outer": 30, "edges": edges}).body)
+        self.assertEqual(line["parameters"]["charge"], q)
+        self.assertAlmostEqual(line["values"]["isco"], isco, delta=1e-13)
+        self.assertEqual(line["columns"]["share"][0], 0)
+        self.assertGreater(line["columns"]["share"][1], 0.005)
+        self.assertAlmostEqual(line["values"]["inside"], 1, delta=1e-12)
+        ring = self.post("transfer-function", {**hole, "radii": [9], "g_stars": 3}).json()
+        self.assertLess(ring["columns"]["g_min"][0], (1 - 3 / 9 + 2 * q * q / 81) ** 0.5)
+        peak = self.daemon.get("/v1/physics/disk-flux?spin=0&charge=0.9&mass_msun=10&mdot_edd=0.1").json()["values"]
+        spectrum = self.post("spectrum", {**hole, "frequencies": 3}).json()["values"]
+        self.assertAlmostEqual(spectrum["t_max_k"] / peak["t_peak_k"], 1, delta=1e-12)
+        for name, more in ("line", {"bins": 9}), ("transfer-function", {"rings": 2}), ("spectrum", {"frequencies": 4}):
+            with self.subTest(name):
+                none, tiny, some, other = (
+                    self.post(name, {"spin": 0.3, "inclination_deg": 50, **more, **charge}).json()["columns"]
+                    for charge in ({}, {"charge": 1e-300}, {"charge": 0.5}, {"charge": -0.5})
+                )
+                self.assertEqual(none, tiny)
+                self.assertNotEqual(none, some)
+                self.assertEqual(some, other)
+                problem = self.assertProblem(
+                    self.post(name, {"spin": 0.8, "charge": 0.7}), 422, "invalid-parameters", "/charge"
+                )
+                self.assertIn("with spin 0.8 its magnitude must be below 0.6 M", problem["detail"])
+        self.assertProblem(
+            self.post("spectrum", {"preset": "riaf", "charge": 0.1}), 422, "invalid-parameters", "/charge"
+        )
 
     def test_a_disk_shines_what_it_radiates(self):
         """Far out and nearly face-on, where shifts are small, the flux over all frequencies is cos(i)/(pi D^2) of what

@@ -611,6 +611,22 @@ class Playground(daemon.Owned):
             "/scene/spacetime/spin",
         )
 
+    def test_a_charged_hole(self):
+        """The bodies are neutral. Without gravity "kerr" there is no charge."""
+        hole = {"gravity": "kerr", "spin": 0.3, "charge": 0.5, "bodies": [PLANET]}
+        play = self.open(hole, paused=True)
+        self.assertEqual(play["settings"]["charge"], 0.5)
+        self.assertEqual(play["scene"]["spacetime"]["charge"], 0.5)
+        self.assertProblem(
+            self.patch(play, {"scene": {"spacetime": {"charge": 0.4}}}),
+            422,
+            "invalid-playground",
+            "/scene/spacetime/charge",
+        )
+        self.assertProblem(self.patch(play, {"charge": 0.1}), 422, "invalid-playground", "/charge")
+        for document in {**hole, "spin": 0.9}, {"charge": 0.5}:
+            self.assertProblem(self.daemon.post("/v1/playground", document), 422, "invalid-playground", "/charge")
+
     def test_kerr(self):
         play = self.open(
             {

@@ -1,8 +1,8 @@
 /* Oracle for line profiles. It traces a ray for each place of the disk's image, while the profile interpolates a table.
  * It uses triangles with linear g and uniform light, while the profile has cells with moments. It extrapolates from two
- * such sums. g is written out (Bardeen, Press & Teukolsky 1972, ApJ 178, 347, eqs. 2.16, 5.4a). The rays themselves are
- * tested by tests/oracle/kerr_schild.h. The cumulative share is accurate to about a tenth of `apart`: 1e-5 to 1e-4 with
- * 1024 directions. */
+ * such sums. g is written out (Bardeen, Press & Teukolsky 1972, ApJ 178, 347, eqs. 2.16, 5.4a; with charge Dadhich &
+ * Kale 1977, J. Math. Phys. 18, 1727). The rays themselves are tested by tests/oracle/kerr_schild.h. The cumulative
+ * share is accurate to about a tenth of `apart`: 1e-5 to 1e-4 with 1024 directions. */
 #ifndef KD_TESTS_LINE_TRIANGLES_H
 #define KD_TESTS_LINE_TRIANGLES_H
 
@@ -72,16 +72,16 @@ static inline double lt_profile_of(const struct kd_disk_image *image, const stru
                                    const double *edges, int bins, double *cumulative)
 {
     struct lt_place *at = malloc((size_t)n * (size_t)(m + 1) * sizeof *at);
-    double *in = calloc((size_t)bins * 2, sizeof *in), apart = 0, a = image->hole.a;
+    double *in = calloc((size_t)bins * 2, sizeof *in), apart = 0, a = image->hole.a, q2 = image->hole.q * image->hole.q;
     for (int i = 0; i <= m && apart >= 0; i++) {
         double part = (double)i / m,
                r = i == m ? law->outer : law->inner * pow(law->outer / law->inner, part * (0.4 + 0.6 * part)),
-               q = pow(r, -1.5);
+               s = sqrt(r - q2);
         for (int j = 0; j < n; j++) {
             struct lt_place *p = &at[i * n + j];
             if (!kd_disk_image_place(image, r, 2 * M_PI * j / n, &p->alpha, &p->beta))
                 apart = -1;
-            p->g = sqrt(1 - 3 / r + 2 * a * q) / (1 + a * q + p->alpha * image->sin_i * q);
+            p->g = r * sqrt(r * r - 3 * r + 2 * q2 + 2 * a * s) / (r * r + a * s + p->alpha * image->sin_i * s);
             p->light = law->light(law->user, r, p->g, lt_cosine(image, p, r));
         }
     }

@@ -15,18 +15,19 @@ static void test_bodies_follow_the_closed_form(void **state)
 {
     (void)state;
     static const struct {
-        double spin, x[3], v[3];
+        double spin, charge, x[3], v[3];
     } cases[] = {
-        { 0.9, { 10, 0, 0 }, { 0, 0.36, 0 } },
-        { 0.9, { 6, 0, 2 }, { 0.1, 0.4, 0.2 } },
-        { -0.5, { 0, 20, 3 }, { -0.22, 0.02, 0.1 } },
-        { 0, { 12, 3, 0 }, { 0, 0.34, 0.1 } },
+        { 0.9, 0, { 10, 0, 0 }, { 0, 0.36, 0 } },          { 0.9, 0, { 6, 0, 2 }, { 0.1, 0.4, 0.2 } },
+        { -0.5, 0, { 0, 20, 3 }, { -0.22, 0.02, 0.1 } },   { 0, 0, { 12, 3, 0 }, { 0, 0.34, 0.1 } },
+        { 0, 0.9, { 8, 0, 0 }, { 0, 0.36, 0.1 } },         { 0.6, 0.75, { 6, 0, 2 }, { 0.1, 0.38, 0.2 } },
+        { -0.7, 0.7, { 0, 20, 3 }, { -0.22, 0.02, 0.1 } },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct kd_playground_params params = playground_quiet();
         struct kd_error error = { 0 };
         params.gravity = KD_GRAVITY_KERR;
         params.spin = cases[i].spin;
+        params.charge = cases[i].charge;
         params.h_max = 10;
         struct kd_playground *p = playground_make(params);
         struct kd_playground_body body = { .mass = 1e-6 };
@@ -36,8 +37,8 @@ static void test_bodies_follow_the_closed_form(void **state)
         const struct kd_playground_spherical from = kd_playground_spherical(body.x, body.v);
         struct kd_orbit orbit;
         struct kd_orbit_state start;
-        if (kd_orbit_from_state(kd_hole(params.spin), from.r, from.theta * 180 / M_PI, KD_OBSERVER_ZAMO, from.v, &orbit,
-                                &start, &error))
+        if (kd_orbit_from_state(kd_playground_hole(&params), from.r, from.theta * 180 / M_PI, KD_OBSERVER_ZAMO, from.v,
+                                &orbit, &start, &error))
             fail_msg("%s", error.message);
         assert_int_equal(orbit.fate, KD_ORBIT_BOUND);
         const struct kd_orbit_bound bound = kd_orbit_bound_of(&orbit, &start);
@@ -58,7 +59,7 @@ static void test_bodies_follow_the_closed_form(void **state)
             for (int n = 0; n < 3; n++)
                 worst = fmax(worst, fabs(p->bodies[0].x[n] - want[n]) / at.r);
         }
-        print_message("spin %g: t = %.4g, worst %.2g\n", params.spin, p->t, worst);
+        print_message("spin %g, charge %g: t = %.4g, worst %.2g\n", params.spin, params.charge, p->t, worst);
         assert_true(worst < 1e-8);
         kd_playground_destroy(p);
     }
@@ -135,19 +136,28 @@ static void circles_are_no_refusals(void **state)
     assert_true(worst < 1e-11);
 }
 
-/* On Schwarzschild's circle of r = 12 the azimuth is t/12^(3/2). It is exact also at the times when steps end, of which
- * there are 256 in a turn. */
+/* On the circle of r = 12 of a hole without spin the azimuth is t sqrt(r - q^2)/r^2. It is exact also at the times when
+ * steps end, of which there are 256 in a turn. */
 static void circles_go_round_evenly(void **state)
 {
     (void)state;
-    struct kd_playground *p = playground_read("{\"gravity\":\"kerr\",\"h_max\":100,\"bodies\":[{\"position\":[12,0,0],"
-                                              "\"velocity\":[0,0.31622776601683794,0]}]}");
-    const double rate = pow(12, -1.5), step = 2 * M_PI / rate / 256;
-    for (int k = 1; k <= 400; k++) {
-        playground_advance(p, k * step - p->t);
-        assert_true(hypot(p->bodies[0].x[0] - 12 * cos(rate * p->t), p->bodies[0].x[1] - 12 * sin(rate * p->t)) < 1e-9);
+    static const double charges[] = { 0, 0.9 };
+    for (int i = 0; i < 2; i++) {
+        const double q2 = charges[i] * charges[i], r = 12, rate = sqrt(r - q2) / (r * r), step = 2 * M_PI / rate / 256;
+        struct kd_playground_params params = playground_quiet();
+        params.gravity = KD_GRAVITY_KERR;
+        params.charge = charges[i];
+        params.h_max = 100;
+        struct kd_playground *p = playground_make(params);
+        playground_put(p, (struct kd_playground_body) {
+                              .x = { r }, .v = { 0, r * rate / sqrt(1 - 2 / r + q2 / (r * r)) }, .mass = 1e-6 });
+        for (int k = 1; k <= 400; k++) {
+            playground_advance(p, k * step - p->t);
+            assert_true(hypot(p->bodies[0].x[0] - r * cos(rate * p->t), p->bodies[0].x[1] - r * sin(rate * p->t)) <
+                        1e-9);
+        }
+        kd_playground_destroy(p);
     }
-    kd_playground_destroy(p);
 }
 
 /* If the budget ends within a stride, all bodies are where they were at its beginning, at one common time; the next
@@ -271,8 +281,8 @@ static void snapshots_start_again_to_the_bit(void **state)
           60 }, /* debris bounds the step */
         { "{\"preset\":\"binary\"}", 3000, 4000 },
         { "{\"preset\":\"system\",\"waves\":true,\"amplification\":10}", 100, 100 },
-        { "{\"gravity\":\"kerr\",\"spin\":0.9,\"bodies\":[{\"position\":[9,1,2],\"velocity\":[-0.05,0.3,0.1]},{"
-          "\"position\":[0,12,0],\"velocity\":[-0.4,-0.25,0.1]}]}",
+        { "{\"gravity\":\"kerr\",\"spin\":0.9,\"charge\":0.4,\"bodies\":[{\"position\":[9,1,2],\"velocity\":[-0.05,0.3,"
+          "0.1]},{\"position\":[0,12,0],\"velocity\":[-0.4,-0.25,0.1]}]}",
           25, 40 },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

@@ -26,7 +26,8 @@ static uint64_t seed = 1;
 static struct kd_disk_image image;
 
 struct asked {
-    double spin, inclination_deg;
+    struct kd_hole hole;
+    double inclination_deg;
     struct kd_line_params params;
     struct kd_lamppost lamp;
     int bins;
@@ -44,6 +45,14 @@ static double any_spin(struct kd_random *random)
 {
     double spin = one_in(random, 4) ? 1 - pow(10, between(random, -6, -2)) : between(random, 0, 0.998);
     return one_in(random, 2) ? -spin : spin;
+}
+
+/* One in four is charged, up to a^2 + q^2 = 1 - 1e-6. */
+static struct kd_hole any_hole(struct kd_random *random)
+{
+    const double a = any_spin(random), room = sqrt((1 - a) * (1 + a));
+    const double share = one_in(random, 3) ? 1 - pow(10, between(random, -6, -2)) : kd_random(random);
+    return kd_hole_charged(a, one_in(random, 4) ? share * room : 0);
 }
 
 static void ask_light(struct kd_random *random, struct kd_line_params *p, double horizon)
@@ -70,12 +79,12 @@ static void ask_edges(struct kd_random *random, struct asked *q)
 
 static struct asked ask(struct kd_random *random)
 {
-    struct asked q = { .spin = any_spin(random), .inclination_deg = between(random, 0, 87) };
+    struct asked q = { .hole = any_hole(random), .inclination_deg = between(random, 0, 87) };
     struct kd_line_params *p = &q.params;
-    double isco = kd_kerr_isco(kd_hole(q.spin));
+    double isco = kd_kerr_isco(&q.hole);
     p->inner = one_in(random, 2) ? isco : isco * exp(between(random, 0, 3));
     p->outer = one_in(random, 2) ? 400 : p->inner * exp(between(random, 0.05, 7));
-    ask_light(random, p, kd_hole(q.spin)->outer);
+    ask_light(random, p, q.hole.outer);
     p->tolerance = one_in(random, 4) ? 0 : pow(10, between(random, -4, -1));
     ask_edges(random, &q);
     return q;
@@ -123,11 +132,11 @@ static struct truth truth_of(const struct asked *q, const double *share, double 
 static void describe(const struct asked *q, double told, struct truth t)
 {
     const struct kd_line_params *p = &q->params;
-    print_message("a = %.17g, i = %.17g, %g to %g M, law %d (%g, %g from %g; lamp at %g, %g), limb %d, energy %d, %d "
-                  "bins, tolerance %.1e: told %.2e, off by %.2e +- %.1e\n",
-                  q->spin, q->inclination_deg, p->inner, p->outer, (int)p->emissivity, p->index, p->outer_index,
-                  p->break_r, p->height, p->photon_index, (int)p->limb, p->energy, q->bins, p->tolerance, told, t.error,
-                  t.known);
+    print_message(
+        "a = %.17g, q = %.17g, i = %.17g, %g to %g M, law %d (%g, %g from %g; lamp at %g, %g), limb %d, energy %d, %d "
+        "bins, tolerance %.1e: told %.2e, off by %.2e +- %.1e\n",
+        q->hole.a, q->hole.q, q->inclination_deg, p->inner, p->outer, (int)p->emissivity, p->index, p->outer_index,
+        p->break_r, p->height, p->photon_index, (int)p->limb, p->energy, q->bins, p->tolerance, told, t.error, t.known);
 }
 
 static void test_lines(void **state)
@@ -141,9 +150,9 @@ static void test_lines(void **state)
         const struct kd_line_params *p = &q.params;
         struct kd_line_profile profile;
         struct kd_error error;
-        assert_true(kd_disk_image_init(&image, kd_hole(q.spin), q.inclination_deg * RADIAN));
+        assert_true(kd_disk_image_init(&image, &q.hole, q.inclination_deg * RADIAN));
         if (p->emissivity == KD_LINE_LAMPPOST &&
-            !kd_lamppost_init(&q.lamp, kd_hole(q.spin), p->height, p->photon_index, p->inner, p->outer))
+            !kd_lamppost_init(&q.lamp, &q.hole, p->height, p->photon_index, p->inner, p->outer))
             continue;
         if (kd_line_profile(&image, p, q.edges, q.bins, share, &profile, &error))
             continue;

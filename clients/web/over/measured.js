@@ -3,7 +3,7 @@
 import { byId, el } from '../base/dom.js';
 import { stops } from '../views/scale/eht.js';
 import { number, t } from '../words/i18n.js';
-import { ask, drawn, physics } from '../base/server.js';
+import { ask, drawn, holeOf as blackHole, physics } from '../base/server.js';
 
 // Mass and distance of each hole, in solar masses and parsecs: the values of the quantity `scale`.
 const holes = { m87: [6.5e9, 16.8e6], sgra: [4.297e6, 8277] };
@@ -23,11 +23,11 @@ export async function ring(scene, look, path) {
   if (!hole) throw new Error(t('measured.of-m87-and-sgr', 'of M87* and Sgr A* alone, by their masses and distances'));
   if (scene.get('camera.r') !== 'infinity')
     throw new Error(t('measured.as-seen-from-the', 'as seen from the Earth alone: from infinity'));
-  const spin = scene.get('spacetime.spin'),
+  const black = blackHole(scene),
     inclination_deg = scene.get('camera.inclination_deg');
   const [{ values: v }, { values: edge }] = await Promise.all([
-    physics('scale', { hole, spin, inclination_deg }),
-    physics('shadow', { spin, inclination_deg, angle_deg: '0:358:180', ...drawn }),
+    physics('scale', { hole, ...black, inclination_deg }),
+    physics('shadow', { ...black, inclination_deg, angle_deg: '0:358:180', ...drawn }),
   ]);
   const middle = ['alpha', 'beta'].map(name => (Math.min(...edge[name]) + Math.max(...edge[name])) / 2),
     around = [...Array(121).keys()].map(k => (k * Math.PI) / 60),

@@ -232,7 +232,7 @@ const overlays = [
   ['orbit', orbit, t('overlay.orbit-of-the-orbits', 'Orbit of the Orbits view, lensed')],
 ];
 
-const uncharged = ['polarization', 'ring']; // these are known for an uncharged hole only
+const uncharged = ['polarization']; // known for an uncharged hole only
 const slow = ['orbit']; // takes seconds: the other lines are drawn first
 
 export function buildOverlays(root, stage, scene) {

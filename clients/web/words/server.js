@@ -81,6 +81,8 @@ const sentences = {
     'Three bodies that follow one another along a figure of eight, far from the hole',
   'playground.gravity-of-the-hole-a':
     'gravity of the hole: a potential, in which bodies also attract one another, or exact geodesics of test bodies',
+  'playground.charge-of-the-hole-gravity':
+    'charge Q of the hole in M (gravity "kerr" only); the bodies are neutral; a^2 + Q^2 < 1',
   'playground.spin-of-the-hole-gravity': 'spin of the hole (gravity "kerr" only)',
   'playground.softening-length-in-m-of': "softening length in M of the bodies' mutual attraction",
   'playground.longest-sub-step-in-m': 'longest sub-step in M, and the interval at which debris is advanced',
@@ -210,8 +212,8 @@ const patterns = [
     '{} is {}; with spacetime.charge {} it must be {}, because it is known for an uncharged hole only',
   ],
   [
-    'refusal.spacetime-charge-is-it-must-be-0',
-    "spacetime.charge is {}; it must be 0: the playground's bodies move round an uncharged hole",
+    'refusal.spacetime-charge-is-it-must-be-that',
+    "spacetime.charge is {}; it must be {}: the playground's bodies move round a hole of that charge",
   ],
   ['refusal.is-it-must-be-at-least-the-isco-of-2', '{} is {}; it must be at least {}, the ISCO of {} {}'],
   ['refusal.is-it-must-be-more-than-the-horizon', '{} is {}; it must be more than {}, the horizon of {} {}'],

@@ -92,9 +92,10 @@ enum kd_status kd_disk_spectrum(const struct kd_disk_image *image, const struct 
                                 const double *frequencies, int n, double *flux, double *error_out,
                                 struct kd_error *error)
 {
+    const struct kd_hole_parameter largest = kd_hole_largest(&image->hole);
     struct ring *ring = malloc(sizeof *ring);
     double *other = calloc(2 * (size_t)n, sizeof *other), *rough = other + n,
-           f2 = p->colour_correction * p->colour_correction, largest = 0;
+           f2 = p->colour_correction * p->colour_correction, most = 0;
     double length = KD_M_SUN_M * p->mass_msun / (p->distance_pc * KD_PARSEC_M), scale = length * length / (f2 * f2);
     enum kd_status status =
         ring && other ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %d frequencies", n);
@@ -108,16 +109,17 @@ enum kd_status kd_disk_spectrum(const struct kd_disk_image *image, const struct 
     for (int i = 0; !status && i < n; i++) {
         double planck = 2 * KD_H_J_S * frequencies[i] * frequencies[i] * frequencies[i] / (KD_C_M_S * KD_C_M_S) * scale;
         flux[i] *= planck, other[i] *= planck, rough[i] *= planck;
-        largest = fmax(largest, flux[i]);
+        most = fmax(most, flux[i]);
         if (!isfinite(flux[i]) || !isfinite(other[i]) || !isfinite(rough[i]))
-            status = kd_error_field(
-                error, "/spin", "spin is %.17g, so close to an extremal hole that the flux at %.9g Hz is not a number",
-                image->hole.a, frequencies[i]);
+            status =
+                kd_error_field(error, largest.pointer,
+                               "%s is %.17g, so close to an extremal hole that the flux at %.9g Hz is not a number",
+                               largest.name, largest.value, frequencies[i]);
     }
     *error_out = 0;
     const double sure = image->cos_i < EDGE_ON ? 4 : 1;
     for (int i = 0; !status && i < n; i++)
-        if (flux[i] > 1e-6 * largest)
+        if (flux[i] > 1e-6 * most)
             *error_out =
                 fmax(*error_out, sure * (fabs(other[i] - flux[i]) + TABLE * fabs(rough[i] - other[i])) / flux[i]);
     free(ring);

@@ -16,9 +16,7 @@ static double source_redshift2(const struct kd_hole *hole, double h)
 double kd_lamppost_reach(const struct kd_hole *hole, double h, double delta)
 {
     const double a = hole->a;
-    struct kd_null_ray ray = {
-        .hole = kd_hole_of(a), .radius = h, .cos_theta = 1, .orders = 1, .outward = delta > M_PI / 2
-    };
+    struct kd_null_ray ray = { .hole = *hole, .radius = h, .cos_theta = 1, .orders = 1, .outward = delta > M_PI / 2 };
     ray.alpha = sin(delta) * sqrt((h * h + a * a) / source_redshift2(hole, h));
     struct kd_null_path path = kd_null_trace_fast(&ray);
     return path.crossings ? path.crossing[0].r : path.fate == KD_NULL_ESCAPED ? INFINITY : 0;

@@ -324,6 +324,7 @@ enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct k
                                const double *edges, int bins, double *share, struct kd_line_profile *profile,
                                struct kd_error *error)
 {
+    const struct kd_hole_parameter largest = kd_hole_largest(&image->hole);
     struct kd_lamppost lamp;
     struct sum sums[LEVELS + 1];
     if (params->emissivity == KD_LINE_LAMPPOST &&
@@ -345,9 +346,9 @@ enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct k
                                               .error = left };
         gather(&all, &sums[n], share);
         if (!(sums[n].total > 0 && isfinite(profile->total)))
-            status = kd_error_field(error, "/spin",
-                                    "spin is %.17g, so close to an extremal hole that the profile is not a number",
-                                    image->hole.a);
+            status = kd_error_field(error, largest.pointer,
+                                    "%s is %.17g, so close to an extremal hole that the profile is not a number",
+                                    largest.name, largest.value);
     }
     free(work);
     free(in);

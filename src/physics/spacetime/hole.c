@@ -25,6 +25,13 @@ enum kd_status kd_hole_check(const struct kd_hole *hole, struct kd_error *error)
     return KD_OK;
 }
 
+struct kd_hole_parameter kd_hole_largest(const struct kd_hole *hole)
+{
+    if (fabs(hole->q) > fabs(hole->a))
+        return (struct kd_hole_parameter) { "charge", "/charge", hole->q };
+    return (struct kd_hole_parameter) { "spin", "/spin", hole->a };
+}
+
 struct kd_metric_scalars kd_metric_at(const struct kd_hole *hole, double r, double cos_theta)
 {
     double a = hole->a, w = r * r + a * a, s2 = (1 - cos_theta) * (1 + cos_theta);

@@ -45,6 +45,13 @@ static inline bool kd_hole_exists(const struct kd_hole *hole)
 /* KD_EINVAL at "/spin" or "/charge", with what is allowed, if it does not. */
 enum kd_status kd_hole_check(const struct kd_hole *hole, struct kd_error *error);
 
+/* The larger of spin and charge, for errors about nearly extremal holes. */
+struct kd_hole_parameter {
+    const char *name, *pointer;
+    double value;
+};
+struct kd_hole_parameter kd_hole_largest(const struct kd_hole *hole);
+
 /* A hole from its spin, to be used as an argument: kd_kerr_isco(kd_hole(0.9)). It lives until the end of the enclosing
  * block. */
 #define kd_hole(a) ((const struct kd_hole[]) { kd_hole_of(a) })

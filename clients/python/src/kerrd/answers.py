@@ -375,6 +375,7 @@ class OrbitPaths(TypedDict):
 
 class LineProfileParameters(TypedDict):
     spin: float
+    charge: float
     inclination_deg: float
     inner: float
     outer: float
@@ -412,6 +413,7 @@ class LineProfile(TypedDict):
 
 class TransferFunctionParameters(TypedDict):
     spin: float
+    charge: float
     inclination_deg: float
     inner: float
     outer: float
@@ -435,6 +437,7 @@ class TransferFunction(TypedDict):
 
 class DiskSpectrumParameters(TypedDict):
     spin: float
+    charge: float
     inclination_deg: float
     inner: float
     outer: float

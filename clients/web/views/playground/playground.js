@@ -170,12 +170,17 @@ export async function openPlayground() {
       paused = link.get('play.paused') === '1';
     return running.begin(given ?? { preset: part.preset.value, ...hole, ...(rate > 0 ? { rate } : {}), paused });
   });
-  let hole = {}; // gravity and spin, if somebody has chosen them
+  let hole = {}; // gravity, spin and charge, if somebody has chosen them
   const showRules = rules(
     part.rules,
     known.settings,
     (name, value) => patch({ [name]: value }),
-    (name, value) => ((hole = { ...hole, [name]: value }), (given = null), begin()),
+    (name, value) => {
+      hole = { ...hole, [name]: value };
+      if (hole.gravity && hole.gravity !== 'kerr') delete hole.charge;
+      given = null;
+      begin();
+    },
   );
 
   // By default the plan is shown and, for the planets in a wide window, the lensed view too.
@@ -243,7 +248,7 @@ export async function openPlayground() {
     tell(part.help, given ? '' : (preset()?.title ?? ''));
     part.words.textContent = given ? '' : seenOf(part.preset.value);
     if (state.settings.gravity === 'kerr')
-      physics('kerr', { spin: state.settings.spin }).then(({ values: v }) => {
+      physics('kerr', { spin: state.settings.spin, charge: state.settings.charge }).then(({ values: v }) => {
         plane.radii = { horizon: v.horizon, photons: v.photon_prograde, bound: v.marginally_bound, isco: v.isco };
         plane.redraw();
       });

@@ -5,10 +5,11 @@ import { helpOf, t, word } from '../../words/i18n.js';
 import { stepByArrows } from '../../base/slider.js';
 
 const front = ['waves', 'amplification', 'tides', 'mergers'];
-const fixed = ['gravity', 'spin'];
+const fixed = ['gravity', 'spin', 'charge'];
 const names = {
   gravity: t('rules.gravity', 'Gravity'),
   spin: t('common.spin', 'Spin'),
+  charge: t('rules.charge', 'Charge'),
   waves: t('rules.gravitational-waves-take-energy', 'Gravitational waves take energy'),
   amplification: t('rules.their-loss-times', 'Their loss, times'),
   tides: t('rules.tides-tear-stars', 'Tides tear stars'),
@@ -27,7 +28,7 @@ const names = {
 };
 
 // All other settings are parameters of a model.
-const natures = { spin: 'physics', h_max: 'physics', safety: 'physics', budget: 'physics' };
+const natures = { spin: 'physics', charge: 'physics', h_max: 'physics', safety: 'physics', budget: 'physics' };
 
 function control(row, id, changed) {
   const mark = badge(natures[row.name] ?? 'model', `${id}-nature`);
@@ -109,5 +110,6 @@ export function rules(root, rows, changed, anew) {
     for (const name of ['amplification', 'waves', 'tides', 'mergers', 'softening'])
       if (made.has(name))
         made.get(name).node.hidden = settings.gravity === 'kerr' || (name === 'amplification' && !settings.waves);
+    if (made.has('charge')) made.get('charge').node.hidden = settings.gravity !== 'kerr';
   };
 }

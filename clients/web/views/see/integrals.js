@@ -6,7 +6,7 @@ import { buildForm } from '../../base/form.js';
 import { number, t } from '../../words/i18n.js';
 import { meansSomething } from '../../controls/known.js';
 import { plot } from '../../base/plot.js';
-import { postJson } from '../../base/server.js';
+import { holeOf, postJson } from '../../base/server.js';
 
 const rest_ms = 400; // since the last change, such as one of a drag
 const floor = 1e-5; // share of the largest value below which nothing is drawn
@@ -18,11 +18,9 @@ const isRadio = scene =>
 
 // The scene's disk as parameters of integrals over thin disks.
 function disk(scene) {
-  if (scene.get('spacetime.charge'))
-    throw new Error(t('common.known-for-an-uncharged', 'known for an uncharged hole only'));
   const inner = scene.get('disk.inner');
   return {
-    spin: scene.get('spacetime.spin'),
+    ...holeOf(scene),
     inclination_deg: scene.get('camera.inclination_deg'),
     outer: scene.get('disk.outer'),
     ...(typeof inner === 'number' ? { inner } : {}),
