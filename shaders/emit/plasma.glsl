@@ -21,6 +21,7 @@
     F(power_index) F(power_light) F(power_depth) /* numbers for a power law of electrons */ \
     F(torus_momentum) F(torus_edge) F(torus_index) /* l; offset of ln h; density is h - 1 to this power */ \
     U(grid_rows) U(grid_columns) U(grid_layers) /* nodes in r, theta and phi; 1 layer: axisymmetric */ \
+    U(grid_steps) U(grid_place_rows) /* cells in theta, and rows, of the table of uneven columns; 0: they are even */ \
     /* first coordinate in each direction (log2 for r), and nodes per unit of it */ \
     F(grid_r) F(grid_per_r) F(grid_theta) F(grid_per_theta) F(grid_phi) F(grid_per_phi) \
     F(grid_fall)           /* a if the grid's phi is that of ingoing coordinates; else 0 */ \
@@ -184,51 +185,7 @@ void kd_plasma_field(inout kd_plasma m, kd_midst p)
     m.field = length_ * vec4(in_u * m.flow.time, out_ + in_u * m.flow.out_, down * s, round_ + in_u * turn);
 }
 
-/* Interpolated values of a grid: linear in log r, theta and phi. matter: log2 of density and Theta, u^r, r u^theta;
- * rest: u_phi/(r sin^2 theta), and b^r, r b^theta and b_phi/(r sin^2 theta) in the grid's unit. */
-struct kd_grid_node { vec4 matter, rest; };
-
-kd_grid_node kd_grid_line(uint at, uint next, float part)
-{
-    return kd_grid_node(mix(plasma_grid[at], plasma_grid[next], part),
-                        mix(plasma_grid[at + 1u], plasma_grid[next + 1u], part));
-}
-
-/* phi of ingoing Kerr-Schild coordinates minus Boyer-Lindquist phi: int a/Delta dr = a/(r+ - r-) ln((r - r+)/(r - r-))
- * = -a/(r - 1) artanh(x)/x, x = (r+ - 1)/(r - 1). */
-float kd_grid_fallen(float r)
-{
-    float x = min(cam.root / max(r - 1.0, 1e-6), 0.999999), x2 = x * x;
-    return -emission.plasma.grid_fall / max(r - 1.0, 1e-6) *
-           (x2 < 0.01 ? 1.0 + x2 * (1.0 / 3.0 + 0.2 * x2) : atanh(x) / x);
-}
-
-kd_grid_node kd_grid_at(kd_midst p, float log2_r)
-{
-    uvec2 most = uvec2(emission.plasma.grid_rows, emission.plasma.grid_columns) - 1u;
-    float theta = kd_atan2(sqrt(max(1.0 - p.u * p.u, 0.0)), p.u);
-    vec2 x = clamp(vec2((log2_r - emission.plasma.grid_r) * emission.plasma.grid_per_r,
-                        (theta - emission.plasma.grid_theta) * emission.plasma.grid_per_theta),
-                   vec2(0.0), vec2(most));
-    vec2 cell = min(floor(x), vec2(most) - 1.0), part = x - cell;
-    uint layers = emission.plasma.grid_layers, node = 2u * layers, row = node * (most.y + 1u),
-         at = uint(cell.x) * row + uint(cell.y) * node;
-    float turned = (p.phi + emission.frame.azimuth + kd_grid_fallen(1.0 / p.w) - emission.plasma.grid_phi) *
-                   emission.plasma.grid_per_phi,
-          layer = floor(turned), past = turned - layer;
-    uint first = uint(clamp(layer - floor(layer / float(layers)) * float(layers), 0.0, float(layers - 1u)));
-    kd_grid_node sum = kd_grid_node(vec4(0.0), vec4(0.0));
-    /* lavapipe skips the unused rounds of a loop, but not the branches of an if */
-    for (uint n = 0u; n < min(layers, 2u); n++) {
-        uint k = first + n, from = at + 2u * (k < layers ? k : 0u);
-        kd_grid_node low = kd_grid_line(from, from + row, part.x),
-                     high = kd_grid_line(from + node, from + node + row, part.x);
-        float weight = layers == 1u ? 1.0 : n == 0u ? 1.0 - past : past;
-        sum.matter += weight * mix(low.matter, high.matter, part.y);
-        sum.rest += weight * mix(low.rest, high.rest, part.y);
-    }
-    return sum;
-}
+#include "emit/grid.glsl"
 
 /* Any u^r, u^theta and u_phi belong to a timelike unit vector: -lapse^2 (u^t)^2 = -1 - U^2, where U are the components
  * of the velocity for the observer of zero angular momentum. Let B be the same components of b. Then b.u = 0 gives
@@ -258,17 +215,6 @@ kd_plasma kd_plasma_of_grid(kd_midst p, float log2_r)
     m.electrons.sine2 = max((1.0 - m.electrons.cosine) * (1.0 + m.electrons.cosine), 0.0);
     m.field = one * vec4(time, n.rest.y, p.w * n.rest.z, m.around.omega * time + around / m.around.round_);
     return m;
-}
-
-/* The edges of cells are visible in the light, so a grain covers at most KD_GRID_CELLS. The grain is at least half of
- * one of the finest rows that a grid may have; columns and layers next to the axis would require less. */
-float kd_grid_grain(kd_midst p, float sharp)
-{
-    float r = 1.0 / p.w, s2 = max(1.0 - p.u * p.u, 1e-4);
-    float cells = KD_LOG2_E * abs(p.dw) * r * emission.plasma.grid_per_r +
-                  abs(p.du) * inversesqrt(s2) * emission.plasma.grid_per_theta +
-                  abs(p.momentum) / s2 * emission.plasma.grid_per_phi;
-    return max(min(r / (4.0 + sharp), KD_GRID_CELLS * p.speed / max(cells, 1e-12)), r / 2048.0);
 }
 
 #ifdef KD_MARCH

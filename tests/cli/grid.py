@@ -148,6 +148,27 @@ class Grid(Case):
         )
         self.assertGreater(json.loads(done.stderr)["flux_jy"], 0)
 
+    def test_uneven_columns(self):
+        """Columns that are denser at the plane, and in some rows more than in others, become the torus as even ones do."""
+        self.layers = "brightness_temperature"
+        want, off = self.maps()[self.layers], []
+        self.sampled(192, 192)
+        with numpy.load(self.path("torus-192-192.npz")) as file:
+            even = {name: of for name, of in file.items() if name != "u_con_t"}
+        for columns in (24, 48, 96):
+            x = (numpy.arange(columns) + 0.5) * numpy.pi / columns
+            theta = x + numpy.linspace(0.35, 0.2, 192)[:, None] * numpy.sin(2 * x)
+            arrays = {"theta": theta}
+            for name in UNITS:
+                if name not in ("r", "theta"):
+                    arrays[name] = numpy.array([numpy.interp(t, even["theta"], of) for t, of in zip(theta, even[name])])
+            numpy.savez(self.path("bent.npz"), **{**even, **arrays})
+            got = self.maps("--asset", "g=" + self.path("bent.npz"), *GRID)[self.layers]
+            off.append(abs(got - want).max() / want.max())
+        print("worst pixel of 24, 48 and 96 uneven columns:", *(f"{x:.2e}" for x in off))
+        self.assertTrue(off[0] > off[1] > off[2], off)
+        self.assertLess(off[2], 0.01)
+
     def test_polarised(self):
         self.layers = "intensity,stokes_q,stokes_u,stokes_v"
         transfer = ["--set", "polarization.model=transfer"]
@@ -270,6 +291,9 @@ class Grid(Case):
             **{name: numpy.ones((6, 4)) for name in UNITS if name not in ("r", "theta")},
         )
 
+        bent = numpy.tile(theta, (6, 1))
+        bent[4, 2] = numpy.nan
+
         def header(**changes):
             return {"header": json.dumps({**HEADER, **changes})}
 
@@ -295,7 +319,17 @@ class Grid(Case):
             ({"r": r[::-1]}, "r 0 is 20"),
             ({"r": numpy.full(6, numpy.nan)}, "r 0 is"),
             ({"theta": theta * 0.5}, "theta must go from pole to pole"),
-            ({"theta": theta[:1]}, "theta is not a list of 2 numbers or more"),
+            ({"theta": theta[:1]}, "theta must have at least 3 columns"),
+            ({"theta": theta[::-1]}, "theta[1] is 1.96349541; it must be a number from 0 to pi, and greater than"),
+            (
+                {"theta": numpy.tile(theta, (5, 1))},
+                "theta has 20 numbers in 2 dimensions; it must have a number for each",
+            ),
+            (
+                {"theta": numpy.tile(theta, (6, 1)) * numpy.linspace(0.5, 1, 6)[:, None]},
+                "theta must go from pole to pole",
+            ),
+            ({"theta": bent}, "theta[4, 2] is nan; it must be a number from 0 to pi, and greater than the one"),
             ({"density": None}, "density is missing"),
             ({"density": numpy.ones((4, 6))}, "it must have the shape (6, 4) of r, theta"),
             ({"density": numpy.ones((6, 4), ">f8")}, "the element type is >f8"),

@@ -24,6 +24,7 @@ struct numbers {
     double a, r[2];
     bool ingoing;
     double phi;
+    double bend[2]; /* theta = y + bend sin 2y in the first and in the last row, y even from pole to pole; 0: even */
     double of[ARRAYS][MOST];
 };
 
@@ -61,6 +62,29 @@ static void add_line(struct kd_zip *zip, const char *name, const double *at, siz
         &(struct kd_npy) { .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1, .shape = { n }, .n_dimensions = 1 }, at);
 }
 
+/* theta of a node. */
+static double theta_of(const struct numbers *g, double row, double column)
+{
+    const double y = (column + 0.5) * M_PI / g->columns,
+                 bend = g->bend[0] + (g->bend[1] - g->bend[0]) * row / (g->rows - 1.0);
+    return y + bend * sin(2 * y);
+}
+
+/* theta: a line if all rows have the same, else a row for each. */
+static void add_angles(struct kd_zip *zip, const struct numbers *g)
+{
+    double theta[MOST];
+    const bool alone = g->bend[0] == g->bend[1];
+    for (uint32_t i = 0; i < g->rows * g->columns; i++)
+        theta[i] = theta_of(g, i / g->columns, i % g->columns);
+    add(zip, "theta",
+        &(struct kd_npy) { .fields = { { "", KD_NPY_F8, 0 } },
+                           .n_fields = 1,
+                           .shape = { alone ? g->columns : g->rows, g->columns },
+                           .n_dimensions = alone ? 1 : 2 },
+        theta);
+}
+
 /* Replaces the previous grid's file, under another hash. */
 static void keep(const struct numbers *g)
 {
@@ -84,9 +108,7 @@ static void keep(const struct numbers *g)
     for (uint32_t i = 0; i < g->rows; i++)
         line[i] = g->r[0] * pow(g->r[1] / g->r[0], i / (g->rows - 1.0));
     add_line(zip, "r", line, g->rows);
-    for (uint32_t i = 0; i < g->columns; i++)
-        line[i] = (i + 0.5) * M_PI / g->columns;
-    add_line(zip, "theta", line, g->columns);
+    add_angles(zip, g);
     for (uint32_t i = 0; i < g->layers; i++)
         line[i] = g->phi + i * 2 * M_PI / g->layers;
     if (g->layers > 1)
@@ -130,7 +152,7 @@ static void fill(struct numbers *g, uint32_t seed, double rough)
 {
     for (uint32_t i = 0; i < g->rows * g->columns * g->layers; i++) {
         const double r = g->r[0] * pow(g->r[1] / g->r[0], i / g->layers / g->columns / (g->rows - 1.0)),
-                     theta = (i / g->layers % g->columns + 0.5) * M_PI / g->columns, s = sin(theta);
+                     theta = theta_of(g, i / g->layers / g->columns, i / g->layers % g->columns), s = sin(theta);
         double x[ARRAYS];
         for (int k = 0; k < ARRAYS; k++)
             x[k] = rough * (2 * random_of(&seed) - 1);
@@ -145,12 +167,22 @@ static void fill(struct numbers *g, uint32_t seed, double rough)
     }
 }
 
+/* The column at theta in a row, by lines between the angles of its nodes. */
+static double column_of(const struct numbers *g, double row, double theta)
+{
+    double column = 0;
+    while (column < g->columns - 2.0 && theta_of(g, row, column + 1) < theta)
+        column++;
+    const double below = theta_of(g, row, column);
+    return fmin(fmax(column + (theta - below) / (theta_of(g, row, column + 1) - below), 0), g->columns - 1.0);
+}
+
 /* Trilinear interpolation over the eight nodes about a place. Components are converted to those for a length of M:
  * theta's times r, phi's over r sin^2 theta. */
 static double between(const struct numbers *g, int which, double r, double theta, double phi)
 {
-    const double x = log(r / g->r[0]) / log(g->r[1] / g->r[0]) * (g->rows - 1),
-                 y = fmin(fmax(theta / M_PI * g->columns - 0.5, 0), g->columns - 1.0),
+    const double x = log(r / g->r[0]) / log(g->r[1] / g->r[0]) * (g->rows - 1), under = fmin(floor(x), g->rows - 2.0),
+                 y = column_of(g, under, theta) * (under + 1 - x) + column_of(g, under + 1, theta) * (x - under),
                  z = (phi - g->phi) / (2 * M_PI) * g->layers;
     const double power = which == 3 || which == 6 ? 1 : which == 4 || which == 7 ? -1 : 0;
     double sum = 0;
@@ -162,8 +194,8 @@ static double between(const struct numbers *g, int which, double r, double theta
                      layer = k - floor(k / g->layers) * g->layers;
         const double value = g->of[which][((uint32_t)i * g->columns + (uint32_t)j) * g->layers + (uint32_t)layer],
                      here = g->r[0] * pow(g->r[1] / g->r[0], i / (g->rows - 1.0));
-        sum += part * (which < 2 ? log(value)
-                                 : value * pow(here, power) / (turns ? pow(sin((j + 0.5) * M_PI / g->columns), 2) : 1));
+        sum +=
+            part * (which < 2 ? log(value) : value * pow(here, power) / (turns ? pow(sin(theta_of(g, i, j)), 2) : 1));
     }
     return which < 2 ? exp(sum) : sum * pow(r, -power) * (turns ? pow(sin(theta), 2) : 1);
 }
@@ -258,7 +290,14 @@ static void test_rays(void **state)
         flat = { .rows = 16, .columns = 12, .layers = 1, .a = 0.9, .r = { 2, 20 } },
         round = { .rows = 12, .columns = 8, .layers = 6, .a = -0.6, .r = { 2.5, 18 }, .phi = -0.3 },
         ingoing = { .rows = 12, .columns = 8, .layers = 5, .a = 0.8, .r = { 2, 15 }, .phi = 0.7, .ingoing = true };
+    static struct numbers
+        bent = { .rows = 16, .columns = 12, .layers = 1, .a = 0.9, .r = { 2, 20 }, .bend = { 0.3, 0.3 } },
+        turning = { .rows = 12, .columns = 10, .layers = 6, .a = 0.5, .r = { 2.5, 18 }, .bend = { 0.4, -0.2 } };
     fill(&flat, 1, 0.3);
+    fill(&bent, 4, 0.3);
+    fill(&turning, 5, 0.3);
+    compare(&bent, "{" HIGH ",\"volume\":{\"grid_scale\":3}}", 2e-3);
+    compare(&turning, "{" HIGH ",\"camera\":{\"inclination_deg\":75,\"azimuth_deg\":20}}", 2e-3);
     fill(&round, 2, 0.5);
     fill(&ingoing, 3, 0.5);
     compare(&flat, "{" HIGH ",\"volume\":{\"grid_scale\":3}}", 2e-3);

@@ -81,10 +81,13 @@ static enum kd_status prepare(const struct kd_emitter_buffers_work *work, const 
     }
     own->there = false;
     KD_TRY(grid_of(work->renderer, scene, true, &grid, error));
-    const uint64_t bytes = (uint64_t)grid->rows * grid->columns * grid->layers * KD_MATTER_FLOATS * sizeof *grid->nodes;
+    const uint64_t nodes = (uint64_t)grid->rows * grid->columns * grid->layers * KD_MATTER_FLOATS * sizeof *grid->nodes,
+                   places = kd_matter_grid_places(grid) * sizeof *grid->places, bytes = nodes + places;
     KD_TRY(kd_emitter_buffers_at_least(work, &own->nodes, bytes, KD_VK_DEVICE, "matter on a grid", error));
     KD_TRY(kd_vk_buffer_create(work->vk, bytes, KD_VK_UPLOAD, "matter on a grid on the host", &staging, error));
-    memcpy(kd_vk_buffer_map(staging), grid->nodes, bytes);
+    memcpy(kd_vk_buffer_map(staging), grid->nodes, nodes);
+    if (places)
+        memcpy((char *)kd_vk_buffer_map(staging) + nodes, grid->places, places);
     KD_TRY(kd_vk_copy(work->vk, "upload", own->nodes, 0, staging, 0, bytes, error));
     KD_TRY(kd_vk_submit(work->vk, NULL, error));
     memcpy(own->of, scene->volume.grid, sizeof own->of);
@@ -115,6 +118,8 @@ static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, 
     to->grid_per_r = (float)((g->rows - 1) / log2(g->r[1] / g->r[0]));
     to->grid_theta = (float)g->theta[0];
     to->grid_per_theta = (float)((g->columns - 1) / (g->theta[1] - g->theta[0]));
+    to->grid_steps = g->steps;
+    to->grid_place_rows = g->place_rows;
     to->grid_phi = (float)g->phi;
     to->grid_per_phi = g->layers > 1 ? (float)(g->layers / g->turn) : 0;
     to->grid_fall = g->ingoing ? (float)scene->spacetime.spin : 0;

@@ -11,7 +11,7 @@ enum { KD_GRIDS = 8 };
 struct kd_grids {
     struct kd_cached_documents_grid {
         char of[KD_ASSET_NAME];     /* the asset's hash; "": the slot is free */
-        struct kd_matter_grid grid; /* nodes: present until uploaded, up to 64 MiB; otherwise NULL */
+        struct kd_matter_grid grid; /* nodes and places: present until uploaded, up to 80 MiB; otherwise NULL */
     } entries[KD_GRIDS];
     uint32_t n; /* number of grids read so far; the next one replaces the oldest */
 };

@@ -23,6 +23,8 @@
 #define UNIT 1e-2   /* tolerance of |u.u + 1| */
 #define FINEST 1024 /* rows per factor of e in r: a stretch of the march is two cells */
 #define PARTS 64    /* the grid may cover 1/k of a turn, with k at most this */
+#define PLACES 4    /* cells a column in the table of uneven columns */
+#define PLACES_LEAST 256
 #define HEADER_MOST 65536
 
 /* Arrays in the order of their place in a node; `scale`: the power of r by which they are multiplied. */
@@ -42,7 +44,8 @@ _Static_assert(sizeof kinds / sizeof *kinds == KD_MATTER_FLOATS, "a float for ea
 struct kd_matter_reader {
     struct kd_unzip zip;
     struct kd_matter_grid grid;
-    double *r, *theta;
+    double *r, *theta;            /* theta: of each column, or of each node of a layer */
+    size_t theta_rows;            /* 1, or the number of rows */
     bool look;                    /* numbers are only checked, and not prepared for a renderer */
     struct kd_matter_array array; /* the current array */
     size_t kind, done;            /* index of this array, and the number of its elements that are done */
@@ -157,39 +160,136 @@ done:
     return status;
 }
 
-/* Reads radii or angles, and sets the first and the last of them. */
-static enum kd_status take_line(struct kd_matter_reader *r, const char *name, bool logarithmic, double least,
-                                double most, double **at, uint32_t *n, double edges[2], struct kd_error *error)
+static enum kd_status copy(const struct kd_matter_array *a, double **out, struct kd_error *error)
+{
+    *out = malloc(a->n * sizeof **out);
+    for (size_t i = 0; *out && i < a->n; i++)
+        (*out)[i] = kd_matter_array_at(a, i);
+    return *out ? KD_OK : kd_matter_no_memory(error);
+}
+
+static enum kd_status take_radii(struct kd_matter_reader *r, struct kd_error *error)
 {
     struct kd_matter_array a = { 0 };
     enum kd_status status;
-    KD_TRY(kd_matter_array_take(&r->zip, name, KD_MATTER_SIDE, &a, error));
-    KD_TRY(check_even(name, &a, logarithmic, least, most, error));
-    *at = malloc(a.n * sizeof **at);
-    if (!*at)
-        KD_TRY(kd_matter_no_memory(error));
-    for (size_t i = 0; i < a.n; i++)
-        (*at)[i] = kd_matter_array_at(&a, i);
-    *n = (uint32_t)a.n;
-    edges[0] = (*at)[0];
-    edges[1] = (*at)[a.n - 1];
+    KD_TRY(kd_matter_array_take(&r->zip, "r", KD_MATTER_SIDE, &a, error));
+    KD_TRY(check_even("r", &a, true, 0.1, 1e6, error));
+    KD_TRY(copy(&a, &r->r, error));
+    r->grid.rows = (uint32_t)a.n;
+    r->grid.r[0] = r->r[0];
+    r->grid.r[1] = r->r[a.n - 1];
 done:
     kd_matter_array_finish(&a);
     return status;
+}
+
+static bool is_even(const double *at, size_t n)
+{
+    const double step = (at[n - 1] - at[0]) / (double)(n - 1);
+    for (size_t i = 0; i < n; i++)
+        if (!(fabs(at[i] - (at[0] + step * (double)i)) <= EVEN * step))
+            return false;
+    return true;
+}
+
+/* Checks that the angles of a row ascend from pole to pole. */
+static enum kd_status check_angles(const double *at, size_t n, size_t row, bool alone, struct kd_error *error)
+{
+    char name[60], what[120];
+    for (size_t i = 0; i < n; i++) {
+        if (at[i] >= 0 && at[i] <= M_PI + 1e-6 && (!i || at[i] > at[i - 1]))
+            continue;
+        if (alone)
+            snprintf(name, sizeof name, "theta[%zu]", i);
+        else
+            snprintf(name, sizeof name, "theta[%zu, %zu]", row, i);
+        snprintf(what, sizeof what, "is %.9g; it must be a number from 0 to pi, and greater than the one before it",
+                 at[i]);
+        return kd_matter_refuse(name, what, error);
+    }
+    if (at[0] > 1.001 * (at[1] - at[0]) || at[n - 1] < M_PI - 1.001 * (at[n - 1] - at[n - 2]))
+        return kd_matter_refuse(
+            "theta",
+            "must go from pole to pole; its first is more than a step from 0, or its last more than a step from pi",
+            error);
+    return KD_OK;
+}
+
+static enum kd_status take_angles(struct kd_matter_reader *r, struct kd_error *error)
+{
+    struct kd_matter_grid *g = &r->grid;
+    struct kd_matter_array a = { 0 };
+    enum kd_status status;
+    char what[120];
+    KD_TRY(kd_matter_array_take(&r->zip, "theta", (size_t)g->rows * KD_MATTER_SIDE, &a, error));
+    r->theta_rows = a.dimensions == 2 ? g->rows : 1;
+    g->columns = (uint32_t)(a.n / r->theta_rows);
+    if (a.dimensions > 2 || g->columns > KD_MATTER_SIDE || (a.dimensions == 2 && a.shape[0] != g->rows)) {
+        snprintf(what, sizeof what,
+                 "has %zu numbers in %zu dimensions; it must have a number for each column, or %u rows"
+                 " of them, and at most %d columns",
+                 a.n, a.dimensions, g->rows, KD_MATTER_SIDE);
+        KD_TRY(kd_matter_refuse("theta", what, error));
+    }
+    if (g->columns < 3)
+        KD_TRY(kd_matter_refuse("theta", "must have at least 3 columns, so that one is off the axis", error));
+    KD_TRY(copy(&a, &r->theta, error));
+    for (size_t row = 0; row < r->theta_rows; row++)
+        KD_TRY(check_angles(r->theta + row * g->columns, g->columns, row, r->theta_rows == 1, error));
+    g->theta[0] = r->theta[0];
+    g->theta[1] = r->theta[g->columns - 1];
+done:
+    kd_matter_array_finish(&a);
+    return status;
+}
+
+static double theta_at(const struct kd_matter_reader *r, size_t row, size_t column)
+{
+    return r->theta[(r->theta_rows > 1 ? row * r->grid.columns : 0) + column];
+}
+
+/* The columns at the bounds of a table's cells, by lines between the columns' angles. */
+static void columns_at(const double *theta, size_t columns, uint32_t steps, float *out, size_t stride)
+{
+    size_t below = 0;
+    for (uint32_t i = 0; i <= steps; i++) {
+        const double at = i * M_PI / steps;
+        while (below + 2 < columns && theta[below + 1] <= at)
+            below++;
+        const double column = (double)below + (at - theta[below]) / (theta[below + 1] - theta[below]);
+        const float bounded = (float)fmin(fmax(column, 0), (double)(columns - 1));
+        if (i < steps)
+            out[stride * i] = bounded;
+        if (i > 0)
+            out[stride * (i - 1) + 1] = bounded;
+    }
+}
+
+static enum kd_status make_places(struct kd_matter_reader *r, struct kd_error *error)
+{
+    struct kd_matter_grid *g = &r->grid;
+    if (r->look || (r->theta_rows == 1 && is_even(r->theta, g->columns)))
+        return KD_OK;
+    g->place_rows = r->theta_rows > 1 ? g->rows - 1 : 1;
+    g->steps = PLACES * g->columns < PLACES_LEAST ? PLACES_LEAST : PLACES * g->columns;
+    if (g->steps > KD_MATTER_PLACES / g->place_rows)
+        g->steps = KD_MATTER_PLACES / g->place_rows;
+    g->places = malloc(kd_matter_grid_places(g) * sizeof *g->places);
+    if (!g->places)
+        return kd_matter_no_memory(error);
+    for (size_t row = 0; row < g->place_rows; row++)
+        for (size_t next = 0; next < 2; next++)
+            columns_at(r->theta + (r->theta_rows > 1 ? (row + next) * g->columns : 0), g->columns, g->steps,
+                       g->places + 4 * row * g->steps + 2 * next, 4);
+    return KD_OK;
 }
 
 static enum kd_status take_places(struct kd_matter_reader *r, struct kd_error *error)
 {
     struct kd_matter_grid *g = &r->grid;
     enum kd_status status;
-    KD_TRY(take_line(r, "r", true, 0.1, 1e6, &r->r, &g->rows, g->r, error));
-    KD_TRY(take_line(r, "theta", false, 0, M_PI + 1e-6, &r->theta, &g->columns, g->theta, error));
-    const double step = (g->theta[1] - g->theta[0]) / (double)(g->columns - 1);
-    if (g->theta[0] > 1.001 * step || g->theta[1] < M_PI - 1.001 * step)
-        KD_TRY(kd_matter_refuse(
-            "theta",
-            "must go from pole to pole; its first is more than a step from 0, or its last more than a step from pi",
-            error));
+    KD_TRY(take_radii(r, error));
+    KD_TRY(take_angles(r, error));
     KD_TRY(take_round(r, error));
     if ((uint64_t)g->rows * g->columns * g->layers > KD_MATTER_NODES) {
         char what[120];
@@ -199,8 +299,7 @@ static enum kd_status take_places(struct kd_matter_reader *r, struct kd_error *e
     }
     if ((g->rows - 1) / log(g->r[1] / g->r[0]) > FINEST)
         KD_TRY(kd_matter_refuse("r", "must have at most 1024 rows per factor e in r", error));
-    if (g->columns < 3)
-        KD_TRY(kd_matter_refuse("theta", "must have at least 3 numbers, so that one is off the axis", error));
+    KD_TRY(make_places(r, error));
 done:
     return status;
 }
@@ -261,8 +360,8 @@ static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struc
     const struct kd_matter_grid *g = &r->grid;
     const struct kd_hole hole = kd_hole_of(g->spin);
     const double edge = 1.001 * hole.outer, t = kd_matter_array_at(&r->array, i);
-    const double radius = r->r[i / g->layers / g->columns], theta = r->theta[i / g->layers % g->columns],
-                 s2 = sin(theta) * sin(theta);
+    const size_t row = i / g->layers / g->columns;
+    const double radius = r->r[row], theta = theta_at(r, row, i / g->layers % g->columns), s2 = sin(theta) * sin(theta);
     const struct kd_metric_scalars m = kd_metric_at(&hole, radius, cos(theta));
     const float *n = g->nodes + KD_MATTER_FLOATS * i;
     const double out = n[VELOCITY], down = n[VELOCITY + 1] / radius, round = n[VELOCITY + 2] * radius;
@@ -298,13 +397,14 @@ static float filled(const struct kd_matter_grid *g, const float *nodes, size_t i
 
 /* Divides azimuthal components by sin^2 theta, with which they fall near the axis. On the axis the result is the
  * neighbour's. */
-static void over_sine(struct kd_matter_grid *g, const double *theta)
+static void over_sine(struct kd_matter_reader *r)
 {
     static const int kind[] = { VELOCITY + 2, FIELD + 2 };
+    struct kd_matter_grid *g = &r->grid;
     for (int pass = 0; pass < 2; pass++) /* first the nodes off the axis, then those on it */
         for (size_t i = 0; i < nodes_of(g); i++) {
             const size_t column = i / g->layers % g->columns, beside = column ? i - g->layers : i + g->layers;
-            const double s2 = sin(theta[column]) * sin(theta[column]);
+            const double theta = theta_at(r, i / g->layers / g->columns, column), s2 = sin(theta) * sin(theta);
             for (int k = 0; k < 2 && (s2 > AXIS) == (pass == 0); k++) {
                 float *at = g->nodes + KD_MATTER_FLOATS * i + kind[k];
                 *at = pass ? g->nodes[KD_MATTER_FLOATS * beside + kind[k]] : (float)(*at / s2);
@@ -363,7 +463,8 @@ done:
 
 size_t kd_matter_reader_bytes(const struct kd_matter_reader *r)
 {
-    return nodes_of(&r->grid) * (KD_MATTER_FLOATS * sizeof *r->grid.nodes + sizeof(double));
+    return nodes_of(&r->grid) * (KD_MATTER_FLOATS * sizeof *r->grid.nodes + sizeof(double)) +
+           r->theta_rows * r->grid.columns * sizeof *r->theta;
 }
 
 const struct kd_matter_grid *kd_matter_reader_grid(const struct kd_matter_reader *r) { return &r->grid; }
@@ -414,7 +515,7 @@ enum kd_status kd_matter_reader_go_on(struct kd_matter_reader *r, double until_m
     }
     *over = r->kind > KD_MATTER_FLOATS;
     if (*over && !r->look) {
-        over_sine(&r->grid, r->theta);
+        over_sine(r);
         to_logarithms(&r->grid);
     }
 done:
@@ -450,7 +551,7 @@ enum kd_status kd_matter_grid_read(const void *data, size_t size, struct kd_matt
     *out = (struct kd_matter_grid) { 0 };
     if (!status) {
         *out = r->grid;
-        r->grid.nodes = NULL;
+        r->grid.nodes = r->grid.places = NULL;
     }
     kd_matter_reader_close(r);
     return status;
@@ -466,6 +567,8 @@ enum kd_status kd_matter_grid_look(const void *data, size_t size, uint32_t nodes
     kd_matter_reader_close(r);
     return status;
 }
+
+size_t kd_matter_grid_places(const struct kd_matter_grid *grid) { return (size_t)4 * grid->place_rows * grid->steps; }
 
 void kd_matter_grid_told(const struct kd_matter_grid *grid, uint32_t nodes[3], double *spin)
 {
@@ -490,5 +593,6 @@ enum kd_status kd_matter_grid_none(const struct kd_hole *hole, struct kd_matter_
 void kd_matter_grid_finish(struct kd_matter_grid *grid)
 {
     free(grid->nodes);
-    grid->nodes = NULL;
+    free(grid->places);
+    grid->nodes = grid->places = NULL;
 }

@@ -3,11 +3,11 @@
  *
  *   header        JSON: {"format": "kerrd-grid", "version": 1, "spin": a, "azimuth": "boyer-lindquist" or
  *                 "kerr-schild", "units": {array: unit}}
- *   r theta phi   coordinates of rows, columns and layers, evenly spaced in log r, theta and phi. phi covers one turn
- *                 or a whole fraction of it, and may be missing
- *   density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi
- *                 arrays of the shape (rows, columns) or (rows, columns, layers)
- *   u_con_t       optional; if present, the velocity must be a unit vector
+ *   r theta phi   coordinates of rows, columns and layers. r is evenly spaced in log r, and phi in phi. theta is that
+ * of each column, or, of the shape (rows, columns), that of each node. phi covers one turn or a whole fraction of it,
+ * and may be missing density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi arrays of the
+ * shape (rows, columns) or (rows, columns, layers) u_con_t       optional; if present, the velocity must be a unit
+ * vector
  *
  * Components are in Boyer-Lindquist coordinates (con: contravariant, cov: covariant), namely those that are finite at
  * the horizon. u^t follows from the norm. b is the field in the frame of the matter, so b^t follows from b.u = 0. */
@@ -25,13 +25,15 @@ enum {
     KD_MATTER_SIDE = 4096,     /* limit for rows, columns and layers */
     KD_MATTER_NODES = 1 << 21, /* limit for nodes: 256 x 128 x 64 */
     KD_MATTER_FLOATS = 8,      /* floats a node */
+    KD_MATTER_PLACES = 1 << 20 /* limit for the cells of `places`, of four floats each */
 };
 #define KD_MATTER_TYPE "application/x-npz"
 
 struct kd_matter_grid {
     uint32_t rows, columns, layers; /* layers 1: axisymmetric */
     double spin;
-    double r[2], theta[2]; /* r of the first and the last row, in M; theta of the first and the last column */
+    double r[2], theta[2]; /* r of the first and the last row, in M; theta of the first and the last column, if they are
+                            * even */
     /* phi of the first layer; angle covered by all layers, radians: a turn or a whole fraction of it */
     double phi, turn;
     bool ingoing; /* phi is the ingoing Kerr-Schild azimuth; otherwise the Boyer-Lindquist one */
@@ -40,6 +42,11 @@ struct kd_matter_grid {
      * sin^2 theta), then b^r, r b^theta and b_phi/(r sin^2 theta), each divided by `field`. These numbers vary
      * little from node to node and are finite on the axis. */
     float *nodes;
+    /* Where columns are not even: the column at theta as a number with a fraction, bilinear between the numbers of a
+     * table of `steps` cells in theta from 0 to pi, for each two rows next to each other, or one for all. A cell has
+     * four floats: at its begin and its end in the one row, and in the next. NULL: the columns are even. */
+    float *places;
+    uint32_t steps, place_rows;
 };
 
 /* Whether bytes begin as an NPZ file does. */
@@ -50,6 +57,7 @@ enum kd_status kd_matter_grid_read(const void *data, size_t size, struct kd_matt
 enum kd_status kd_matter_grid_look(const void *data, size_t size, uint32_t nodes[3], double *spin,
                                    struct kd_error *error);
 void kd_matter_grid_told(const struct kd_matter_grid *grid, uint32_t nodes[3], double *spin);
+size_t kd_matter_grid_places(const struct kd_matter_grid *grid); /* floats of `places`; 0: the columns are even */
 void kd_matter_grid_finish(struct kd_matter_grid *grid);
 
 /* Reads a file in pieces of some milliseconds, none of which unpacks more than one array. The file's bytes must remain

@@ -77,13 +77,14 @@ static bool has_no_grid(const struct kd_scene *scene) { return is_grid(scene) &&
 static uint64_t device_bytes(const struct kd_scene *scene)
 {
     return has_no_grid(scene) ? 4 * KD_MATTER_FLOATS * sizeof(float)
-           : is_grid(scene)   ? (uint64_t)KD_MATTER_NODES * KD_MATTER_FLOATS * sizeof(float)
+           : is_grid(scene)   ? ((uint64_t)KD_MATTER_NODES * KD_MATTER_FLOATS + KD_MATTER_PLACES * 4) * sizeof(float)
                               : 0;
 }
 static uint64_t making_bytes(const struct kd_scene *scene)
 {
     return is_grid(scene) && *scene->volume.grid
-               ? (uint64_t)KD_MATTER_NODES * (2 * KD_MATTER_FLOATS * sizeof(float) + 3 * sizeof(double))
+               ? (uint64_t)KD_MATTER_NODES * (2 * KD_MATTER_FLOATS * sizeof(float) + 3 * sizeof(double)) +
+                     (uint64_t)KD_MATTER_PLACES * 8 * sizeof(float)
                : 0;
 } /* the grid's numbers as read, and as uploaded */
 

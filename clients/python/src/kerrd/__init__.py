@@ -8,6 +8,7 @@ from .client import Client, Job, Session
 from .eht import to_ehtim
 from .errors import JobFailed, KerrdError, NoBinary, NoKerrd, Problem, Unreachable
 from .frame import Frame
+from .grmhd import DumpProblem, Matter, matter
 from .importing import Imported, ImportProblem, scene_from
 from .links import sign
 from .local import local
@@ -19,12 +20,14 @@ __all__ = [
     "AsyncJob",
     "AsyncSession",
     "Client",
+    "DumpProblem",
     "Frame",
     "ImportProblem",
     "Imported",
     "Job",
     "JobFailed",
     "KerrdError",
+    "Matter",
     "NoBinary",
     "NoKerrd",
     "Problem",
@@ -32,6 +35,7 @@ __all__ = [
     "Sweep",
     "Unreachable",
     "local",
+    "matter",
     "scene_from",
     "sign",
     "sweep",

@@ -1,4 +1,4 @@
-"""`python3 -m kerrd import FILE`: a scene from another code's input file, as JSON."""
+"""`python3 -m kerrd import FILE`: a scene from another code's input file, as JSON, or matter from a simulation's dump."""
 
 from __future__ import annotations
 
@@ -6,8 +6,25 @@ import argparse
 import json
 import sys
 
+from . import grmhd
 from .importing import CODES, Imported, ImportProblem, scene_from
 from .importing.ipole import MODELS
+
+# Options for dumps, which are arguments of kerrd.matter: name, type, what it is.
+DUMP_OPTIONS = (
+    ("mass_msun", float, "mass of the hole, suns"),
+    ("m_unit", float, "the code's unit of mass, g (default: the largest density is 1e6 cm^-3)"),
+    ("electrons", str, "`ratio` of temperatures (default), or the name of a stored entropy, such as KEL"),
+    ("r_low", float, "ratio of temperatures where the field dominates (default: 1)"),
+    ("r_high", float, "ratio of temperatures where the gas dominates (default: 40)"),
+    ("gamma_e", float, "adiabatic index of electrons (default: the file's, else 4/3)"),
+    ("gamma_p", float, "adiabatic index of ions (default: the file's, else 5/3)"),
+    ("sigma_cut", float, "no matter where b^2/rho is larger (default: 1)"),
+    ("rho_floor", float, "no matter where the code's density is at most this (default: everywhere)"),
+    ("outer", float, "leave out rows beyond this r"),
+    ("spin", float, "spin of the hole, for Athena++, whose files do not have it"),
+    ("gamma", float, "adiabatic index of the gas, for Athena++"),
+)
 
 
 def report(found: Imported, everything: bool) -> str:
@@ -22,23 +39,55 @@ def report(found: Imported, everything: bool) -> str:
     return "\n".join(lines)
 
 
+def import_dump(asked: argparse.Namespace) -> int:
+    """Writes the grid of a simulation's dump, and tells what was chosen on standard error."""
+    given = {name: getattr(asked, name) for name, _, _ in DUMP_OPTIONS if getattr(asked, name) is not None}
+    try:
+        if asked.output is None or asked.output == "-":
+            raise ValueError("-o is missing; it must be the grid's file, such as grid.npz")
+        found = grmhd.matter(asked.file, code=asked.code, **given)
+        found.save(asked.output)
+    except OSError as problem:
+        print(f"python3 -m kerrd: {asked.output}: {problem.strerror}", file=sys.stderr)
+        return 1
+    except (grmhd.DumpProblem, ImportError, ValueError) as problem:
+        print(f"python3 -m kerrd: {problem}", file=sys.stderr)
+        return 1
+    rows, columns = found.arrays["density"].shape[:2]
+    layers = 1 if found.phi is None else len(found.phi)
+    for note in found.notes:
+        print(f"{asked.file}: {note}", file=sys.stderr)
+    print(f"{asked.file}: {rows} x {columns} x {layers} nodes, spin {found.spin:g}", file=sys.stderr)
+    return 0
+
+
 def main(arguments: list[str] | None = None) -> int:
     """The exit code: 0, or 1 if the file cannot be read or, with --strict, if something is not said."""
     parser = argparse.ArgumentParser(prog="python3 -m kerrd", description="kerrd's Python client")
     commands = parser.add_subparsers(dest="command", required=True)
     one = commands.add_parser(
         "import",
-        help="a scene from an input file of GYOTO, ipole or Blacklight",
+        help="a scene from an input file of GYOTO, ipole or Blacklight, or matter from a dump of iharm3d or Athena++",
         description="Print the scene of an input file of GYOTO (XML), ipole (.par) or Blacklight (.input) as JSON, and on "
-        "standard error what it does not say.",
+        "standard error what it does not say. Of a simulation's dump (iharm3d, Athena++), write the grid that the scene's "
+        "volume.grid names.",
     )
     one.add_argument("file", metavar="FILE")
-    one.add_argument("--code", choices=CODES, help="the code that the file is for (default: by its contents)")
+    one.add_argument(
+        "--code", choices=CODES + grmhd.CODES, help="the code that the file is for (default: by its contents)"
+    )
     one.add_argument("--model", choices=MODELS, help="the model of ipole (default: by the file's keys)")
-    one.add_argument("-o", "--output", metavar="SCENE.json", help="write the scene there (default: standard output)")
+    one.add_argument(
+        "-o", "--output", metavar="OUT", help="write the scene there (default: standard output), or the grid"
+    )
     one.add_argument("-a", "--all", action="store_true", help="tell what became of every key")
     one.add_argument("--strict", action="store_true", help="write no scene if something is not said, with exit code 1")
+    dumps = one.add_argument_group("dumps of simulations")
+    for name, kind, text in DUMP_OPTIONS:
+        dumps.add_argument("--" + name.replace("_", "-"), type=kind, help=text)
     asked = parser.parse_args(arguments)
+    if asked.code in grmhd.CODES or (asked.code is None and grmhd.is_hdf5(asked.file)):
+        return import_dump(asked)
     try:
         found = scene_from(asked.file, code=asked.code, model=asked.model)
     except (ImportProblem, ValueError) as problem:

@@ -1,0 +1,61 @@
+"""Matter of simulations (GRMHD) for volume.model "grid", from the files of iharm3d and Athena++ (docs/importing.md)."""
+
+from __future__ import annotations
+
+import os
+
+from . import athena, iharm
+from .dump import Dump
+from .file import DumpFile, DumpProblem, is_hdf5
+from .grid import Matter
+from .plasma import Plasma
+
+__all__ = ["CODES", "DumpProblem", "Matter", "is_hdf5", "matter"]
+CODES = ("iharm3d", "athena++")
+
+
+def _dump(file: DumpFile, code: str | None, spin: float | None, gamma: float | None, outer: float | None) -> Dump:
+    if code is None:
+        code = "athena++" if "Coordinates" in file.root.attrs or "MeshBlockSize" in file.root.attrs else "iharm3d"
+    if code == "athena++":
+        return athena.read(file, spin, gamma, outer)
+    if spin is not None or gamma is not None:
+        raise ValueError("spin and gamma must be None for a file of iharm3d, which has both")
+    return iharm.read(file, outer)
+
+
+def matter(
+    path: str | os.PathLike[str],
+    *,
+    mass_msun: float | None = None,
+    m_unit: float | None = None,
+    electrons: str = "ratio",
+    r_low: float = 1.0,
+    r_high: float = 40.0,
+    gamma_e: float | None = None,
+    gamma_p: float | None = None,
+    sigma_cut: float | None = 1.0,
+    rho_floor: float | None = None,
+    outer: float | None = None,
+    spin: float | None = None,
+    gamma: float | None = None,
+    code: str | None = None,
+) -> Matter:
+    """The matter of a simulation's dump, as the file that volume.grid names.
+
+    mass_msun, m_unit: mass of the hole, and the code's unit of mass, g; together they give the density in cm^-3 and the
+    field in gauss. Without m_unit the largest density is 1e6 cm^-3, and the scene's volume.grid_scale or
+    volume.normalise_to_jy sets it. electrons: "ratio" of temperatures by r_low and r_high (Moscibrodzka et al. 2016),
+    or the name of the stored entropy, such as "KEL". gamma_e, gamma_p: adiabatic indices of electrons and ions; None:
+    the file's, else 4/3 and 5/3. sigma_cut: no matter where b^2/rho is larger; None: everywhere. rho_floor: no matter
+    where the code's density is at most this, because the code has set it; None: everywhere. outer: rows beyond this r
+    are left out. code: "iharm3d" or "athena++"; None: found by the contents. spin, gamma: of the hole, and the gas's
+    adiabatic index: needed for Athena++, whose files have neither. DumpProblem, with file and name, for a file that
+    cannot be read; ValueError for another argument; ImportError without the package h5py.
+    """
+    if code is not None and code not in CODES:
+        raise ValueError(f"code is {code!r}; it must be {', '.join(CODES)} or None")
+    plasma = Plasma(electrons, r_low, r_high, gamma_e, gamma_p, sigma_cut, mass_msun, m_unit, rho_floor)
+    plasma.check()
+    with DumpFile(path) as file:
+        return Matter.of(_dump(file, code, spin, gamma, outer), plasma)

@@ -1,0 +1,80 @@
+/* Matter on a grid of nodes: interpolation, linear in log r, in columns of theta and in phi. The buffer plasma_grid has
+ * two quads a node, then the table of uneven columns (src/render/emit/matter_grid.h). Included by emit/plasma.glsl. */
+
+/* Interpolated values. matter: log2 of density and Theta, u^r, r u^theta; rest: u_phi/(r sin^2 theta), and b^r, r
+ * b^theta and b_phi/(r sin^2 theta) in the grid's unit. */
+struct kd_grid_node { vec4 matter, rest; };
+
+kd_grid_node kd_grid_line(uint at, uint next, float part)
+{
+    return kd_grid_node(mix(plasma_grid[at], plasma_grid[next], part),
+                        mix(plasma_grid[at + 1u], plasma_grid[next + 1u], part));
+}
+
+/* phi of ingoing Kerr-Schild coordinates minus Boyer-Lindquist phi: int a/Delta dr = a/(r+ - r-) ln((r - r+)/(r - r-))
+ * = -a/(r - 1) artanh(x)/x, x = (r+ - 1)/(r - 1). */
+float kd_grid_fallen(float r)
+{
+    float x = min(cam.root / max(r - 1.0, 1e-6), 0.999999), x2 = x * x;
+    return -emission.plasma.grid_fall / max(r - 1.0, 1e-6) *
+           (x2 < 0.01 ? 1.0 + x2 * (1.0 / 3.0 + 0.2 * x2) : atanh(x) / x);
+}
+
+/* The row and the column at a place, with their fractions, and columns per radian of theta there. */
+struct kd_grid_place { float row, column, per_theta; };
+kd_grid_place kd_grid_place_at(kd_midst p, float log2_r)
+{
+    uvec2 most = uvec2(emission.plasma.grid_rows, emission.plasma.grid_columns) - 1u;
+    float theta = kd_atan2(sqrt(max(1.0 - p.u * p.u, 0.0)), p.u);
+    kd_grid_place at;
+    at.row = clamp((log2_r - emission.plasma.grid_r) * emission.plasma.grid_per_r, 0.0, float(most.x));
+    at.column = clamp((theta - emission.plasma.grid_theta) * emission.plasma.grid_per_theta, 0.0, float(most.y));
+    at.per_theta = emission.plasma.grid_per_theta;
+    /* lavapipe skips the unused rounds of a loop, but not the branches of an if */
+    for (uint n = 0u; n < min(emission.plasma.grid_steps, 1u); n++) {
+        float steps = float(emission.plasma.grid_steps), row = min(floor(at.row), float(most.x - 1u)),
+              x = clamp(theta * (steps / KD_PI), 0.0, steps), cell = min(floor(x), steps - 1.0);
+        uint line = uint(min(row, float(emission.plasma.grid_place_rows - 1u))),
+             nodes = 2u * emission.plasma.grid_rows * emission.plasma.grid_columns * emission.plasma.grid_layers;
+        vec4 corners = plasma_grid[nodes + line * emission.plasma.grid_steps + uint(cell)];
+        vec2 ends = mix(corners.xy, corners.zw, at.row - row);
+        at.column = mix(ends.x, ends.y, x - cell);
+        at.per_theta = max(ends.y - ends.x, 0.0) * (steps / KD_PI);
+    }
+    return at;
+}
+
+kd_grid_node kd_grid_at(kd_midst p, float log2_r)
+{
+    kd_grid_place place = kd_grid_place_at(p, log2_r);
+    vec2 most = vec2(float(emission.plasma.grid_rows - 1u), float(emission.plasma.grid_columns - 1u)),
+         x = vec2(place.row, place.column), cell = min(floor(x), most - 1.0), part = x - cell;
+    uint layers = emission.plasma.grid_layers, node = 2u * layers, row = node * emission.plasma.grid_columns,
+         at = uint(cell.x) * row + uint(cell.y) * node;
+    float turned = (p.phi + emission.frame.azimuth + kd_grid_fallen(1.0 / p.w) - emission.plasma.grid_phi) *
+                   emission.plasma.grid_per_phi,
+          layer = floor(turned), past = turned - layer;
+    uint first = uint(clamp(layer - floor(layer / float(layers)) * float(layers), 0.0, float(layers - 1u)));
+    kd_grid_node sum = kd_grid_node(vec4(0.0), vec4(0.0));
+    /* a loop as above */
+    for (uint n = 0u; n < min(layers, 2u); n++) {
+        uint k = first + n, from = at + 2u * (k < layers ? k : 0u);
+        kd_grid_node low = kd_grid_line(from, from + row, part.x),
+                     high = kd_grid_line(from + node, from + node + row, part.x);
+        float weight = layers == 1u ? 1.0 : n == 0u ? 1.0 - past : past;
+        sum.matter += weight * mix(low.matter, high.matter, part.y);
+        sum.rest += weight * mix(low.rest, high.rest, part.y);
+    }
+    return sum;
+}
+
+/* The edges of cells are visible in the light, so a grain covers at most KD_GRID_CELLS. The grain is at least half of
+ * one of the finest rows that a grid may have; columns and layers next to the axis would require less. */
+float kd_grid_grain(kd_midst p, float sharp)
+{
+    float r = 1.0 / p.w, s2 = max(1.0 - p.u * p.u, 1e-4);
+    float cells = KD_LOG2_E * abs(p.dw) * r * emission.plasma.grid_per_r +
+                  abs(p.du) * inversesqrt(s2) * kd_grid_place_at(p, -log2(p.w)).per_theta +
+                  abs(p.momentum) / s2 * emission.plasma.grid_per_phi;
+    return max(min(r / (4.0 + sharp), KD_GRID_CELLS * p.speed / max(cells, 1e-12)), r / 2048.0);
+}

@@ -1,0 +1,413 @@
+"""Tests of kerrd.matter and `python3 -m kerrd import DUMP`: dumps that tests/python/dumps.py writes, and hostile files.
+
+grmhd.py KERRD FOLDER
+"""
+
+import json
+import os
+import pathlib
+import pickle
+import resource
+import subprocess
+import sys
+import tempfile
+import unittest
+
+KERRD, FOLDER = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2])
+sys.path.insert(0, str(FOLDER / "src"))
+try:
+    import h5py
+    import httpx
+    import numpy as np
+except ImportError as missing:
+    print(f"skipped: {missing}; scripts/setup --browser installs it")
+    sys.exit(77)
+import dumps
+import kerrd
+from kerrd.grmhd import grid, kerr_schild
+
+LIGHT = ("intensity", "stokes_q", "stokes_u", "stokes_v")
+ATHENA = {"spin": dumps.SPIN, "gamma": dumps.GAMMA}
+SMALL = (24, 16, 4)
+
+
+def nmse(got, want):
+    return ((got - want) ** 2).sum() / (want**2).sum()
+
+
+def any_flow(a, seed=5):
+    """A smooth flow without a symmetry: density, energy, and any unit vector u with any b perpendicular to it."""
+    random = np.random.default_rng(seed).normal(size=(8, 3))
+
+    def wave(k, r, theta, phi):
+        return np.cos(random[k, 0] * np.log(r) + random[k, 1] * theta + random[k, 2]) * (1 + 0.5 * np.cos(phi + k))
+
+    def flow(r, theta, phi):
+        r, theta, phi = np.broadcast_arrays(r, theta, phi)
+        g = dumps.metric(a, r, theta)
+        product = lambda v, w: np.einsum("a...,ab...,b...->...", v, g, w)
+        size = np.sqrt(np.abs(np.einsum("aa...->a...", g)))
+        h = g[0, 1]
+        still = np.stack([np.ones_like(r), -h / (1 + h), 0 * r, 0 * r]) * np.sqrt(1 + h)
+        push = np.stack([0 * r] + [0.6 * wave(k, r, theta, phi) / size[k + 1] for k in range(3)])
+        u = still * np.sqrt(1 + product(push, push)) + push
+        b = np.stack([0 * r] + [0.3 * wave(k + 3, r, theta, phi) / size[k + 1] for k in range(3)])
+        b = b + u * product(u, b)
+        return np.exp(wave(6, r, theta, phi)), 0.2 * np.exp(wave(7, r, theta, phi)), u, b
+
+    return flow
+
+
+class Dumps(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def check_vectors(self, found, a, flow, tolerance):
+        """Components and densities at the grid's own nodes, from the flow's vectors by the metric's matrix."""
+        theta = found.theta if found.theta.ndim == 2 else found.theta[None, :]
+        r, theta, phi = np.broadcast_arrays(found.r[:, None, None], theta[:, :, None], found.phi[None, None, :])
+        rho, _, u, b = flow(r, theta, phi)
+        g = dumps.metric(a, r, theta)
+        low_u, low_b = (np.einsum("ab...,b...->a...", g, v) for v in (u, b))
+        unit = found.arrays["density"].max() / rho.max()
+        gauss = 2.99792458e10 * np.sqrt(4 * np.pi * unit * (dumps.PROTON + dumps.ELECTRON))
+        for name, want in (
+            ("density", unit * rho),
+            ("u_con_r", u[1]),
+            ("u_con_theta", u[2]),
+            ("u_cov_phi", low_u[3]),
+            ("b_con_r", gauss * b[1]),
+            ("b_con_theta", gauss * b[2]),
+            ("b_cov_phi", gauss * low_b[3]),
+        ):
+            off = np.abs(found.arrays[name] - want).max() / np.abs(want).max()
+            self.assertLess(off, tolerance, name)
+
+    def test_iharm(self):
+        """Any flow, in MKS and FMKS: what is read is what was written, by derivatives and metrics of its own."""
+        for kind, a in (("mks", 0.7), ("fmks", -0.5), ("fmks", 0.95)):
+            path = self.path("dump.h5")
+            r, theta, phi = dumps.write_iharm(path, kind, SMALL, any_flow(a), a=a, single=False)
+            found = kerrd.matter(path, sigma_cut=None)
+            with self.subTest(kind, a=a):
+                self.assertEqual(found.spin, a)
+                self.assertLess(np.abs(found.r - r[:, 0, 0]).max(), 1e-12)
+                self.assertLess(np.abs(found.theta - (theta[0, :, 0] if kind == "mks" else theta[..., 0])).max(), 1e-12)
+                self.assertLess(np.abs(found.phi - phi[0, 0]).max(), 1e-12)
+                self.check_vectors(found, a, any_flow(a), 2e-6)
+
+    def test_athena(self):
+        """Any flow, in blocks. Where one is refined, zones of the others are repeated."""
+        a = 0.6
+        dumps.write_athdf(self.path("one.athdf"), SMALL, any_flow(a), a=a, single=False)
+        found = kerrd.matter(self.path("one.athdf"), spin=a, gamma=1.4, sigma_cut=None)
+        self.assertEqual(found.arrays["density"].shape, SMALL)
+        self.check_vectors(found, a, any_flow(a), 2e-6)
+        every = [(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+        options = {"spin": a, "gamma": 1.4, "sigma_cut": None, "mass_msun": 1e6, "m_unit": 1e20}
+        dumps.write_athdf(self.path("fine.athdf"), SMALL, any_flow(a), a=a, fine=every, single=False)
+        fine = kerrd.matter(self.path("fine.athdf"), **options)
+        self.check_vectors(fine, a, any_flow(a), 2e-6)
+        self.assertEqual(fine.arrays["density"].shape, tuple(2 * n for n in SMALL))
+        dumps.write_athdf(self.path("both.athdf"), SMALL, any_flow(a), a=a, fine=[(0, 0, 0)], single=False)
+        both = kerrd.matter(self.path("both.athdf"), **options)
+        coarse = kerrd.matter(self.path("one.athdf"), **options)
+        inner = (slice(0, 24), slice(0, 16), slice(0, 4))  # of the refined block
+        np.testing.assert_array_equal(both.arrays["density"][inner], fine.arrays["density"][inner])
+        outside = both.arrays["density"][24:]
+        np.testing.assert_array_equal(
+            outside, np.repeat(np.repeat(np.repeat(coarse.arrays["density"], 2, 0), 2, 1), 2, 2)[24:]
+        )
+        np.testing.assert_allclose(both.r, fine.r, rtol=1e-12)
+        self.assertIn("zones of levels below 1 are repeated on the finest level", both.notes)
+        flat = kerrd.matter(self.written_athena((24, 16, 1)), **ATHENA)
+        self.assertIsNone(flat.phi)
+        self.assertEqual(flat.arrays["density"].shape, (24, 16))
+
+    def written_athena(self, shape=SMALL, name="torus.athdf"):
+        dumps.write_athdf(self.path(name), shape, dumps.torus_flow)
+        return self.path(name)
+
+    def written(self, name="torus.h5", kind="mks", **more):
+        dumps.write_iharm(self.path(name), kind, SMALL, dumps.torus_flow, **more)
+        return self.path(name)
+
+    def test_units_and_electrons(self):
+        """The density unit, ratios of temperature, and stored entropies, each by its definition."""
+        flow, a = any_flow(0.3), 0.3
+        dumps.write_iharm(
+            self.path("a.h5"), "mks", SMALL, flow, a=a, entropy=lambda rho, u: 0.01 * u / rho, single=False
+        )
+        r = np.exp(np.log(1.2) + (np.arange(24) + 0.5) / 24 * np.log(60 / 1.2))[:, None, None]
+        x2, x3 = (np.arange(16) + 0.5) / 16, (np.arange(4) + 0.5) * np.pi / 2
+        theta = (np.pi * x2 + 0.35 * np.sin(2 * np.pi * x2))[None, :, None]
+        rho, u, _, b = flow(r, theta, x3)
+        b2 = np.einsum("a...,ab...,b...->...", b, dumps.metric(a, *np.broadcast_arrays(r, theta, x3)[:2]), b)
+        options = {"mass_msun": 6.5e9, "m_unit": 1e27, "sigma_cut": None}
+        unit = 1e27 / (6.5e9 * 1.476625038e5) ** 3
+        got = kerrd.matter(self.path("a.h5"), r_low=2, r_high=30, **options)
+        want = rho * unit / (dumps.PROTON + dumps.ELECTRON)
+        np.testing.assert_allclose(got.arrays["density"], want, rtol=2e-6)
+        rest = dumps.ELECTRON * 2.99792458e10**2 / 1.380649e-16
+        for r_low, r_high in ((2, 30), (1, 1)):
+            beta2 = ((dumps.GAMMA - 1) * u / (0.5 * b2)) ** 2
+            ratio = r_low / (1 + beta2) + r_high * beta2 / (1 + beta2)
+            want = 2 / 3 * dumps.PROTON / dumps.ELECTRON * u / rho / (2 + ratio) * rest  # 4/3 and 5/3
+            got = kerrd.matter(self.path("a.h5"), r_low=r_low, r_high=r_high, **options)
+            np.testing.assert_allclose(got.arrays["temperature"], want, rtol=2e-6)
+        want = dumps.PROTON / dumps.ELECTRON * (0.01 * u / rho) * rho ** (1 / 3) * rest
+        got = kerrd.matter(self.path("a.h5"), electrons="KEL", **options)
+        np.testing.assert_allclose(got.arrays["temperature"], want, rtol=2e-6)
+        got = kerrd.matter(self.path("a.h5"), **{**options, "sigma_cut": 0.05})
+        np.testing.assert_array_equal(got.arrays["density"] == 0, b2 / rho > 0.05)
+        self.assertIn(f"{(b2 / rho > 0.05).sum()} of {rho.size} zones have no matter by this cut", got.notes)
+        got = kerrd.matter(self.path("a.h5"), rho_floor=float(np.median(rho)), **options)
+        np.testing.assert_array_equal(got.arrays["density"] == 0, rho <= np.median(rho))
+        got = kerrd.matter(self.path("a.h5"), outer=20)
+        self.assertEqual(len(got.r), int((r <= 20).sum()))
+        self.assertEqual(got.arrays["density"].max(), np.float32(1e6))
+        self.assertTrue(any("rows beyond r = 20" in note for note in got.notes))
+
+    def test_torus(self):
+        """The torus, sampled by each code, is the analytic torus: polarised light, relative to its square. Errors fall
+        with the fourth power of the steps; at 192 x 96 x 96, bench/grmhd.py."""
+        if subprocess.run([KERRD, "doctor"], capture_output=True, timeout=60).returncode:
+            self.skipTest("there is no Vulkan device")
+
+        def light(*more):
+            subprocess.run(
+                [KERRD, "render", "-p", "torus", "--size", "24x24", "--set", "image.critical_factor=1"]
+                + ["--set", "polarization.model=transfer", "--set", "image.layers=" + ",".join(LIGHT)]
+                + ["-o", self.path("out.npz"), *more],
+                check=True,
+                timeout=300,
+            )
+            with np.load(self.path("out.npz")) as file:
+                return {name: file[name].astype(float) for name in LIGHT}
+
+        want = light()
+        mass = json.loads(subprocess.check_output([KERRD, "scene", "-p", "torus"], timeout=60))["spacetime"][
+            "mass_msun"
+        ]
+        like = {"r_low": 1, "r_high": 1, "gamma_e": dumps.GAMMA, "gamma_p": dumps.GAMMA, "rho_floor": 2 * dumps.FLOOR}
+        units = {"mass_msun": mass, "m_unit": dumps.mass_unit(mass)}
+        for kind in ("mks", "fmks", "athdf"):
+            path = self.path(kind)
+            if kind == "athdf":
+                dumps.write_athdf(path, (96, 80, 4), dumps.torus_flow)
+            else:
+                dumps.write_iharm(path, kind, (96, 48, 4), dumps.torus_flow)
+            found = kerrd.matter(path, **like, **units, **(ATHENA if kind == "athdf" else {}))
+            found.save(self.path("grid.npz"))
+            grid = ("--asset", "g=" + self.path("grid.npz"), "--set", "volume.model=grid", "--set", "volume.grid=g")
+            got = light(*grid)
+            off = {name: nmse(got[name], want[name]) for name in LIGHT}
+            print(kind, *(f"{name} {value:.1e}" for name, value in off.items()))
+            self.assertLess(off["intensity"], 5e-4, kind)
+            self.assertTrue(all(off[name] < 1e-3 for name in LIGHT), (kind, off))
+
+    def refused(self, words, path, **options):
+        with self.assertRaises((kerrd.DumpProblem, ValueError)) as caught:
+            kerrd.matter(path, **options)
+        text = str(caught.exception)
+        self.assertIn(words, text)
+        self.assertEqual(len(text.splitlines()), 1, text)
+        if isinstance(caught.exception, kerrd.DumpProblem):
+            self.assertTrue(text.startswith(path), text)
+            self.assertEqual(str(pickle.loads(pickle.dumps(caught.exception))), text)
+
+    def changed(self, name, of):
+        """A copy of a dump, in which `of` changes the open file."""
+        source = self.written_athena() if name.endswith("athdf") else self.written(kind="fmks")
+        path = self.path("changed." + name)
+        pathlib.Path(path).write_bytes(pathlib.Path(source).read_bytes())
+        with h5py.File(path, "r+") as file:
+            of(file)
+        return path
+
+    def test_hostile_iharm(self):
+        def put(name, value):
+            def change(file):
+                del file[name]
+                if value is not None:
+                    file[name] = value
+
+            return change
+
+        def prim(at, value):
+            def change(file):
+                file["prims"][at] = value
+
+            return change
+
+        def huge(file):
+            del file["prims"]
+            file.create_dataset("prims", (1 << 40, 16, 4, 8), "f4", chunks=(1, 16, 4, 8))
+
+        for change, words in (
+            (
+                put("header/metric", np.bytes_("MINKOWSKI")),
+                'header/metric is "MINKOWSKI"; it must be MKS, MMKS or FMKS',
+            ),
+            (put("header/metric", None), "header/metric is missing"),
+            (
+                put("header/n1", np.int64(1 << 40)),
+                "header/n1 is 1099511627776; it must be a whole number from 2 to 65536",
+            ),
+            (put("header/n2", np.int32(-4)), "header/n2 is -4; it must be a whole number from 3 to 65536"),
+            (put("header/n3", np.float64(4)), "header/n3 is of the type float64; it must be a whole number"),
+            (put("header/n1", np.int32(25)), "prims has the shape (24, 16, 4, 8); it must be (25, 16, 4, 8)"),
+            (put("header/n_prim", np.int32(7)), "header/n_prim is 7; it must be a whole number from 8 to 64"),
+            (put("header/prim_names", np.array(["RHO"] * 8, "S20")), "header/prim_names is RHO, RHO"),
+            (put("header/gam", np.nan), "header/gam is nan; it must be a number from 1.0001 to 3"),
+            (put("header/gam", np.arange(3.0)), "header/gam has the shape (3,); it must be a single value"),
+            (put("header/geom/dx1", 0.0), "header/geom/dx1 is 0; it must be a number from 1e-06 to 10"),
+            (put("header/geom/mmks/a", 1.5), "header/geom/mmks/a is 1.5; it must be a number from -1 to 1"),
+            (put("header/geom/mmks/poly_xt", np.inf), "header/geom/mmks/poly_xt is inf"),
+            (put("prims", np.zeros((24, 16, 4), "f4")), "prims has the shape (24, 16, 4); it must be (24, 16, 4, 8)"),
+            (put("prims", np.zeros((24, 16, 4, 8), "i4")), "prims is of the type int32; it must be of a float type"),
+            (huge, "prims has the shape (1099511627776, 16, 4, 8)"),
+            (prim((3, 2, 1, 0), np.nan), "rho[3, 2, 1] is nan; it must be a finite number above 0"),
+            (prim((3, 2, 1, 0), 0), "rho[3, 2, 1] is 0; it must be a finite number above 0"),
+            (prim((0, 15, 3, 1), -1), "u[0, 15, 3] is -1; it must be a finite number of at least 0"),
+            (prim((23, 0, 0, 4), np.inf), "U3[23, 0, 0] is inf; it must be a finite number"),
+        ):
+            with self.subTest(words):
+                self.refused(words, self.changed("h5", change))
+        path = self.written()
+        self.refused('electrons is "KEL"; it must be "ratio" for', path, electrons="KEL")
+        self.refused("spin and gamma must be None for a file of iharm3d", path, spin=0.5)
+        self.refused("r_high is -1; it must be a number from 0 to 1e+09", path, r_high=-1)
+        self.refused("mass_msun is None; it must be given with m_unit", path, m_unit=1e25)
+        self.refused("outer is 0.5; it must be at least r of the second row", path, outer=0.5)
+        self.refused("code is 'harm'; it must be iharm3d, athena++ or None", path, code="harm")
+
+    def test_hostile_athena(self):
+        def attribute(name, value):
+            def change(file):
+                del file.attrs[name]
+                if value is not None:
+                    file.attrs[name] = value
+
+            return change
+
+        def put(name, at, value):
+            def change(file):
+                file[name][at] = value
+
+            return change
+
+        def bent(file):
+            file["x1f"][:, 3] = np.where(file["x1f"][:, 3] < 3, 2, file["x1f"][:, 3])
+
+        def shaped(name, shape):
+            def change(file):
+                kind = file[name].dtype
+                del file[name]
+                file.create_dataset(name, shape, kind, chunks=True)
+
+            return change
+
+        for change, words in (
+            (attribute("Coordinates", np.bytes_("cartesian")), 'Coordinates is "cartesian"; it must be "kerr-schild"'),
+            (
+                attribute("NumMeshBlocks", np.int64(1 << 40)),
+                "NumMeshBlocks is 1099511627776; it must be 1 whole number",
+            ),
+            (
+                attribute("NumMeshBlocks", np.int32(1 << 20)),
+                "NumMeshBlocks is 1048576 x 192 x 1 zones; it must be at most",
+            ),
+            (attribute("RootGridSize", np.array([1, 1], "i4")), "RootGridSize is 1, 1; it must be 3 whole numbers"),
+            (attribute("RootGridSize", None), "RootGridSize is missing"),
+            (attribute("MaxLevel", np.int32(40)), "MaxLevel is 40; it must be 1 whole number from 0 to 12"),
+            (attribute("VariableNames", np.array(["rho"] * 8, "S21")), "VariableNames is without press, vel1"),
+            (attribute("NumVariables", np.array([5, 2], "i4")), "VariableNames is a list of 8; it must be of 7"),
+            (put("Levels", 3, 5), "Levels is 5; it must be at most MaxLevel, 0"),
+            (put("LogicalLocations", (1, 0), 2), "LogicalLocations[1] is 2, 0, 0; it must be within the mesh"),
+            (put("LogicalLocations", (1, 0), 0), "LogicalLocations leaves zone 12, 0, 0 of the mesh empty"),
+            (put("LogicalLocations", (1, 0), -1), "LogicalLocations is -1 to 1; it must be from 0"),
+            (put("x1f", (slice(None), 3), 0), "x1f is not in ascending order"),
+            (bent, "x1f is 2 at zone 3; it must be 1.956"),
+            (put("x2f", (slice(None), 0), 0.02), "x2f is 0.02 to 3.14159; it must be from 0 to pi"),
+            (shaped("prim", (5, 8, 2, 8, 1 << 40)), "prim has the shape (5, 8, 2, 8, 1099511627776); it must be"),
+            (shaped("x3f", (8, 4)), "x3f has the shape (8, 4); it must be (8, 3)"),
+            (put("prim", (0, 0, 1, 2, 3), np.nan), "rho[3, 2, 1] is nan; it must be a finite number above 0"),
+            (put("B", (2, 7, 0, 0, 0), np.inf), "B3[12, 8, 2] is inf; it must be a finite number"),
+        ):
+            with self.subTest(words):
+                self.refused(words, self.changed("athdf", change), **ATHENA)
+        path = self.written_athena()
+        self.refused("spin is None; it must be given for a file of Athena++", path)
+        self.refused("gamma is 9; it must be a number from 1.0001 to 3", path, spin=0.5, gamma=9)
+
+    def test_files_that_are_cut(self):
+        """Of a file that ends early nothing is used, and the memory is as before."""
+        for source, options in ((self.written(), {}), (self.written_athena(), ATHENA)):
+            data = pathlib.Path(source).read_bytes()
+            path = self.path("cut.h5")
+            for length in (0, 4, 100, len(data) // 3, len(data) // 2, len(data) - 1000):
+                pathlib.Path(path).write_bytes(data[:length])
+                with self.subTest(source, length=length):
+                    self.refused("cannot be read: it is not a complete HDF5 file", path, **options)
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        for _ in range(200):
+            with self.assertRaises(kerrd.DumpProblem):
+                kerrd.matter(path, **ATHENA)
+        self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 4096)  # KiB
+        self.refused("cannot be read: No such file", self.path("missing.h5"))
+
+    def test_command(self):
+        """`python3 -m kerrd import` writes what kerrd.matter makes; the program takes the file."""
+        env = {**os.environ, "PYTHONPATH": os.pathsep.join([str(FOLDER / "src"), *sys.path])}
+
+        def command(*args):
+            return subprocess.run(
+                [sys.executable, "-m", "kerrd", "import", *args], capture_output=True, text=True, timeout=60, env=env
+            )
+
+        path, out = self.written(), self.path("grid.npz")
+        done = command(path, "--r-high", "10", "--sigma-cut", "2", "-o", out)
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        self.assertIn("R_low = 1 and R_high = 10", done.stderr)
+        self.assertIn("24 x 16 x 4 nodes, spin 0.9375", done.stderr)
+        want = kerrd.matter(path, r_high=10, sigma_cut=2)
+        with np.load(out) as file:
+            for name in grid.ARRAYS:
+                np.testing.assert_array_equal(file[name], want.arrays[name])
+        self.assertEqual(want.to_bytes()[:4], b"PK\3\4")
+        done = subprocess.run(
+            [KERRD, "scene", "--set", "spacetime.spin=0.9375", "--asset", "g=" + out, "--set", "volume.model=grid"]
+            + ["--set", "volume.grid=g"],
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        for args, words in (
+            ((path,), "-o is missing; it must be the grid's file"),
+            ((path, "-o", out, "--spin", "0.5"), "spin and gamma must be None"),
+            ((path, "-o", self.path("no/grid.npz")), "No such file or directory"),
+            ((self.written_athena(), "-o", out), "spin is None"),
+        ):
+            done = command(*args)
+            self.assertEqual((done.returncode, done.stdout), (1, ""))
+            self.assertIn(words, done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
+    def test_axis(self):
+        """A vector along the pole's axis stays finite there."""
+        theta = np.array([[1e-9], [np.pi - 1e-9]])
+        one, zero = np.ones((2, 1)), np.zeros((2, 1))
+        found = kerr_schild.flow(0.9, 3.0, theta, (0.3 * one, zero, zero), (one, zero, zero))
+        for values in (*found.u, *found.b, found.b2):
+            self.assertTrue(np.isfinite(values).all())
+
+
+if __name__ == "__main__":
+    sys.argv = sys.argv[:1] + sys.argv[3:]
+    unittest.main(verbosity=2)
