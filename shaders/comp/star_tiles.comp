@@ -41,7 +41,7 @@ layout(set = 0, binding = 10) readonly buffer Stars_ { float star_numbers[]; };
 #define KD_STAR_TILE_OFF 0.2
 #define KD_STAR_TILE_SMOOTH 0.005
 const int HALF = int(TILE) / 2;
-/* largest distance, in rays, of a star from the ray that it is paired with: images are searched up to 0.6 */
+/* upper bound of kd_tile.near: images are searched up to 0.6 */
 const float NEAR = TILE == KD_STAR_TILE || AT_RIM ? 0.72 : 0.65;
 
 /* The map over a tile: q = a u + b v + aa u^2 + ab u v + bb v^2 + aaa u^3 + aab u^2 v + abb u v^2 + bbb v^3, with u
@@ -51,6 +51,7 @@ struct kd_tile {
     vec3 n, e1, e2;
     vec2 a, b, aa, ab, bb, aaa, aab, abb, bbb;
     float det, bent;
+    float near; /* largest distance, in rays, of a star from the ray that it is paired with */
     kd_cells cells;
     bool simple, is_smooth;
 };
@@ -114,6 +115,7 @@ kd_tile tile_about(uint at, bool whole)
                               (RIM == 1u ? KD_STAR_PATCH_RIM : KD_STAR_PATCH);
     float off = (most(solve(t, corners)) + most(solve(t, sides))) * float(HALF);
     t.simple = escape && kd_is_finite(t.bent) && t.bent < KD_STAR_TILE_BENT && off < KD_STAR_TILE_OFF && fine;
+    t.near = min(0.61 + 0.55 * off, NEAR);
     t.is_smooth = false;
     if (TILE == KD_STAR_TILE) { /* each axis has rays at -2 ... 2 of these steps */
         uint across = whole ? uint(HALF / 2) : 0u, down = across * push.width;
@@ -154,13 +156,43 @@ mat2 derivative(kd_tile t, vec2 p)
 
 float determinant_of(mat2 j) { return j[0].x * j[1].y - j[1].x * j[0].y; }
 
+/* Adds terms of second and third order to a place. */
+vec2 linear_of(kd_tile t, vec2 p)
+{
+    return p + p.x * (p.x * (t.aa + p.x * t.aaa + p.y * t.aab) + p.y * t.ab) +
+           p.y * p.y * (t.bb + p.y * t.bbb + p.x * t.abb);
+}
+
+/* Bounds for stars in the cells of a tile: the largest coordinates by the linear map, and the least area that the map
+ * takes a ray's cell to, relative to that of the linear map. Both are those of nine places: middle, sides and corners.
+ * Between these, a parabola with second derivative c exceeds its values at distances `far` by up to c far^2/8. */
+struct kd_bounds {
+    vec2 most;
+    float sharp;
+};
+
+kd_bounds bounds_of(kd_tile t)
+{
+    kd_bounds o = kd_bounds(vec2(0.0), 1.0);
+    const float far = 1.0 + t.near / float(HALF);
+    [[dont_unroll]] for (int k = 0; k < 9; k++) {
+        int row = k / 3;
+        vec2 p = far * vec2(k - 3 * row - 1, row - 1);
+        o.most = max(o.most, abs(linear_of(t, p)));
+        o.sharp = min(o.sharp, determinant_of(derivative(t, p)));
+    }
+    float bent = far * t.bent;
+    o.most += 0.02 + 0.125 * far * bent;
+    o.sharp = max(0.97 * o.sharp - 0.5 * bent * bent, (1.0 - t.bent) * (1.0 - t.bent));
+    return o;
+}
+
 /* Converts a place of the linear map to the corresponding place of the whole one. */
 vec2 place_of(kd_tile t, vec2 linear)
 {
     vec2 p = linear;
     for (int k = 0; k < 3; k++) {
-        vec2 left = p + p.x * (p.x * (t.aa + p.x * t.aaa + p.y * t.aab) + p.y * t.ab) +
-                    p.y * p.y * (t.bb + p.y * t.bbb + p.x * t.abb) - linear;
+        vec2 left = linear_of(t, p) - linear;
         mat2 j = derivative(t, p);
         p -= vec2(j[1].y * left.x - j[1].x * left.y, j[0].x * left.y - j[0].y * left.x) / determinant_of(j);
     }
@@ -190,9 +222,9 @@ void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
 
 /* Lists the pairs of star k, whose place is this many rays from the middle one; lists nothing if the star is too
  * faint. */
-void note(uint at, vec2 place, uint k, bool bright)
+void note(uint at, vec2 place, float near, uint k, bool bright)
 {
-    ivec2 low = max(ivec2(ceil(place - NEAR)), ivec2(-HALF)), high = min(ivec2(floor(place + NEAR)), ivec2(HALF));
+    ivec2 low = max(ivec2(ceil(place - near)), ivec2(-HALF)), high = min(ivec2(floor(place + near)), ivec2(HALF));
     int across = high.x - low.x + 1, all = across * (high.y - low.y + 1);
     if (!bright || across <= 0 || all <= 0)
         return;
@@ -244,16 +276,13 @@ void seek(uint x, uint y)
     bool whole = x + TILE <= push.width && y + TILE <= push.end;
     uint at = whole ? first + uint(HALF) * (push.width + 1u) : first;
     kd_tile t = tile_about(at, whole);
-    /* Vectors whose products with a star are u and v. most_: the largest such value for a star in a cell of the tile,
-     * by the linear map. */
+    /* Vectors whose products with a star are u and v. */
     vec3 to_u = (t.b.y * t.e1 - t.b.x * t.e2) / t.det, to_v = (t.a.x * t.e2 - t.a.y * t.e1) / t.det;
-    float most_ = (1.0 + NEAR / float(HALF)) * (1.0 + 0.5 * t.bent) + 0.05;
     float unit =
         push.least * float(SIDE * SIDE) /
         (AT_RIM ? 1.2 * kd_steps_of(x + 1u, y + 1u) : 1.0); /* the last of the rim's rays stand for a little less */
-    float sharp = 1.0 - t.bent,
-          /* flux of a star that is just visible at the largest magnification */
-        least = sharp * sharp * unit * abs(t.det) * (1.0 / float(HALF * HALF));
+    kd_bounds bounds = bounds_of(t);
+    float least = bounds.sharp * unit * abs(t.det) * (1.0 / float(HALF * HALF)); /* the faintest star that shows */
     bool left_out = is_left_out(x, y), spreads = BRIGHT || t.is_smooth;
     kd_star_walk walk = kd_star_walk_from(t.cells, t.simple && !left_out);
     for (;;) {
@@ -265,7 +294,8 @@ void seek(uint x, uint y)
             if (walk.k < walk.end && !walk.done) {
                 star = star_row(walk.k);
                 place = vec2(dot(star.xyz - t.n, to_u), dot(star.xyz - t.n, to_v));
-                near = abs(place.x) <= most_ && abs(place.y) <= most_ && dot(star.xyz, t.n) > 0.5 && star.w >= least;
+                near = abs(place.x) <= bounds.most.x && abs(place.y) <= bounds.most.y && dot(star.xyz, t.n) > 0.5 &&
+                       star.w >= least;
                 walk.k = star.w < least ? walk.end : walk.k + 1u;
             }
             if (walk.done || near)
@@ -279,7 +309,7 @@ void seek(uint x, uint y)
             shine(x + push.column0 + uint(HALF), y + push.row0 + uint(HALF), place * float(HALF), walk.k - 1u,
                   star.w * dot(star.xyz, t.n) / (patch_ * float(SIDE * SIDE)), star.w > unit * patch_);
         if (!spreads)
-            note(at, place * float(HALF), walk.k - 1u, star.w > 0.8 * unit * patch_);
+            note(at, place * float(HALF), t.near, walk.k - 1u, star.w > 0.8 * unit * patch_);
     }
     if (!t.simple && !left_out)
         list(first, x, y);

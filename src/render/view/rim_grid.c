@@ -203,6 +203,15 @@ static bool tighten(const struct layout *o, struct part *p)
     return t.u1 > 0;
 }
 
+/* The range of whole tiles of the star search whose rays have images with a share in the light, which lie from `low` to
+ * `high` along an axis, counted in rays. A ray's images are up to KD_RIM_REACH from it. */
+static struct kd_rim_span shared_span(double low, double high, uint32_t rays)
+{
+    const double tile = KD_RIM_TILE_RAYS, first = floor(floor(low - KD_RIM_REACH + 1) / tile) * tile,
+                 end = ceil(high + KD_RIM_REACH);
+    return (struct kd_rim_span) { (uint32_t)fmax(first, 0), end < rays ? (uint32_t)end : rays };
+}
+
 static struct kd_rim_grid grid_of(const struct layout *o, const struct part *p)
 {
     double by_u = 0, by_l = 0;
@@ -223,7 +232,9 @@ static struct kd_rim_grid grid_of(const struct layout *o, const struct part *p)
     g.u = g.low_u - KD_RIM_SHARED_U - KD_RIM_HALO * g.du;
     g.l = o->first - p->l0 * o->dl + KD_RIM_SHARED_L + KD_RIM_HALO * g.dl;
     g.columns = (uint32_t)fmin(columns, 1e4), g.rows = (uint32_t)fmin(rows, 1e4);
-    g.x[0] = (struct kd_rim_span) { 0, g.columns }, g.y = (struct kd_rim_span) { 0, g.rows };
+    g.x[0] = shared_span(KD_RIM_HALO, (g.high_u + KD_RIM_SHARED_U - g.u) / g.du, g.columns);
+    const double above = fmin(g.high_l + KD_RIM_SHARED_L, o->first), below = g.low_l - KD_RIM_SHARED_L;
+    g.y = shared_span((g.l - above) / g.dl, (g.l - below) / g.dl, g.rows);
     return g;
 }
 
