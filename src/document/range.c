@@ -38,10 +38,7 @@ static bool parse(const char *text, struct kd_range *range, double *count)
     return rest && !*rest;
 }
 
-static bool holds(const struct kd_row *row, double value)
-{
-    return isfinite(value) && kd_row_holds(row, value);
-}
+static bool holds(const struct kd_row *row, double value) { return isfinite(value) && kd_row_holds(row, value); }
 
 /* Whether all values are allowed. If not, *wrong is one that is not; an end of the range, where possible. */
 static bool all_hold(const struct kd_row *row, const struct kd_range *range, double *wrong)

@@ -174,9 +174,7 @@ class Routes(daemon.Case):
                 continue  # a picture or a film
             others = {
                 posixpath.normpath(posixpath.join(posixpath.dirname(name), other))
-                for other in re.findall(
-                    r"""(?:from ?|import ?\(?|new URL\()['"]([\w./-]+)['"]""", text.body.decode()
-                )
+                for other in re.findall(r"""(?:from ?|import ?\(?|new URL\()['"]([\w./-]+)['"]""", text.body.decode())
             }
             loaded.extend(other for other in others if "." in other and other not in seen)
         self.assertIn("web/views/playground/plane.js", seen)
