@@ -38,13 +38,17 @@ USES = {
 }
 SANITIZER = re.compile(r"lib(a|l|t|ub)san$|libgcov$")
 ADDRESS = re.compile(r"[\w.+-]+@[\w-]+(?:\.[\w-]+)+")  # RFC 5322 3.4.1 without quotes, with a domain that has a dot
-MAINTAINER = re.compile(r"^(?:Maintainer:|\s*authors\s*=|\s*\"author\":| -- ).*?[<\"]([^<>\"\s]*@[^<>\"\s]*)[>\"]", re.M)
+MAINTAINER = re.compile(
+    r"^(?:Maintainer:|\s*authors\s*=|\s*\"author\":| -- ).*?[<\"]([^<>\"\s]*@[^<>\"\s]*)[>\"]", re.M
+)
 
 
 def needed(program):
     """The libraries that a program is linked with, without their versions."""
     text = subprocess.run(["readelf", "-dW", program], capture_output=True, text=True, check=True).stdout
-    return [re.sub(r"(-\d[\d._]*|-x86-64|-aarch64)?\.so[\d.]*$", "", name) for name in re.findall(r"NEEDED.*\[(.*)\]", text)]
+    return [
+        re.sub(r"(-\d[\d._]*|-x86-64|-aarch64)?\.so[\d.]*$", "", name) for name in re.findall(r"NEEDED.*\[(.*)\]", text)
+    ]
 
 
 def addresses(root):
@@ -60,7 +64,11 @@ def faults(root, program):
     linked = needed(program)
     if "libmicrohttpd" not in linked:
         yield f"no libraries of {program} were found"
-    yield from (f"{program} is linked with {name}, which has no use" for name in linked if name not in USES and not SANITIZER.match(name))
+    yield from (
+        f"{program} is linked with {name}, which has no use"
+        for name in linked
+        if name not in USES and not SANITIZER.match(name)
+    )
     security = (root / "SECURITY.md").read_text()
     links = re.findall(r"\]\((https://[^)\s]+)\)", security)
     if "private" not in security or not any("privately-reporting" in link for link in links):
@@ -73,7 +81,10 @@ def faults(root, program):
             yield f"{path}: {address} is no address"
         elif address not in security:
             yield f"{path}: {address} is not spoken of in SECURITY.md"
-    long = [re.search(r"(some \d+ minutes on two idle cores)", (root / name).read_text()) for name in ("README.md", "docs/testing.md")]
+    long = [
+        re.search(r"(some \d+ minutes on two idle cores)", (root / name).read_text())
+        for name in ("README.md", "docs/testing.md")
+    ]
     if not all(long) or long[0][1] != long[1][1]:
         yield "README.md and docs/testing.md say how long tests take: not the same"
     if not re.search(r"scripts/test\b.*skip", (root / "README.md").read_text()):
