@@ -10,6 +10,12 @@ enum {
     LARGE = 16 << 20, /* pixels from which libwebp saves memory at the cost of time */
 };
 
+uint64_t kd_webp_bytes(uint32_t width, uint32_t height)
+{
+    const uint64_t pixels = (uint64_t)width * height;
+    return (pixels > LARGE ? 5 : 32) * pixels + (1 << 20);
+}
+
 static int put(const uint8_t *data, size_t size, const WebPPicture *picture)
 {
     return !kd_buffer_append(picture->custom_ptr, data, size);

@@ -11,11 +11,15 @@
 #define KD_WEBP_SIDE_MAX 16383 /* pixels; the format has 14 bits for a side */
 
 /* Appends one file. quality: 1 to 100. pixels: rows from the top, three bytes a pixel, no padding. Memory while it
- * runs: 1.5 bytes a pixel, and up to 16 Mi pixels libwebp's tokens, some bytes a pixel where there is much detail.
+ * runs: kd_webp_bytes.
  * KD_EINVAL for another quality, or a side outside 1 to KD_WEBP_SIDE_MAX; KD_ETOOBIG for a picture of too much detail
  * for the format at this quality; KD_ENOMEM; on error out->size is unchanged. */
 enum kd_status kd_webp_encode(uint32_t width, uint32_t height, const uint8_t *pixels, unsigned quality,
                               struct kd_buffer *out, struct kd_error *error);
+
+/* Bound of the memory of kd_webp_encode with the file: that of noise at quality 100. Up to 16 Mi pixels libwebp keeps
+ * tokens, 28 bytes a pixel of noise; a larger picture is encoded without them, in 3.3. */
+uint64_t kd_webp_bytes(uint32_t width, uint32_t height);
 
 /* Appends a WebP of kd_webp_encode with an XMP packet. KD_ENOMEM; on error out->size is unchanged. */
 enum kd_status kd_webp_add_xmp(const struct kd_buffer *file, const void *xmp, size_t size, struct kd_buffer *out,

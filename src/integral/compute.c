@@ -29,7 +29,6 @@ static const char *const transfer_sources[] = {
 static const char *const spectrum_sources[] = {
     "D. N. Page & K. S. Thorne 1974, ApJ 191, 499 (flux)",
     "L.-X. Li et al. 2005, ApJS 157, 335, eq. 6 (spectrum)",
-    "C. T. Cunningham 1976, ApJ 208, 534 (returning light)",
     "T. Shimura & F. Takahara 1995, ApJ 445, 780 (colour correction)",
     "S. E. Gralla & A. Lupsasca 2020, Phys. Rev. D 101, 044032 (rays in closed form)",
     NULL,

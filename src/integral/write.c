@@ -60,6 +60,18 @@ static void write_units(struct kd_json *json, const struct kd_integral_kind_of *
     kd_json_end(json);
 }
 
+/* Lists the sources of what not every request of its kind asks for. Returns their number. */
+enum { MORE_SOURCES = 2 };
+static size_t more_sources(const struct kd_integral_request *r, const char *out[MORE_SOURCES])
+{
+    size_t n = 0;
+    if (r->what == KD_INTEGRAL_SPECTRUM && r->returning)
+        out[n++] = "C. T. Cunningham 1976, ApJ 208, 534 (returning light)";
+    if (r->scene && r->scene->spacetime.charge != 0)
+        out[n++] = "E. T. Newman et al. 1965, J. Math. Phys. 6, 918 (the charged hole)";
+    return n;
+}
+
 /* columns: whether the document has the columns. */
 static enum kd_status write_json(const struct kd_integral_answer *answer, bool columns, struct kd_buffer *out)
 {
@@ -96,7 +108,8 @@ static enum kd_status write_json(const struct kd_integral_answer *answer, bool c
     if (kd_integral_is_observed(answer->request->what))
         kd_integral_observation_write(&json, answer->request);
     write_units(&json, kind, answer->light);
-    write_sentences(&json, "sources", kind->sources, NULL, 0);
+    const char *more[MORE_SOURCES];
+    write_sentences(&json, "sources", kind->sources, more, more_sources(answer->request, more));
     write_sentences(&json, "approximations", kind->approximations, answer->told, answer->n_told);
     kd_json_end(&json);
     enum kd_status written = kd_json_finish_line(&json);

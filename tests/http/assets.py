@@ -1,11 +1,13 @@
 """Tests of assets: what is accepted, who may delete it, limits and shares, and what a restart finds. Pictures are
 made here, with zlib only."""
 
+import concurrent.futures
 import hashlib
 import io
 import json
 import math
 import os
+import pathlib
 import shutil
 import struct
 import tempfile
@@ -93,6 +95,47 @@ class Case(daemon.Case):
 
     def at(self, asset):
         return f"{ASSETS}/{asset['sha256']}"
+
+
+class LongDirectories(Case):
+    """Grids whose ZIP has a directory of hundreds of thousands of members."""
+
+    options = ("--client-share", 100)
+    MANY = 700000  # entries of 46 bytes, 31 MiB
+
+    def directory(self):
+        size = 46 * self.MANY
+        ends = b"PK\6\6" + bytes(20) + struct.pack("<4Q", self.MANY, self.MANY, size, 30)  # APPNOTE 4.3.14
+        ends += b"PK\6\7" + bytes(4) + struct.pack("<QI", 30 + size, 1)
+        ends += b"PK\5\6" + bytes(4) + struct.pack("<HHIIH", 0xFFFF, 0xFFFF, 0xFFFFFFFF, 0, 0)
+        return b"PK\3\4" + bytes(26) + (b"PK\1\2" + bytes(42)) * self.MANY + ends  # begins with a member
+
+    def processor_s(self):
+        fields = pathlib.Path(f"/proc/{self.daemon.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def put_when_there_is_room(self, data):
+        """A client may send two such bodies at once: the others wait."""
+        while (answer := self.put(data, "application/x-npz")).status in (429, 503):
+            time.sleep(0.1)
+        return answer
+
+    def cost(self, data, words):
+        """Processor time of the server for five such files at once. Meanwhile another client gets a picture."""
+        before = self.processor_s()
+        with concurrent.futures.ThreadPoolExecutor(5) as pool:
+            puts = [pool.submit(self.put_when_there_is_room, data) for _ in range(5)]
+            picture = self.daemon.get("/v1/render?image.width=320&image.height=180", **{"X-Forwarded-For": "192.0.2.7"})
+            refused = [self.assertProblem(put.result(), 422, "invalid-asset")["detail"] for put in puts]
+        self.assertEqual(picture.status, 200, picture.body)
+        for detail in refused:
+            self.assertIn(words, detail)
+        return self.processor_s() - before
+
+    def test_they_cost_no_more_than_their_bytes(self):
+        many = self.directory()
+        plain = self.cost(bytes(len(many)), "not a")  # refused by its first bytes
+        self.assertLess(self.cost(many, "at most 1024 members; it has 700000"), 2 * plain + 0.5)  # 0.5 s: 50 ticks
 
 
 class Assets(Case):

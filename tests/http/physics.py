@@ -617,6 +617,20 @@ class Integrals(daemon.Case):
         ]
         self.assertAlmostEqual(peaks[1]["t_max_k"] / peaks[0]["t_max_k"], 1.0678, delta=1e-3)
 
+    def test_sources_are_those_of_what_is_asked(self):
+        spectrum = {"spin": 0.5, "frequencies_hz": [1e17]}
+        scene = {"image": {"width": 32, "height": 32}, "camera": {"r": "infinity"}}
+        charged = {**scene, "spacetime": {"spin": 0.5, "charge": 0.3}}
+        for what, document, word, cited in (
+            ("spectrum", {**spectrum, "returning": "no"}, "Cunningham", False),
+            ("spectrum", {**spectrum, "returning": "yes"}, "Cunningham", True),
+            ("visibility", {"scene": scene, "u": [1], "v": [0]}, "Newman", False),
+            ("visibility", {"scene": charged, "u": [1], "v": [0]}, "Newman", True),
+        ):
+            answer = self.post(what, document)
+            self.assertEqual(answer.status, 200, answer.body)
+            self.assertEqual(any(word in source for source in answer.json()["sources"]), cited, (what, document))
+
     def test_an_image_that_is_kept_changes_nothing(self):
         document = {"spin": 0.31, "inclination_deg": 33, "bins": 20}
         first = self.post("line", document).body
@@ -675,6 +689,9 @@ class Integrals(daemon.Case):
             self.assertAlmostEqual(error, 1.8 * abs(want - finer), delta=2e-5)
         unchecked = self.post("visibility", {**document, "check": "none"}).json()
         self.assertEqual((unchecked["columns"]["re"], set(unchecked["columns"]["error"])), (columns["re"], {None}))
+        text = (pathlib.Path(__file__).resolve().parents[2] / "docs/physics/integrals.md").read_text()
+        named = set(re.findall(r"`([a-z_]+)`", re.search(r"- \*\*Columns\*\* of a row:(.*?)\n- ", text, re.S)[1]))
+        self.assertEqual(named, set(unchecked["columns"]), "docs/physics/integrals.md names the columns")
         table = self.post("visibility", document, Accept="text/csv")
         self.assertEqual(table.header("Content-Disposition"), 'attachment; filename="visibility.csv"')
         self.assertEqual([float(row["re"]) for row in csv.DictReader(io.StringIO(table.body.decode()))], columns["re"])

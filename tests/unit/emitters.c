@@ -6,6 +6,7 @@
 #include "render/plan/plan.h"
 #include "render/rays/answer.h"
 #include "scene/table.h"
+#include "scene/dynamic_bodies.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -481,6 +482,12 @@ static void none_of_a_thousand(void **state)
     assert_true(traits[KD_EMITTER_plunge]);
 }
 
+static bool alike(const struct kd_scene *scene, const struct kd_work *work)
+{
+    const struct kd_work own = kd_emit_work(scene);
+    return kd_work_alike(&own, work);
+}
+
 /* What costs more is other work: each emitter, each variant, twice as many of what has a pass or buffers of its own.
  * Where things are, when, and how bright is the same work. */
 static void work_follows_emitters(void **state)
@@ -488,12 +495,12 @@ static void work_follows_emitters(void **state)
     (void)state;
     struct kd_scene smooth, scene;
     kd_scene_smooth(&smooth);
-    const uint64_t work = kd_emit_work(&smooth);
+    const struct kd_work work = kd_emit_work(&smooth);
 #define OTHER(member, value) \
     do { \
         scene = smooth; \
         scene.member = value; \
-        assert_true(kd_emit_work(&scene) != work); \
+        assert_false(alike(&scene, &work)); \
     } while (0)
     OTHER(sky.model, KD_SKY_STARS);
     OTHER(sky.model, KD_SKY_GRID);
@@ -509,7 +516,7 @@ static void work_follows_emitters(void **state)
     do { \
         scene = smooth; \
         scene.member = value; \
-        assert_true(kd_emit_work(&scene) == work); \
+        assert_true(alike(&scene, &work)); \
     } while (0)
     ALIKE(disk.model, KD_DISK_SHAKURA_SUNYAEV);
     ALIKE(disk.slow_light, true); /* of a disk that does not move */
@@ -523,31 +530,54 @@ static void work_follows_emitters(void **state)
     scene = smooth;
     scene.disk.model = KD_DISK_PARTICLES;
     scene.disk.particles = 100000;
-    const uint64_t particles = kd_emit_work(&scene);
+    const struct kd_work particles = kd_emit_work(&scene);
     scene.disk.particles = 101000;
-    assert_true(kd_emit_work(&scene) == particles);
+    assert_true(alike(&scene, &particles));
     scene.disk.particles = 220000;
-    assert_true(kd_emit_work(&scene) != particles);
+    assert_false(alike(&scene, &particles));
     scene.disk.particles = 100000;
     scene.disk.slow_light = true;
-    assert_true(kd_emit_work(&scene) != particles);
+    assert_false(alike(&scene, &particles));
 
     scene = smooth;
     scene.gas.amplitude = 0.5;
     scene.gas.octaves = 3;
-    const uint64_t gas = kd_emit_work(&scene);
+    const struct kd_work gas = kd_emit_work(&scene);
     scene.gas.octaves = 5;
-    assert_true(kd_emit_work(&scene) != gas);
+    assert_false(alike(&scene, &gas));
 
-    uint64_t bodies[4];
-    for (uint32_t n = 0; n < 4; n++) { /* 0, 1, 3, 7 bodies */
+    struct kd_work bodies[4];
+    for (uint32_t n = 0; n < 3; n++) { /* 0, 1, 7 bodies */
         scene = smooth;
-        scene.bodies.count = (1u << n) - 1;
+        scene.bodies.count = (uint32_t[]) { 0, 1, 7 }[n];
         for (uint32_t i = 0; i < scene.bodies.count; i++)
             scene.bodies.at[i].r = 10 + i, scene.bodies.at[i].radius = 1;
         bodies[n] = kd_emit_work(&scene);
-        assert_true(n == 0 ? bodies[n] == work : bodies[n] != bodies[n - 1]);
+        assert_true(kd_work_alike(&bodies[n], n ? &bodies[n - 1] : &work) == !n);
     }
+
+    /* bodies and debris of a playground: 4 and 5 bodies are alike; 100 are not, nor is debris */
+    struct kd_dynamic_bodies *shown[4];
+    struct kd_error error;
+    for (int n = 0; n < 4; n++) {
+        assert_false(kd_dynamic_bodies_create(n == 1   ? 5
+                                              : n == 2 ? 100
+                                                       : 4,
+                                              n == 3 ? 8 : 0, n == 3 ? 8 : 0, &shown[n], &error));
+        shown[n]->debris.turn = 64;
+        shown[n]->debris.depth = 1;
+        for (size_t i = 0; i < shown[n]->n; i++)
+            shown[n]->bodies[i] = (struct kd_seen_body) { .r = 10 + (double)i, .s = 1, .radius = 1, .brightness = 1 };
+        scene = smooth;
+        kd_scene_show(&scene, shown[n]);
+        bodies[n] = kd_emit_work(&scene);
+    }
+    assert_false(kd_work_alike(&bodies[0], &work));
+    assert_true(kd_work_alike(&bodies[0], &bodies[1]));
+    assert_false(kd_work_alike(&bodies[0], &bodies[2]));
+    assert_false(kd_work_alike(&bodies[0], &bodies[3]));
+    for (int n = 0; n < 4; n++)
+        kd_dynamic_bodies_release(shown[n]);
 }
 
 int main(void)

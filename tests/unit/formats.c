@@ -1,4 +1,5 @@
 /* A format is found by its name, media type, file extension and first bytes; adding one to the table is sufficient. */
+#include "image/webp.h"
 #include "fake_formats.h"
 
 #include "render/accuracy/table.h"
@@ -111,6 +112,17 @@ static struct kd_plan planned(const struct kd_format *format, struct kd_scene *s
     return plan;
 }
 
+/* What a WebP takes while it is encoded is counted when a request is admitted. */
+static void memory_of_an_encoder_is_counted(void **state)
+{
+    struct kd_scene scene;
+    (void)state;
+    kd_scene_smooth(&scene);
+    const struct kd_plan png = planned(&kd_format_png, &scene), webp = planned(&kd_format_webp, &scene);
+    assert_int_equal(webp.cost.host_bytes - png.cost.host_bytes,
+                     kd_webp_bytes((uint32_t)scene.image.width, (uint32_t)scene.image.height));
+}
+
 /* Number of passes that only a picture needs. */
 static int shows(const struct kd_plan *plan)
 {
@@ -154,6 +166,7 @@ static void series_are_found_by_name(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(memory_of_an_encoder_is_counted),
         cmocka_unit_test(found_by_name),
         cmocka_unit_test(found_by_bytes),
         cmocka_unit_test(memory_is_kept_and_forgotten),

@@ -3,6 +3,8 @@
 #include "governor_recorded.h"
 #include "governor_simulation.h"
 
+#include "scene/dynamic_bodies.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -386,6 +388,59 @@ static void another_kind_of_scene_begins_anew(void **state)
         run(&s, DRAG, 300);
         assert_true(s.last.final);
     }
+}
+
+/* A drag of the number of particles, to and fro across what is rounded to another octave, keeps what was measured. A
+ * change by more than a factor of two does not, and is then what the next changes are compared with. */
+static void drags_across_an_octave_go_on(void **state)
+{
+    (void)state;
+    struct simulation s;
+    begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 4, .reused = 3, .pixels = 2, .fixed = 2 });
+    s.asked.disk.model = KD_DISK_PARTICLES;
+    s.asked.disk.particles = 141000;
+    run(&s, DRAG, 2000);
+    for (int i = 0; i < 400; i++) { /* 100 000 to 199 000 */
+        const uint32_t before = s.governor.paces[1].count;
+        s.asked.disk.particles = (uint32_t)(141000 * exp2(0.499 * sin(0.1 * i)));
+        change(&s, true);
+        assert_true(s.governor.paces[1].count >= before && before > 8);
+        assert_true(frame(&s));
+    }
+    for (int i = 0, anew = 0; i <= 200; i++) { /* by a factor of ten in small steps */
+        s.asked.disk.particles = (uint32_t)(141000 * pow(10, i / 200.));
+        change(&s, true);
+        anew += !s.governor.paces[1].count;
+        assert_true(frame(&s));
+        if (i == 200)
+            assert_int_equal(anew, 3); /* log2 of 10 */
+    }
+}
+
+/* The bodies of a playground are part of what a frame costs, and are not kept. */
+static void bodies_of_a_playground_count(void **state)
+{
+    (void)state;
+    struct simulation s;
+    struct kd_dynamic_bodies *bodies;
+    struct kd_error error;
+    begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 4, .reused = 3, .pixels = 2, .fixed = 2 });
+    run(&s, DRAG, 2000);
+    assert_true(s.governor.paces[1].count > 8);
+    assert_false(kd_dynamic_bodies_create(1000, 0, 0, &bodies, &error));
+    for (size_t i = 0; i < bodies->n; i++)
+        bodies->bodies[i] = (struct kd_seen_body) { .r = 10 + (double)i, .s = 1, .radius = 1, .brightness = 1 };
+    kd_scene_show(&s.asked, bodies);
+    change(&s, true);
+    assert_int_equal(s.governor.paces[1].count, 0);
+    assert_true(frame(&s));
+    change(&s, true);
+    assert_int_equal(s.governor.paces[1].count, 1);
+    assert_null(s.governor.asked.dynamic.at);
+    kd_scene_show(&s.asked, NULL);
+    kd_dynamic_bodies_release(bodies);
+    change(&s, true);
+    assert_int_equal(s.governor.paces[1].count, 0);
 }
 
 /* A smooth disk that rings does not move: the picture keeps its size on any machine, and regains it. */
@@ -1155,6 +1210,8 @@ int main(void)
         cmocka_unit_test(recovers_from_a_slow_beginning),
         cmocka_unit_test(a_drag_is_soon_forgotten),
         cmocka_unit_test(another_kind_of_scene_begins_anew),
+        cmocka_unit_test(drags_across_an_octave_go_on),
+        cmocka_unit_test(bodies_of_a_playground_count),
         cmocka_unit_test(what_only_rings_keeps_its_size),
         cmocka_unit_test(time_keeps_the_rays_at_the_curve),
         cmocka_unit_test(what_refinement_measured_is_believed),

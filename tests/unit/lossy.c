@@ -9,6 +9,9 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 #include <webp/decode.h>
@@ -57,6 +60,34 @@ static void webp_pixels(void **state)
         kd_buffer_finish(&file);
     }
     assert_true(before < 1.5);
+}
+
+/* The peak of memory of noise, in a process of its own, is within the bound, and not far below it. */
+static void webp_memory(void **state)
+{
+    enum { SIDE = 1200 };
+    (void)state;
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+    skip(); /* they have memory of their own */
+#endif
+    const pid_t child = fork();
+    if (!child) {
+        uint8_t *noise = malloc(3 * SIDE * SIDE);
+        struct kd_buffer file = { 0 };
+        struct rusage before, after;
+        for (size_t i = 0; noise && i < 3 * SIDE * SIDE; i++)
+            noise[i] = (uint8_t)(rand() >> 8);
+        getrusage(RUSAGE_SELF, &before);
+        const bool made = noise && !kd_webp_encode(SIDE, SIDE, noise, 100, &file, &error);
+        getrusage(RUSAGE_SELF, &after);
+        const double share = 1024. * (double)(after.ru_maxrss - before.ru_maxrss) / (double)kd_webp_bytes(SIDE, SIDE);
+        print_message("%.2f of the bound\n", share);
+        _exit(!(made && share > 0.5 && share <= 1));
+    }
+    int end;
+    assert_int_equal(waitpid(child, &end, 0), child);
+    assert_int_equal(end, 0);
+    assert_true(kd_webp_bytes(16000, 16000) < 6ull * 16000 * 16000);
 }
 
 static void refused(void **state)
@@ -142,10 +173,8 @@ static void longest_packet(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(webp_pixels),
-        cmocka_unit_test(refused),
-        cmocka_unit_test(packets),
-        cmocka_unit_test(longest_packet),
+        cmocka_unit_test(webp_pixels), cmocka_unit_test(webp_memory),    cmocka_unit_test(refused),
+        cmocka_unit_test(packets),     cmocka_unit_test(longest_packet),
     };
     return cmocka_run_group_tests(tests, make, NULL);
 }

@@ -118,22 +118,32 @@ uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_numbe
     return e->invocations && e->present(scene) ? e->invocations(scene) : 0;
 }
 
-/* 0 for 0, else 1 more than the logarithm to base 2, rounded. */
-static uint32_t octave(uint64_t n) { return n ? 1 + (uint32_t)lround(log2((double)n)) : 0; }
+static float log2_of(uint64_t n) { return n ? (float)log2((double)n) : 0; }
 
-uint64_t kd_emit_work(const struct kd_scene *scene)
+struct kd_work kd_emit_work(const struct kd_scene *scene)
 {
     const uint32_t needs = kd_emit_needs(scene);
+    struct kd_work work = { 0 };
     uint32_t traits[KD_EMITTER_COUNT];
     kd_emit_traits(scene, traits);
-    uint64_t hash = kd_hash(kd_hash(KD_HASH_BEGIN, &needs, sizeof needs), traits, sizeof traits);
+    work.kind = kd_hash(kd_hash(KD_HASH_BEGIN, &needs, sizeof needs), traits, sizeof traits);
     for (int i = 0; i < KD_EMITTER_COUNT; i++) {
         const struct kd_emitter *e = kd_emitters[i];
-        const uint32_t own[] = { traits[i] && e->device_bytes ? octave(e->device_bytes(scene)) : 0,
-                                 traits[i] && e->invocations ? octave(e->invocations(scene)) : 0 };
-        hash = kd_hash(hash, own, sizeof own);
+        const bool there = e->present(scene);
+        work.kind = kd_hash(work.kind, &there, sizeof there);
+        work.log2_of[i][0] = there && e->device_bytes ? log2_of(e->device_bytes(scene)) : 0;
+        work.log2_of[i][1] = there && e->invocations ? log2_of(e->invocations(scene)) : 0;
     }
-    return hash;
+    return work;
+}
+
+bool kd_work_alike(const struct kd_work *a, const struct kd_work *b)
+{
+    bool alike = a->kind == b->kind;
+    for (int i = 0; i < KD_EMITTER_COUNT && alike; i++)
+        for (int k = 0; k < 2; k++)
+            alike &= fabsf(a->log2_of[i][k] - b->log2_of[i][k]) <= 1;
+    return alike;
 }
 
 void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays,

@@ -104,10 +104,17 @@ uint64_t kd_emit_device_bytes(const struct kd_scene *scene);
 uint64_t kd_emit_making_bytes(const struct kd_scene *scene);
 /* Invocations of an emitter's own pass; 0 if it has none or the scene does not have the emitter. */
 uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_number number);
-/* A hash of what the scene's emitters cost: their traits, the quantities of the lens map that they need, and, each to a
- * factor of two, the bytes of their own buffers and the invocations of their own passes. The emitters of scenes with
- * equal hashes take about the same time at the same size of the picture. */
-uint64_t kd_emit_work(const struct kd_scene *scene);
+/* What the scene's emitters cost. kind: a hash of which there are, of their traits and of the quantities of the lens
+ * map that they need; log2_of: logarithms of the bytes of each emitter's own buffers and of the invocations of its own
+ * pass; 0: none. */
+struct kd_work {
+    uint64_t kind;
+    float log2_of[KD_EMITTER_COUNT][2];
+};
+struct kd_work kd_emit_work(const struct kd_scene *scene);
+/* Whether the emitters take about the same time at the same size of the picture: equal kinds, and no number differs by
+ * more than a factor of two. */
+bool kd_work_alike(const struct kd_work *a, const struct kd_work *b);
 /* Calls take(user, approximation) for each approximation that is in force. */
 void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays,
                        void (*take)(void *user, struct kd_approximation approximation), void *user);

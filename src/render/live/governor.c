@@ -1,7 +1,7 @@
 #include "render/live/governor.h"
 
 #include "base/hash.h"
-#include "render/emit/emitter.h"
+#include "scene/dynamic_bodies.h"
 
 #include <math.h>
 #include <string.h>
@@ -394,11 +394,13 @@ static bool same_ladder(const struct kd_scene *a, const struct kd_scene *b)
            p->steps == q->steps && p->orders == q->orders && kd_emit_along(a) == kd_emit_along(b);
 }
 
-/* A hash of what frames of the scene cost, besides their size: what it emits, and how its rays begin. */
-static uint64_t work_of(const struct kd_scene *scene)
+/* What frames of the scene cost, besides their size: what it emits, and how its rays begin. */
+static struct kd_work work_of(const struct kd_scene *scene)
 {
-    const uint64_t parts[] = { kd_emit_work(scene), (uint64_t)scene->camera.projection, isinf(scene->camera.r) };
-    return kd_hash(KD_HASH_BEGIN, parts, sizeof parts);
+    struct kd_work work = kd_emit_work(scene);
+    const uint64_t parts[] = { work.kind, (uint64_t)scene->camera.projection, isinf(scene->camera.r) };
+    work.kind = kd_hash(KD_HASH_BEGIN, parts, sizeof parts);
+    return work;
 }
 
 void kd_governor_least(struct kd_governor *g, double scale, double patience_ms)
@@ -419,14 +421,17 @@ static bool motion_alone(const struct kd_scene *a, const struct kd_scene *b)
            memcmp(a, b, sizeof still); /* equal scenes have equal bytes: kd_scene_defaults */
 }
 
-void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scene *asked, bool lens)
+void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scene *shown, bool lens)
 {
+    const struct kd_work work = work_of(shown);
+    struct kd_scene still = *shown;
+    const struct kd_scene *const asked = &still;
+    kd_scene_show(&still, NULL); /* moving content is counted in its work alone, and does not outlive the call */
     /* If only the motion of a scene that does not move was changed, the picture shown is right already; the scene is
      * rendered once more. */
     bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) &&
                       !kd_emit_moves(asked);
-    const uint64_t work = work_of(asked);
-    const bool same_work = work == g->work;
+    const bool same_work = kd_work_alike(&work, &g->work);
     if (g->gave_way && !(same_ladder(&g->asked, asked) && same_work))
         give_way(g, &g->paces[1], false); /* another kind of scene gets a new try */
     if (!g->ladders || !same_ladder(&g->asked, asked))
@@ -441,7 +446,8 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
         g->lens_at = -INFINITY; /* striking the hole is not a drag */
     }
     g->asked = *asked;
-    g->work = work;
+    if (!same_work) /* the work that measurements began with stays, so that small changes do not add up unseen */
+        g->work = work;
     g->revision++;
     g->changed_at = now;
     if (told_again) {

@@ -68,6 +68,7 @@
 #ifndef KD_RENDER_LIVE_GOVERNOR_H
 #define KD_RENDER_LIVE_GOVERNOR_H
 
+#include "render/emit/emitter.h"
 #include "render/live/quality.h"
 
 #include <stdbool.h>
@@ -132,7 +133,7 @@ struct kd_governor {
     struct kd_governor_params params;
     double share;
     struct kd_scene asked;
-    uint64_t work; /* hash of what its frames cost, besides their size */
+    struct kd_work work; /* what frames cost, besides their size, when measurements began */
     struct kd_ladder ladder;
     uint32_t ladders, revision;
     struct kd_pace paces[2]; /* for frames that reuse their lens map; for frames that trace it */
@@ -172,10 +173,12 @@ void kd_governor_share(struct kd_governor *governor, double share);
  * measurements: the last wide frames, and the first narrow ones right after them. */
 void kd_governor_least(struct kd_governor *governor, double scale, double patience_ms);
 
-/* The scene is now *asked, which must be valid. lens: its lens map changed, that is, lens_key differs between the plans
- * of both scenes as requested; true for a session's first scene. A change of image.* or accuracy.* makes a new ladder,
- * and starts on the rung that old averages suggest. A change of the scene's kind starts averages and waits again. */
-void kd_governor_changed(struct kd_governor *governor, double now, const struct kd_scene *asked, bool lens);
+/* The scene is now *shown, which must be valid; its dynamic bodies must live until the call returns. lens: its lens map
+ * changed, that is, lens_key differs between the plans of both scenes as requested; true for a session's first scene. A
+ * change of image.* or accuracy.* makes a new ladder, and starts on the rung that old averages suggest. A change of the
+ * scene's kind, or of the cost of what it emits by more than a factor of two since averages started, starts averages
+ * and waits again. */
+void kd_governor_changed(struct kd_governor *governor, double now, const struct kd_scene *shown, bool lens);
 
 /* Sets the expected cost of a frame at the requested quality, for example from its plan. The cost chooses the first
  * rung; without it frames start on the top rung or stay on the one in force. It is ignored once frames of this kind

@@ -69,7 +69,10 @@ enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *s
     needs.light |= (format->carries & KD_CARRIES_LIGHT) != 0;
     needs.no_image = format->carries == KD_CARRIES_LIGHT;
     needs.radiance = (format->carries & KD_CARRIES_LAYERS) != 0;
-    return kd_plan_make_for(scene, &needs, capacity, out, error);
+    status = kd_plan_make_for(scene, &needs, capacity, out, error);
+    if (!status && format->bytes)
+        out->cost.host_bytes += format->bytes(out->picture.width, kd_plan_shown_height(&out->picture));
+    return status;
 }
 
 /* Names the formats that hold a scene. */

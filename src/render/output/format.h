@@ -46,6 +46,9 @@ struct kd_format {
     /* Adapts a scene so that its frame carries what the format needs; NULL: no change is necessary. KD_EINVAL at a
      * field if the scene has nothing to write. */
     enum kd_status (*draws)(struct kd_scene *scene, struct kd_error *error);
+    /* Memory that `encode` takes for a picture of this size besides the frame, counted in the plan's host_bytes; NULL:
+     * little. */
+    uint64_t (*bytes)(uint32_t width, uint32_t height);
     /* Appends a file to *out. *memory: state kept by this thread between calls, NULL at first; `forget` frees it.
      * Errors: KD_ENOMEM, or KD_EINVAL and KD_ETOOBIG for what the format cannot hold. */
     enum kd_status (*encode)(const struct kd_picture *picture, enum kd_effort effort, void **memory,

@@ -117,6 +117,7 @@ const struct kd_format kd_format_webp = {
     .carries = KD_CARRIES_PICTURE,
     .lossy = true,
     .draws = draws_webp,
+    .bytes = kd_webp_bytes,
     .encode = encode_webp,
     .scene = webp_scene,
 };

@@ -74,6 +74,8 @@ bool kd_session_on_its_way(const struct kd_session *session, double now);
 void kd_session_pump(struct kd_session *session);
 /* Sets the expected cost of frames to that of the plan, until a frame has been measured. */
 void kd_session_expect(struct kd_session *session, const struct kd_plan_cost *cost);
+/* Tells the governor a scene, with what of a playground is shown in it. Called with the lock. */
+void kd_session_govern(struct kd_session *session, double now, const struct kd_scene *scene, bool lens);
 /* Cancels the frame that is being rendered if it is a refinement: it would take long and is obsolete. */
 void kd_session_drop_refinement(struct kd_session *session);
 void kd_session_drop(struct kd_session *session); /* cancels the frame that is being rendered, if any */

@@ -110,7 +110,7 @@ void kd_session_pump(struct kd_session *s)
     const bool flies = kd_session_on_its_way(s, now) || kd_scene_falls(&scene), moves = flies || kd_emit_moves(&scene);
     /* If the scene moved in the latest frame and is at rest now, the next frame differs as well. */
     if (moves || s->moved || s->dynamic_moved)
-        kd_governor_changed(&s->governor, now, &scene, flies || s->flew);
+        kd_session_govern(s, now, &scene, flies || s->flew);
     const struct kd_frame_decision decision = kd_governor_decide(&s->governor, now);
     if (decision.wait_ms > 0)
         return; /* the regular check of sessions calls this again */

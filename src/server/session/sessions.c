@@ -233,6 +233,13 @@ void kd_session_state(struct kd_session *s, struct kd_session_state *out)
     pthread_mutex_unlock(&s->all->lock);
 }
 
+void kd_session_govern(struct kd_session *s, double now, const struct kd_scene *scene, bool lens)
+{
+    struct kd_scene shown = *scene;
+    kd_scene_show(&shown, s->dynamic);
+    kd_governor_changed(&s->governor, now, &shown, lens);
+}
+
 /* Sets the scene. Called with the lock. */
 static void change(struct kd_session *s, double now, const struct kd_scene *scene, const struct kd_plan *plan)
 {
@@ -241,7 +248,7 @@ static void change(struct kd_session *s, double now, const struct kd_scene *scen
     s->revision++;
     s->patched_ms = now;
     s->failed = KD_OK;
-    kd_governor_changed(&s->governor, now, scene, strcmp(s->lens_key, plan->lens.key) != 0);
+    kd_session_govern(s, now, scene, strcmp(s->lens_key, plan->lens.key) != 0);
     kd_session_expect(s, &plan->cost);
     memcpy(s->lens_key, plan->lens.key, sizeof s->lens_key);
     kd_session_drop_refinement(s);
