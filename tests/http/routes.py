@@ -164,6 +164,8 @@ class Routes(daemon.Case):
         page = self.daemon.get("/").body.decode()
         loaded = re.findall(r'(?:src|href)="(web/[^"]+)"', page)
         self.assertGreater(len(loaded), 2)
+        description = re.search(r'<meta name="description" content="([^"]*)">', page)[1]
+        self.assertIn(len(description), range(50, 161), "what search engines show")
         seen = set()
         while loaded:
             name = loaded.pop()
@@ -174,9 +176,7 @@ class Routes(daemon.Case):
                 continue  # a picture or a film
             others = {
                 posixpath.normpath(posixpath.join(posixpath.dirname(name), other))
-                for other in re.findall(
-                    r"""(?:from ?|import ?\(?|new URL\()['"]([\w./-]+)['"]""", text.body.decode()
-                )
+                for other in re.findall(r"""(?:from ?|import ?\(?|new URL\()['"]([\w./-]+)['"]""", text.body.decode())
             }
             loaded.extend(other for other in others if "." in other and other not in seen)
         self.assertIn("web/views/playground/plane.js", seen)
