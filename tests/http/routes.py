@@ -164,6 +164,8 @@ class Routes(daemon.Case):
         page = self.daemon.get("/").body.decode()
         loaded = re.findall(r'(?:src|href)="(web/[^"]+)"', page)
         self.assertGreater(len(loaded), 2)
+        description = re.search(r'<meta name="description" content="([^"]*)">', page)[1]
+        self.assertIn(len(description), range(50, 161), "what search engines show")
         seen = set()
         while loaded:
             name = loaded.pop()

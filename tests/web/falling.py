@@ -197,6 +197,21 @@ class Falling(Browser):
             route.continue_()
         self.there(page, "Falling freely", "#fall-where")
 
+    def test_nothing_lies_under_the_panel_of_the_fall(self):
+        page = self.open("lang=de")
+        page.click("#fall-in")
+        page.click("#fall-guide")
+        page.wait_for_selector("#fall-caption")
+        under = """() => { const panel = document.getElementById('fall').getBoundingClientRect();
+            return [...document.querySelectorAll('#lensing button')].filter(node => node.checkVisibility() && !node.closest('#fall')).filter(node => {
+                const { left, right, top, bottom } = node.getBoundingClientRect();
+                return Math.min(right, panel.right) - Math.max(left, panel.left) > 1 && Math.min(bottom, panel.bottom) - Math.max(top, panel.top) > 1;
+            }).map(({ id }) => id); }"""
+        for width, height in (1000, 640), (720, 450), (640, 400), (390, 844), (844, 390):
+            page.set_viewport_size({"width": width, "height": height})
+            self.assertTrue(daemon.eventually(lambda: page.evaluate(under) == [], 10), (width, page.evaluate(under)))
+            self.shot(page, f"guide-{width}")
+
     def test_the_disk_at_the_horizon(self):
         """Light at the edge of the disk has b = 27^(1/2) M; rain, of velocity v = (2/r)^(1/2) past flat slices, sees it
         at an angle from straight ahead with r sin = b (1 - v cos): 42.1 degrees at r = 2. Starlight comes from there at

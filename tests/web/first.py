@@ -366,6 +366,21 @@ class First(Browser):
             page.wait_for_selector("#gallery [aria-pressed=true]")
             self.assertEqual(self.cut(page), [])
 
+    def test_the_landing_does_not_shift(self):
+        """Sum of the layout shifts, as Lighthouse counts them; 0.05 is half of what it calls good. And the largest
+        paint is known."""
+        page = self.page(self.context(viewport={"width": 1350, "height": 940}, locale="en-US"))
+        page.add_init_script("""window.shift = 0; window.largest = 0;
+            new PerformanceObserver(list => { for (const e of list.getEntries()) if (!e.hadRecentInput) shift += e.value; }).observe({ type: 'layout-shift', buffered: true });
+            new PerformanceObserver(list => { for (const e of list.getEntries()) largest = e.startTime; }).observe({ type: 'largest-contentful-paint', buffered: true });""")
+        page.goto(self.base)
+        page.wait_for_selector("#fields [data-path]", timeout=PATIENCE_MS, state="attached")
+        page.wait_for_timeout(1500)
+        shift, largest = page.evaluate("[shift, largest]")
+        print(f"layout shift {shift:.3f}, largest paint after {largest:.0f} ms")
+        self.assertLess(shift, 0.05)
+        self.assertGreater(largest, 0)
+
     def cut(self, page):
         """Words on cards that are partly hidden."""
         return page.evaluate("""() => [...document.querySelectorAll('#gallery :is(b, span)')].filter(({ scrollHeight, clientHeight, scrollWidth, clientWidth }) =>

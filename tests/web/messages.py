@@ -108,8 +108,13 @@ class Messages(unittest.TestCase):
         listed = re.search(r"export const languages = \{(.*?)\}", (FOLDER / "words/language.js").read_text())[1]
         names = dict(re.findall(r"(\w+): '([^']*)'", listed))
         self.assertEqual(names, {"en": "English"} | files)
-        offered = re.findall(r'data-lang="(\w+)" lang="\1" aria-label="([^"]*)"', (FOLDER / "index.html").read_text())
-        self.assertEqual(dict(offered), names)
+        button = r'data-lang="(\w+)" lang="\1" aria-label="([^"]*)">(\w+)<'
+        offered = re.findall(button, (FOLDER / "index.html").read_text())
+        self.assertEqual(
+            {name: f"{name.upper()}, {said}" for name, said in names.items()}, {o[0]: o[1] for o in offered}
+        )
+        for name, label, seen in offered:
+            self.assertEqual((seen, label.startswith(seen)), (name.upper(), True), "a voice finds what the eye reads")
 
     def test_faults_are_found(self):
         """Each kind of fault, in a folder made for it."""

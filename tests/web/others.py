@@ -206,9 +206,9 @@ class Others(unittest.TestCase):
         folder = pathlib.Path(os.environ.get("KERRD_SHOTS", tempfile.gettempdir()))
         (folder / f"{self.kind.__name__.lower()}-{name}.png").write_bytes(self.browser.picture())
 
-    def test_views_in_both_languages(self):
+    def test_views_in_each_language(self):
         self.start()
-        for lang in ("en", "it"):
+        for lang in ("en", "it", "de"):
             for view, ready in READY.items():
                 with self.subTest(view=view, lang=lang):
                     self.open(f"lang={lang}&view={view}&pause=1&play.paused=1", ready)
@@ -267,6 +267,82 @@ class Others(unittest.TestCase):
                     )
                 self.wait("return [...document.querySelectorAll('.fault')].every(n => !n.textContent)")
                 self.wait(f"return !!document.querySelector('{ready}')")
+
+    def click(self, selector):
+        self.wait(f"return !!document.querySelector({selector!r})")
+        self.browser.js(f"document.querySelector({selector!r}).click()")
+
+    def test_sharing(self):
+        """The card of a scene has its address and a preview; the address leads back to the scene."""
+        self.start()
+        self.open("lang=en&pause=1&camera.inclination_deg=40&spacetime.spin=0.3")
+        self.click("#send")
+        self.wait("return !!document.querySelector('#sending-link')?.value")
+        self.wait("return document.querySelector('#sending img').naturalWidth === 600")
+        link = self.browser.js("return document.querySelector('#sending-link').value")
+        self.assertIn("/s/", link)
+        self.shot("share")
+        self.browser.go(link)
+        self.wait("return !!document.querySelector('a[href*=\"#\"]') || location.hash.length > 1")
+        if not self.browser.js("return location.hash"):
+            self.click('a[href*="#"]')
+        self.wait(f"return !!document.querySelector('{AT_REST}')")
+        self.assertEqual(
+            self.browser.js(
+                """return ["camera.inclination_deg", "spacetime.spin"].map(path => document.querySelector(`[data-path="${path}"] input[type=number]`).value)"""
+            ),
+            ["40", "0.3"],
+        )
+
+    def test_the_embedded_element(self):
+        """A poster first, then a live picture after a touch, in the page /embed."""
+        self.daemon.stop()
+        self.daemon = daemon.Daemon("--embed-origin", "https://a.example")
+        self.start((800, 600))
+        code = self.daemon.post("/v1/share", {"spacetime": {"spin": 0.5}}).json()["embed"].rpartition("/")[2]
+        self.browser.go(f"http://127.0.0.1:{self.daemon.port}/embed/{code}")
+        inside = "document.querySelector('kerr-hole')?.shadowRoot"
+        self.wait(f"return {inside}?.querySelector('img').naturalWidth > 0")
+        self.assertTrue(self.browser.js(f"return {inside}.querySelector('canvas').hidden"))
+        self.browser.js(f"{inside}.querySelector('button').click()")
+        self.wait(f"return !{inside}.querySelector('canvas').hidden")
+        self.shot("embed")
+
+    def test_the_story(self):
+        """Its text is there, each chapter has a picture, and a slider changes the one beside it."""
+        self.start()
+        self.browser.go(f"http://127.0.0.1:{self.daemon.port}/story")
+        self.assertGreater(self.browser.js("return document.body.innerText.length"), 8000)
+        self.wait("return [...document.querySelectorAll('kerr-hole')].filter(hole => hole.shadowRoot).length >= 9")
+        self.assertEqual(self.browser.js("return document.documentElement.scrollWidth > innerWidth"), False)
+        self.browser.js("""window.slider = document.querySelector('input[type=range]'); slider.scrollIntoView({ block: 'center' });
+            window.outer = [...document.querySelectorAll('kerr-hole')].map(hole => hole.outerHTML).join('');
+            slider.value = Number(slider.value) === Number(slider.max) ? slider.min : slider.max;
+            slider.dispatchEvent(new Event('input', { bubbles: true })); slider.dispatchEvent(new Event('change', { bubbles: true }));""")
+        self.wait("return [...document.querySelectorAll('kerr-hole')].map(hole => hole.outerHTML).join('') !== outer")
+        self.shot("story")
+
+    def test_a_class(self):
+        """A teacher's panel counts a pupil; a pupil's page shows the picture of a session, and its words."""
+        self.start()
+        self.open("lang=en&preset=smooth&pause=1")
+        self.click("#send")
+        button = "[...document.querySelectorAll('button')].find(node => node.textContent === 'Show it to a class')"
+        self.wait(f"return !!{button}")
+        self.browser.js(f"{button}.click()")
+        self.wait("return !!document.querySelector('#lesson-invite input')?.value")
+        lesson = self.browser.js("return document.querySelector('#lesson-invite input').value").partition("#")[2]
+        answer = self.daemon.post(f"/v1/lessons/{lesson}/hands", {"pupil": "0123456789abcdef", "name": "Ada"})
+        self.assertEqual(answer.status, 200)
+        self.wait("return document.body.innerText.includes('1 pupil follows.')")
+        self.shot("teacher")
+        session = self.daemon.post("/v1/sessions", {"disk": {"gas": {"amplitude": 0}}}).json()
+        said = {"session": session["id"], "link": "preset=smooth", "about": "A hole.", "lang": "en"}
+        lesson = self.daemon.post("/v1/lessons", said).json()
+        self.browser.go(f"http://127.0.0.1:{self.daemon.port}/lesson#{lesson['id']}")
+        self.wait("return !!document.querySelector('#stage:has(> #told[hidden]) > #picture[src]')")
+        self.assertEqual(self.browser.js("return document.getElementById('about').textContent"), "A hole.")
+        self.shot("pupil")
 
     def test_small_windows(self):
         """Windows as narrow as a telephone, or the narrowest that this browser allows; and 1440 x 900 at 200 %."""

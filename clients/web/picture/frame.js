@@ -53,3 +53,35 @@ export function fits(quality, { width }, { keeps, part }) {
     narrow: quality.width < 0.98 * all * Number(new URLSearchParams(keeps).get('min_scale')),
   };
 }
+
+// What the headers of a picture say of its state: quality, revision, an observer's clock, and where the camera is.
+// falls: the observer moves by their own clock.
+export function state(get, scene) {
+  const clock = get('Kerrd-Clock') && figures(get('Kerrd-Clock')),
+    falls = clock && scene.get('motion.proper_time_rate'),
+    azimuth = Number(get('Kerrd-Azimuth')),
+    turned = scene.turns() ? { 'camera.azimuth_deg': Number(azimuth.toFixed(3)) } : {};
+  return {
+    quality: figures(get('Kerrd-Quality')),
+    revision: Number(get('Kerrd-Revision')),
+    clock,
+    falls,
+    azimuth,
+    moved: falls ? { 'camera.r': clock.r, 'camera.azimuth_deg': clock.azimuth_deg } : turned,
+  };
+}
+
+// What the page says of a picture, from its headers and its state. from: its session; size: of the window.
+export const said = (get, { quality, revision, clock, falls, azimuth }, from, size) => ({
+  ...quality,
+  revision,
+  jumps: from.jumps,
+  part: from.part,
+  ...fits(quality, size, from),
+  camera: falls ? null : from.cameras.get(revision),
+  accuracy: figures(get('Kerrd-Accuracy')),
+  flux: figures(get('Kerrd-Flux')), // at a radio frequency
+  passes: passes(get('Server-Timing')),
+  clock,
+  azimuth,
+});

@@ -1,4 +1,5 @@
 // The page's state of a session, and forms of the scene for it.
+import { ask, Problem } from '../base/server.js';
 import { take } from './ahead.js';
 
 export const fresh = ({ id, token, flight = [] }) => ({
@@ -37,4 +38,20 @@ export function adopter(scene) {
     scene.tellSeen({ varies, emitters });
     return session;
   };
+}
+
+// Strikes the hole of a session. document: the one that was sent, which gets the strike too. wrong(sentence) is called on
+// a refusal.
+export async function strike(scene, session, document, headers, wrong) {
+  const answer = await ask(session.url + '/ringdown', { method: 'POST', headers, body: '{}' }).catch(error => {
+    if (!(error instanceof Problem) || error.status === 404) throw error;
+    wrong(error.message);
+  });
+  if (!answer) return;
+  const { revision, scene: now, ...seen } = await answer.json();
+  session.revision = revision;
+  const { ringdown, ringdown_time } = now.style;
+  document.style = { ...document.style, ringdown, ringdown_time };
+  scene.settle({ 'style.ringdown': ringdown, 'style.ringdown_time': ringdown_time });
+  scene.tellSeen(seen);
 }

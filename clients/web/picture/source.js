@@ -4,20 +4,16 @@
 // and several rays for each.
 import { again_ms } from '../base/again.js';
 import { latest, seen } from '../base/dom.js';
-import { approximations, figures, fits, passes } from './frame.js';
+import { difference, document as document_of, follow } from './changes.js';
+import { approximations, said, state } from './frame.js';
 import { buildFlight, still_ms } from './flight.js';
 import { buildLine } from './line.js';
-import { mergePatch, moves } from './merge.js';
-import { ask, passes as may_pass, Problem, too_large } from '../base/server.js';
-import { adopter, asleep, fresh, load } from './session.js';
+import { moves } from './merge.js';
+import { ask, passes as may_pass, too_large } from '../base/server.js';
+import { adopter, asleep, fresh, load, strike } from './session.js';
 import { kept } from './sizes.js';
 
-const least_samples = 2;
 const least_part = 1 / 8; // of the window's width: the least size of a picture at rest
-
-// image.samples of a picture at rest, and of one that is saved.
-export const samples = scene =>
-  scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples);
 
 const heard = (target, event) => new Promise(resolve => target.addEventListener(event, resolve, { once: true }));
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
@@ -49,48 +45,7 @@ export function openSource(scene, size, shown, failed, rests) {
 
   let adopt = adopter(scene);
 
-  function wanted() {
-    const { width, height } = size();
-    const over = {
-      'image.width': Math.round(width * part),
-      'image.height': Math.round(height * part),
-      'image.samples': samples(scene),
-      ...(scene.drift ? { 'motion.azimuth_rate_deg': scene.drift } : {}),
-      ...(scene.held || scene.recorded
-        ? { 'motion.time_rate': 0, 'motion.azimuth_rate_deg': 0, 'motion.proper_time_rate': 0 }
-        : {}),
-    };
-    return scene.document(over, true);
-  }
-
-  // The patch from the session's document. Time and the place of a falling observer are left to the server, unless
-  // somebody has set them.
-  function difference(document) {
-    const { time: then, ...before } = session.document,
-      { time, ...after } = document;
-    const patch = mergePatch(before, after);
-    if (session.jumps !== scene.jumps) patch.time = time ?? null;
-    const set = ['r', 'azimuth_deg'].filter(name => scene.jumped.has('camera.' + name));
-    for (const name of [...set, ...session.touched]) (patch.camera ??= {})[name] = document.camera?.[name] ?? null;
-    return patch;
-  }
-
-  // When motion has stopped, takes the values where the server left them.
-  function follow(document, now) {
-    if (scene.goesOn()) return;
-    const { time, camera } = now,
-      moved = { time };
-    for (const [name, usual] of [
-      ['azimuth_deg', 0],
-      ['r', 'infinity'],
-    ]) {
-      const there = document.camera?.[name] ?? usual;
-      if (scene.begun('camera.' + name) !== there) continue; // somebody has moved it since
-      moved['camera.' + name] = camera[name];
-      (document.camera ??= {})[name] = camera[name];
-    }
-    scene.settle(moved);
-  }
+  const wanted = () => document_of(scene, size(), part);
 
   const settle = () =>
     last && rests(asked === told && session != null && last.final && last.revision >= session.revision);
@@ -103,19 +58,7 @@ export function openSource(scene, size, shown, failed, rests) {
   async function struck(document) {
     const wrong = striking;
     striking = null;
-    const answer = await ask(session.url + '/ringdown', { method: 'POST', headers: headers(), body: '{}' }).catch(
-      error => {
-        if (!(error instanceof Problem) || error.status === 404) throw error;
-        wrong(error.message);
-      },
-    );
-    if (!answer) return;
-    const { revision, scene: now, ...seen_of_it } = await answer.json();
-    session.revision = revision;
-    const { ringdown, ringdown_time } = now.style;
-    document.style = { ...document.style, ringdown, ringdown_time };
-    scene.settle({ 'style.ringdown': ringdown, 'style.ringdown_time': ringdown_time });
-    scene.tellSeen(seen_of_it);
+    await strike(scene, session, document, headers(), wrong);
   }
 
   // Opens a session that has ended again: the server keeps it for a minute without viewers. A hidden window has no
@@ -140,7 +83,7 @@ export function openSource(scene, size, shown, failed, rests) {
       document = wanted();
     }
     try {
-      const patch = session && difference(document);
+      const patch = session && difference(scene, session, document);
       jumped = [...scene.jumped];
       scene.jumped.clear();
       if (patch && same && !Object.keys(patch).length) {
@@ -181,7 +124,7 @@ export function openSource(scene, size, shown, failed, rests) {
         plain: false,
       });
       session.touched.clear();
-      if (scene.jumps === jumps && patch?.motion) follow(document, now);
+      if (scene.jumps === jumps && patch?.motion) follow(scene, document, now);
       if (!little) scene.tellSeen(seen_of_it);
       if (striking) await struck(document);
       told = now_asked;
@@ -241,18 +184,10 @@ export function openSource(scene, size, shown, failed, rests) {
     const answer = await flight.newest(from);
     if (!answer) return;
     const get = name => answer.headers.get(name),
-      quality = figures(get('Kerrd-Quality'));
-    const revision = Number(get('Kerrd-Revision')),
+      told_of = state(get, scene),
+      { quality, revision, moved } = told_of,
       current = revision >= from.revision,
       final = quality.final === 1 && current;
-    const clock = get('Kerrd-Clock') && figures(get('Kerrd-Clock'));
-    const falls = clock && scene.get('motion.proper_time_rate'),
-      azimuth = Number(get('Kerrd-Azimuth'));
-    const moved = falls
-      ? { 'camera.r': clock.r, 'camera.azimuth_deg': clock.azimuth_deg }
-      : scene.turns()
-        ? { 'camera.azimuth_deg': Number(azimuth.toFixed(3)) }
-        : {};
     if (scene.streams()) scene.tick(Number(get('Kerrd-Time')), final, current ? moved : {});
     from.frame = Number(get('Kerrd-Frame'));
     for (const old of from.cameras.keys()) if (old < revision) from.cameras.delete(old);
@@ -265,21 +200,11 @@ export function openSource(scene, size, shown, failed, rests) {
     if (closed.aborted) return;
     await shown({
       picture,
-      ...quality,
+      ...said(get, told_of, from, size()),
       final,
-      revision,
-      jumps: from.jumps,
-      part: from.part,
-      ...fits(quality, size(), from),
-      camera: falls ? null : from.cameras.get(revision),
       shows: current ? from.document : null, // if it is known
       pace: recent.length > 2 && (1e3 * (recent.length - 1)) / (now - recent[0]),
-      accuracy: figures(get('Kerrd-Accuracy')),
-      flux: figures(get('Kerrd-Flux')), // at a radio frequency
       approximations: left,
-      passes: passes(get('Server-Timing')),
-      clock,
-      azimuth,
     });
     if (session !== from) return;
     last = { revision, final: quality.final === 1 };

@@ -5,7 +5,7 @@ import { duration, t, tell } from '../words/i18n.js';
 import { fileName, jobOf, offer } from '../base/job.js';
 import * as link from '../base/link.js';
 import { ask, getJson, postJson } from '../base/server.js';
-import { samples } from '../picture/source.js';
+import { samples } from '../picture/changes.js';
 
 export const seconds = 5;
 const plan_ms = 600; // after the last change, before the cost is requested

@@ -3,7 +3,7 @@ import { byId, paced } from '../base/dom.js';
 import { t, tell } from '../words/i18n.js';
 import * as link from '../base/link.js';
 import { linkedTime } from '../picture/scene.js';
-import { samples } from '../picture/source.js';
+import { samples } from '../picture/changes.js';
 
 // The values to render with, over those of the scene. With the window's shape the picture shows what the window shows.
 export function picked(scene, size) {

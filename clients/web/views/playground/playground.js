@@ -2,21 +2,20 @@
 import { persistent } from '../../base/again.js';
 import { chirp } from './chirp.js';
 import { course } from './course.js';
-import { entitle } from '../../words/describe.js';
 import { byId, el, latest, still } from '../../base/dom.js';
+import { listen } from './follow.js';
 import { foretold } from './foretold.js';
 import { hands } from './hands.js';
 import { eventList } from './happened.js';
-import { number, preset as titled, said, t, tell } from '../../words/i18n.js';
+import { number, t, tell } from '../../words/i18n.js';
 import { lensed } from './lensed.js';
 import * as link from '../../base/link.js';
 import { Plane } from './plane.js';
-import { seenOf } from './play-seen.js';
 import { buildTakes } from './play-takes.js';
 import { parts } from './playground-parts.js';
 import { rules } from './rules.js';
 import { Running } from './running.js';
-import { getJson, physics } from '../../base/server.js';
+import { getJson } from '../../base/server.js';
 import { sheet } from '../../base/sheet.js';
 import { scale } from '../../base/slider.js';
 import { thrown } from './thrown.js';
@@ -49,12 +48,14 @@ export async function openPlayground() {
     say = text => (part.said.textContent = text),
     events = eventList(part.events, say),
     picture = lensed(part.lensed, running);
-  let chosen = null,
-    awaited = false, // the server has the chosen body, but no picture of the bodies has it yet
-    flying = null, // a throw that the server has not answered yet
-    halts = null, // { paused }, not answered yet
-    hurries = null, // a rate, not answered yet
-    given = null; // a snapshot that was loaded
+  const now = {
+    chosen: null, // the body
+    awaited: false, // the server has the chosen body, but no picture of the bodies has it yet
+    hurries: null, // a rate, not answered yet
+    given: null, // a snapshot that was loaded
+  };
+  let flying = null, // a throw that the server has not answered yet
+    halts = null; // { paused }, not answered yet
 
   const preset = () => known.presets.find(({ name }) => name === part.preset.value);
   const wrong = error => tell(part.fault, error.message);
@@ -117,17 +118,17 @@ export async function openPlayground() {
   }
 
   function choose(id) {
-    chosen = plane.chosen = id;
+    now.chosen = plane.chosen = id;
     const body = id == null ? null : plane.body(id);
-    awaited = id != null && !body;
+    now.awaited = id != null && !body;
     form.choose(body);
     if (body) hand.aim({ from: body.x, velocity: body.v, body: id, armed: false });
     plane.redraw();
   }
 
   async function remove() {
-    const id = chosen;
-    if (id != null && (await patch({ remove: [id] })) && chosen === id) choose(null);
+    const id = now.chosen;
+    if (id != null && (await patch({ remove: [id] })) && now.chosen === id) choose(null);
   }
   const paused = () => halts?.paused ?? running.state?.paused;
   async function pause() {
@@ -144,11 +145,11 @@ export async function openPlayground() {
   function next(by) {
     const ids = plane.all().map(({ id }) => id);
     if (ids.length)
-      choose(ids[(ids.indexOf(chosen) + by + (chosen == null && by < 0 ? 1 : 0) + ids.length) % ids.length]);
-    if (chosen != null) say(plane.names.get(chosen) ?? '');
+      choose(ids[(ids.indexOf(now.chosen) + by + (now.chosen == null && by < 0 ? 1 : 0) + ids.length) % ids.length]);
+    if (now.chosen != null) say(plane.names.get(now.chosen) ?? '');
   }
   function fit() {
-    const { middle, wide } = plane.around(given ? null : preset());
+    const { middle, wide } = plane.around(now.given ? null : preset());
     part.middle.value = plane.follows ?? '';
     plane.fit(middle, 1.1 * wide);
     const near = torn.includes(part.preset.value) && !still.matches;
@@ -168,7 +169,7 @@ export async function openPlayground() {
   const begin = persistent(part.fault, 'playground', () => {
     const rate = Number(link.get('play.rate')),
       paused = link.get('play.paused') === '1';
-    return running.begin(given ?? { preset: part.preset.value, ...hole, ...(rate > 0 ? { rate } : {}), paused });
+    return running.begin(now.given ?? { preset: part.preset.value, ...hole, ...(rate > 0 ? { rate } : {}), paused });
   });
   let hole = {}; // gravity, spin and charge, if somebody has chosen them
   const showRules = rules(
@@ -178,7 +179,7 @@ export async function openPlayground() {
     (name, value) => {
       hole = { ...hole, [name]: value };
       if (hole.gravity && hole.gravity !== 'kerr') delete hole.charge;
-      given = null;
+      now.given = null;
       begin();
     },
   );
@@ -203,9 +204,9 @@ export async function openPlayground() {
     setRate = latest(async rate => {
       link.set('play.rate', rate);
       await patch({ rate });
-      if (hurries === rate) hurries = null;
+      if (now.hurries === rate) now.hurries = null;
     }),
-    hurry = rate => setRate((hurries = rate));
+    hurry = rate => setRate((now.hurries = rate));
   part.pace.addEventListener('input', () => hurry((part.rate.value = pace.from(part.pace.valueAsNumber))));
   part.rate.addEventListener('change', () =>
     part.rate.validity.valid ? hurry(part.rate.valueAsNumber) : part.rate.reportValidity(),
@@ -218,7 +219,7 @@ export async function openPlayground() {
   part.tilt.addEventListener('input', () => ((plane.tilt = (part.tilt.valueAsNumber * Math.PI) / 180), plane.redraw()));
   part.middle.addEventListener('change', () => (plane.follows = part.middle.value || null));
   part.preset.addEventListener('change', () => {
-    given = null;
+    now.given = null;
     hole = {};
     link.set('play.rate', null);
     link.set('play.preset', part.preset.value === first ? null : part.preset.value);
@@ -228,89 +229,29 @@ export async function openPlayground() {
   });
   part.again.addEventListener('click', () => begin());
   buildTakes(part, running, act, async whole => {
-    const before = [given, part.preset.value];
-    [given, part.preset.value] = [whole, ''];
+    const before = [now.given, part.preset.value];
+    [now.given, part.preset.value] = [whole, ''];
     await running.begin(whole).catch(error => {
-      [given, part.preset.value] = before;
+      [now.given, part.preset.value] = before;
       throw error;
     });
   });
 
-  running.addEventListener('begun', ({ detail: state }) => {
-    events.clear();
-    charts.clear();
-    sound.begin();
-    plane.forget();
-    hand.aim({ armed: false, body: null });
-    choose(null);
-    fit();
-    entitle('playground', given ? t('common.a-snapshot', 'a snapshot') : titled(part.preset.value, preset()?.title));
-    tell(part.help, given ? '' : (preset()?.title ?? ''));
-    part.words.textContent = given ? '' : seenOf(part.preset.value);
-    if (state.settings.gravity === 'kerr')
-      physics('kerr', { spin: state.settings.spin, charge: state.settings.charge }).then(({ values: v }) => {
-        plane.radii = { horizon: v.horizon, photons: v.photon_prograde, bound: v.marginally_bound, isco: v.isco };
-        plane.redraw();
-      });
-    else plane.radii = { horizon: 2, photons: 3, bound: 4, isco: 6 };
-  });
-  running.addEventListener('state', ({ detail: state }) => {
-    // while changes are unanswered, an older state must not reset the controls
-    const newest = !running.waits();
-    if (newest) showRules(state.settings);
-    part.views[0].parentNode.hidden = !state.scene; // without a scene the server renders no pictures
-    plane.names = new Map(state.bodies.map(({ id, name }) => [id, said(name).text]));
-    form.bodies(state.bodies.map(({ id, name }) => ({ id, name: said(name).text })));
-    if (newest) part.paused(state.paused);
-    if (hurries == null && document.activeElement !== part.rate) part.rate.value = state.rate;
-    if (hurries == null) part.pace.value = pace.to(state.rate);
-    part.foretold.textContent =
-      state.settings.gravity === 'kerr'
-        ? t('playground.the-dashed-path-is', 'The dashed path is the server’s: a geodesic.')
-        : t(
-            'playground.the-dashed-path-is-reckoned-by-this',
-            'The dashed path is reckoned by this page with the server’s law of motion; waves, tides and mergers are left out, and the pulls of bodies below a hundred-thousandth of the hole’s mass, and of more than sixteen heavy ones those of the lightest.',
-          );
-    const sentences = state.approximations.map(text => el('li', {}, tell(el('span'), text)));
-    part.approximations.replaceChildren(...sentences);
-    part.waves.replaceChildren(
-      ...state.approximations.filter(text => /\bwaves\b/.test(text)).flatMap(text => [tell(el('span'), text), ' ']),
-    );
-    part.waves.hidden = !state.settings.waves;
-  });
-  running.addEventListener('moved', ({ detail }) => {
-    const first_seen = !plane.bodies;
-    plane.moved(detail);
-    if (given && first_seen) fit();
-    part.canvas.dataset.bodies = detail.n;
-    if (chosen != null) {
-      const body = plane.body(chosen);
-      if (body && awaited && !hand.aims.armed) choose(chosen);
-      else if (body) form.choose(body);
-      else if (!awaited || !plane.names.has(chosen)) choose(null);
-    }
-    if (hand.aims.body != null && plane.body(hand.aims.body))
-      Object.assign(hand.aims, { from: plane.body(hand.aims.body).x });
-    if (hand.aims.armed) showAim(hand.aims);
-  });
-  running.addEventListener('debris', ({ detail }) => {
-    plane.debris = detail;
-    plane.accompany();
-    part.canvas.dataset.debris = detail.n;
-    plane.redraw();
-  });
-  const kinetic = () =>
-    plane.all().reduce((sum, { mass, v }) => sum + 0.5 * mass * (v[0] ** 2 + v[1] ** 2 + v[2] ** 2), 0);
-  running.addEventListener('tick', ({ detail: tick }) => {
-    charts.follow(tick, kinetic(), running.address('fallback'));
-    sound.follow(tick);
-    part.clock(tick);
-  });
-  for (const name of ['happened', 'lost']) running.addEventListener(name, ({ detail }) => events[name](detail));
-  running.addEventListener('ended', ({ detail }) => say(detail));
-  running.addEventListener('fault', ({ detail: error }) => {
-    if (!error) return (part.fault.textContent = '');
-    tell(part.fault, error.message).append(t('common.trying-again', ' – trying again'));
+  listen(running, now, {
+    part,
+    plane,
+    hand,
+    form,
+    sound,
+    charts,
+    events,
+    say,
+    choose,
+    fit,
+    preset,
+    showAim,
+    showRules,
+    pace,
   });
 
   part.preset.value = known.presets.find(({ name }) => name === link.get('play.preset'))?.name ?? first;

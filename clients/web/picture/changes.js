@@ -1,0 +1,52 @@
+// What a session is sent of a scene, and what the scene takes back from it.
+import { mergePatch } from './merge.js';
+
+const least_samples = 2;
+
+// image.samples of a picture at rest, and of one that is saved.
+export const samples = scene =>
+  scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples);
+
+// The document of a scene for a window of this size. part: the share of its width for which the server accepts a picture.
+export function document(scene, { width, height }, part) {
+  const over = {
+    'image.width': Math.round(width * part),
+    'image.height': Math.round(height * part),
+    'image.samples': samples(scene),
+    ...(scene.drift ? { 'motion.azimuth_rate_deg': scene.drift } : {}),
+    ...(scene.held || scene.recorded
+      ? { 'motion.time_rate': 0, 'motion.azimuth_rate_deg': 0, 'motion.proper_time_rate': 0 }
+      : {}),
+  };
+  return scene.document(over, true);
+}
+
+// The patch from the session's document. Time and the place of a falling observer are left to the server, unless
+// somebody has set them.
+export function difference(scene, session, document) {
+  const { time: then, ...before } = session.document,
+    { time, ...after } = document;
+  const patch = mergePatch(before, after);
+  if (session.jumps !== scene.jumps) patch.time = time ?? null;
+  const set = ['r', 'azimuth_deg'].filter(name => scene.jumped.has('camera.' + name));
+  for (const name of [...set, ...session.touched]) (patch.camera ??= {})[name] = document.camera?.[name] ?? null;
+  return patch;
+}
+
+// When motion has stopped, takes the values where the server left them. document: the one that was sent, which gets
+// them too; now: the server's.
+export function follow(scene, document, now) {
+  if (scene.goesOn()) return;
+  const { time, camera } = now,
+    moved = { time };
+  for (const [name, usual] of [
+    ['azimuth_deg', 0],
+    ['r', 'infinity'],
+  ]) {
+    const there = document.camera?.[name] ?? usual;
+    if (scene.begun('camera.' + name) !== there) continue; // somebody has moved it since
+    moved['camera.' + name] = camera[name];
+    (document.camera ??= {})[name] = camera[name];
+  }
+  scene.settle(moved);
+}
