@@ -47,6 +47,7 @@ enum kd_kind {
     KD_KIND_TEXT,   /* char[room]: a string shorter than that */
     KD_KIND_ASSET,  /* char[KD_ASSET_NAME]: null, stored as "", or an asset (document/asset_name.h) */
     KD_KIND_SERIES, /* struct kd_words: some of `words` in any order, each once (document/words.h) */
+    KD_KIND_JSON,   /* const cJSON *: any value, which the caller reads while the tree exists; NULL: not given */
 };
 enum kd_open { KD_CLOSED, KD_OPEN, KD_OPEN_ABOVE, KD_OPEN_BELOW }; /* ends that a range excludes */
 

@@ -64,8 +64,8 @@ enum kd_status kd_list_reach(const struct kd_list *list, size_t size, size_t ind
         return KD_OK;
     const struct kd_mention place = kd_mention_of(pointer, &(struct kd_object) { list->object, list, index }, NULL);
     return kd_error_field(error, place.pointer,
-                          "there is no %s.%zu: the list has %zu element%s, and the next free index is %zu", list->object,
-                          index, size, size == 1 ? "" : "s", size);
+                          "there is no %s.%zu: the list has %zu element%s, and the next free index is %zu",
+                          list->object, index, size, size == 1 ? "" : "s", size);
 }
 
 enum kd_status kd_list_check(const struct kd_list *list, size_t size, struct kd_error *error)

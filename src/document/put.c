@@ -52,6 +52,7 @@ double kd_row_get(const struct kd_row *row, const void *from)
     case KD_KIND_WORDS:
     case KD_KIND_LIST:
     case KD_KIND_VECTOR:
+    case KD_KIND_JSON:
     case KD_KIND_TEXT: break;
     }
     return NAN;
@@ -73,6 +74,7 @@ void kd_row_put_number(const struct kd_row *row, void *to, double value)
     case KD_KIND_WORDS:
     case KD_KIND_LIST:
     case KD_KIND_VECTOR:
+    case KD_KIND_JSON:
     case KD_KIND_TEXT: break;
     }
 }
@@ -240,6 +242,7 @@ void kd_row_reset(const struct kd_row *row, void *to)
             ((double *)at)[k] = row->initial;
         break;
     case KD_KIND_TEXT: memset(at, 0, row->room); break;
+    case KD_KIND_JSON: *(const cJSON **)at = NULL; break;
     case KD_KIND_WORD: memcpy(at, &(int) { (int)row->initial }, sizeof(int)); break;
     default: kd_row_put_number(row, to, row->initial);
     }

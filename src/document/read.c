@@ -127,6 +127,10 @@ static enum kd_status read_row(const struct kd_row *row, void *to, const cJSON *
     const bool array = row->kind == KD_KIND_WORDS || row->kind == KD_KIND_VECTOR || row->kind == KD_KIND_LIST ||
                        (row->kind == KD_KIND_SERIES && item);
     const struct kd_value value = item ? kd_tree_value(item) : kd_value_typed(text);
+    if (row->kind == KD_KIND_JSON && item) {
+        *(const cJSON **)(void *)((char *)to + row->offset) = item;
+        return KD_OK;
+    }
     if (!array && kd_row_take(row, to, &value))
         return KD_OK;
     const struct kd_mention place = kd_mention_of(pointer, object, row->name);

@@ -64,6 +64,7 @@ void kd_row_write_as(struct kd_json *json, const char *name, const struct kd_row
         break;
     case KD_KIND_TEXT: kd_json_string(json, name, at); break;
     case KD_KIND_SERIES: write_series(json, name, row, at); break;
+    case KD_KIND_JSON:
     case KD_KIND_LIST: break;
     case KD_KIND_ASSET:
         if (*(const char *)at) {
@@ -227,6 +228,7 @@ void kd_row_type_members(struct kd_json *json, const struct kd_row *row)
                         "{0,62}|[0-9a-f]{64})$\"}]");
         break;
     case KD_KIND_SERIES: add_series(json, row->words); break;
+    case KD_KIND_JSON: break; /* any value: {} */
     case KD_KIND_BOOL: kd_json_string(json, "type", "boolean"); break;
     case KD_KIND_WORD: add_words(json, row->words); break;
     case KD_KIND_WORDS:
