@@ -334,6 +334,7 @@ static void lists_and_objects_in_objects(void **state)
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
         assert_int_equal(read_tray(&tray, steps[i].text, steps[i].patch, &error), KD_OK);
         assert_tray(&tray, steps[i].after);
+        assert_false(signbit(tray.weight_g)); /* no -0: equal documents have equal bytes */
     }
 }
 
