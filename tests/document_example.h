@@ -103,4 +103,60 @@ static const struct kd_row tea_rows[] = {
 #undef AT
 static const struct kd_document tea_document = { tea_rows, sizeof tea_rows / sizeof *tea_rows, 0, "host|guests", NULL };
 
+/* A document with objects in objects, a list and a former name of an element, whose typed names are paths. */
+struct tray {
+    double weight_g;
+    uint32_t plates;
+    bool red;
+    char label[KD_ASSET_NAME];
+    struct kd_words fruit;
+    struct {
+        size_t count;
+        struct biscuit {
+            double size_cm;
+            int kind;
+        } at[3];
+    } biscuits;
+};
+
+#define AT(member) offsetof(struct tray, member)
+static const struct kd_row tray_rows[] = {
+    { .object = "", .name = "weight_g", .kind = KD_KIND_REAL, .offset = AT(weight_g), .initial = 200, .most = 1e3 },
+    { .object = "on",
+      .name = "plates",
+      .kind = KD_KIND_INT,
+      .offset = AT(plates),
+      .least = 1,
+      .most = 9,
+      .words = "auto" },
+    { .object = "on", .name = "label", .kind = KD_KIND_ASSET, .offset = AT(label) },
+    { .object = "on.cloth", .name = "red", .kind = KD_KIND_BOOL, .offset = AT(red), .initial = 1 },
+    { .object = "", .name = "fruit", .kind = KD_KIND_SERIES, .offset = AT(fruit), .words = "apple|plum_N" },
+    { .object = "biscuits",
+      .name = "size_cm",
+      .kind = KD_KIND_REAL,
+      .offset = AT(biscuits.at[0].size_cm),
+      .initial = 5,
+      .most = 10 },
+    { .object = "biscuits",
+      .name = "kind",
+      .kind = KD_KIND_WORD,
+      .offset = AT(biscuits.at[0].kind),
+      .words = "oat|rye" },
+};
+static const struct kd_list tray_lists[] = {
+    { "biscuits", 3, sizeof(struct biscuit), AT(biscuits.count) },
+};
+static const struct kd_former tray_formers[] = { { "biscuit2", "biscuits", 1 } };
+#undef AT
+static const struct kd_document tray_document = {
+    .rows = tray_rows,
+    .n = sizeof tray_rows / sizeof *tray_rows,
+    .lists = tray_lists,
+    .n_lists = 1,
+    .formers = tray_formers,
+    .n_formers = 1,
+    .paths = true,
+};
+
 #endif

@@ -21,6 +21,7 @@
 #define ROW(id, name, letter, argument, kind, least, most, initial, where, doc) \
     { name, argument, KD_SETTING_##kind, least, most, initial, KD_SETTING_##where, doc },
 const struct kd_cli_setting kd_serve_settings[KD_SERVE_COUNT] = { KD_SERVE_SETTINGS(ROW, KD_SERVE_NOTHING) };
+_Static_assert((int)KD_SERVE_COUNT <= (int)KD_SETTINGS_MOST, "the reader of a file has room for the table");
 
 /* A switch may be given as yes or no, so that a flag can override the file. */
 #define OPTION(id, name, letter, argument, kind, least, most, initial, where, doc) \
@@ -36,7 +37,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct kd_settings *settings = state->input;
     struct kd_error error;
-    char allowed[80];
+    char allowed[KD_ALLOWED_SIZE];
     if (key == 'h')
         argp_state_help(state, stdout, ARGP_HELP_STD_HELP);
     if (key == ARGP_KEY_ARG)

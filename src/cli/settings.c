@@ -3,6 +3,7 @@
 #include "base/buffer.h"
 #include "base/utf8.h"
 #include "cli/cli.h"
+#include "document/document.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,22 +35,6 @@ void kd_settings_finish(struct kd_settings *settings)
     *settings = (struct kd_settings) { 0 };
 }
 
-/* Whether text is one of the words "a|b|c". `out` receives "a, b or c". */
-static bool is_word(const char *words, const char *text, char *out, size_t size)
-{
-    bool found = false;
-    size_t used = 0;
-    for (const char *at = words; *at;) {
-        const size_t n = strcspn(at, "|");
-        found |= n == strlen(text) && !strncmp(at, text, n);
-        const char *gap = at == words ? "" : at[n] ? ", " : " or ";
-        if (used < size)
-            used += (size_t)snprintf(out + used, size - used, "%s%.*s", gap, (int)n, at);
-        at += n + (at[n] == '|');
-    }
-    return found;
-}
-
 /* Returns 1 for on, 0 for off, -1 for neither. */
 static int switch_of(const char *text)
 {
@@ -60,18 +45,26 @@ static int switch_of(const char *text)
     return -1;
 }
 
-bool kd_setting_takes(const struct kd_cli_setting *setting, const char *text, char allowed[80])
+bool kd_setting_takes(const struct kd_cli_setting *setting, const char *text, char allowed[KD_ALLOWED_SIZE])
 {
+    const struct kd_row row = { .kind = setting->kind == KD_SETTING_WORDS ? KD_KIND_WORD : KD_KIND_INT,
+                                .least = setting->least,
+                                .most = setting->most,
+                                .words = setting->kind == KD_SETTING_WORDS ? setting->argument : NULL };
     unsigned number;
     uint64_t bytes;
     switch (setting->kind) {
     case KD_SETTING_NUMBER:
-        snprintf(allowed, 80, "a whole number from %u to %u", setting->least, setting->most);
+        kd_row_allowed(&row, allowed);
         return kd_cli_read_number(text, setting->least, setting->most, &number);
-    case KD_SETTING_BYTES: snprintf(allowed, 80, KD_CLI_BYTES_ALLOWED); return kd_cli_read_bytes(text, &bytes);
-    case KD_SETTING_SWITCH: snprintf(allowed, 80, "yes, no, true, false, 1 or 0"); return switch_of(text) >= 0;
-    case KD_SETTING_WORDS: return is_word(setting->argument, text, allowed, 80);
-    case KD_SETTING_LIST: snprintf(allowed, 80, "texts that are not empty"); return *text;
+    case KD_SETTING_BYTES:
+        snprintf(allowed, KD_ALLOWED_SIZE, KD_CLI_BYTES_ALLOWED);
+        return kd_cli_read_bytes(text, &bytes);
+    case KD_SETTING_SWITCH:
+        snprintf(allowed, KD_ALLOWED_SIZE, "yes, no, true, false, 1 or 0");
+        return switch_of(text) >= 0;
+    case KD_SETTING_WORDS: kd_row_allowed(&row, allowed); return kd_word_index(setting->argument, text) >= 0;
+    case KD_SETTING_LIST: snprintf(allowed, KD_ALLOWED_SIZE, "texts that are not empty"); return *text;
     case KD_SETTING_TEXT: break;
     }
     return true;

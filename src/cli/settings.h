@@ -7,6 +7,7 @@
 #define KD_CLI_SETTINGS_H
 
 #include "base/error.h"
+#include "document/value.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -25,6 +26,7 @@ enum kd_setting_kind {
 };
 enum kd_setting_where { KD_SETTING_ANYWHERE, KD_SETTING_NOT_IN_FILE, KD_SETTING_FLAG };
 
+enum { KD_SETTINGS_MOST = 64 }; /* limit of a table */
 struct kd_cli_setting {
     const char *name, *argument;
     enum kd_setting_kind kind;
@@ -53,8 +55,8 @@ enum kd_status kd_settings_init(struct kd_settings *settings, const struct kd_cl
                                 struct kd_error *error);
 void kd_settings_finish(struct kd_settings *settings);
 
-/* Whether a setting accepts a value. If not, `allowed` (80 characters) says what it accepts. */
-bool kd_setting_takes(const struct kd_cli_setting *setting, const char *text, char allowed[80]);
+/* Whether a setting accepts a value. If not, `allowed` says what it accepts. */
+bool kd_setting_takes(const struct kd_cli_setting *setting, const char *text, char allowed[KD_ALLOWED_SIZE]);
 /* Stores an accepted value. It replaces an earlier value from the same source, but is appended to a LIST. KD_ENOMEM. */
 enum kd_status kd_settings_give(struct kd_settings *settings, size_t i, enum kd_setting_source source, const char *text,
                                 struct kd_error *error);

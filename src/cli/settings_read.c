@@ -4,6 +4,7 @@
 #include "cli/cli.h"
 #include "cli/file.h"
 #include "cli/settings.h"
+#include "document/document.h"
 #include "document/members.h"
 #include "document/scan.h"
 #include "document/text.h"
@@ -31,33 +32,6 @@ void kd_setting_variable(const struct kd_cli_setting *setting, char out[KD_SETTI
     out[n] = 0;
 }
 
-/* Finds a setting by the name of its member in the file. Returns n if there is none. */
-static size_t find_key(const struct kd_settings *settings, const char *name)
-{
-    size_t i = 0;
-    while (i < settings->n &&
-           (settings->table[i].where != KD_SETTING_ANYWHERE || strcmp(settings->table[i].name, name)))
-        i++;
-    return i;
-}
-
-static enum kd_status refuse_key(const struct kd_settings *settings, const char *name, const char *pointer,
-                                 struct kd_error *error)
-{
-    struct kd_spelling_best best = { 0 };
-    char given[60], known[400] = "";
-    kd_text_clip(given, sizeof given, name);
-    for (size_t i = 0; i < settings->n; i++)
-        if (settings->table[i].where == KD_SETTING_ANYWHERE) {
-            kd_spelling_offer(&best, name, settings->table[i].name);
-            snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", *known ? ", " : "",
-                     settings->table[i].name);
-        }
-    if (best.name)
-        return kd_error_field(error, pointer, "there is no option %s; did you mean %s?", given, best.name);
-    return kd_error_field(error, pointer, "there is no option %s; known are %s", given, known);
-}
-
 /* Converts a member's value to the text of a flag. Returns false if it has another type. */
 static bool text_of(const struct kd_cli_setting *setting, const cJSON *item, char number[24], const char **text)
 {
@@ -77,7 +51,7 @@ static enum kd_status take(struct kd_settings *settings, size_t i, const cJSON *
                            struct kd_error *error)
 {
     const struct kd_cli_setting *setting = &settings->table[i];
-    char allowed[80], number[24];
+    char allowed[KD_ALLOWED_SIZE], number[24];
     const char *text;
     const bool typed = text_of(setting, item, number, &text);
     if (typed && kd_setting_takes(setting, text, allowed))
@@ -108,20 +82,22 @@ static enum kd_status take_list(struct kd_settings *settings, size_t i, const cJ
 
 static enum kd_status read_members(struct kd_settings *settings, const cJSON *object, struct kd_error *error)
 {
-    enum kd_status status = KD_OK;
+    const cJSON *items[KD_SETTINGS_MOST] = { NULL };
+    struct kd_row rows[KD_SETTINGS_MOST];
+    struct kd_document document = { .rows = rows };
     if (!cJSON_IsObject(object))
         return kd_member_refuse(object, "", "an object whose members are options", error);
-    for (const cJSON *item = object->child; item && !status; item = item->next) {
+    for (size_t i = 0; i < settings->n; i++)
+        if (settings->table[i].where == KD_SETTING_ANYWHERE)
+            rows[document.n++] =
+                (struct kd_row) { .name = settings->table[i].name, .kind = KD_KIND_JSON, .offset = i * sizeof *items };
+    enum kd_status status = kd_document_read(&document, items, object, "", NULL, error);
+    for (size_t i = 0; i < settings->n && !status; i++) {
         char pointer[sizeof error->pointer] = "";
-        kd_text_pointer(pointer, sizeof pointer, item->string);
-        const size_t i = find_key(settings, item->string);
-        if (i == settings->n)
-            return refuse_key(settings, item->string, pointer, error);
-        for (const cJSON *before = object->child; before != item; before = before->next)
-            if (!strcmp(before->string, item->string))
-                return kd_error_field(error, pointer, "%s is given twice", item->string);
-        status = settings->table[i].kind == KD_SETTING_LIST ? take_list(settings, i, item, pointer, error)
-                                                            : take(settings, i, item, pointer, error);
+        kd_text_pointer(pointer, sizeof pointer, settings->table[i].name);
+        if (items[i])
+            status = settings->table[i].kind == KD_SETTING_LIST ? take_list(settings, i, items[i], pointer, error)
+                                                                : take(settings, i, items[i], pointer, error);
     }
     return status;
 }
@@ -172,7 +148,7 @@ static size_t find_variable(const struct kd_settings *settings, const char *vari
 
 static enum kd_status give_variable(struct kd_settings *settings, size_t i, const char *value, struct kd_error *error)
 {
-    char own[KD_SETTING_VARIABLE], shown[120], allowed[80], *rest, *copy = strdup(value);
+    char own[KD_SETTING_VARIABLE], shown[120], allowed[KD_ALLOWED_SIZE], *rest, *copy = strdup(value);
     const bool list = settings->table[i].kind == KD_SETTING_LIST;
     enum kd_status status = copy ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory");
     kd_setting_variable(&settings->table[i], own);

@@ -21,7 +21,7 @@
  *     kd_document_write(&json, &document, &tea);                       {"minutes":3,"cups":1,...}
  *
  * An error is KD_EINVAL with the field's pointer. Its message names the field as the request does, its value, and what
- * it must be. For an unknown name it offers the nearest one, and lists those that are known. */
+ * it must be. For an unknown name it offers the nearest one, or lists those that are known. */
 #ifndef KD_DOCUMENT_DOCUMENT_H
 #define KD_DOCUMENT_DOCUMENT_H
 
@@ -47,6 +47,7 @@ enum kd_kind {
     KD_KIND_TEXT,   /* char[room]: a string shorter than that */
     KD_KIND_ASSET,  /* char[KD_ASSET_NAME]: null, stored as "", or an asset (document/asset_name.h) */
     KD_KIND_SERIES, /* struct kd_words: some of `words` in any order, each once (document/words.h) */
+    KD_KIND_JSON,   /* const cJSON *: any value, which the caller reads while the tree exists; NULL: not given */
 };
 enum kd_open { KD_CLOSED, KD_OPEN, KD_OPEN_ABOVE, KD_OPEN_BELOW }; /* ends that a range excludes */
 
@@ -56,7 +57,9 @@ struct kd_number_list {
 };
 
 struct kd_row {
-    const char *object, *name; /* object: the member of the document that has the field; NULL: the document itself */
+    /* object: the member of the document that has the field, or "disk.gas", the member of a member; NULL or "": the
+     * document itself */
+    const char *object, *name;
     enum kd_kind kind;
     bool needed, fixed;          /* must be given; cannot be changed afterwards */
     size_t offset;               /* in the struct that is filled */
@@ -75,13 +78,29 @@ struct kd_row {
     const char *allowed, *schema;
 };
 
+/* An object that is a list: an array of objects with the same fields. Its rows are those of the first element. */
+struct kd_list {
+    const char *object;
+    size_t most, stride, size_at; /* limit; bytes from one element to the next; offset of the number of elements */
+};
+/* A former name of an element. */
+struct kd_former {
+    const char *name, *object;
+    size_t index;
+};
+
 struct kd_document {
     const struct kd_row *rows;
-    size_t n;           /* 64 at most, if the caller asks which fields are given */
+    size_t n;
     unsigned of;        /* only rows of these kinds of documents; 0: all rows */
     const char *others; /* "a|b": further members, which the caller reads; NULL: none */
     /* What an object's members may not be together, as JSON Schema; ends with a NULL name. May be NULL. */
     const struct kd_document_not { const char *object, *schema; } *nots;
+    const struct kd_list *lists;
+    size_t n_lists;
+    const struct kd_former *formers;
+    size_t n_formers;
+    bool paths; /* a typed name is the whole path of a field: "table.milk", "spots.0.r"; false: "milk" will do */
 };
 
 void kd_document_defaults(const struct kd_document *document, void *to);
@@ -89,13 +108,36 @@ void kd_document_defaults(const struct kd_document *document, void *to);
 /* Finds a row of the document by "name" or "object.name"; NULL: none. */
 const struct kd_row *kd_document_find(const struct kd_document *document, const char *name);
 
-/* Reads the members that an object has; other fields keep their values. pointer: the object's own. *given: receives
- * the bit of each row that was given; may be NULL. A member that is unknown or given twice is an error. */
+/* Reads the members that an object has; other fields keep their values. pointer: the object's own. given: receives the
+ * bit of each row that was given, 64 a word; may be NULL. A member that is unknown or given twice is an error.
+ *
+ * An array replaces a whole list. An object {"0": {...}} changes elements by index; the next free index appends one. A
+ * former name of an element creates the elements before it, and removes those that are left with all defaults. */
 enum kd_status kd_document_read(const struct kd_document *document, void *to, const cJSON *object, const char *pointer,
                                 uint64_t *given, struct kd_error *error);
+/* As a merge patch (RFC 7396): null resets a field, or all fields of an object or element, and empties a list. */
+enum kd_status kd_document_patch(const struct kd_document *document, void *to, const cJSON *object, const char *pointer,
+                                 uint64_t *given, struct kd_error *error);
 /* Sets one field by "name" or "object.name" from typed text; lists and sets have commas between their items. */
 enum kd_status kd_document_set(const struct kd_document *document, void *to, const char *name, const char *text,
                                uint64_t *given, struct kd_error *error);
+/* Where a typed path leads. The element need not exist. */
+struct kd_typed_place {
+    const struct kd_row *row;
+    const struct kd_list *list; /* NULL: none */
+    size_t index;
+    bool former; /* the path has a former name of the element */
+};
+enum kd_status kd_document_place(const struct kd_document *document, const char *path, struct kd_typed_place *out,
+                                 struct kd_error *error);
+
+/* Elements of a list; those that are added or removed get their defaults. */
+const struct kd_list *kd_document_list(const struct kd_document *document, const char *object);
+size_t kd_list_size(const struct kd_list *list, const void *from);
+void kd_list_resize(const struct kd_document *document, const struct kd_list *list, void *to, size_t size);
+/* KD_EINVAL at the first element beyond the limit. */
+enum kd_status kd_list_check(const struct kd_list *list, size_t size, struct kd_error *error);
+
 /* Sets one field that is no array from a value. called: its name in messages. */
 enum kd_status kd_row_put(const struct kd_row *row, void *to, const struct kd_value *value, const char *called,
                           const char *pointer, struct kd_error *error);
@@ -127,12 +169,12 @@ enum kd_status kd_row_range(const struct kd_row *row, const char *text, const ch
 /* Writes the schema of what kd_row_range reads, with the default, as a member. */
 void kd_row_range_schema(struct kd_json *json, const char *name, const struct kd_row *row);
 
-/* "there is no parameter X; did you mean Y? Known are ...". */
+/* "there is no parameter X; did you mean Y?", or "known are ...". */
 enum kd_status kd_document_unknown(const struct kd_document *document, const char *name, struct kd_error *error);
 /* Describes what a row allows: "0 to 10 M, or \"isco\"". */
 void kd_row_allowed(const struct kd_row *row, char out[KD_ALLOWED_SIZE]);
 
-/* Writes all fields but lists, as members of the object that is open. */
+/* Writes all fields but LISTs, as members of the object that is open. */
 void kd_document_write(struct kd_json *json, const struct kd_document *document, const void *from);
 /* Writes one row's value as a member. A list is left out. */
 void kd_row_write(struct kd_json *json, const struct kd_row *row, const void *from);

@@ -4,8 +4,42 @@
 
 #include "document/document.h"
 
-/* Whether a row is one of the document's, and in this object; NULL: in the document itself. read.c */
+/* An object of a document that is read: "" is the document itself. list: that which has it as an element, or NULL. */
+struct kd_object {
+    const char *name;
+    const struct kd_list *list;
+    size_t index;
+};
+
+/* A place in a document: its pointer, and its name in messages. */
+struct kd_mention { char pointer[sizeof((struct kd_error *)0)->pointer], called[120]; };
+/* name: a member of the object; NULL: the object itself. place.c */
+struct kd_mention kd_mention_of(const char *pointer, const struct kd_object *object, const char *name);
+
+/* Whether a row is one of the document's, and in this object; NULL or "": in the document itself. find.c */
 bool kd_row_is_of(const struct kd_document *document, const struct kd_row *row, const char *object);
+const struct kd_row *kd_find_row(const struct kd_document *document, const char *object, const char *name,
+                                 const struct kd_row *after);
+/* The object `name` within an object, or NULL. */
+const char *kd_find_object(const struct kd_document *document, const char *object, const char *name);
+const struct kd_former *kd_find_former(const struct kd_document *document, const char *name);
+/* Whether the row is the first of an object that is a member of this one. */
+bool kd_row_opens(const struct kd_document *document, const struct kd_row *row, const char *object);
+
+/* "there is no field X here; did you mean Y?". typed: a name on a command line. unknown.c */
+enum kd_status kd_unknown(const struct kd_document *document, const struct kd_object *object, const char *name,
+                          bool typed, const char *pointer, struct kd_error *error);
+
+/* Sets a row to its default. put.c */
+void kd_row_reset(const struct kd_row *row, void *to);
+/* Reads an index, such as "3", below the list's limit; checks that it is not beyond the next free one; removes elements
+ * with all defaults from the end, but keeps `least`. list.c */
+enum kd_status kd_list_index(const struct kd_list *list, const char *token, const char *pointer, size_t *index,
+                             struct kd_error *error);
+enum kd_status kd_list_reach(const struct kd_list *list, size_t size, size_t index, const char *pointer,
+                             struct kd_error *error);
+void kd_list_trim(const struct kd_document *document, const struct kd_list *list, void *to, size_t least);
+
 /* Writes the members of the schema of a row's numbers. write.c */
 void kd_row_number_members(struct kd_json *json, const struct kd_row *row);
 

@@ -16,34 +16,6 @@ enum kd_status kd_member_refuse(const cJSON *item, const char *pointer, const ch
                           allowed);
 }
 
-static enum kd_status refuse_name(const cJSON *item, const char *pointer, const struct kd_member *members, size_t n,
-                                  bool twice, struct kd_error *error)
-{
-    char at[sizeof error->pointer], name[60], known[240] = "";
-    snprintf(at, sizeof at, "%s", pointer);
-    kd_text_pointer(at, sizeof at, item->string);
-    kd_text_clip(name, sizeof name, item->string);
-    if (twice)
-        return kd_error_field(error, at, "%s is given twice", name);
-    for (size_t i = 0; i < n; i++)
-        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", i ? ", " : "", members[i].name);
-    return kd_error_field(error, at, "there is no field %s here; known are %s", name, known);
-}
-
-enum kd_status kd_members_read(const cJSON *object, const char *pointer, const struct kd_member *members, size_t n,
-                               struct kd_error *error)
-{
-    for (const cJSON *item = object->child; item; item = item->next) {
-        size_t i = 0;
-        while (i < n && strcmp(members[i].name, item->string))
-            i++;
-        if (i == n || *members[i].to)
-            return refuse_name(item, pointer, members, n, i < n, error);
-        *members[i].to = item;
-    }
-    return KD_OK;
-}
-
 enum kd_status kd_member_whole(const cJSON *item, const char *pointer, unsigned least, unsigned most, unsigned *out,
                                struct kd_error *error)
 {

@@ -1,5 +1,5 @@
-/* Reads the known members of a JSON object in a request. Each may occur at most once. Errors name the member, its value
- * and what is allowed, and have the pointer into the request. Any thread. */
+/* Single values of a request that no table of rows has. Errors name the member, its value and what is allowed, and have
+ * the pointer into the request. Any thread. */
 #ifndef KD_DOCUMENT_MEMBERS_H
 #define KD_DOCUMENT_MEMBERS_H
 
@@ -7,14 +7,6 @@
 
 #include <cjson/cJSON.h>
 #include <stddef.h>
-
-struct kd_member {
-    const char *name;
-    const cJSON **to; /* is set to the member; it must be NULL before, and stays NULL if the member is missing */
-};
-/* pointer: that of the object. Returns KD_EINVAL for a member that is unknown or occurs twice. */
-enum kd_status kd_members_read(const cJSON *object, const char *pointer, const struct kd_member *members, size_t n,
-                               struct kd_error *error);
 
 /* Returns KD_EINVAL, because the item is not what `allowed` describes in words. */
 enum kd_status kd_member_refuse(const cJSON *item, const char *pointer, const char *allowed, struct kd_error *error);

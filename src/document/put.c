@@ -52,6 +52,7 @@ double kd_row_get(const struct kd_row *row, const void *from)
     case KD_KIND_WORDS:
     case KD_KIND_LIST:
     case KD_KIND_VECTOR:
+    case KD_KIND_JSON:
     case KD_KIND_TEXT: break;
     }
     return NAN;
@@ -73,6 +74,7 @@ void kd_row_put_number(const struct kd_row *row, void *to, double value)
     case KD_KIND_WORDS:
     case KD_KIND_LIST:
     case KD_KIND_VECTOR:
+    case KD_KIND_JSON:
     case KD_KIND_TEXT: break;
     }
 }
@@ -229,21 +231,29 @@ enum kd_status kd_row_make_room(const struct kd_row *row, void *to, size_t n, co
     return (*list)->at ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %zu numbers", n);
 }
 
+void kd_row_reset(const struct kd_row *row, void *to)
+{
+    void *at = (char *)to + row->offset;
+    switch (row->kind) {
+    case KD_KIND_WORDS: *(uint32_t *)at = (uint32_t)row->initial; break;
+    case KD_KIND_LIST: *(struct kd_number_list *)at = (struct kd_number_list) { 0 }; break;
+    case KD_KIND_VECTOR:
+        for (size_t k = 0; k < row->room; k++)
+            ((double *)at)[k] = row->initial;
+        break;
+    case KD_KIND_TEXT: memset(at, 0, row->room); break;
+    case KD_KIND_JSON: *(const cJSON **)at = NULL; break;
+    case KD_KIND_WORD: memcpy(at, &(int) { (int)row->initial }, sizeof(int)); break;
+    default: kd_row_put_number(row, to, row->initial);
+    }
+}
+
 void kd_document_defaults(const struct kd_document *document, void *to)
 {
-    for (size_t i = 0; i < document->n; i++) {
-        const struct kd_row *row = &document->rows[i];
-        void *at = (char *)to + row->offset;
-        switch (row->kind) {
-        case KD_KIND_WORDS: *(uint32_t *)at = (uint32_t)row->initial; break;
-        case KD_KIND_LIST: *(struct kd_number_list *)at = (struct kd_number_list) { 0 }; break;
-        case KD_KIND_VECTOR:
-            for (size_t k = 0; k < row->room; k++)
-                ((double *)at)[k] = row->initial;
-            break;
-        case KD_KIND_TEXT: memset(at, 0, row->room); break;
-        case KD_KIND_WORD: memcpy(at, &(int) { (int)row->initial }, sizeof(int)); break;
-        default: kd_row_put_number(row, to, row->initial);
-        }
+    for (size_t i = 0; i < document->n; i++)
+        kd_row_reset(&document->rows[i], to);
+    for (size_t i = 0; i < document->n_lists; i++) {
+        *(size_t *)(void *)((char *)to + document->lists[i].size_at) = 0;
+        kd_list_resize(document, &document->lists[i], to, 0);
     }
 }

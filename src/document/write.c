@@ -64,6 +64,7 @@ void kd_row_write_as(struct kd_json *json, const char *name, const struct kd_row
         break;
     case KD_KIND_TEXT: kd_json_string(json, name, at); break;
     case KD_KIND_SERIES: write_series(json, name, row, at); break;
+    case KD_KIND_JSON:
     case KD_KIND_LIST: break;
     case KD_KIND_ASSET:
         if (*(const char *)at) {
@@ -75,51 +76,49 @@ void kd_row_write_as(struct kd_json *json, const char *name, const struct kd_row
     }
 }
 
-/* Whether a row is the first of its object. */
-static bool opens(const struct kd_document *document, const struct kd_row *row)
-{
-    for (const struct kd_row *before = document->rows; before < row; before++)
-        if (kd_row_is_of(document, before, row->object))
-            return false;
-    return true;
-}
-
-/* Calls `one` for each row of the document; begin and end before and after the rows of an object. */
-struct walk {
-    void (*begin)(struct kd_json *json, const struct kd_document *document, const char *object);
-    void (*one)(struct kd_json *json, const struct kd_row *row, const void *from);
-    void (*end)(struct kd_json *json);
-};
-
-static void walk_rows(struct kd_json *json, const struct kd_document *document, const char *object, const void *from,
-                      const struct walk *walk)
-{
-    for (size_t i = 0; i < document->n; i++) {
-        const struct kd_row *row = &document->rows[i];
-        if (kd_row_is_of(document, row, object)) {
-            walk->one(json, row, from);
-        } else if (!object && row->object && kd_row_is_of(document, row, row->object) && opens(document, row)) {
-            walk->begin(json, document, row->object);
-            walk_rows(json, document, row->object, from, walk);
-            walk->end(json);
-        }
-    }
-}
-
-static void begin_value(struct kd_json *json, const struct kd_document *document, const char *object)
-{
-    (void)document;
-    kd_json_object(json, object);
-}
-
 void kd_row_write(struct kd_json *json, const struct kd_row *row, const void *from)
 {
     kd_row_write_as(json, row->name, row, from);
 }
 
+static const char *member_of(const char *object)
+{
+    const char *dot = strrchr(object, '.');
+    return dot ? dot + 1 : object;
+}
+
+static void write_object(struct kd_json *json, const struct kd_document *document, const char *object,
+                         const void *from);
+
+static void write_inner(struct kd_json *json, const struct kd_document *document, const char *object, const void *from)
+{
+    const struct kd_list *list = kd_document_list(document, object);
+    const size_t n = list ? kd_list_size(list, from) : 1;
+    if (list)
+        kd_json_array(json, member_of(object));
+    for (size_t i = 0; i < n; i++) {
+        kd_json_object(json, list ? NULL : member_of(object));
+        write_object(json, document, object, (const char *)from + (list ? i * list->stride : 0));
+        kd_json_end(json);
+    }
+    if (list)
+        kd_json_end(json);
+}
+
+static void write_object(struct kd_json *json, const struct kd_document *document, const char *object, const void *from)
+{
+    for (size_t i = 0; i < document->n; i++) {
+        const struct kd_row *row = &document->rows[i];
+        if (kd_row_is_of(document, row, object))
+            kd_row_write(json, row, from);
+        else if (kd_row_is_of(document, row, row->object) && kd_row_opens(document, row, object))
+            write_inner(json, document, row->object, from);
+    }
+}
+
 void kd_document_write(struct kd_json *json, const struct kd_document *document, const void *from)
 {
-    walk_rows(json, document, NULL, from, &(const struct walk) { begin_value, kd_row_write, kd_json_end });
+    write_object(json, document, "", from);
 }
 
 void kd_row_number_members(struct kd_json *json, const struct kd_row *row)
@@ -229,6 +228,7 @@ void kd_row_type_members(struct kd_json *json, const struct kd_row *row)
                         "{0,62}|[0-9a-f]{64})$\"}]");
         break;
     case KD_KIND_SERIES: add_series(json, row->words); break;
+    case KD_KIND_JSON: break; /* any value: {} */
     case KD_KIND_BOOL: kd_json_string(json, "type", "boolean"); break;
     case KD_KIND_WORD: add_words(json, row->words); break;
     case KD_KIND_WORDS:
@@ -278,8 +278,8 @@ static void add_required(struct kd_json *json, const struct kd_document *documen
     for (size_t i = 0; i < document->n; i++) {
         const struct kd_row *row = &document->rows[i];
         const bool own = kd_row_is_of(document, row, object) && row->needed,
-                   inner = !object && row->object && kd_row_is_of(document, row, row->object) && opens(document, row) &&
-                           needs(document, row->object);
+                   inner = !object && row->object && kd_row_is_of(document, row, row->object) &&
+                           kd_row_opens(document, row, "") && needs(document, row->object);
         if (!own && !inner)
             continue;
         if (!separator)
@@ -295,9 +295,11 @@ void kd_document_required(struct kd_json *json, const struct kd_document *docume
     add_required(json, document, NULL);
 }
 
-static void begin_schema(struct kd_json *json, const struct kd_document *document, const char *object)
+static void add_properties(struct kd_json *json, const struct kd_document *document, const char *object);
+
+static void add_object(struct kd_json *json, const struct kd_document *document, const char *object)
 {
-    kd_json_object(json, object);
+    kd_json_object(json, member_of(object));
     kd_json_string(json, "type", "object");
     kd_json_bool(json, "additionalProperties", false);
     add_required(json, document, object);
@@ -305,23 +307,25 @@ static void begin_schema(struct kd_json *json, const struct kd_document *documen
         if (!strcmp(not->object, object))
             kd_schema_text(json, "not", not->schema);
     kd_json_object(json, "properties");
-}
-
-static void schema(struct kd_json *json, const struct kd_row *row, const void *from)
-{
-    (void)from;
-    kd_row_schema(json, row->name, row);
-}
-
-static void end_schema(struct kd_json *json)
-{
+    add_properties(json, document, object);
     kd_json_end(json);
     kd_json_end(json);
+}
+
+static void add_properties(struct kd_json *json, const struct kd_document *document, const char *object)
+{
+    for (size_t i = 0; i < document->n; i++) {
+        const struct kd_row *row = &document->rows[i];
+        if (kd_row_is_of(document, row, object))
+            kd_row_schema(json, row->name, row);
+        else if (kd_row_is_of(document, row, row->object) && kd_row_opens(document, row, object))
+            add_object(json, document, row->object);
+    }
 }
 
 void kd_document_properties(struct kd_json *json, const struct kd_document *document)
 {
-    walk_rows(json, document, NULL, NULL, &(const struct walk) { begin_schema, schema, end_schema });
+    add_properties(json, document, "");
 }
 
 static void describe(struct kd_json *json, const struct kd_row *row)

@@ -3,6 +3,7 @@
 #include "playground/json.h"
 #include "playground/show.h"
 #include "render/frame/blur.h"
+#include "document/document.h"
 #include "document/members.h"
 #include "scene/tree.h"
 
@@ -26,6 +27,17 @@ struct reader {
     struct kd_timeline_items timeline;
     struct kd_error *error;
 };
+
+#define ITEM(called, member) { .name = called, .kind = KD_KIND_JSON, .offset = offsetof(struct reader, member) }
+static const struct kd_row request_rows[] = {
+    ITEM("scene", scene),      ITEM("scenes", scenes),
+    ITEM("frames", frames),    ITEM("axes", axes),
+    ITEM("output", output),    ITEM("playground", playground),
+    ITEM("every", every),      ITEM("exposure", exposure),
+    ITEM("motion_blur", blur), KD_TIMELINE_ROWS(struct reader, timeline),
+};
+#undef ITEM
+static const struct kd_document request = { .rows = request_rows, .n = sizeof request_rows / sizeof *request_rows };
 
 static enum kd_status read_scene(struct reader *r, const cJSON *item, const char *pointer, struct kd_scene *scene)
 {
@@ -245,12 +257,29 @@ static const char *unblurred(const struct reader *r)
 
 static enum kd_status read_blur(struct reader *r)
 {
-    const cJSON *samples = NULL, *shutter = NULL;
-    const struct kd_member members[] = { { "samples", &samples }, { "shutter", &shutter } };
+    struct asked {
+        uint32_t samples;
+        double shutter;
+    } blur;
+    static const struct kd_row rows[] = {
+        { .name = "samples",
+          .kind = KD_KIND_INT,
+          .offset = offsetof(struct asked, samples),
+          .least = 1,
+          .most = KD_BLUR_SAMPLES },
+        { .name = "shutter",
+          .kind = KD_KIND_REAL,
+          .offset = offsetof(struct asked, shutter),
+          .initial = 0.5,
+          .most = 1,
+          .open = KD_OPEN_BELOW,
+          .allowed = "a number above 0, at most 1: the open time of the shutter over a frame's time" },
+    };
+    static const struct kd_document document = { .rows = rows, .n = sizeof rows / sizeof *rows };
     const struct kd_job_base *asked = r->asked;
     struct kd_job_spec *spec = r->spec;
-    double part = 0.5;
     enum kd_status status = KD_OK;
+    kd_document_defaults(&document, &blur);
     if (!r->blur && !asked->samples)
         return asked->shutter > 0 ? kd_error_field(r->error, "/motion_blur",
                                                    "samples is missing, which shutter needs; it is the number of "
@@ -265,23 +294,14 @@ static enum kd_status read_blur(struct reader *r)
                                 "an object with samples and shutter, as in {\"samples\": 16, \"shutter\": 0.5}",
                                 r->error);
     if (r->blur)
-        KD_TRY(kd_members_read(r->blur, "/motion_blur", members, sizeof members / sizeof *members, r->error));
-    if (!samples && !asked->samples)
+        KD_TRY(kd_document_read(&document, &blur, r->blur, "/motion_blur", NULL, r->error));
+    if (!blur.samples && !asked->samples)
         KD_TRY(kd_error_field(
             r->error, "/motion_blur/samples",
             "samples is missing; it must be the number of pictures whose mean is a frame's light, 1 to %d",
             KD_BLUR_SAMPLES));
-    if (samples)
-        KD_TRY(kd_member_whole(samples, "/motion_blur/samples", 1, KD_BLUR_SAMPLES, &spec->blur.samples, r->error));
-    if (shutter) {
-        part = cJSON_IsNumber(shutter) ? shutter->valuedouble : 0;
-        if (!(part > 0) || part > 1)
-            KD_TRY(kd_member_refuse(shutter, "/motion_blur/shutter",
-                                    "a number above 0, at most 1: the open time of the shutter over a frame's time",
-                                    r->error));
-    }
-    spec->blur.samples = asked->samples ? asked->samples : spec->blur.samples;
-    spec->blur.shutter = asked->shutter > 0 ? asked->shutter : part;
+    spec->blur.samples = asked->samples ? asked->samples : blur.samples;
+    spec->blur.shutter = asked->shutter > 0 ? asked->shutter : blur.shutter;
 done:
     return status;
 }
@@ -291,11 +311,6 @@ enum kd_status kd_job_spec_parse(const char *text, size_t length, const struct k
 {
     struct kd_job_spec spec = { .series = kd_series_all[0], .exposure = NAN };
     struct reader r = { .spec = &spec, .asked = base, .assets = assets, .error = error };
-    const struct kd_member members[] = { { "scene", &r.scene },      { "scenes", &r.scenes },
-                                         { "frames", &r.frames },    { "axes", &r.axes },
-                                         { "output", &r.output },    { "playground", &r.playground },
-                                         { "every", &r.every },      { "exposure", &r.exposure },
-                                         { "motion_blur", &r.blur }, KD_TIMELINE_MEMBERS(r.timeline) };
     cJSON *root = NULL;
     kd_scene_defaults(&r.base);
     if (base->scene)
@@ -306,7 +321,7 @@ enum kd_status kd_job_spec_parse(const char *text, size_t length, const struct k
     KD_TRY(kd_tree_parse(text, length, KD_JOB_FILM_MAX, VALUES_MAX, &root, error));
     if (!cJSON_IsObject(root))
         KD_TRY(kd_member_refuse(root, "", "an object", error));
-    KD_TRY(kd_members_read(root, "", members, sizeof members / sizeof *members, error));
+    KD_TRY(kd_document_read(&request, &r, root, "", NULL, error));
     KD_TRY(read_output(&r));
     if (r.every && !r.playground)
         KD_TRY(kd_error_field(

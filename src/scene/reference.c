@@ -67,7 +67,7 @@ static void write_list(struct kd_writer *w, const struct kd_section *list)
     kd_write(w, "A list of at most %zu elements, by default `[]`; N counts from 0.", list->most);
     size_t names = 0;
     for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++)
-        if (!strcmp(kd_old_names[i].section, list->name))
+        if (!strcmp(kd_old_names[i].object, list->name))
             kd_write(w, "%s`%s` is `%s.%zu`", names++ ? ", " : " Old names are still read: ", kd_old_names[i].name,
                      list->name, kd_old_names[i].index);
     kd_write(w, "%s\n\n", names ? "." : "");

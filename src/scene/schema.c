@@ -157,16 +157,16 @@ static void add_section(struct kd_json *json, const struct kd_section *section)
 }
 
 /* Writes the schema of an old name; x-now is the present path. */
-static void add_old_name(struct kd_json *json, const struct kd_old_name *old)
+static void add_old_name(struct kd_json *json, const struct kd_former *old)
 {
     char now[KD_PATH_SIZE], description[KD_PATH_SIZE + 24];
-    snprintf(now, sizeof now, "%s.%zu", old->section, old->index);
+    snprintf(now, sizeof now, "%s.%zu", old->object, old->index);
     snprintf(description, sizeof description, "an old name of %s", now);
     kd_json_object(json, old->name);
     kd_json_string(json, "description", description);
     kd_json_bool(json, "deprecated", true);
     kd_json_string(json, "x-now", now);
-    add_object(json, kd_section_find(old->section));
+    add_object(json, kd_section_find(old->object));
     kd_json_end(json);
 }
 
@@ -191,7 +191,7 @@ static void add_exclusions(struct kd_json *json)
         kd_json_object(json, kd_old_names[i].name);
         kd_json_object(json, "not");
         kd_json_array(json, "required");
-        kd_json_string(json, NULL, kd_old_names[i].section);
+        kd_json_string(json, NULL, kd_old_names[i].object);
         kd_json_end(json);
         kd_json_end(json);
         kd_json_end(json);

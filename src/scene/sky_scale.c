@@ -10,10 +10,10 @@ static double uas_of_m(const struct kd_scene *scene)
 
 double kd_scene_field_of_uas(const struct kd_scene *scene) { return scene->camera.field_uas / uas_of_m(scene); }
 
-void kd_scene_settle(struct kd_scene *scene, const bool *given)
+void kd_scene_settle(struct kd_scene *scene, const uint64_t *given)
 {
     const struct kd_row *in_m = kd_field_find("camera", "field_m"), *on_sky = kd_field_find("camera", "field_uas");
-    if (given && given[in_m - kd_fields] && !given[on_sky - kd_fields])
+    if (given && kd_field_is_given(given, in_m) && !kd_field_is_given(given, on_sky))
         scene->camera.field_uas = INFINITY;
     const double width = kd_scene_field_of_uas(scene);
     if (isfinite(scene->camera.field_uas) && kd_row_holds(in_m, width))

@@ -12,6 +12,6 @@ double kd_scene_field_of_uas(const struct kd_scene *scene);
  * camera.field_uas was not, camera.field_uas becomes "none". If camera.field_uas is a number, camera.field_m is
  * computed from it. If the result is out of range, camera.field_m is left unchanged, and kd_scene_validate refuses the
  * scene. */
-void kd_scene_settle(struct kd_scene *scene, const bool *given);
+void kd_scene_settle(struct kd_scene *scene, const uint64_t *given);
 
 #endif

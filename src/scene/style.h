@@ -16,7 +16,7 @@ extern const size_t kd_style_row_count;
 
 /* The row of the field style.name; NULL if the table of fields has none. */
 const struct kd_row *kd_style_field(void);
-/* Applies the scene's style. given: fields to leave unchanged, by their index in kd_fields; NULL: none. */
-void kd_style_apply(struct kd_scene *scene, const bool *given);
+/* Applies the scene's style. given: fields to leave unchanged, as kd_document_read writes them; NULL: none. */
+void kd_style_apply(struct kd_scene *scene, const uint64_t *given);
 
 #endif

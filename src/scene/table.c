@@ -67,13 +67,27 @@ enum { KD_SCENE_SECTIONS(EXTENT, LIST_EXTENT) };
       .group = KD_GROUP_##g, \
       .first = FIRST_##n, \
       .count = LAST_##n - FIRST_##n + 1, \
-      .most = limit, \
-      .size_at = offsetof(struct kd_scene, n.count), \
-      .stride = sizeof(struct kd_##element) },
+      .most = limit },
 const struct kd_section kd_sections[KD_SECTION_COUNT] = { KD_SCENE_SECTIONS(SECTION, LIST) };
 
-#define OLD(n, list, i) { .name = #n, .section = #list, .index = i },
-const struct kd_old_name kd_old_names[KD_OLD_NAME_COUNT] = { KD_SCENE_OLD_NAMES(OLD) };
+#define NO_LIST(n, ROWS, g, h)
+#define ONE_LIST(n, element, ROWS, g, limit, h) \
+    { #n, limit, sizeof(struct kd_##element), offsetof(struct kd_scene, n.count) },
+static const struct kd_list lists[] = { KD_SCENE_SECTIONS(NO_LIST, ONE_LIST) { NULL, 0, 0, 0 } };
+
+#define OLD(n, list, i) { .name = #n, .object = #list, .index = i },
+const struct kd_former kd_old_names[KD_OLD_NAME_COUNT] = { KD_SCENE_OLD_NAMES(OLD) };
+
+const struct kd_document kd_scene_document = {
+    .rows = kd_fields,
+    .n = KD_FIELD_COUNT,
+    .others = "version",
+    .lists = lists,
+    .n_lists = sizeof lists / sizeof *lists - 1,
+    .formers = kd_old_names,
+    .n_formers = KD_OLD_NAME_COUNT,
+    .paths = true,
+};
 
 const struct kd_section *kd_section_find(const char *section)
 {
@@ -81,13 +95,6 @@ const struct kd_section *kd_section_find(const char *section)
         if (!strcmp(kd_sections[i].name, section))
             return &kd_sections[i];
     return NULL;
-}
-
-const struct kd_section *kd_section_part(const struct kd_section *section, const char *name)
-{
-    char path[KD_PATH_SIZE];
-    int length = snprintf(path, sizeof path, "%s.%s", section->name, name);
-    return !*section->name || length >= KD_PATH_SIZE ? NULL : kd_section_find(path);
 }
 
 bool kd_section_is_part(const struct kd_section *section, const struct kd_section *whole)
@@ -102,13 +109,6 @@ const char *kd_section_member(const struct kd_section *section)
     return dot ? dot + 1 : section->name;
 }
 
-void kd_section_pointer(const struct kd_section *section, char out[KD_PATH_SIZE])
-{
-    snprintf(out, KD_PATH_SIZE, "%s%.*s", *section->name ? "/" : "", KD_PATH_SIZE - 2, section->name);
-    for (char *c = out; *c; c++)
-        *c = *c == '.' ? '/' : *c;
-}
-
 const struct kd_row *kd_field_find(const char *section, const char *name)
 {
     for (size_t i = 0; i < KD_FIELD_COUNT; i++)
@@ -117,57 +117,24 @@ const struct kd_row *kd_field_find(const char *section, const char *name)
     return NULL;
 }
 
-const struct kd_old_name *kd_old_name_find(const char *name)
-{
-    for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++)
-        if (!strcmp(kd_old_names[i].name, name))
-            return &kd_old_names[i];
-    return NULL;
-}
-
-static size_t *size_of(struct kd_scene *scene, const struct kd_section *section)
-{
-    return (size_t *)(void *)((char *)scene + section->size_at);
-}
-
 size_t kd_section_size(const struct kd_scene *scene, const struct kd_section *section)
 {
-    return section->most ? *(const size_t *)(const void *)((const char *)scene + section->size_at) : 1;
-}
-
-void kd_section_reset(struct kd_scene *scene, const struct kd_section *section, size_t index)
-{
-    for (size_t i = 0; i < section->count; i++)
-        kd_field_put(scene, &kd_fields[section->first + i], index, kd_fields[section->first + i].initial);
+    return section->most ? kd_list_size(kd_document_list(&kd_scene_document, section->name), scene) : 1;
 }
 
 void kd_section_resize(struct kd_scene *scene, const struct kd_section *section, size_t size)
 {
-    size_t old = *size_of(scene, section);
-    for (size_t i = old < size ? old : size; i < section->most; i++)
-        kd_section_reset(scene, section, i);
-    *size_of(scene, section) = size;
+    kd_list_resize(&kd_scene_document, kd_document_list(&kd_scene_document, section->name), scene, size);
 }
 
-static bool is_initial(const struct kd_scene *scene, const struct kd_section *section, size_t index)
+static size_t offset_of(const struct kd_row *field, size_t index)
 {
-    for (size_t i = 0; i < section->count; i++)
-        if (kd_field_get(scene, &kd_fields[section->first + i], index) != kd_fields[section->first + i].initial)
-            return false;
-    return true;
-}
-
-void kd_section_trim(struct kd_scene *scene, const struct kd_section *list, size_t least)
-{
-    size_t size = kd_section_size(scene, list);
-    while (size > least && is_initial(scene, list, size - 1))
-        size--;
-    kd_section_resize(scene, list, size);
+    return index ? index * kd_document_list(&kd_scene_document, field->object)->stride : 0;
 }
 
 const void *kd_field_in(const struct kd_scene *scene, const struct kd_row *field, size_t index)
 {
-    return (const char *)scene + (index ? index * kd_section_find(field->object)->stride : 0);
+    return (const char *)scene + offset_of(field, index);
 }
 
 double kd_field_get(const struct kd_scene *scene, const struct kd_row *field, size_t index)
@@ -175,21 +142,16 @@ double kd_field_get(const struct kd_scene *scene, const struct kd_row *field, si
     return kd_row_get(field, kd_field_in(scene, field, index));
 }
 
-static void *in(struct kd_scene *scene, const struct kd_row *field, size_t index)
-{
-    return (char *)scene + (index ? index * kd_section_find(field->object)->stride : 0);
-}
-
 void kd_field_put(struct kd_scene *scene, const struct kd_row *field, size_t index, double value)
 {
-    kd_row_put_number(field, in(scene, field, index), value);
+    kd_row_put_number(field, (char *)scene + offset_of(field, index), value);
 }
 
 enum kd_status kd_field_store(struct kd_scene *scene, const struct kd_row *field, size_t index,
                               const struct kd_value *value, struct kd_error *error)
 {
     char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
-    if (kd_row_take(field, in(scene, field, index), value))
+    if (kd_row_take(field, (char *)scene + offset_of(field, index), value))
         return KD_OK;
     kd_field_path(field, index, path);
     kd_field_pointer(field, index, pointer);
@@ -243,7 +205,5 @@ void kd_scene_defaults(struct kd_scene *scene)
 {
     /* This also clears the padding, so that equal scenes have equal bytes. */
     memset(scene, 0, sizeof *scene);
-    for (size_t s = 0; s < KD_SECTION_COUNT; s++)
-        for (size_t i = 0; i < (kd_sections[s].most ? kd_sections[s].most : 1); i++)
-            kd_section_reset(scene, &kd_sections[s], i);
+    kd_document_defaults(&kd_scene_document, scene);
 }

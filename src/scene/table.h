@@ -25,14 +25,6 @@ struct kd_section {
     enum kd_section_group group;
     size_t first, count; /* the section's rows in kd_fields */
     size_t most;         /* limit of the elements of a list; 0: the section is not a list */
-    size_t size_at;      /* for a list: offset in struct kd_scene of the number of its elements, a size_t */
-    size_t stride;       /* bytes from one element of a list to the next; 0 for other sections */
-};
-
-/* An old name of a list element. */
-struct kd_old_name {
-    const char *name, *section;
-    size_t index;
 };
 
 #define KD_ONE(...) +1
@@ -42,16 +34,8 @@ enum {
     KD_FIELD_COUNT = 0 KD_SCENE_SECTIONS(KD_COUNT_ROWS, KD_COUNT_LIST_ROWS),
     KD_SECTION_COUNT = 0 KD_SCENE_SECTIONS(KD_ONE, KD_ONE),
     KD_OLD_NAME_COUNT = 0 KD_SCENE_OLD_NAMES(KD_ONE),
+    KD_FIELD_WORDS = (KD_FIELD_COUNT + 63) / 64, /* of bits that tell which fields a document has */
 };
-
-/* KD_LIST_MOST is the limit of the longest list. */
-#define KD_NO_ROOM(name, ROWS, group, help)
-#define KD_ROOM(name, element, ROWS, group, most, help) char name[most];
-union kd_list_room {
-    char none[1];
-    KD_SCENE_SECTIONS(KD_NO_ROOM, KD_ROOM)
-};
-enum { KD_LIST_MOST = sizeof(union kd_list_room) };
 
 /* The rows of a list exist once, so functions on fields also take the index of the element. For other sections it is
  * 0. */
@@ -61,34 +45,32 @@ extern const char *const kd_groups[KD_GROUP_COUNT]; /* "look", "gas", ... */
 extern const struct kd_row kd_fields[KD_FIELD_COUNT];
 extern const struct kd_field_page kd_field_pages[KD_FIELD_COUNT];
 extern const struct kd_section kd_sections[KD_SECTION_COUNT];
-extern const struct kd_old_name kd_old_names[KD_OLD_NAME_COUNT];
+extern const struct kd_former kd_old_names[KD_OLD_NAME_COUNT];
+extern const struct kd_document kd_scene_document; /* the rows as a document, which fills struct kd_scene */
 
 /* Both find an entry by name; NULL if there is none. The section "" is the document itself. Names are
  * case-sensitive. */
 const struct kd_section *kd_section_find(const char *section);
-/* Nested sections. kd_section_part finds the section `name` within `section`; NULL if there is none. kd_section_is_part
- * tells whether `section` is nested in `whole`. kd_section_member returns its name within the parent,
- * kd_section_pointer its JSON pointer. */
+/* kd_section_is_part tells whether `section` is nested in `whole`. kd_section_member returns its name within the
+ * parent. */
 enum { KD_PATH_SIZE = 80 };
-const struct kd_section *kd_section_part(const struct kd_section *section, const char *name);
 bool kd_section_is_part(const struct kd_section *section, const struct kd_section *whole);
 const char *kd_section_member(const struct kd_section *section);
-void kd_section_pointer(const struct kd_section *section, char out[KD_PATH_SIZE]);
 const struct kd_row *kd_field_find(const char *section, const char *name);
-const struct kd_old_name *kd_old_name_find(const char *name);
 
 /* kd_section_size: number of elements of a list; 1 for other sections. kd_section_resize resets the elements that it
  * removes or adds to their defaults. */
 size_t kd_section_size(const struct kd_scene *scene, const struct kd_section *section);
 void kd_section_resize(struct kd_scene *scene, const struct kd_section *section, size_t size);
-/* Sets all fields of one element to their defaults. */
-void kd_section_reset(struct kd_scene *scene, const struct kd_section *section, size_t index);
-/* Removes elements that have all defaults from the end of a list, but keeps at least `least`. It is needed because the
- * old name of an element does not tell whether the element exists. */
-void kd_section_trim(struct kd_scene *scene, const struct kd_section *list, size_t least);
 
 /* The struct that has the field: the scene, moved to an element of a list. For functions of rows. */
 const void *kd_field_in(const struct kd_scene *scene, const struct kd_row *field, size_t index);
+/* Whether a document has the field (kd_document_read). */
+static inline bool kd_field_is_given(const uint64_t *given, const struct kd_row *field)
+{
+    const size_t i = (size_t)(field - kd_fields);
+    return given[i / 64] >> i % 64 & 1;
+}
 /* As kd_row_get and kd_row_put_number. */
 double kd_field_get(const struct kd_scene *scene, const struct kd_row *field, size_t index);
 void kd_field_put(struct kd_scene *scene, const struct kd_row *field, size_t index, double value);

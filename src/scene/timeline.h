@@ -84,12 +84,15 @@ struct kd_timeline_form {
 
 /* The members of a request that make up a timeline; NULL: the member is missing. */
 struct kd_timeline_items { const cJSON *keyframes, *interpolation, *distances, *angles, *ease, *look_at; };
-#define KD_TIMELINE_MEMBERS(items) \
-    { "keyframes", &(items).keyframes }, { "interpolation", &(items).interpolation }, \
-        { "distances", &(items).distances }, { "angles", &(items).angles }, { "ease", &(items).ease }, \
-    { \
-        "look_at", &(items).look_at \
-    }
+/* Rows of them, in a struct of this type that has them as `items`. */
+#define KD_TIMELINE_ROW_(type, items, member) \
+    { .name = #member, \
+      .kind = KD_KIND_JSON, \
+      .offset = offsetof(type, items) + offsetof(struct kd_timeline_items, member) }
+#define KD_TIMELINE_ROWS(type, items) \
+    KD_TIMELINE_ROW_(type, items, keyframes), KD_TIMELINE_ROW_(type, items, interpolation), \
+        KD_TIMELINE_ROW_(type, items, distances), KD_TIMELINE_ROW_(type, items, angles), \
+        KD_TIMELINE_ROW_(type, items, ease), KD_TIMELINE_ROW_(type, items, look_at)
 
 /* Returns the name of the first of these members, other than "keyframes", that the request has; NULL: it has none. */
 const char *kd_timeline_manner(const struct kd_timeline_items *items);

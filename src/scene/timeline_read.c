@@ -1,4 +1,5 @@
 /* Reads a timeline from a request. */
+#include "document/document.h"
 #include "document/members.h"
 #include "document/number.h"
 #include "scene/timeline.h"
@@ -100,25 +101,23 @@ static const char *const interpolations[] = { KD_INTERPOLATIONS(KD_WORD_OF, KD_C
 #define READ_WORD(r, item, pointer, words, out) \
     kd_member_word(item, pointer, words, sizeof words / sizeof *words, out, (r)->error)
 
-/* Reads a number of a place to look at. usual: its default; NAN: it has none. */
-static enum kd_status read_number(struct reader *r, const cJSON *item, const char *pointer, const char *name,
-                                  double usual, double least, double most, double *out)
-{
-    char at[80], allowed[60];
-    snprintf(at, sizeof at, "%s/%s", pointer, name);
-    snprintf(allowed, sizeof allowed, "a number from %.9g to %.9g", least, most);
-    *out = cJSON_IsNumber(item) ? item->valuedouble : usual;
-    return (!item || cJSON_IsNumber(item)) && *out >= least && (*out <= most || !item)
-               ? KD_OK
-               : kd_member_refuse(item, at, allowed, r->error);
-}
-
 static enum kd_status read_look_at(struct reader *r, const cJSON *item, const char *pointer, struct kd_aim *out)
 {
-    const cJSON *radius = NULL, *theta = NULL, *phi = NULL;
-    const struct kd_member members[] = { { "r", &radius }, { "theta_deg", &theta }, { "phi_deg", &phi } };
+    static const struct kd_row rows[] = {
+        { .name = "r", .offset = offsetof(struct kd_aim, r), .initial = INFINITY, .most = KD_LOOK_AT_FAR, .unit = "M" },
+        { .name = "theta_deg",
+          .offset = offsetof(struct kd_aim, theta_deg),
+          .initial = 90,
+          .most = 180,
+          .unit = "degrees" },
+        { .name = "phi_deg",
+          .offset = offsetof(struct kd_aim, phi_deg),
+          .least = -360,
+          .most = 360,
+          .unit = "degrees" },
+    };
+    static const struct kd_document place = { .rows = rows, .n = sizeof rows / sizeof *rows };
     const char *word = cJSON_IsString(item) ? item->valuestring : "";
-    enum kd_status status;
     *out = (struct kd_aim) { .kind = !strcmp(word, "hole")  ? KD_AIM_HOLE
                                      : cJSON_IsObject(item) ? KD_AIM_PLACE
                                                             : KD_AIM_FREE };
@@ -128,17 +127,13 @@ static enum kd_status read_look_at(struct reader *r, const cJSON *item, const ch
         return kd_member_refuse(
             item, pointer, "\"hole\", \"free\" or an object with theta_deg, phi_deg and r; without r it is a direction",
             r->error);
-    KD_TRY(kd_members_read(item, pointer, members, sizeof members / sizeof *members, r->error));
-    KD_TRY(read_number(r, radius, pointer, "r", INFINITY, 0, KD_LOOK_AT_FAR, &out->r));
-    KD_TRY(read_number(r, theta, pointer, "theta_deg", 90, 0, 180, &out->theta_deg));
-    KD_TRY(read_number(r, phi, pointer, "phi_deg", 0, -360, 360, &out->phi_deg));
-done:
-    return status;
+    kd_document_defaults(&place, out);
+    return kd_document_read(&place, out, item, pointer, NULL, r->error);
 }
 
 static enum kd_status read_key(struct reader *r, const cJSON *item, size_t index)
 {
-    const cJSON *place = NULL, *scene = NULL, *proper_time = NULL, *ease = NULL, *look_at = NULL;
+    struct key_items { const cJSON *place, *scene, *proper_time, *ease, *look_at; } key;
     char pointer[40], at[60];
     unsigned word = 0;
     double where = 0;
@@ -148,34 +143,38 @@ static enum kd_status read_key(struct reader *r, const cJSON *item, size_t index
         snprintf(at, sizeof at, "an object with %s and scene", r->form->place);
         return kd_member_refuse(item, pointer, at, r->error);
     }
-    const struct kd_member members[] = { { r->form->place, &place },
-                                         { "scene", &scene },
-                                         { "proper_time", &proper_time },
-                                         { "ease", &ease },
-                                         { "look_at", &look_at } };
-    KD_TRY(kd_members_read(item, pointer, members, sizeof members / sizeof *members, r->error));
-    if (!place || !(scene || proper_time || look_at))
+#define ITEM(called, member) \
+    { \
+        .name = called, .kind = KD_KIND_JSON, .offset = offsetof(struct key_items, member) \
+    }
+    const struct kd_row rows[] = { ITEM(r->form->place, place), ITEM("scene", scene), ITEM("proper_time", proper_time),
+                                   ITEM("ease", ease), ITEM("look_at", look_at) };
+#undef ITEM
+    const struct kd_document document = { .rows = rows, .n = sizeof rows / sizeof *rows };
+    kd_document_defaults(&document, &key);
+    KD_TRY(kd_document_read(&document, &key, item, pointer, NULL, r->error));
+    if (!key.place || !(key.scene || key.proper_time || key.look_at))
         KD_TRY(kd_error_field(r->error, pointer,
                               "a keyframe must have a %s, and a scene, a proper_time or a look_at; %s is missing",
-                              r->form->place, place ? "scene" : r->form->place));
+                              r->form->place, key.place ? "scene" : r->form->place));
     snprintf(at, sizeof at, "%s/%s", pointer, r->form->place);
-    KD_TRY(read_place(r, place, at, index == 0, &where));
+    KD_TRY(read_place(r, key.place, at, index == 0, &where));
     if (where > 0) { /* a keyframe at place 0 replaces the first key */
         r->out->keys[r->out->n_keys] = *last(r);
         r->out->keys[r->out->n_keys++].at = where;
     }
     snprintf(at, sizeof at, "%s/scene", pointer);
-    if (scene)
-        KD_TRY(read_scene(r, scene, at));
+    if (key.scene)
+        KD_TRY(read_scene(r, key.scene, at));
     snprintf(at, sizeof at, "%s/proper_time", pointer);
-    if (proper_time)
-        KD_TRY(read_proper_time(r, proper_time, at));
+    if (key.proper_time)
+        KD_TRY(read_proper_time(r, key.proper_time, at));
     snprintf(at, sizeof at, "%s/ease", pointer);
-    KD_TRY(READ_WORD(r, ease, at, eases, &word));
+    KD_TRY(READ_WORD(r, key.ease, at, eases, &word));
     last(r)->ease = (enum kd_ease)word;
     snprintf(at, sizeof at, "%s/look_at", pointer);
-    if (look_at)
-        KD_TRY(read_look_at(r, look_at, at, &last(r)->aim));
+    if (key.look_at)
+        KD_TRY(read_look_at(r, key.look_at, at, &last(r)->aim));
 done:
     return status;
 }

@@ -1,6 +1,5 @@
 /* Validates scenes: the range of every field, and the rules about several fields. */
 #include "scene/asset.h"
-#include "scene/element.h"
 #include "document/number.h"
 #include "scene/rules.h"
 #include "scene/table.h"
@@ -41,7 +40,8 @@ static enum kd_status range(const struct kd_scene *scene, const struct kd_row *f
 static enum kd_status ranges(const struct kd_scene *scene, const struct kd_section *section, struct kd_error *error)
 {
     size_t size = kd_section_size(scene, section);
-    enum kd_status status = section->most ? kd_element_count(section, size, error) : KD_OK;
+    enum kd_status status =
+        section->most ? kd_list_check(kd_document_list(&kd_scene_document, section->name), size, error) : KD_OK;
     for (size_t i = 0; i < size && !status; i++)
         for (size_t f = 0; f < section->count && !status; f++)
             status = range(scene, &kd_fields[section->first + f], i, error);

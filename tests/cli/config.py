@@ -151,14 +151,14 @@ class Config(support.Case):
             ("", "JSON"),
             ("[]", "an object"),
             ('{"port": 1, "port": 2}', "port is given twice"),
-            ('{"prt": 1}', "there is no option prt; did you mean port? (at /prt)"),
-            ('{"config": "x"}', "there is no option config"),
+            ('{"prt": 1}', "there is no field prt here; did you mean port? (at /prt)"),
+            ('{"config": "x"}', "there is no field config here"),
             ('{"zzzzzzzz": 1}', "known are listen, port"),
             ('{"port": 01}', "JSON"),
             ('{"port": 1} x', "JSON"),
             (" " * 70000, "65536"),
             ('{"a\\u0000b": 1}', ""),
-            ('{"a\\u001b[31m": 1}', "there is no option"),
+            ('{"a\\u001b[31m": 1}', "there is no field"),
         ):
             with self.subTest(text[:30]):
                 self.refused(self.path("kerrd.json"), said, config=text)

@@ -343,7 +343,7 @@ class Scenes(Case):
     def test_set(self):
         self.bad(2, "PATH=VALUE", "scene", "--set", "camera.r")
         self.bad(2, "PATH=VALUE", "scene", "--set", "=1")
-        self.bad(2, "unknown field", "scene", "--set", "camera.zoom=1")
+        self.bad(2, "there is no field", "scene", "--set", "camera.zoom=1")
         self.bad(2, "(at /camera/r)", "scene", "--set", "camera.r=")
         self.bad(2, "(at /camera/r)", "scene", "--set", "camera.r=1=2")
         self.bad(2, "(at /camera/r)", "scene", "--set", "camera.r=nan")

@@ -483,7 +483,7 @@ class Outputs(Case):
 
     def test_a_bad_scene_leaves_the_old_picture(self):
         self.write("a.png", "old")
-        self.bad(2, "unknown field", "render", "--set", "no.such=1", "-o", self.path("a.png"))
+        self.bad(2, "there is no field", "render", "--set", "no.such=1", "-o", self.path("a.png"))
         self.assertEqual(self.read("a.png"), b"old")
 
     def test_links_stay(self):

@@ -5,7 +5,7 @@
 #include "base/log.h"
 #include "cli/film_state.h"
 #include "render/accuracy/table.h"
-#include "document/members.h"
+#include "document/document.h"
 #include "scene/timeline.h"
 #include "document/tree.h"
 #include "server/job/store.h"
@@ -112,8 +112,9 @@ static void go_along(const struct kd_timeline *path)
 static void read_path(const struct kd_fuzz_text *text)
 {
     static const struct kd_timeline_form by_second = { "at", 3600, false };
-    struct kd_timeline_items items = { 0 };
-    const struct kd_member members[] = { KD_TIMELINE_MEMBERS(items) };
+    struct asked { struct kd_timeline_items items; } asked = { { 0 } };
+    static const struct kd_row rows[] = { KD_TIMELINE_ROWS(struct asked, items) };
+    static const struct kd_document document = { .rows = rows, .n = sizeof rows / sizeof *rows };
     struct kd_timeline path = { 0 };
     struct kd_scene scene;
     struct kd_error error = { 0 };
@@ -121,8 +122,8 @@ static void read_path(const struct kd_fuzz_text *text)
     kd_scene_defaults(&scene);
     enum kd_status status;
     KD_TRY(kd_tree_parse(text->at, text->size, KD_SCENE_JSON_MAX, KD_SCENE_JSON_MAX, &root, &error));
-    KD_TRY(kd_members_read(root, "", members, sizeof members / sizeof *members, &error));
-    KD_TRY(kd_timeline_read(&items, &by_second, NULL, &scene, &path, &error));
+    KD_TRY(kd_document_read(&document, &asked, root, "", NULL, &error));
+    KD_TRY(kd_timeline_read(&asked.items, &by_second, NULL, &scene, &path, &error));
     go_along(&path);
 done:
     if (status)

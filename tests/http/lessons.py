@@ -165,7 +165,7 @@ class Lessons(daemon.Case):
             ({"link": "x" * 8001}, "/link", "it must be a text of 0 to 8000 characters without control characters"),
             ({"about": "a\nb"}, "/about", "without control characters"),
             ({"open": 1}, "/open", "open is 1; it must be true or false"),
-            ({"open": True, "opened": 1}, "/opened", "there is no field opened here; known are session"),
+            ({"open": True, "opened": 1}, "/opened", "there is no field opened here; did you mean open?"),
             ({"question": 3}, "/question", "it must be an object with text and choices, or null"),
             ({"question": {"choices": ["a", "b"]}}, "/question", "question.text is missing; it must be a text"),
             ({"question": {**QUESTION, "text": 601 * "è"}}, "/question/text", "a text of 1 to 600 characters"),

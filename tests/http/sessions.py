@@ -320,7 +320,7 @@ class Sessions(daemon.Owned):
             ('{"amplitude": "1"}', 422, "/amplitude", '"1"'),
             ('{"amplitude": 1e999}', 422, "/amplitude", "0 to 1"),
             ('{"amplitude": null}', 422, "/amplitude", "null"),
-            ('{"loud": 1}', 422, "/loud", "known is amplitude"),
+            ('{"loud": 1}', 422, "/loud", "known are amplitude"),
             ('{"amplitude": 1, "amplitude": 0}', 422, "/amplitude", "twice"),
             ("[1]", 400, None, "object"),
             ("{", 400, None, ""),

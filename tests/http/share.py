@@ -206,7 +206,7 @@ class Share(Case):
             ("A" * 3000, 404, "longer than 2048"),
             (bomb, 404, "unpacks to more than 8192 bytes"),
             (code_of("preset=" + script), 422, "there is no preset"),
-            (code_of(script + "=1"), 422, "unknown field"),
+            (code_of(script + "=1"), 422, "there is no field"),
             (code_of("spacetime.spin=" + script), 422, "spacetime.spin"),
             (code_of("style.name=" + urllib.parse.quote(script)), 422, "style.name"),
             (code_of("spacetime.spin=0.1&spacetime.spin=0.2"), 422, "twice"),

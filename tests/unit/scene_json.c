@@ -285,7 +285,7 @@ static void sections_stand_in_sections(void **state)
         const char *text, *pointer, *says;
     } bad[] = {
         { "{\"gas\":{}}", "/gas", "did you mean disk.gas?" },
-        { "{\"disk.gas\":{}}", "/disk.gas", "unknown field disk.gas" },
+        { "{\"disk.gas\":{}}", "/disk.gas", "there is no field disk.gas" },
         { "{\"disk\":{\"gas\":3}}", "/disk/gas", "disk.gas is 3; it must be an object" },
         { "{\"disk\":{\"gas\":{\"sed\":3}}}", "/disk/gas/sed", "did you mean disk.gas.seed?" },
         { "{\"disk\":{\"gas\":{\"seed\":0.5}}}", "/disk/gas/seed", "disk.gas.seed is 0.5" },

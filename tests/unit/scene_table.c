@@ -20,7 +20,7 @@ enum kd_status kd_asset_check_grid(double spin, const struct kd_scene *scene, st
     return (void)spin, (void)scene, (void)error, KD_OK;
 }
 /* no widths in two units, */
-void kd_scene_settle(struct kd_scene *scene, const bool *given) { (void)scene, (void)given; }
+void kd_scene_settle(struct kd_scene *scene, const uint64_t *given) { (void)scene, (void)given; }
 /* no rules and no presets. */
 const struct kd_rule kd_rules[1];
 const size_t kd_rule_count = 0;

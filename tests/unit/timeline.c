@@ -153,6 +153,13 @@ static void what_is_no_path_is_refused(void **state)
         { RAIN, "[{\"at\":101,\"scene\":{}}]", "/keyframes/0/at", "0 to 100" },
         { RAIN, "[{\"at\":1,\"frame\":2,\"scene\":{}}]", "/keyframes/0/frame",
           "known are at, scene, proper_time, ease, look_at" },
+        { RAIN, "[{\"at\":1,\"scen\":{}}]", "/keyframes/0/scen", "there is no field scen here; did you mean scene?" },
+        { RAIN, "[{\"at\":1,\"ease\":\"in\",\"ease\":\"in\"}]", "/keyframes/0/ease", "ease is given twice" },
+        { RAIN, "[{\"at\":1,\"look_at\":{\"theta_deg\":181}}]", "/keyframes/0/look_at/theta_deg",
+          "theta_deg is 181; it must be 0 to 180 degrees" },
+        { RAIN, "[{\"at\":1,\"look_at\":{\"r\":null}}]", "/keyframes/0/look_at/r",
+          "r is null where a number is needed; it must be 0 to" },
+        { RAIN, "[{\"at\":1,\"look_at\":{\"theta\":1}}]", "/keyframes/0/look_at/theta", "did you mean theta_deg?" },
         { RAIN, "[{\"at\":1}]", "/keyframes/0", "a scene, a proper_time or a look_at" },
         { RAIN, "[{\"at\":1,\"scene\":{\"camera\":{\"r\":0}}}]", "/keyframes/0/scene/camera/r", "it must be" },
     };

@@ -1,5 +1,6 @@
 /* Reads the documents that change a lesson. */
 #include "base/utf8.h"
+#include "document/document.h"
 #include "document/text.h"
 #include "document/tree.h"
 #include "server/lesson/lesson.h"
@@ -18,6 +19,7 @@ struct member {
     const char *name;
     reader *read;
 };
+enum { MEMBERS = 8 }; /* room for those of one object */
 
 /* The name of a field in a sentence, such as question.choices.1 for /question/choices/1. */
 static void field_name(char *name, size_t size, const char *pointer)
@@ -85,33 +87,25 @@ static enum kd_status read_id(const cJSON *item, const char *pointer, const char
                : refuse(item, pointer, "16 hexadecimal digits", error);
 }
 
-/* Reads the members of an object, each at most once. */
+/* Reads the members of an object. */
 static enum kd_status read_members(const cJSON *object, const char *pointer, const struct member *members, size_t n,
                                    struct target *to, struct kd_error *error)
 {
-    char known[160] = "";
+    const cJSON *items[MEMBERS] = { NULL };
+    struct kd_row rows[MEMBERS];
+    uint64_t given = 0;
     for (size_t i = 0; i < n; i++)
-        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", i ? kd_text_or(i, n) : "",
-                 members[i].name);
-    to->given = 0;
-    for (const cJSON *item = object->child; item; item = item->next) {
-        char name[60], at[sizeof error->pointer];
-        size_t i = 0;
-        kd_text_clip(name, sizeof name, item->string);
-        snprintf(at, sizeof at, "%s", pointer);
-        kd_text_pointer(at, sizeof at, item->string);
-        while (i < n && strcmp(members[i].name, item->string))
-            i++;
-        if (i == n)
-            return kd_error_field(error, at, "there is no field %s here; known are %s", name, known);
-        if (to->given & 1u << i)
-            return kd_error_field(error, at, "%s is given twice", name);
-        to->given |= 1u << i;
-        const enum kd_status status = members[i].read(to, item, at, error);
-        if (status)
-            return status;
+        rows[i] = (struct kd_row) { .name = members[i].name, .kind = KD_KIND_JSON, .offset = i * sizeof *items };
+    const struct kd_document document = { .rows = rows, .n = n };
+    enum kd_status status = kd_document_read(&document, items, object, pointer, &given, error);
+    to->given = (unsigned)given;
+    for (size_t i = 0; i < n && !status; i++) {
+        char at[sizeof error->pointer];
+        snprintf(at, sizeof at, "%.80s/%s", pointer, members[i].name);
+        if (items[i])
+            status = members[i].read(to, items[i], at, error);
     }
-    return KD_OK;
+    return status;
 }
 
 static enum kd_status read_session(struct target *to, const cJSON *item, const char *pointer, struct kd_error *error)

@@ -1,5 +1,6 @@
 /* POST and DELETE of a session's path. Workers parse and check a path in slices, because that takes milliseconds. */
 #include "base/clock.h"
+#include "document/document.h"
 #include "document/members.h"
 #include "document/tree.h"
 #include "server/asset/store.h"
@@ -15,6 +16,8 @@
 #define PATH_VALUES 50000
 /* number of positions on the path that are checked; each takes up to a quarter of a millisecond */
 #define PATH_LOOKS 30
+
+struct path_request { struct kd_timeline_items items; };
 
 struct path_task {
     struct kd_task task;  /* must be the first member */
@@ -36,22 +39,23 @@ static enum kd_status read_path(const struct kd_request *request, const struct k
                                 struct kd_error *error)
 {
     static const struct kd_timeline_form by_second = { "at", KD_SESSION_PATH_S, false };
-    struct kd_timeline_items items = { 0 };
+    struct path_request asked = { 0 };
     const struct kd_assets *assets = kd_asset_store_assets(request->server->assets);
     const struct kd_buffer *body = &request->body;
-    const struct kd_member members[] = { KD_TIMELINE_MEMBERS(items) };
+    static const struct kd_row rows[] = { KD_TIMELINE_ROWS(struct path_request, items) };
+    static const struct kd_document document = { .rows = rows, .n = sizeof rows / sizeof *rows };
     cJSON *root = NULL;
     enum kd_status status;
     KD_TRY(
         kd_tree_parse(body->data ? (const char *)body->data : "", body->size, KD_BODY_MAX, PATH_VALUES, &root, error));
     if (!cJSON_IsObject(root))
         KD_TRY(kd_error_set(error, KD_EINVAL, "the body is not a JSON object"));
-    KD_TRY(kd_members_read(root, "", members, sizeof members / sizeof *members, error));
-    if (!items.keyframes)
+    KD_TRY(kd_document_read(&document, &asked, root, "", NULL, error));
+    if (!asked.items.keyframes)
         KD_TRY(kd_error_field(error, "/keyframes",
                               "keyframes is missing; it must be an array, as in \"keyframes\": [{\"at\": 10, "
                               "\"scene\": {\"time\": 100}}]"));
-    KD_TRY(kd_timeline_read(&items, &by_second, assets, now, out, error));
+    KD_TRY(kd_timeline_read(&asked.items, &by_second, assets, now, out, error));
     if (!(kd_timeline_end(out) > 0))
         KD_TRY(kd_error_field(error, "/keyframes", "the last keyframe is at 0 s; it must be later"));
 done:

@@ -2,8 +2,8 @@
 #include "render/emit/motion.h"
 #include "render/emit/describe.h"
 #include "render/output/clock.h"
+#include "document/document.h"
 #include "document/number.h"
-#include "document/text.h"
 #include "document/tree.h"
 #include "server/asset/store.h"
 #include "server/http/query.h"
@@ -349,27 +349,16 @@ enum MHD_Result kd_handle_session(struct kd_request *request)
  * without a pointer if the body is no JSON object. */
 static enum kd_status read_strike(const struct kd_buffer *body, double *amplitude, struct kd_error *error)
 {
+    static const struct kd_row row = { .name = "amplitude", .kind = KD_KIND_REAL, .most = 1 };
+    static const struct kd_document document = { .rows = &row, .n = 1 };
     cJSON *tree = NULL;
     enum kd_status status = KD_OK;
     if (body->size)
         KD_TRY(kd_tree_parse((const char *)body->data, body->size, KD_BODY_MAX, STRIKE_VALUES, &tree, error));
     if (tree && !cJSON_IsObject(tree))
         KD_TRY(kd_error_set(error, KD_EINVAL, "the body is not a JSON object"));
-    for (const cJSON *item = tree ? tree->child : NULL; item; item = item->next) {
-        char name[60], pointer[sizeof error->pointer] = "", given[KD_VALUE_SIZE];
-        kd_text_clip(name, sizeof name, item->string);
-        kd_text_pointer(pointer, sizeof pointer, item->string);
-        const struct kd_value value = kd_tree_value(item);
-        kd_value_describe(&value, given);
-        if (strcmp(item->string, "amplitude"))
-            KD_TRY(kd_error_field(error, pointer, "there is no field %s here; known is amplitude", name));
-        else if (item != tree->child)
-            KD_TRY(kd_error_field(error, pointer, "amplitude is given twice"));
-        else if (!cJSON_IsNumber(item) || !(item->valuedouble >= 0 && item->valuedouble <= 1))
-            KD_TRY(kd_error_field(error, pointer, "amplitude is %s; it must be 0 to 1", given));
-        else
-            *amplitude = item->valuedouble;
-    }
+    if (tree)
+        KD_TRY(kd_document_read(&document, amplitude, tree, "", NULL, error));
 done:
     cJSON_Delete(tree);
     return status;
