@@ -232,7 +232,6 @@ const overlays = [
   ['orbit', orbit, 'Orbit of the Orbits view, lensed', 'Orbita della vista Orbite, deviata dalla lente'],
 ];
 
-const uncharged = ['polarization']; // known for an uncharged hole only
 const slow = ['orbit']; // takes seconds: the other lines are drawn first
 
 export function buildOverlays(root, stage, scene) {
@@ -259,8 +258,6 @@ export function buildOverlays(root, stage, scene) {
       try {
         if (scene.get('camera.projection') === 'ring' || scene.get('camera.stereo') === 'pair')
           throw new Error(t('not in this projection', 'non in questa proiezione'));
-        if (scene.get('spacetime.charge') && uncharged.includes(name))
-          throw new Error(t('known for an uncharged hole only', 'nota solo per un buco scarico'));
         if (slow.includes(name))
           lay(groups, width, height),
             layer.classList.remove('late'),

@@ -17,4 +17,22 @@ kd_place kd_place_at(float w, float u, float s2)
     return kd_place(aw2, delta, area, 1.0 + aw2 * u * u, drag / area);
 }
 
+/* The mass term of the metric, (2r - q^2)/r^2. */
+float kd_mass_term(float w)
+{
+    float term = 2.0 * w;
+    if (CHARGED)
+        term -= cam.charge2 * w * w;
+    return term;
+}
+
+/* 1/Omega of the circular orbit at r, which is beyond the ISCO (src/physics/spacetime/kerr.h). */
+float kd_circle_time(float r)
+{
+    float time = r * sqrt(r) + cam.spin;
+    if (CHARGED)
+        time = r * r * inversesqrt(r - cam.charge2) + cam.spin;
+    return time;
+}
+
 #endif
