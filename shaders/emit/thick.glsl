@@ -50,9 +50,7 @@ kd_thick_orbit kd_thick_orbit_of(kd_midst p, float r, float axis)
 {
     float a = cam.spin, s2 = 1.0 - p.u * p.u, omega = 1.0 / kd_circle_time(axis), sigma = r * r + a * a * p.u * p.u;
     float turn = 1.0 - a * omega * s2;
-    float rest = 1.0 - (r * r + a * a) * s2 * omega * omega - 2.0 * r / sigma * turn * turn;
-    if (CHARGED)
-        rest += cam.charge2 / sigma * turn * turn;
+    float rest = 1.0 - (r * r + a * a) * s2 * omega * omega - kd_mass(r) / sigma * turn * turn;
     return kd_thick_orbit(inversesqrt(max(rest, 1e-6)), omega);
 }
 

@@ -149,13 +149,7 @@ struct kd_stride {
  * is d/dtau of -1/w + ln(w^2/D) + (2 - q^2) kd_fall, for D and W with the charge q. That contains everything that grows
  * without bound towards infinity and at the horizon, and minus r_o + 2 ln r_o vanishes for an observer at infinity. The
  * rest is smooth. In the step in which the ray turns, t' itself is smooth. */
-float kd_march_edge(float w)
-{
-    float falls = 2.0;
-    if (CHARGED)
-        falls -= cam.charge2;
-    return w > 0.0 ? falls * kd_fall(w, cam.root) - 1.0 / w + kd_log(w * w / kd_horizons(w, cam.root)) : 0.0;
-}
+float kd_march_edge(float w) { return w > 0.0 ? kd_late(w) - 1.0 / w + kd_log(w * w / kd_horizons(w, cam.root)) : 0.0; }
 
 float kd_march_later(kd_geodesic m, kd_ray ray, kd_stride s, float t)
 {
