@@ -39,7 +39,7 @@
 /* -k.U of the matter, without a difference of nearly equal numbers. For light along the jet, e - k_r is across^2 over
  * the sum e + k_r, with across^2 = k_theta^2 + k_phi^2 = (p_theta^2 + L^2 Sigma^2/(A sin^2))/Sigma. By p_theta^2 = Q +
  * a^2 E^2 u^2 - L^2 u^2/sin^2 and A = (r^2 + a^2)^2 - a^2 Delta sin^2 this has no sine in a denominator: Sigma across^2
- * = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2 r)/A. */
+ * = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2r - q^2)/A. */
 float kd_jets_energy(kd_midst p)
 {
     kd_place at = kd_place_at(p.w, p.u, 1.0 - p.u * p.u);
@@ -47,7 +47,7 @@ float kd_jets_energy(kd_midst p)
           k = p.dw * inversesqrt(at.delta * at.sigma);
     float ae = cam.spin * p.energy, l2 = p.momentum * p.momentum,
           across = p.w * p.w / at.sigma *
-                   max(p.q + l2 + ae * ae * p.u * p.u - l2 * at.aw2 * (at.sigma + 2.0 * p.w) / at.area, 0.0);
+                   max(p.q + l2 + ae * ae * p.u * p.u - l2 * at.aw2 * (at.sigma + kd_mass_term(p.w)) / at.area, 0.0);
     float along =
         emission.jets.gamma * across / (e + abs(k)) + abs(k) / (emission.jets.gamma + emission.jets.gamma_beta);
     return max(k > 0.0 ? along : emission.jets.gamma * e - emission.jets.gamma_beta * k, 1e-30);

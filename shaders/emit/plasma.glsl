@@ -99,15 +99,14 @@ kd_flow kd_flow_gold(kd_metric g, kd_midst p)
 /* Matter with the angular velocity of the circular orbit at its r, at any latitude. */
 kd_flow kd_flow_round(kd_metric g, float r)
 {
-    float past = 1.0 / (r * sqrt(r) + cam.spin) - g.omega,
-          time = inversesqrt(max(g.lapse2 - g.round_ * past * past, 1e-12));
+    float past = 1.0 / kd_circle_time(r) - g.omega, time = inversesqrt(max(g.lapse2 - g.round_ * past * past, 1e-12));
     return kd_flow(time, g.round_ * past * time, 0.0, 0.0);
 }
 
 /* Inside the ISCO matter keeps the e and l that it has at the ISCO at its latitude (H.-Y. Pu, K. Akiyama & K. Asada
- * 2016, ApJ 831, 4), and stays at that latitude. Then Sigma^2 (u^r)^2 = A e^2 - 4 a r e l - (Sigma - 2r) l^2/sin^2 -
- * Sigma Delta is a quartic that vanishes at the ISCO; divided by r - r_isco, it has no difference of nearly equal
- * numbers. Where it is negative, off the plane, matter rotates with the angular velocity of e and l. */
+ * 2016, ApJ 831, 4), and stays at that latitude. Then Sigma^2 (u^r)^2 = A e^2 - 2 a m e l - (Sigma - m) l^2/sin^2 -
+ * Sigma Delta, with m = 2r - q^2, is a quartic that vanishes at the ISCO; divided by r - r_isco, it has no difference
+ * of nearly equal numbers. Where it is negative, off the plane, matter rotates with the angular velocity of e and l. */
 kd_flow kd_flow_plunge(kd_metric g, kd_midst p)
 {
     float r = 1.0 / p.w, edge = emission.frame.r_isco, a2 = cam.spin * cam.spin, u2 = p.u * p.u,
@@ -117,6 +116,8 @@ kd_flow kd_flow_plunge(kd_metric g, kd_midst p)
     float l = v.round_, e = there.lapse2 * v.time + there.omega * l, l2 = l * l / s2;
     float c3 = 2.0, c4 = e * e - 1.0, c2 = a2 * (1.0 + u2) * c4 - l2,
           c1 = 2.0 * (a2 * (s2 * e * e + u2) + l2 - 2.0 * cam.spin * e * l);
+    if (CHARGED)
+        c2 -= cam.charge2;
     float b2 = c3 + edge * c4, b1 = c2 + edge * b2, b0 = c1 + edge * b1;
     float out2 = (r - edge) * (b0 + r * (b1 + r * (b2 + r * c4))) * p.w * p.w * p.w * p.w / (g.sigma * g.sigma);
     float seen = e - g.omega * l,
@@ -136,7 +137,7 @@ float kd_less_ln(float z)
 /* The torus of L. G. Fishbone & V. Moncrief 1976 (ApJ 207, 962): u^t u_phi = l everywhere. With u_phi^2 = g_phiphi U^2
  * and u^t = sqrt(1 + U^2)/lapse, U^2 (1 + U^2) = l^2 lapse^2/g_phiphi = q/4; and ln h = ln((1 + sqrt(1 + q))/lapse^2)/2
  * - sqrt(1 + q)/2 - omega l, equation 3.6. ln h is about a hundredth, a difference of numbers near 1. So U^2 = (sqrt(1
- * + q) - 1)/2 is used, which contributes ln(1 + U^2)/2 - U^2, and 1 - lapse^2 = 2 r (r^2 + a^2)/A. */
+ * + q) - 1)/2 is used, which contributes ln(1 + U^2)/2 - U^2, and 1 - lapse^2 = (2r - q^2) (r^2 + a^2)/A. */
 struct kd_equilibrium {
     kd_flow flow;
     float enthalpy;
@@ -145,7 +146,8 @@ kd_equilibrium kd_torus_at(kd_metric g, kd_midst p)
 {
     float l = emission.plasma.torus_momentum, q = 4.0 * l * l * g.lapse2 / g.round_,
           u2 = 0.5 * q / (1.0 + sqrt(1.0 + q)), b = 1.0 + cam.spin * cam.spin * p.w * p.w;
-    float area = g.round_ * g.sigma * p.w * p.w / max(1.0 - p.u * p.u, 1e-12), lapsed = min(2.0 * p.w * b / area, 1.0);
+    float area = g.round_ * g.sigma * p.w * p.w / max(1.0 - p.u * p.u, 1e-12),
+          lapsed = min(kd_mass_term(p.w) * b / area, 1.0);
     precise float ln_h =
         0.5 * (kd_less_ln(lapsed) + kd_less_ln(u2 / (1.0 + u2))) - u2 - g.omega * l - emission.plasma.torus_edge;
     return kd_equilibrium(kd_flow(sqrt((1.0 + u2) / g.lapse2), sqrt(g.round_ * u2) * sign(l), 0.0, 0.0), ln_h);

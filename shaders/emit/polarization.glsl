@@ -85,8 +85,8 @@ kd_polarized kd_polarization_left(kd_sample s, bool down)
                   root * w * (s.momentum - a * s.energy));
     vec4 u = falls ? vec4(emission.plunge.energy - a * emission.plunge.j * w2, kd_plunge_speed(w), 0.0,
                           root * w * emission.plunge.j)
-                   /* on a circular orbit the gas has the speed (sqrt(r) - a)/sqrt(Delta) */
-                   : vec4(root, 0.0, 0.0, (inversesqrt(w) - a) * w);
+                   /* on a circular orbit the gas has the speed (sqrt(r - q^2) - a)/sqrt(Delta) */
+                   : vec4(root, 0.0, 0.0, (kd_circle_root(w) - a) * w);
     vec4 b = vec4(-a * root * root, 0.0, 0.0, root * (1.0 / w + a * a * w)); /* d/dphi */
     if ((TRAITS_polarization & KD_TRAIT_RADIAL) != 0u)
         b = vec4(0.0, 1.0, 0.0, 0.0);

@@ -48,9 +48,9 @@ struct kd_thick_orbit { float ut, omega; };
 
 kd_thick_orbit kd_thick_orbit_of(kd_midst p, float r, float axis)
 {
-    float a = cam.spin, s2 = 1.0 - p.u * p.u, omega = 1.0 / (axis * sqrt(axis) + a), sigma = r * r + a * a * p.u * p.u;
+    float a = cam.spin, s2 = 1.0 - p.u * p.u, omega = 1.0 / kd_circle_time(axis), sigma = r * r + a * a * p.u * p.u;
     float turn = 1.0 - a * omega * s2;
-    float rest = 1.0 - (r * r + a * a) * s2 * omega * omega - 2.0 * r / sigma * turn * turn;
+    float rest = 1.0 - (r * r + a * a) * s2 * omega * omega - kd_mass(r) / sigma * turn * turn;
     return kd_thick_orbit(inversesqrt(max(rest, 1e-6)), omega);
 }
 

@@ -72,8 +72,7 @@ float quantity(uint which, uint at)
 float kd_carter_of_slope(float energy, float momentum, float w, float slope)
 {
     float w2 = w * w, ae = cam.spin * energy, j = momentum - ae;
-    float rest = energy * energy + (ae * ae - momentum * momentum) * w2 + j * j * w2 * (2.0 * w - cam.charge2 * w2) -
-                 slope * slope;
+    float rest = energy * energy + (ae * ae - momentum * momentum) * w2 + j * j * w2 * kd_mass_term(w) - slope * slope;
     return rest / (w2 * kd_delta(w, cam.root));
 }
 

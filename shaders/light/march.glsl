@@ -146,13 +146,10 @@ struct kd_stride {
 /* Boyer-Lindquist time along the ray backwards grows by t' = (1 + a^2 w^2) W/(w^2 D) + a (L - a E (1 - u^2)), D = 1 -
  * 2w + a^2 w^2 and W = E + a (a E - L) w^2. With w'^2 = W^2 - D K w^2 the first part of t' is (1 + a^2 w^2) (w'/(w^2 D)
  * + K/(W + w')) where the ray goes inwards, and the same with -w' where it goes outwards. The first term of this part
- * is d/dtau of -1/w + ln(w^2/D) + 2 kd_fall. That contains everything that grows without bound towards infinity and at
- * the horizon, and minus r_o + 2 ln r_o vanishes for an observer at infinity. The rest is smooth. In the step in which
- * the ray turns, t' itself is smooth. */
-float kd_march_edge(float w)
-{
-    return w > 0.0 ? 2.0 * kd_fall(w, cam.root) - 1.0 / w + kd_log(w * w / kd_horizons(w, cam.root)) : 0.0;
-}
+ * is d/dtau of -1/w + ln(w^2/D) + (2 - q^2) kd_fall, for D and W with the charge q. That contains everything that grows
+ * without bound towards infinity and at the horizon, and minus r_o + 2 ln r_o vanishes for an observer at infinity. The
+ * rest is smooth. In the step in which the ray turns, t' itself is smooth. */
+float kd_march_edge(float w) { return w > 0.0 ? kd_late(w) - 1.0 / w + kd_log(w * w / kd_horizons(w, cam.root)) : 0.0; }
 
 float kd_march_later(kd_geodesic m, kd_ray ray, kd_stride s, float t)
 {

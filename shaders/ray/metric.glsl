@@ -17,4 +17,42 @@ kd_place kd_place_at(float w, float u, float s2)
     return kd_place(aw2, delta, area, 1.0 + aw2 * u * u, drag / area);
 }
 
+/* The mass term of the metric, 2r - q^2; and over r^2. */
+float kd_mass(float r)
+{
+    float mass = 2.0 * r;
+    if (CHARGED)
+        mass -= cam.charge2;
+    return mass;
+}
+float kd_mass_term(float w)
+{
+    float term = 2.0 * w;
+    if (CHARGED)
+        term -= cam.charge2 * w * w;
+    return term;
+}
+
+/* Integral from 0 to w of (2 - q^2) dw/D, with D = Delta/r^2: the term of the time that grows without bound at the
+ * horizon. */
+float kd_late(float w)
+{
+    float part = 2.0;
+    if (CHARGED)
+        part -= cam.charge2;
+    return part * kd_fall(w, cam.root);
+}
+
+/* sqrt(r - q^2), by which circular orbits go (src/physics/spacetime/kerr.h). */
+float kd_circle_root(float w) { return CHARGED ? sqrt(1.0 / w - cam.charge2) : inversesqrt(w); }
+
+/* 1/Omega of the circular orbit at r, which is beyond the ISCO (src/physics/spacetime/kerr.h). */
+float kd_circle_time(float r)
+{
+    float time = r * sqrt(r) + cam.spin;
+    if (CHARGED)
+        time = r * r * inversesqrt(r - cam.charge2) + cam.spin;
+    return time;
+}
+
 #endif

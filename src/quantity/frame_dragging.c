@@ -36,7 +36,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     if (kd_hole_check(hole, error) || kd_quantity_outside_horizon(hole, r, error))
         return KD_EINVAL;
     if (fresh) {
-        o->horizon_omega = a / (2 * hole->outer - hole->q * hole->q);
+        o->horizon_omega = a / kd_hole_mass(hole, hole->outer);
         o->ergosphere = kd_kerr_ergosphere(hole, u);
     }
     o->omega = kd_kerr_dragging(hole, r, u);

@@ -46,7 +46,7 @@ static void fill_hole(const struct parameters *p, struct outputs *o)
     const struct kd_hole *hole = KD_QUANTITY_HOLE(p), *turned = kd_hole_turned(hole, -1);
     o->horizon = hole->outer;
     o->inner_horizon = hole->inner;
-    o->horizon_omega = hole->a / (2 * o->horizon - hole->q * hole->q);
+    o->horizon_omega = hole->a / kd_hole_mass(hole, o->horizon);
     o->ergosphere = kd_kerr_ergosphere(hole, kd_cos_deg(p->theta_deg));
     o->photon_prograde = kd_kerr_photon_orbit(hole);
     o->photon_retrograde = kd_kerr_photon_orbit(turned);

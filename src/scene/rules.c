@@ -84,13 +84,9 @@ static enum kd_status uncharged(const struct kd_scene *scene, struct kd_error *e
         int refused; /* value of an enumeration; 0: all but 0 */
     } parts[] = {
         { "disk", "model", "\"novikov-thorne\"", KD_DISK_PARTICLES },
-        { "disk", "height", "0", 0 },
-        { "volume", "model", "\"none\"", 0 },
-        { "jets", "brightness", "0", 0 },
-        { "polarization", "model", "\"none\"", 0 },
+        { "volume", "model", "\"riaf\"", KD_VOLUME_GRID },
         { "style", "ringdown", "0", 0 },
     };
-    _Static_assert(!KD_VOLUME_NONE && !KD_POLARIZATION_NONE, "0 is the value for none");
     if (scene->spacetime.charge == 0)
         return KD_OK;
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
@@ -110,15 +106,6 @@ static enum kd_status uncharged(const struct kd_scene *scene, struct kd_error *e
                               field->words ? word.text : number.text, quote, show(scene->spacetime.charge).text,
                               parts[i].wanted);
     }
-    for (size_t i = 0; i < scene->bodies.count; i++)
-        if (scene->bodies.at[i].radius > 0) {
-            char pointer[40];
-            snprintf(pointer, sizeof pointer, "/bodies/%zu/radius", i);
-            return kd_error_field(error, pointer,
-                                  "bodies.%zu.radius is %s; with spacetime.charge %s it must be 0, because it is known "
-                                  "for an uncharged hole only",
-                                  i, show(scene->bodies.at[i].radius).text, show(scene->spacetime.charge).text);
-        }
     return KD_OK;
 }
 
@@ -590,8 +577,8 @@ static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *er
 
 const struct kd_rule kd_rules[] = {
     { "`spacetime.charge` is at most sqrt(1 - a^2 - 1e-12) with the spin a.", charge },
-    { "Unless `spacetime.charge` is 0, `disk.model` is not \"particles\"; `volume.model` and `polarization.model` are "
-      "\"none\"; and `disk.height`, `jets.brightness`, `bodies.N.radius` and `style.ringdown` are 0.",
+    { "Unless `spacetime.charge` is 0, `disk.model` is not \"particles\", `volume.model` is not \"grid\", and "
+      "`style.ringdown` is 0.",
       uncharged },
     { "`image.bit_depth` is 8 or 16.", bit_depth, "image", "bit_depth", BITS },
     { "`camera.projection` \"pinhole\", \"equirectangular\" and \"fulldome\" need a finite `camera.r`, \"plane\" and "

@@ -35,7 +35,6 @@ SCENE = (
     "camera.ring_decades_min is %s; it must be less than camera.ring_decades_max, %s",
     "spacetime.charge is %s M; with spacetime.spin %s it must be at most %s M",
     "%s.%s is %s%.*s%s; with spacetime.charge %s it must be %s, because it is known for an uncharged hole only",
-    "bodies.%zu.radius is %s; with spacetime.charge %s it must be 0, because it is known for an uncharged hole only",
     "camera.r is %s M; it must be more than %s M, the horizon of %s",
     *OBSERVER,
     'camera.%s is %s; it must be %s unless camera.observer is "%s" at a finite camera.r',

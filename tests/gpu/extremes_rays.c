@@ -270,12 +270,13 @@ static void observers(struct kd_renderer *renderer)
             const char *name;
             double r;
         } places[] = {
+            { "1.000001 r+", 1.000001 * hole.outer },
             { "1.0001 r+", 1.0001 * hole.outer },
             { "r photon", kd_kerr_photon_orbit(&hole) },
             { "r photon, retrograde", kd_kerr_photon_orbit(kd_hole_turned(&hole, -1)) },
             { "r 1e6", 1e6 },
         };
-        for (int k = 0; k < 8; k++) {
+        for (int k = 0; k < 2 * (int)(sizeof places / sizeof *places); k++) {
             char what[48];
             snprintf(what, sizeof what, "%s, i %d, %s", spins[a].name, k % 2 ? 90 : 60, places[k / 2].name);
             both(renderer, what, (struct view) { spin, k % 2 ? 90 : 60, places[k / 2].r, 0, spins[a].q });

@@ -30,10 +30,11 @@ static struct ks_photon photon_of(const struct kd_scene *scene, double px, doubl
     const double step = far ? scene->camera.field_m / WIDTH : 2 * tan(scene->camera.fov_deg * M_PI / 360) / WIDTH;
     double x = step * (px - 0.5 * WIDTH), y = -step * (py - 0.5 * HEIGHT);
     if (far)
-        return ks_from_infinity(scene->spacetime.spin, cos(theta), x + scene->camera.centre_alpha,
-                                y + scene->camera.centre_beta);
+        return ks_from_infinity_charged(scene->spacetime.spin, scene->spacetime.charge, cos(theta),
+                                        x + scene->camera.centre_alpha, y + scene->camera.centre_beta);
     const double length = sqrt(1 + x * x + y * y), k[3] = { -1 / length, -y / length, x / length };
-    return ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, scene->camera.observer == KD_OBSERVER_ZAMO, k);
+    return ks_from_camera_charged(scene->spacetime.spin, scene->spacetime.charge, scene->camera.r, theta,
+                                  scene->camera.observer == KD_OBSERVER_ZAMO, k);
 }
 
 /* The first encounter of the ray with the scene's first body; b is more than its radius if there is none. */
@@ -93,6 +94,10 @@ static const struct view {
       12 },
     { "{\"camera\":{\"inclination_deg\":70,\"r\":25,\"fov_deg\":60},\"bodies\":[{\"radius\":2,\"r\":12,\"phase_deg\":"
       "160,\"inclination_deg\":100,\"motion\":\"static\"}]}",
+      12 },
+    { "{\"camera\":{\"inclination_deg\":70,\"r\":25,\"fov_deg\":60},\"spacetime\":{\"spin\":0.5,\"charge\":0.8},"
+      "\"bodies\":[{"
+      "\"radius\":1.5,\"r\":8,\"phase_deg\":160,\"inclination_deg\":100,\"motion\":\"zamo\"}]}",
       12 },
 };
 

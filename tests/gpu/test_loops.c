@@ -83,7 +83,7 @@ static struct ks_screen screen_of(const struct kd_scene *scene, double x, double
     const struct ks_place at = { scene->spacetime.spin, scene->camera.r, scene->camera.inclination_deg * RADIAN };
     const double n = 1 / sqrt(1 + x * x + y * y), look[3] = { -n, -n * y, n * x }, top[3] = { 0, -1, 0 };
     if (isinf(scene->camera.r))
-        return ks_screen_far(scene->spacetime.spin, at.theta, x, y);
+        return ks_screen_far(scene->spacetime.spin, scene->spacetime.charge, at.theta, x, y);
     const struct ks_frame frame = ks_zamo(&at);
     return ks_screen_near(&at, &frame, look, top);
 }

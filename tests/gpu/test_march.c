@@ -37,8 +37,9 @@ static struct ks_photon photon_of(const struct kd_scene *scene, int i)
     double step = far ? scene->camera.field_m / WIDTH : 2 * tan(scene->camera.fov_deg * M_PI / 360) / WIDTH;
     double x = step * (i % WIDTH - 0.5 * (WIDTH - 1)), y = -step * (i / WIDTH - 0.5 * (HEIGHT - 1));
     double length = sqrt(1 + x * x + y * y), k[3] = { -1 / length, -y / length, x / length };
-    return far ? ks_from_infinity(scene->spacetime.spin, cos(theta), x, y)
-               : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, false, k);
+    const double a = scene->spacetime.spin, q = scene->spacetime.charge;
+    return far ? ks_from_infinity_charged(a, q, cos(theta), x, y)
+               : ks_from_camera_charged(a, q, scene->camera.r, theta, false, k);
 }
 
 /* A uniform shell for the oracle; with its shift, for observers of zero angular momentum from the metric. */
@@ -47,9 +48,9 @@ static void shell(void *user, const struct ks_photon *p, double r, double u, dou
     const struct kd_scene *scene = user;
     double a = p->a, seen = 1;
     if (scene->volume.redshift) {
-        double sigma = r * r + a * a * u * u, sin2 = 1 - u * u, g_tt = -(1 - 2 * r / sigma),
-               g_tp = -2 * a * r * sin2 / sigma;
-        double g_pp = (r * r + a * a + 2 * a * a * r * sin2 / sigma) * sin2, omega = -g_tp / g_pp;
+        double sigma = r * r + a * a * u * u, sin2 = 1 - u * u, f = (2 * r - p->q * p->q) / sigma, g_tt = f - 1,
+               g_tp = -a * f * sin2;
+        double g_pp = (r * r + a * a + a * a * f * sin2) * sin2, omega = -g_tp / g_pp;
         seen = (p->energy - omega * p->momentum) / sqrt(-(g_tt + omega * (2 * g_tp + omega * g_pp)));
     }
     out[0] = scene->volume.emissivity / (seen * seen * seen);
@@ -58,7 +59,7 @@ static void shell(void *user, const struct ks_photon *p, double r, double u, dou
 
 static double inner_of(const struct kd_scene *scene)
 {
-    double least = 1.01 * (1 + sqrt(1 - scene->spacetime.spin * scene->spacetime.spin));
+    const double a = scene->spacetime.spin, q = scene->spacetime.charge, least = 1.01 * (1 + sqrt(1 - a * a - q * q));
     return isinf(scene->volume.inner) || scene->volume.inner < least ? least : scene->volume.inner;
 }
 
@@ -82,6 +83,9 @@ static const struct view {
     { 0.3, 70, INFINITY,
       "{\"volume\":{\"inner\":18000,\"outer\":30000,\"opacity\":2e-5,\"emissivity\":2e-5},\"camera\":{\"field_m\":"
       "70000}}" }, /* straight rays */
+    { 0.5, 75, INFINITY,
+      "{\"spacetime\":{\"charge\":0.8},\"volume\":{\"outer\":11,\"opacity\":0.3,\"emissivity\":1}}" },
+    { 0, 60, 9, "{\"spacetime\":{\"charge\":0.95},\"volume\":{\"outer\":15,\"opacity\":0.01}}" },
 };
 enum { VIEWS = sizeof views / sizeof *views };
 
@@ -231,6 +235,8 @@ static void test_thin_limit(void **state)
         { 0.9, 60, INFINITY, "{\"disk\":{\"model\":\"novikov-thorne\",\"emission_opacity\":2}}" },
         { 0, 82, INFINITY, "{\"disk\":{\"model\":\"shakura-sunyaev\",\"emission_opacity\":10,\"doppler\":false}}" },
         { 0.5, 75, 30, "{\"disk\":{\"model\":\"novikov-thorne\",\"emission_opacity\":0,\"opacity\":0.4}}" },
+        { 0.4, 60, INFINITY,
+          "{\"spacetime\":{\"charge\":0.85},\"disk\":{\"model\":\"novikov-thorne\",\"emission_opacity\":2}}" },
     };
     for (size_t v = 0; v < sizeof thin / sizeof *thin; v++) {
         struct kd_scene scene = scene_of(thin[v].spin, thin[v].inclination, thin[v].r, thin[v].json);

@@ -40,9 +40,9 @@ static struct ks_photon photon_of(const struct kd_scene *scene, int x, int y)
     const double step = far ? scene->camera.field_m / width : 2 * tan(scene->camera.fov_deg * M_PI / 360) / width;
     const double right = step * (x - 0.5 * (width - 1)), up = -step * (y - 0.5 * (height - 1));
     const double length = sqrt(1 + right * right + up * up), k[3] = { -1 / length, -up / length, right / length };
-    return far ? ks_from_infinity(scene->spacetime.spin, cos(theta), right, up)
-               : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta,
-                                scene->camera.observer == KD_OBSERVER_ZAMO, k);
+    const double a = scene->spacetime.spin, q = scene->spacetime.charge;
+    return far ? ks_from_infinity_charged(a, q, cos(theta), right, up)
+               : ks_from_camera_charged(a, q, scene->camera.r, theta, scene->camera.observer == KD_OBSERVER_ZAMO, k);
 }
 
 static struct kd_frame told_at(const struct kd_scene *scene, int x, int y)
@@ -114,6 +114,8 @@ static void test_delays(void **state)
         { 0.95, 88, 60, "{}" },
         { 0.5, 40, 7, "{}" },                                                     /* from within */
         { 0.9, 89, 1.9, "{\"camera\":{\"observer\":\"zamo\",\"fov_deg\":120}}" }, /* within the ergosphere */
+        { 0, 60, INFINITY, "{\"spacetime\":{\"charge\":0.9}}" },
+        { 0.6, 80, 20, "{\"spacetime\":{\"charge\":0.7}}" },
     };
     static const int at[][2] = { { 4, 5 }, { 5, 6 }, { 6, 4 }, { 8, 7 }, { 9, 4 }, { 13, 6 } };
     struct judged all = { 0, 0, INFINITY, -INFINITY };

@@ -9,6 +9,7 @@
 #include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
 #include "render/output/flux.h"
+#include "scene/hole.h"
 #include "torus_turns.h"
 
 #include <math.h>
@@ -37,13 +38,14 @@ static const float *kelvin_of(const struct kd_frame *frame)
 
 struct metric { double g[4][4], i[4][4]; };
 
-static struct metric metric_of(double a, double r, double u)
+static struct metric metric_of(const struct ks_photon *p, double r, double u)
 {
-    const double sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a, s2 = 1 - u * u;
-    struct metric m = { { { -(1 - 2 * r / sigma), 0, 0, -2 * a * r * s2 / sigma },
+    const double a = p->a, sigma = r * r + a * a * u * u, m2 = 2 * r - p->q * p->q, delta = r * r - m2 + a * a,
+                 s2 = 1 - u * u;
+    struct metric m = { { { -(1 - m2 / sigma), 0, 0, -a * m2 * s2 / sigma },
                           { 0, sigma / delta, 0, 0 },
                           { 0, 0, sigma, 0 },
-                          { -2 * a * r * s2 / sigma, 0, 0, (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2 } } };
+                          { -a * m2 * s2 / sigma, 0, 0, (r * r + a * a + a * a * m2 * s2 / sigma) * s2 } } };
     const double det = m.g[0][0] * m.g[3][3] - m.g[0][3] * m.g[0][3];
     m.i[0][0] = m.g[3][3] / det;
     m.i[3][3] = m.g[0][0] / det;
@@ -69,28 +71,29 @@ static void raise(const double g[4][4], const double x[4], double out[4])
 }
 
 /* Contravariant velocity of a circular orbit. */
-static void circle(double a, double r, const struct metric *m, double out[4])
+static void circle(const struct ks_photon *p, double r, const struct metric *m, double out[4])
 {
-    const double turns[4] = { 1, 0, 0, 1 / (pow(r, 1.5) + a) }, scale = 1 / sqrt(-dot(m->g, turns, turns));
+    const double turns[4] = { 1, 0, 0, 1 / (r * r / sqrt(r - p->q * p->q) + p->a) },
+                 scale = 1 / sqrt(-dot(m->g, turns, turns));
     for (int i = 0; i < 4; i++)
         out[i] = scale * turns[i];
 }
 
-static void flow_of(const struct kd_scene *scene, double a, double r, double u, double out[4])
+static void flow_of(const struct kd_scene *scene, const struct ks_photon *p, double r, double u, double out[4])
 {
-    const struct metric m = metric_of(a, r, u);
-    const double edge = kd_kerr_isco(kd_hole(a));
+    const struct metric m = metric_of(p, r, u);
+    const double edge = kd_kerr_isco(kd_scene_hole(scene));
     if (scene->volume.flow == KD_VOLUME_REST) {
         const double normal[4] = { -1, 0, 0, 0 }, scale = 1 / sqrt(-m.i[0][0]);
         raise(m.i, normal, out);
         for (int i = 0; i < 4; i++)
             out[i] *= scale;
     } else if (r >= edge)
-        circle(a, r, &m, out);
+        circle(p, r, &m, out);
     else { /* u_t and u_phi of the orbit at the ISCO, u_r from the norm */
-        const struct metric there = metric_of(a, edge, u);
+        const struct metric there = metric_of(p, edge, u);
         double v[4], low[4];
-        circle(a, edge, &there, v);
+        circle(p, edge, &there, v);
         raise(there.g, v, low);
         low[1] = low[2] = 0;
         const double rest = -1 - dot(m.i, low, low);
@@ -166,9 +169,9 @@ static void medium(void *user, const struct ks_photon *p, double r, double u, do
 {
     const struct kd_scene *scene = user;
     const struct kd_volume *v = &scene->volume;
-    const double a = p->a, k[4] = { -p->energy, p->p_r, p->p_theta, p->momentum }, axis = r * sqrt(1 - u * u),
+    const double k[4] = { -p->energy, p->p_r, p->p_theta, p->momentum }, axis = r * sqrt(1 - u * u),
                  cm = GM_SUN * scene->spacetime.mass_msun / (C * C);
-    const struct metric m = metric_of(a, r, u);
+    const struct metric m = metric_of(p, r, u);
     double flow[4], field[4], seen = 0, along = 0;
     if (v->model == KD_VOLUME_GOLD) {
         const double low[4] = { -1, 0, 0, v->gold_momentum * pow(axis, 1.5) / (1 + axis) },
@@ -184,9 +187,9 @@ static void medium(void *user, const struct ks_photon *p, double r, double u, do
     }
     double enthalpy = 0, most = 0;
     if (v->model == KD_VOLUME_TORUS) {
-        const struct metric inner = metric_of(a, v->inner, 0), mid = metric_of(a, v->torus_radius, 0);
+        const struct metric inner = metric_of(p, v->inner, 0), mid = metric_of(p, v->torus_radius, 0);
         double orbit[4], low[4];
-        circle(a, v->torus_radius, &mid, orbit);
+        circle(p, v->torus_radius, &mid, orbit);
         raise(mid.g, orbit, low);
         const double l = orbit[0] * low[3], edge = torus_turns(inner.g[0][0], inner.g[0][3], inner.g[3][3], l, flow);
         most = expm1(torus_turns(mid.g[0][0], mid.g[0][3], mid.g[3][3], l, flow) - edge);
@@ -195,7 +198,7 @@ static void medium(void *user, const struct ks_photon *p, double r, double u, do
         if (!(enthalpy > 0))
             return;
     } else
-        flow_of(scene, a, r, u, flow);
+        flow_of(scene, p, r, u, flow);
     field_of(scene, &m, flow, r, u, field);
     for (int i = 0; i < 4; i++) {
         seen -= flow[i] * k[i];
@@ -226,8 +229,8 @@ static double kelvin(const struct kd_scene *scene, int i)
 {
     const double step = scene->camera.field_m / WIDTH, x = step * (i % WIDTH - 0.5 * (WIDTH - 1)),
                  y = -step * (i / WIDTH - 0.5 * (HEIGHT - 1)), nu = scene->volume.frequency_ghz * 1e9;
-    const struct ks_photon photon =
-        ks_from_infinity(scene->spacetime.spin, cos(scene->camera.inclination_deg * M_PI / 180), x, y);
+    const struct ks_photon photon = ks_from_infinity_charged(scene->spacetime.spin, scene->spacetime.charge,
+                                                             cos(scene->camera.inclination_deg * M_PI / 180), x, y);
     return ks_along(photon, scene->volume.inner, scene->volume.outer, false, medium, (void *)scene).light * C * C /
            (2 * K * nu * nu);
 }
@@ -255,6 +258,15 @@ static const struct view {
       "}",
       1e-4 },
     { "riaf", "{\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":60,\"density_cm3\":1e6,\"temperature_ratio\":1}}",
+      1e-4 },
+    { "gold-1", "{\"spacetime\":{\"spin\":0.3,\"charge\":0.9},\"volume\":{\"inner\":1.5,\"outer\":30}}", 2e-4 },
+    { "riaf",
+      "{\"spacetime\":{\"spin\":0.5,\"charge\":0.8},\"volume\":{\"inner\":1.5,\"outer\":20,\"field\":\"radial\"}}",
+      4e-4 },
+    { "riaf",
+      "{\"spacetime\":{\"spin\":0.2,\"charge\":0.9},\"volume\":{\"model\":\"torus\",\"inner\":5,\"torus_radius\":10,"
+      "\"outer\":"
+      "60,\"density_cm3\":1e6,\"temperature_ratio\":1}}",
       1e-4 },
 };
 enum { VIEWS = sizeof views / sizeof *views };

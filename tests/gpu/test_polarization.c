@@ -38,6 +38,9 @@ static const struct view views[] = {
       { { "disk.model", "particles" }, { "polarization.field", "radial" }, { "camera.field_m", "14" } },
       KS_RADIAL },
     { 0.5, 65, INFINITY, 0, { { "polarization.model", "scattering" } }, KS_VERTICAL },
+    { 0, 60, INFINITY, 0, { { "spacetime.charge", "0.95" }, { "polarization.field", "toroidal" } }, KS_TOROIDAL },
+    { 0.6, 70, INFINITY, 0, { { "spacetime.charge", "0.75" }, { "polarization.field", "vertical" } }, KS_VERTICAL },
+    { 0.6, 40, INFINITY, 35, { { "spacetime.charge", "0.75" }, { "polarization.field", "radial" } }, KS_RADIAL },
     { 0.9, 70, 25, 20, { { "camera.observer", "zamo" } }, KS_TOROIDAL },
     { 0.9,
       60,
@@ -102,7 +105,8 @@ static struct ks_screen screen_of(const struct kd_scene *scene, int pixel)
     const double step = (far ? scene->camera.field_m : 2 * tan(scene->camera.fov_deg * RADIAN / 2)) / WIDTH;
     double x = step * across, y = step * upwards;
     if (far) { /* a camera rotated clockwise */
-        const struct ks_screen flat = ks_screen_far(scene->spacetime.spin, theta, x * c + y * s, y * c - x * s);
+        const struct ks_screen flat =
+            ks_screen_far(scene->spacetime.spin, scene->spacetime.charge, theta, x * c + y * s, y * c - x * s);
         struct ks_screen turned = flat;
         for (int i = 0; i < 4; i++) {
             turned.right[i] = c * flat.right[i] - s * flat.up[i];

@@ -188,7 +188,7 @@ static void wanted(const struct kd_scene *scene, int i, double s[4])
                  x = step * (i % WIDTH - 0.5 * (WIDTH - 1)), y = -step * (i / WIDTH - 0.5 * (HEIGHT - 1)),
                  nu = scene->volume.frequency_ghz * 1e9;
     const struct ks_screen screen =
-        ks_screen_far(scene->spacetime.spin, scene->camera.inclination_deg * M_PI / 180, x, y);
+        ks_screen_far(scene->spacetime.spin, scene->spacetime.charge, scene->camera.inclination_deg * M_PI / 180, x, y);
     ray.scene = scene;
     ray.n = 0;
     ks_carry(&screen, fmin(scene->volume.inner, INSIDE), scene->volume.outer, 0.008, take, &ray);

@@ -348,14 +348,15 @@ static void medium_at(const struct along *w, const double *from, double t, doubl
     state y;
     extrapolate(&w->system, from, t, y);
     const double a = w->system.a, r = radius(a, y), u = y[2] / r, s = sqrt((1 - u) * (1 + u)), q = r * r + a * a,
-                 delta = r * r - 2 * r + a * a;
-    /* Traced back, the ray is mirrored; ingoing Kerr-Schild t and phi increase with r by 2r/Delta and a/Delta. */
+                 term = 2 * r - w->system.q * w->system.q, delta = r * r - term + a * a;
+    /* Traced back, the ray is mirrored; ingoing Kerr-Schild t and phi increase with r by (2r - q^2)/Delta and a/Delta.
+     */
     const double p_r = ((r * y[0] + a * y[1]) * y[3] + (r * y[1] - a * y[0]) * y[4]) / q + u * y[5];
     struct ks_photon at = *w->photon;
     at.r = r;
     at.u = u;
-    at.phi = -azimuth(a, 0, y);
-    at.p_r = (2 * r * at.energy - a * at.momentum) / delta - p_r;
+    at.phi = -azimuth(a, w->system.q, y);
+    at.p_r = (term * at.energy - a * at.momentum) / delta - p_r;
     at.p_theta = r * s * y[5] - u / s * (y[0] * y[3] + y[1] * y[4]);
     w->medium(w->user, &at, r, u, out);
 }
@@ -402,8 +403,8 @@ struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bo
                          void *user)
 {
     enum { PARTS = 16 };
-    struct along w = { { photon.a, photon.energy, 0 }, &photon, inner, outer, medium, user, { 0 } };
-    const double horizon = 1 + sqrt((1 - photon.a) * (1 + photon.a));
+    struct along w = { { photon.a, photon.energy, photon.q }, &photon, inner, outer, medium, user, { 0 } };
+    const double horizon = 1 + half_gap(photon.a, photon.q);
     state y, next;
     start(&photon, y);
     double h = 0.05 * radius(photon.a, y);
@@ -438,12 +439,12 @@ struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bo
 struct target { double at[3], f, l[3]; };
 
 /* Azimuths are mirrored, like those of the path. */
-static struct target target_of(double a, double r, double u, double phi)
+static struct target target_of(double a, double charge, double r, double u, double phi)
 {
-    const double psi = -phi + atan2(a, r) - twist(a, 0, r), s = sqrt((1 - u) * (1 + u)) * sqrt(r * r + a * a),
+    const double psi = -phi + atan2(a, r) - twist(a, charge, r), s = sqrt((1 - u) * (1 + u)) * sqrt(r * r + a * a),
                  x = s * cos(psi), y = s * sin(psi), q = r * r + a * a;
     return (struct target) { { x, y, r * u },
-                             2 * r * r * r / (r * r * r * r + a * a * r * r * u * u),
+                             r * r * (2 * r - charge * charge) / (r * r * r * r + a * a * r * r * u * u),
                              { (r * x + a * y) / q, (r * y - a * x) / q, u } };
 }
 
@@ -466,14 +467,14 @@ static struct ks_near near_of(const struct system *s, const struct target *c, co
         along += c->l[i] * d;
     }
     return (struct ks_near) { sqrt(fmax(x2 - t * t + c->f * (t + along) * (t + along), 0)),
-                              y[6] - slow(s->a, 0, radius(s->a, y)) };
+                              y[6] - slow(s->a, s->q, radius(s->a, y)) };
 }
 
 int ks_passes(struct ks_photon photon, double r, double u, double phi, double within, int most, struct ks_near *out)
 {
-    const struct system s = { photon.a, photon.energy, 0 };
-    const struct target c = target_of(photon.a, r, u, phi);
-    const double horizon = 1 + sqrt((1 - photon.a) * (1 + photon.a));
+    const struct system s = { photon.a, photon.energy, photon.q };
+    const struct target c = target_of(photon.a, photon.q, r, u, phi);
+    const double horizon = 1 + half_gap(photon.a, photon.q);
     int n = 0;
     state y, next;
     start(&photon, y);
@@ -562,15 +563,15 @@ static double delay_at(const struct system *s, struct nearest *best, struct meri
         part_of(meridian_after(s, best->from, best->low), meridian_after(s, best->from, best->high), place, &best->off);
     state y;
     extrapolate(s, best->from, best->low + t * (best->high - best->low), y);
-    return y[6] - slow(s->a, 0, radius(s->a, y));
+    return y[6] - slow(s->a, s->q, radius(s->a, y));
 }
 
 void ks_delays(struct ks_photon photon, const double (*places)[2], int n, double *delay, double *off)
 {
     static struct nearest best[KS_MOST_PLACES];
     static struct meridian at[KS_MOST_PLACES];
-    const struct system s = { photon.a, photon.energy, 0 };
-    const double horizon = 1 + sqrt((1 - photon.a) * (1 + photon.a));
+    const struct system s = { photon.a, photon.energy, photon.q };
+    const double horizon = 1 + half_gap(photon.a, photon.q);
     state y, next;
     start(&photon, y);
     for (int i = 0; i < n; i++) {

@@ -16,7 +16,7 @@ struct ks_photon {  /* as it arrives at the observer, covariant Boyer-Lindquist 
     double a, r, u; /* spin; radius and cos(theta) of the observer */
     double energy, momentum, p_r, p_theta;
     double phi, delay; /* azimuth and delay of the path before a start that stands for infinity */
-    double q;          /* charge of the hole; of the functions that take a photon only ks_trace knows it */
+    double q;          /* charge of the hole */
 };
 
 enum ks_fate { KS_CAPTURED, KS_ESCAPED, KS_UNDECIDED };

@@ -6,15 +6,18 @@
 enum { VECTORS = 3 }; /* k, right, up */
 struct state { double x[4], v[VECTORS][4]; };
 
+struct hole { double a, q; };
+
 static double radius(double a, const double *x)
 {
     double rho2 = x[1] * x[1] + x[2] * x[2] + x[3] * x[3] - a * a;
     return sqrt(0.5 * (rho2 + hypot(rho2, 2 * a * x[3])));
 }
 
-static void metric(double a, const double *x, double g[4][4])
+static void metric(struct hole o, const double *x, double g[4][4])
 {
-    double r = radius(a, x), q = r * r + a * a, f = 2 * r * r * r / (r * r * r * r + a * a * x[3] * x[3]);
+    const double a = o.a, r = radius(a, x), q = r * r + a * a,
+                 f = r * r * (2 * r - o.q * o.q) / (r * r * r * r + a * a * x[3] * x[3]);
     double l[4] = { 1, (r * x[1] + a * x[2]) / q, (r * x[2] - a * x[1]) / q, x[3] / r };
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
@@ -57,16 +60,16 @@ static void solve(double g[4][4], const double *v, double *w)
 }
 
 /* Derivatives back in time: dx = -k, dv^m = +Gamma^m_ab k^a v^b. */
-static void derivative(double a, const struct state *s, struct state *d)
+static void derivative(struct hole o, const struct state *s, struct state *d)
 {
-    double g[4][4], dg[4][4][4] = { { { 0 } } }, h = 1e-4 * radius(a, s->x);
-    metric(a, s->x, g);
+    double g[4][4], dg[4][4][4] = { { { 0 } } }, h = 1e-4 * radius(o.a, s->x);
+    metric(o, s->x, g);
     for (int c = 1; c < 4; c++) {
         double x[4], at[4][4][4];
         for (int i = 0; i < 4; i++) {
             memcpy(x, s->x, sizeof x);
             x[c] += (double[]) { -2, -1, 1, 2 }[i] * h;
-            metric(a, x, at[i]);
+            metric(o, x, at[i]);
         }
         for (int i = 0; i < 4; i++)
             for (int j = 0; j < 4; j++)
@@ -95,24 +98,24 @@ static void add(struct state *s, const struct state *d, double h)
     }
 }
 
-static void step(double a, struct state *s, double h)
+static void step(struct hole o, struct state *s, double h)
 {
     struct state d[4], at;
-    derivative(a, s, &d[0]);
+    derivative(o, s, &d[0]);
     for (int i = 1; i < 4; i++) {
         at = *s;
         add(&at, &d[i - 1], i == 3 ? h : 0.5 * h);
-        derivative(a, &at, &d[i]);
+        derivative(o, &at, &d[i]);
     }
     for (int i = 0; i < 4; i++)
         add(s, &d[i], h * (i == 0 || i == 3 ? 1. / 6 : 1. / 3));
 }
 
 /* The light-like vector with the spatial components n: g kk = 0, with k^t > 0. */
-static void light_like(double a, const double *x, const double n[3], double k[4])
+static void light_like(struct hole o, const double *x, const double n[3], double k[4])
 {
     double g[4][4], half = 0, rest = 0;
-    metric(a, x, g);
+    metric(o, x, g);
     for (int i = 0; i < 3; i++) {
         k[i + 1] = n[i];
         half += g[0][i + 1] * n[i];
@@ -122,14 +125,15 @@ static void light_like(double a, const double *x, const double n[3], double k[4]
     k[0] = -(half + sqrt(half * half - g[0][0] * rest)) / g[0][0];
 }
 
-struct ks_screen ks_screen_far(double a, double theta, double alpha, double beta)
+struct ks_screen ks_screen_far(double a, double q, double theta, double alpha, double beta)
 {
     const double far = 1e6, s = sin(theta), c = cos(theta), n[3] = { s, 0, c };
     struct ks_screen o = { .a = a,
+                           .q = q,
                            .x = { 0, far * s - beta * c, alpha, far * c + beta * s },
                            .right = { 0, 0, 1, 0 },
                            .up = { 0, -c, 0, s } };
-    light_like(a, o.x, n, o.k);
+    light_like((struct hole) { a, q }, o.x, n, o.k);
     return o;
 }
 
@@ -143,7 +147,7 @@ static void to_cartesian(const struct ks_place *at, const double *x, const doubl
     }; /* d(x)/d(spherical) */
     double low[4], g[4][4];
     solve(dx, p, low);
-    metric(a, x, g);
+    metric((struct hole) { a, 0 }, x, g);
     solve(g, low, out);
 }
 
@@ -185,32 +189,33 @@ static void across(double g[4][4], double v[4], double (*before)[4], int n)
 }
 
 /* Squared length of d/dt + omega d/dphi on the circle of this radius in the plane. */
-static double line(double a, double r, double omega)
+static double line(struct hole o, double r, double omega)
 {
-    double g[4][4], x[4] = { 0, sqrt(r * r + a * a), 0, 0 }, v[4] = { 1, 0, omega * x[1], 0 };
-    metric(a, x, g);
+    double g[4][4], x[4] = { 0, sqrt(r * r + o.a * o.a), 0, 0 }, v[4] = { 1, 0, omega * x[1], 0 };
+    metric(o, x, g);
     return product(g, v, v);
 }
 
 /* Angular velocity of the circular geodesic, where its radial derivative vanishes. */
-static double omega_of(double a, double r)
+static double omega_of(struct hole o, double r)
 {
     double low = 0, high = 1 / r, h = 1e-3 * r;
     for (int i = 0; i < 60; i++) {
         double w = 0.5 * (low + high),
-               pull = 8 * (line(a, r + h, w) - line(a, r - h, w)) - line(a, r + 2 * h, w) + line(a, r - 2 * h, w);
+               pull = 8 * (line(o, r + h, w) - line(o, r - h, w)) - line(o, r + 2 * h, w) + line(o, r - 2 * h, w);
         *(pull < 0 ? &low : &high) = w;
     }
     return 0.5 * (low + high);
 }
 
 /* Velocity of the gas at x: on a circle; within the ISCO falling with the ISCO's E and L. */
-static void gas(double a, const double *x, double r_isco, double u[4])
+static void gas(struct hole o, const double *x, double r_isco, double u[4])
 {
+    const double a = o.a;
     double r = radius(a, x), turn[4] = { 0, -x[2], x[1], 0 }, g[4][4], t[4] = { 1, 0, 0, 0 };
     const bool falls = r < r_isco;
-    const double at = falls ? r_isco : r, omega = omega_of(a, at), norm = 1 / sqrt(-line(a, at, omega));
-    metric(a, x, g);
+    const double at = falls ? r_isco : r, omega = omega_of(o, at), norm = 1 / sqrt(-line(o, at, omega));
+    metric(o, x, g);
     if (!falls) {
         for (int i = 0; i < 4; i++)
             u[i] = norm * (t[i] + omega * turn[i]);
@@ -218,7 +223,7 @@ static void gas(double a, const double *x, double r_isco, double u[4])
     }
     double there[4][4], y[4] = { 0, sqrt(at * at + a * a), 0, 0 }, v[4] = { norm, 0, norm * omega * y[1], 0 },
                         round[4] = { 0, 0, y[1], 0 };
-    metric(a, y, there);
+    metric(o, y, there);
     const double want[2] = { product(there, v, t), product(there, v, round) };
     /* u = c t + d turn + e out. c and d follow from its products with t and turn, e from its length. */
     double out[4] = { 0, x[1], x[2], 0 }, basis[2][4], c[2] = { 0 };
@@ -239,14 +244,14 @@ static void gas(double a, const double *x, double r_isco, double u[4])
         u[i] -= e * out[i];
 }
 
-static void judge(const struct state *s, double a, enum ks_field field, double r_isco, struct ks_polarized *o)
+static void judge(const struct state *s, struct hole hole, enum ks_field field, double r_isco, struct ks_polarized *o)
 {
     double g[4][4], before[3][4], f[4] = { 0 }, b[4] = { 0 };
     const double *k = s->v[0];
-    metric(a, s->x, g);
-    o->r = radius(a, s->x);
+    metric(hole, s->x, g);
+    o->r = radius(hole.a, s->x);
     o->falls = o->r < r_isco;
-    gas(a, s->x, r_isco, before[0]);
+    gas(hole, s->x, r_isco, before[0]);
     const double seen = -product(g, k, before[0]);
     for (int i = 0; i < 4; i++)
         before[1][i] = k[i] / seen - before[0][i];
@@ -288,7 +293,8 @@ struct ks_polarized ks_polarization(const struct ks_screen *screen, int order, e
 {
     struct ks_polarized o = { 0 };
     struct state s, last;
-    double a = screen->a, horizon = 1 + sqrt(1 - a * a), start = radius(a, screen->x);
+    const struct hole hole = { screen->a, screen->q };
+    double a = hole.a, horizon = 1 + sqrt(1 - a * a - hole.q * hole.q), start = radius(a, screen->x);
     memcpy(s.x, screen->x, sizeof s.x);
     memcpy(s.v[0], screen->k, sizeof s.v[0]);
     memcpy(s.v[1], screen->right, sizeof s.v[1]);
@@ -299,7 +305,7 @@ struct ks_polarized ks_polarization(const struct ks_screen *screen, int order, e
         if (r < horizon * 1.0001 || r > 1.2 * start + 100)
             return o;
         last = s;
-        step(a, &s, h);
+        step(hole, &s, h);
         if ((last.x[3] > 0) == (s.x[3] > 0) || n == 0)
             continue;
         if (crossed++ < order)
@@ -308,10 +314,10 @@ struct ks_polarized ks_polarization(const struct ks_screen *screen, int order, e
             double part = last.x[3] / last.v[0][3];
             if (fabs(last.x[3]) < 1e-13)
                 break;
-            step(a, &last, part);
+            step(hole, &last, part);
         }
         o.there = true;
-        judge(&last, a, field, r_isco, &o);
+        judge(&last, hole, field, r_isco, &o);
         return o;
     }
     return o;
@@ -326,48 +332,49 @@ double ks_carried_product(const struct ks_carried *at, const double p[4], const 
     return sum;
 }
 
-/* In ingoing coordinates dt + 2 r/Delta dr and dphi + a/Delta dr; x + i y = (r + i a) sin(theta) exp(i phi). */
+/* In ingoing coordinates dt + (2 r - q^2)/Delta dr and dphi + a/Delta dr; x + i y = (r + i a) sin(theta) exp(i phi). */
 void ks_carried_vector(const struct ks_carried *at, const double v[4], double out[4])
 {
-    const double a = at->a, r = at->r, delta = r * r - 2 * r + a * a, c = at->x[3] / r, s = sqrt(1 - c * c),
-                 turn = v[3] + a / delta * v[1];
+    const double a = at->a, r = at->r, m = 2 * r - at->q * at->q, delta = r * r - m + a * a, c = at->x[3] / r,
+                 s = sqrt(1 - c * c), turn = v[3] + a / delta * v[1];
     const double azimuth = atan2(at->x[2], at->x[1]) - atan2(a, r), ca = cos(azimuth), sa = sin(azimuth);
     const double x = s * v[1] + r * c * v[2] - a * s * turn, y = a * c * v[2] + r * s * turn;
-    out[0] = v[0] + 2 * r / delta * v[1];
+    out[0] = v[0] + m / delta * v[1];
     out[1] = ca * x - sa * y;
     out[2] = sa * x + ca * y;
     out[3] = c * v[1] - r * s * v[2];
 }
 
-static void tell(const struct state *s, double a, double h, ks_told *told, void *user)
+static void tell(const struct state *s, struct hole o, double h, ks_told *told, void *user)
 {
-    struct ks_carried at = { .a = a, .r = radius(a, s->x), .step = h };
+    struct ks_carried at = { .a = o.a, .q = o.q, .r = radius(o.a, s->x), .step = h };
     memcpy(at.x, s->x, sizeof at.x);
     memcpy(at.k, s->v[0], sizeof at.k);
     memcpy(at.right, s->v[1], sizeof at.right);
     memcpy(at.up, s->v[2], sizeof at.up);
-    metric(a, s->x, at.g);
+    metric(o, s->x, at.g);
     told(user, &at);
 }
 
 /* The fraction of a pair of steps after which the ray reaches this radius, which it passes within the pair. */
-static double landing(const struct state *s, double a, double h, double r)
+static double landing(const struct state *s, struct hole o, double h, double r)
 {
-    const bool inwards = radius(a, s->x) > r;
+    const bool inwards = radius(o.a, s->x) > r;
     double low = 0, high = 1;
     for (int i = 0; i < 50; i++) {
         const double t = 0.5 * (low + high);
         struct state at = *s;
-        step(a, &at, t * h);
-        step(a, &at, t * h);
-        *((radius(a, at.x) > r) == inwards ? &low : &high) = t;
+        step(o, &at, t * h);
+        step(o, &at, t * h);
+        *((radius(o.a, at.x) > r) == inwards ? &low : &high) = t;
     }
     return high;
 }
 
 void ks_carry(const struct ks_screen *screen, double inner, double outer, double fine, ks_told *told, void *user)
 {
-    const double a = screen->a, horizon = 1 + sqrt(1 - a * a);
+    const struct hole o = { screen->a, screen->q };
+    const double a = o.a, horizon = 1 + sqrt(1 - a * a - o.q * o.q);
     struct state s;
     memcpy(s.x, screen->x, sizeof s.x);
     memcpy(s.v[0], screen->k, sizeof s.v[0]);
@@ -379,27 +386,27 @@ void ks_carry(const struct ks_screen *screen, double inner, double outer, double
                      speed = sqrt(s.v[0][1] * s.v[0][1] + s.v[0][2] * s.v[0][2] + s.v[0][3] * s.v[0][3]);
         double h = (within ? fine : 0.01) * fmin(r, 8 * (r - horizon)) / speed;
         struct state next = s;
-        step(a, &next, h);
-        step(a, &next, h);
+        step(o, &next, h);
+        step(o, &next, h);
         const double then = radius(a, next.x);
         bool enters = !within && then < outer, leaves = within && (then > outer || then < inner);
         if (!within && then > 1.2 * r)
             return;
         if (enters || leaves) {
-            h *= landing(&s, a, h, then < inner ? inner : outer);
+            h *= landing(&s, o, h, then < inner ? inner : outer);
             next = s;
-            step(a, &next, h);
-            step(a, &next, h);
+            step(o, &next, h);
+            step(o, &next, h);
         }
         if (within) {
             struct state half = s;
-            tell(&s, a, h, told, user);
-            step(a, &half, h);
-            tell(&half, a, h, told, user);
+            tell(&s, o, h, told, user);
+            step(o, &half, h);
+            tell(&half, o, h, told, user);
         }
         s = next;
         if (leaves) {
-            tell(&s, a, 0, told, user);
+            tell(&s, o, 0, told, user);
             return;
         }
         within |= enters;

@@ -11,12 +11,12 @@
 
 /* A ray at the observer: place (t, x, y, z), wave vector of the arriving light, and unit vectors to the right and
  * up, perpendicular to it. */
-struct ks_screen { double a, x[4], k[4], right[4], up[4]; };
+struct ks_screen { double a, q, x[4], k[4], right[4], up[4]; };
 
 /* The screen of the ray (alpha, beta) for an observer at infinity, placed at r = 1e6. */
-struct ks_screen ks_screen_far(double a, double theta, double alpha, double beta);
-/* The screen for the direction `look` of a camera whose upward direction is `up`, both (r, theta, phi) in a local
- * frame. */
+struct ks_screen ks_screen_far(double a, double q, double theta, double alpha, double beta);
+/* Of an uncharged hole. The screen for the direction `look` of a camera whose upward direction is `up`, both (r, theta,
+ * phi) in a local frame. */
 struct ks_screen ks_screen_near(const struct ks_place *at, const struct ks_frame *frame, const double look[3],
                                 const double up[3]);
 
@@ -37,7 +37,7 @@ struct ks_polarized ks_polarization(const struct ks_screen *screen, int order, e
 /* A place on a ray that is followed back in time from the screen, in Cartesian coordinates. k: wave vector of the
  * light, affine, divided by the energy that the screen measures. right and up: the screen's vectors transported to the
  * place. step: of the affine parameter to the next reported place, 0 at the last. */
-struct ks_carried { double a, r, x[4], k[4], right[4], up[4], g[4][4], step; };
+struct ks_carried { double a, q, r, x[4], k[4], right[4], up[4], g[4][4], step; };
 typedef void ks_told(void *user, const struct ks_carried *at);
 
 /* Reports the places of the ray within the shell inner < r < outer, from where it enters `outer` to where it leaves the

@@ -232,7 +232,6 @@ const overlays = [
   ['orbit', orbit, t('overlay.orbit-of-the-orbits', 'Orbit of the Orbits view, lensed')],
 ];
 
-const uncharged = ['polarization']; // known for an uncharged hole only
 const slow = ['orbit']; // takes seconds: the other lines are drawn first
 
 export function buildOverlays(root, stage, scene) {
@@ -259,8 +258,6 @@ export function buildOverlays(root, stage, scene) {
       try {
         if (scene.get('camera.projection') === 'ring' || scene.get('camera.stereo') === 'pair')
           throw new Error(t('overlay.not-in-this-projection', 'not in this projection'));
-        if (scene.get('spacetime.charge') && uncharged.includes(name))
-          throw new Error(t('overlay.known-for-an-uncharged', 'known for an uncharged hole only'));
         if (slow.includes(name))
           lay(groups, width, height),
             layer.classList.remove('late'),

@@ -335,19 +335,12 @@ static void receive_along(const struct kd_returning *table, struct kernel *kerne
     }
 }
 
-/* dOmega/dr = -(3 r^2/2 - 2 q^2 r)/(s (r^2 + a s)^2), s^2 = r - q^2 (kerr.h). */
-static double shear(const struct kd_hole *hole, double r)
-{
-    const double q2 = hole->q * hole->q, s = sqrt(r - q2), under = r * r + hole->a * s;
-    return -(1.5 * r * r - 2 * q2 * r) / (s * under * under);
-}
-
 /* The integral from the ISCO to each ring as one from s to 1 of the polynomial through the nodes. */
 static void fill_stress(const struct kd_returning *table, const struct rule *rule, struct kernel *kernel)
 {
     for (int i = 0; i < N; i++) {
         const double r = table->isco / pow(table->s[i], 2),
-                     scale = -shear(&table->hole, r) * pow(r * kd_kerr_ut(&table->hole, r), 2);
+                     scale = -kd_kerr_shear(&table->hole, r) * pow(r * kd_kerr_ut(&table->hole, r), 2);
         for (int k = 0; k < DEPTH; k++) {
             const double s = table->s[i] + (1 - table->s[i]) * rule->depth[k];
             double weights[N];

@@ -1,31 +1,23 @@
 #include "physics/disk/torus.h"
 
-#include "physics/spacetime/hole.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-/* ln h up to a constant: equation 3.6 with lapse^2 = Sigma Delta/A, omega = 2 a r/A, g_phiphi = A sin^2/Sigma and
+/* ln h up to a constant: equation 3.6 with lapse and omega of the metric, g_phiphi = A sin^2/Sigma and
  * U^2 = u_phi^2/g_phiphi, where (u^t u_phi)^2 = l^2 equals U^2 (1 + U^2) g_phiphi/lapse^2. The shader uses the same
  * constant (emit/plasma.glsl). */
 static double enthalpy(const struct kd_hole *hole, double l, double r, double u)
 {
-    const double a = hole->a, sigma = r * r + a * a * u * u, delta = kd_hole_delta(hole, r), s2 = (1 - u) * (1 + u),
-                 big = (r * r + a * a) * (r * r + a * a) - a * a * delta * s2;
-    const double lapse2 = sigma * delta / big, u2 = 0.5 * (sqrt(1 + 4 * l * l * lapse2 * sigma / (big * s2)) - 1);
-    return 0.5 * (log1p(u2) - log(lapse2)) - u2 - 2 * a * r / big * l;
+    const struct kd_metric_scalars m = kd_metric_at(hole, r, u);
+    const double s2 = (1 - u) * (1 + u), u2 = 0.5 * (sqrt(1 + 4 * l * l * m.lapse2 * m.sigma / (m.area * s2)) - 1);
+    return 0.5 * (log1p(u2) - log(m.lapse2)) - u2 - m.omega * l;
 }
 
 double kd_torus_log_enthalpy(const struct kd_torus *torus, const struct kd_hole *hole, double r, double u)
 {
     return enthalpy(hole, torus->l, r, u) - torus->edge;
-}
-
-/* u^t u_phi of a circular orbit (Bardeen, Press & Teukolsky 1972). */
-static double orbit(double a, double r)
-{
-    const double x = sqrt(r);
-    return (r * x + a) * (r * r - 2 * a * x + a * a) / (r * x * (r * x - 3 * x + 2 * a));
 }
 
 /* Radius where ln h vanishes, by bisection between a radius inside the torus and one outside. */
@@ -53,8 +45,7 @@ enum { RADII = 200 };
 
 struct kd_torus kd_torus_of(const struct kd_hole *hole, double inner, double most)
 {
-    const double spin = hole->a;
-    struct kd_torus t = { .l = orbit(spin, most) };
+    struct kd_torus t = { .l = kd_kerr_ut(hole, most) * kd_kerr_momentum(hole, most) };
     t.edge = enthalpy(hole, t.l, inner, 0);
     t.log_most = kd_torus_log_enthalpy(&t, hole, most, 0);
     const bool closes = kd_torus_log_enthalpy(&t, hole, FAR, 0) < 0;

@@ -46,7 +46,7 @@ static struct state rates(const struct course *c, const struct state *s)
     const struct kd_null_motion *m = &c->m;
     const double w = s->y[W], dw = s->y[DW], u = s->y[NZ], a = m->hole.a, a2 = a * a, d = kd_hole_delta_w(&m->hole, w);
     const double pull = m->eta + m->lambda * m->lambda + 2 * a2 * u * u;
-    const double q2 = m->hole.q * m->hole.q, al = a * m->lambda;
+    const struct kd_hole_rates n = kd_hole_rates_of(&m->hole, 1, m->lambda);
     const double g = c->ingoing != 0 && w != 0 ? gone(c, w, dw, d) : 0;
     return (struct state) { {
         [W] = dw,
@@ -57,11 +57,11 @@ static struct state rates(const struct course *c, const struct state *s)
         [VX] = -pull * s->y[NX],
         [VY] = -pull * s->y[NY],
         [VZ] = (a2 - pull) * u,
-        [CHI] = c->ingoing != 0 ? a * (g - 1) : a * w * (2 - (q2 + al) * w) / d,
+        [CHI] = c->ingoing != 0 ? a * (g - 1) : a * w * (2 - n.drag * w) / d,
         [T] = c->ingoing != 0
-                  ? w * (m->k + m->constant * w) + a2 * u * u + (w != 0 ? (2 / w - q2) * g : 0)
-                  : w * (m->k + m->constant * w) * (1 + 2 * w / (1 + c->way * dw)) + (4 - q2) +
-                        ((8 - 4 * q2 - 2 * al) * w + (q2 * (q2 + al - 4) - 4 * a2) * w * w) / d + a2 * u * u,
+                  ? w * (m->k + m->constant * w) + a2 * u * u + (w != 0 ? kd_hole_mass_w(&m->hole, w) / w * g : 0)
+                  : w * (m->k + m->constant * w) * (1 + 2 * w / (1 + c->way * dw)) + n.four +
+                        (n.near * w - (n.nearer + 4 * a2) * w * w) / d + a2 * u * u,
     } };
 }
 

@@ -25,7 +25,7 @@ static struct ray ray_of(const struct kd_vantage *at, const struct kd_covector *
     return (struct ray) {
         .a2 = ae * ae - q - l * l,
         .k3 = 3 * k,
-        .c2 = -2 * (a * a * q + at->hole.q * at->hole.q * k),
+        .c2 = -2 * kd_hole_quartic(&at->hole, q, k),
         .e2 = 2 * ae * ae,
         .horizon = 1 / r_plus,
         .ours = at->r > r_plus || (r_plus * r_plus + a * a) * p->energy - a * l > 0,

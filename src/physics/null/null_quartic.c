@@ -15,7 +15,7 @@ struct kd_null_motion kd_null_motion_of(const struct kd_hole *hole, double cos_t
     m.eta = (alpha - a) * (alpha + a) * m.c * m.c + beta * beta;
     m.quadratic = a * a * (1 + m.c * m.c) - alpha * alpha - beta * beta;
     m.k = (alpha + a * m.s) * (alpha + a * m.s) + beta * beta;
-    m.constant = -a * a * m.eta - hole->q * hole->q * m.k;
+    m.constant = -kd_hole_quartic(hole, m.eta, m.k);
     return m;
 }
 
@@ -131,12 +131,9 @@ struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion 
     const struct kd_hole *hole = &m->hole;
     double p = dalpha * (2 * m->alpha + dalpha), q = dbeta * (2 * m->beta + dbeta); /* changes of alpha^2, beta^2 */
     double k = p + q + 2 * hole->a * m->s * dalpha;
-    return (struct kd_null_displacement) { .r = r,
-                                           .bend = bend,
-                                           .quadratic = -(p + q),
-                                           .k = k,
-                                           .constant =
-                                               -hole->a * hole->a * (m->c * m->c * p + q) - hole->q * hole->q * k };
+    return (struct kd_null_displacement) {
+        .r = r, .bend = bend, .quadratic = -(p + q), .k = k, .constant = -kd_hole_quartic(hole, m->c * m->c * p + q, k)
+    };
 }
 
 /* About r the quartic is x^4 + 4r x^3 + c2 x^2 + c1 x + c0 with small c1 and c0. It splits into x^2 - sum x +

@@ -114,20 +114,20 @@ static double at_pole(const struct kd_null_roots *o, const struct span *s, const
 
 /* Int (r^2 + 2r + 4 - q^2) dr/sqrt(R). The square from d(sqrt(R)/(r - r2)) = (r^2 - r2^2 - r21 p2/(2(r - r2)))
  * dr/sqrt(R). */
-static double powers(const struct kd_null_roots *o, const struct span *s, double q2, double tau)
+static double powers(const struct kd_null_roots *o, const struct span *s, double four, double tau)
 {
     double first = (2.0 / 3) * o->r21 * o->p2 * kd_carlson_rj_arg(s->arg, s->far) + s->log + o->r2 * tau;
     double second = (2.0 / 3) * o->p1 * kd_carlson_rd_arg(s->arg) + 2 * s->ratio - tau;
-    return s->edge + o->r2 * o->r2 * tau + 0.5 * o->p2 * second + 2 * first + (4 - q2) * tau;
+    return s->edge + o->r2 * o->r2 * tau + 0.5 * o->p2 * second + 2 * first + four * tau;
 }
 
 /* Numerators over Delta of the rates in azimuth, a (2r + twist), and in time, slope r + rest. */
-struct numerators { double q2, twist, slope, rest; };
+struct numerators { double four, twist, slope, rest; };
 
 static struct numerators numerators_of(const struct kd_null_motion *m)
 {
-    double a = m->hole.a, al = a * m->lambda, q2 = m->hole.q * m->hole.q;
-    return (struct numerators) { q2, -(al + q2), 8 - 4 * q2 - 2 * al, q2 * (q2 + al - 4) - 4 * a * a };
+    const struct kd_hole_rates n = kd_hole_rates_of(&m->hole, 1, m->lambda);
+    return (struct numerators) { n.four, -n.drag, n.near, -n.nearer - 4 * m->hole.a * m->hole.a };
 }
 
 struct kd_null_radial_sum kd_null_radial_rates(const struct kd_null_motion *m, double r)
@@ -135,7 +135,7 @@ struct kd_null_radial_sum kd_null_radial_rates(const struct kd_null_motion *m, d
     const struct numerators n = numerators_of(m);
     double delta = kd_hole_delta(&m->hole, r);
     return (struct kd_null_radial_sum) { 1, m->hole.a * (2 * r + n.twist) / delta,
-                                         r * r + 2 * r + (4 - n.q2) + (n.slope * r + n.rest) / delta };
+                                         r * r + 2 * r + n.four + (n.slope * r + n.rest) / delta };
 }
 
 struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *q, const struct kd_null_radius *at,
@@ -152,7 +152,7 @@ struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *
     double plus = at_pole(o, &s, &s.plus, q->r_plus, sum.tau), minus = at_pole(o, &s, &s.minus, q->r_minus, sum.tau);
     sum.phi = a * ((2 * q->r_plus + n.twist) * plus - (2 * q->r_minus + n.twist) * minus) / gap;
     if (time)
-        sum.t = powers(o, &s, n.q2, sum.tau) +
+        sum.t = powers(o, &s, n.four, sum.tau) +
                 ((n.slope * q->r_plus + n.rest) * plus - (n.slope * q->r_minus + n.rest) * minus) / gap;
     return sum;
 }

@@ -153,8 +153,8 @@ static void albrecht(struct kd_orbit_path *p, double h)
 static void ahead(const struct kd_orbit *o, double w, double *t, double *phi)
 {
     double plus = o->hole.outer, minus = o->hole.inner, gap = plus - minus, r = 1 / w;
-    double near = log(r - plus), inner = log(r - minus), q2 = o->hole.q * o->hole.q;
-    *t = r + ((2 * plus - q2) * near - (2 * minus - q2) * inner) / gap;
+    double near = log(r - plus), inner = log(r - minus);
+    *t = r + (kd_hole_mass(&o->hole, plus) * near - kd_hole_mass(&o->hole, minus) * inner) / gap;
     *phi = o->hole.a * (near - inner) / gap;
 }
 

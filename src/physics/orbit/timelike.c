@@ -24,9 +24,8 @@ double kd_orbit_radial_slope(const struct kd_orbit *o, double w)
 
 double kd_orbit_radial_by_energy(const struct kd_orbit *o, double w)
 {
-    const double q2w = o->hole.q * o->hole.q * w; /* with charge 2 w^3 becomes (2 - q^2 w) w^3 */
     return 2 * o->energy * (1 + o->hole.a * o->hole.a * w * w) -
-           (4 - 2 * q2w) * o->hole.a * (o->momentum - o->hole.a * o->energy) * w * w * w;
+           2 * kd_hole_mass_w(&o->hole, w) * o->hole.a * (o->momentum - o->hole.a * o->energy) * w * w * w;
 }
 
 /* z is the root, in u^2, that the motion reaches. 1 - z follows from the product L^2 = (1 - z)(n - a^2 b) or from z
@@ -52,17 +51,15 @@ static void set_polar(struct kd_orbit *o)
 void kd_orbit_set_constants(struct kd_orbit *o)
 {
     double a2 = o->hole.a * o->hole.a, q2 = o->hole.q * o->hole.q, rest = o->momentum - o->hole.a * o->energy;
+    const struct kd_hole_rates rates = kd_hole_rates_of(&o->hole, o->energy, o->momentum);
     o->k = o->carter + rest * rest;
     o->total = o->momentum * o->momentum + o->carter;
     o->w[0] = -o->binding;
     o->w[1] = 2;
     o->w[2] = -(a2 * o->binding + o->total + q2);
     o->w[3] = 2 * o->k;
-    o->w[4] = -a2 * o->carter - q2 * o->k;
-    o->drag = o->hole.a * o->momentum + q2 * o->energy;
-    o->four = 4 - q2;
-    o->near = 8 * o->energy - 2 * o->hole.a * o->momentum - 4 * q2 * o->energy;
-    o->nearer = q2 * (o->four * o->energy - o->hole.a * o->momentum);
+    o->w[4] = -kd_hole_quartic(&o->hole, o->carter, o->k);
+    o->drag = rates.drag, o->four = rates.four, o->near = rates.near, o->nearer = rates.nearer;
     set_polar(o);
 }
 

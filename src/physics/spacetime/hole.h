@@ -33,6 +33,9 @@ static inline struct kd_hole kd_hole_of(double a)
  * those of kd_hole_of to the bit. */
 struct kd_hole kd_hole_charged(double a, double q);
 
+/* q^2, by which the charge acts on everything; for those who hand it on. */
+static inline double kd_hole_charge2(const struct kd_hole *hole) { return hole->q * hole->q; }
+
 /* Whether the charge has any effect: its square does not underflow. */
 static inline bool kd_hole_is_charged(const struct kd_hole *hole) { return hole->q * hole->q > 0; }
 
@@ -77,6 +80,36 @@ static inline double kd_hole_delta_w(const struct kd_hole *hole, double w)
 {
     double d = 1 - w, h = hole->root * w;
     return (d - h) * (d + h);
+}
+
+/* The mass term of the metric, 2r - q^2, where an uncharged hole has 2r; and the same over r, at w = 1/r. */
+static inline double kd_hole_mass(const struct kd_hole *hole, double r) { return 2 * r - hole->q * hole->q; }
+static inline double kd_hole_mass_w(const struct kd_hole *hole, double w) { return 2 - hole->q * hole->q * w; }
+
+/* D of the radial quartic R/r^4 = E^2 - mu^2 + ... - D w^4 of light and matter, from Carter's constants Q and K = Q +
+ * (L
+ * - aE)^2: a^2 Q + q^2 K (Carter 1968, Phys. Rev. 174, 1559). */
+static inline double kd_hole_quartic(const struct kd_hole *hole, double carter, double k)
+{
+    return hole->a * hole->a * carter + hole->q * hole->q * k;
+}
+
+/* Coefficients in w = 1/r of w'^2 of a body of unit mass: `bound` is E^2 - 1. */
+static inline void kd_hole_radial(const struct kd_hole *hole, double bound, double momentum, double carter, double k,
+                                  double c[5])
+{
+    c[0] = bound, c[1] = 2, c[3] = 2 * k, c[4] = -kd_hole_quartic(hole, carter, k);
+    c[2] = hole->a * hole->a * bound - momentum * momentum - carter - hole->q * hole->q;
+}
+
+/* Numbers in the rates of phi and t in Mino time of light and matter:
+ *   phi' = a (2E r - drag)/Delta + ...,   t' = E (r^2 + 2r + four) + (near r - nearer - 4 a^2 E)/Delta + ... */
+struct kd_hole_rates { double drag, four, near, nearer; };
+static inline struct kd_hole_rates kd_hole_rates_of(const struct kd_hole *hole, double energy, double momentum)
+{
+    const double q2 = hole->q * hole->q, al = hole->a * momentum, four = 4 - q2;
+    return (struct kd_hole_rates) { al + q2 * energy, four, 8 * energy - 2 * al - 4 * q2 * energy,
+                                    q2 * (four * energy - al) };
 }
 
 /* The metric in Boyer-Lindquist coordinates (Bardeen, Press & Teukolsky 1972, ApJ 178, 347, eqs 2.1 to 2.5; with

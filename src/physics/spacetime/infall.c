@@ -24,9 +24,11 @@ static struct fall fall_of(const struct kd_observer_motion *m, const struct kd_v
 {
     double a = at->hole.a, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
     double ls = l == 0 ? 0 : l / at->s, q = at->u * at->u * (ls * ls - a * a * bound), rest = l - a * e;
-    const double k = q + rest * rest, q2 = at->hole.q * at->hole.q;
+    const double k = q + rest * rest;
+    double c[5];
+    kd_hole_radial(&at->hole, bound, l, q, k, c);
     struct fall f = {
-        .c = { -a * a * q - q2 * k, 2 * k, a * a * bound - l * l - q - q2, 2, bound },
+        .c = { c[4], c[3], c[2], c[1], c[0] },
         .hole = at->hole,
         .u = at->u,
         .low = r,
@@ -106,8 +108,9 @@ static double ageing(double x, double y, const void *user)
 /* The integral of (2r - q^2)/Delta up to a constant; outside the horizon. */
 static double delay(const struct kd_hole *hole, double r)
 {
-    double outer = hole->outer, inner = hole->inner, half = 0.5 * hole->q * hole->q;
-    return 2 / (outer - inner) * ((outer - half) * log(r - outer) - (inner - half) * log(r - inner));
+    const double outer = hole->outer, inner = hole->inner;
+    return 2 / (outer - inner) *
+           (0.5 * kd_hole_mass(hole, outer) * log(r - outer) - 0.5 * kd_hole_mass(hole, inner) * log(r - inner));
 }
 
 struct kd_infall_way kd_infall_way(const struct kd_observer_motion *m, const struct kd_vantage *at, double r)

@@ -186,3 +186,10 @@ double kd_kerr_rotation_reach(const struct kd_hole *hole, double r, double cos_t
     double sigma = r * r + a * a * cos_theta * cos_theta;
     return sqrt(delta) * sigma / ((w * w - a * a * delta * sin_theta * sin_theta) * sin_theta);
 }
+
+/* -(3 r^2/2 - 2 q^2 r)/(s (r^2 + a s)^2), s^2 = r - q^2. */
+double kd_kerr_shear(const struct kd_hole *hole, double r)
+{
+    const double q2 = hole->q * hole->q, s = sqrt(r - q2), under = r * r + hole->a * s;
+    return -(1.5 * r * r - 2 * q2 * r) / (s * under * under);
+}

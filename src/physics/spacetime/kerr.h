@@ -61,4 +61,7 @@ double kd_kerr_dragging(const struct kd_hole *hole, double r, double cos_theta);
  * 2.3, 2.5]. Infinite on the axis. */
 double kd_kerr_rotation_reach(const struct kd_hole *hole, double r, double cos_theta, double sin_theta);
 
+/* dOmega/dr of circular orbits. */
+double kd_kerr_shear(const struct kd_hole *hole, double r);
+
 #endif

@@ -39,7 +39,7 @@ static struct kd_tetrad frame_static(const struct kd_observer_motion *motion, co
     (void)motion;
     double a = at->hole.a, r = at->r, u = at->u, s = at->s;
     double sigma = r * r + a * a * u * u, delta = delta_of(at);
-    double mass = 2 * r - at->hole.q * at->hole.q, lapse = sqrt((sigma - mass) / sigma); /* sqrt(-g_tt) */
+    double mass = kd_hole_mass(&at->hole, r), lapse = sqrt((sigma - mass) / sigma); /* sqrt(-g_tt) */
     return (struct kd_tetrad) {
         .at = *at,
         .t = { .energy = lapse, .momentum = -mass * a * s / (sigma * lapse) },
@@ -92,7 +92,7 @@ static struct kd_tetrad frame_retrograde(const struct kd_observer_motion *motion
 static struct kd_tetrad rain(const struct kd_vantage *at)
 {
     const struct shape k = shape_of(at);
-    double root = sqrt(k.big / k.sigma), mass = 2 * at->r - at->hole.q * at->hole.q,
+    double root = sqrt(k.big / k.sigma), mass = kd_hole_mass(&at->hole, at->r),
            fall = sqrt(mass * (at->r * at->r + at->hole.a * at->hole.a));
     return (struct kd_tetrad) {
         .at = *at,
@@ -206,8 +206,8 @@ static bool turns_on_its_way(const struct kd_observer_motion *m, const struct kd
 {
     double a = at->hole.a, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
     double ls = l == 0 ? 0 : l / at->s, q = at->u * at->u * (ls * ls - a * a * bound), rest = l - a * e, roots[4];
-    const double k = q + rest * rest, q2 = at->hole.q * at->hole.q;
-    const double c[] = { bound, 2, a * a * bound - l * l - q - q2, 2 * k, -a * a * q - q2 * k };
+    double c[5];
+    kd_hole_radial(&at->hole, bound, l, q, q + rest * rest, c);
     double last = fmin(1 / at->r, 1 / at->hole.outer);
     return last > 1 / m->fall_from * (1 + 1e-9) &&
            kd_polynomial_roots(c, 4, 1 / m->fall_from * (1 + 1e-9) + 1e-12, last, roots) > 0;

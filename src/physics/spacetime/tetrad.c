@@ -101,7 +101,7 @@ struct kd_look kd_tetrad_look_inwards(const struct kd_tetrad *frame, const struc
                  sigma = r * r + a * a * frame->at.u * frame->at.u, w2 = r * r + a * a;
     const double delta = kd_hole_delta(&frame->at.hole, r), big = w2 * w2 - a * a * delta * s * s;
     const double round = photon->momentum * sqrt(sigma / big), up = photon->polar / sqrt(sigma);
-    const double mass = 2 * r - frame->at.hole.q * frame->at.hole.q;
+    const double mass = kd_hole_mass(&frame->at.hole, r);
     const double energy = photon->energy - mass * a / big * photon->momentum * s;
     const double less = (sqrt(big) * energy - photon->radial) / (sqrt(big) + sqrt(mass * w2)),
                  more = (polar2 / sigma + round * round) / less;

@@ -13,26 +13,27 @@
 
 #include "physics/spacetime/kerr.h"
 #include "render/emit/emitter.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <string.h>
 
 bool kd_illumination_of(const struct kd_scene *scene, struct kd_illumination *out)
 {
-    const struct kd_hole hole = kd_hole_of(scene->spacetime.spin);
+    const struct kd_hole *const hole = kd_scene_hole(scene);
     const double inner = kd_disk_inner(scene), outer = scene->disk.outer, step = log(outer / inner) / KD_LIT_RINGS;
     if (scene->disk.model == KD_DISK_NONE || scene->disk.height > 0)
         return false;
     for (int i = 0; i < KD_LIT_RINGS; i++) {
         const double r = inner * exp(step * (i + 0.5)), t = kd_disk_heat(scene, r);
-        const struct kd_metric_scalars m = kd_metric_at(&hole, r, 0);
+        const struct kd_metric_scalars m = kd_metric_at(hole, r, 0);
         const double along = sqrt(m.area) / r, lapse = sqrt(m.lapse2);
         out->rings[i] = (struct kd_illumination_ring) {
             .r = r,
             .t = t,
             .light = t * t * t * t * r * r * step * (2 * M_PI / KD_LIT_PLACES),
             .lapse = lapse,
-            .velocity = (kd_kerr_omega(&hole, r) - m.omega) * along / lapse,
+            .velocity = (kd_kerr_omega(hole, r) - m.omega) * along / lapse,
         };
     }
     return true;

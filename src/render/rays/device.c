@@ -92,7 +92,7 @@ static void upload_states(const struct work *w, const struct set *set, const str
     put(w, at, 0, p->spin);
     put(w, at, 1, hole.outer);
     put(w, at, 2, escape(w));
-    put(w, at, 3, hole.q * hole.q);
+    put(w, at, 3, kd_hole_charge2(&hole));
     for (size_t i = 0; i < rays->n; i++) {
         double at_eye[2];
         label(w, rays->alpha_beta + 2 * i, at_eye);
@@ -116,7 +116,7 @@ static void upload(const struct work *w, const struct set *set, const struct kd_
         hole.root,
         isinf(p->r) ? 0 : 1 / p->r,
         w->wide ? DBL_EPSILON / 2 : FLT_EPSILON / 2,
-        hole.q * hole.q,
+        kd_hole_charge2(&hole),
     };
     for (size_t i = 0; i < HEADER; i++)
         put(w, at, i, w->wide ? header[i] : kd_lifted(header[i]));

@@ -23,7 +23,7 @@ static void pull(const struct motion *m, const double y[4], double f[4])
 
 static double drag(const struct motion *m, double w)
 {
-    return m->a * w * (2 - (m->a * m->l + m->hole->q * m->hole->q) * w) / kd_hole_delta_w(m->hole, w);
+    return m->a * w * (2 - kd_hole_rates_of(m->hole, 1, m->l).drag * w) / kd_hole_delta_w(m->hole, w);
 }
 
 /* A step of Nystroem's method of order 4, as in nystroem.glsl. Frame dragging is integrated by Simpson's rule, with the
@@ -105,7 +105,7 @@ void kd_rays_start(const struct kd_hole *hole, double r, double u, double s, dou
     const double a = hole->a;
     struct motion m = { .hole = hole, .a = a, .l = -alpha * s, .q = (alpha * alpha - a * a) * u * u + beta * beta };
     m.k = m.q + (m.l - a) * (m.l - a);
-    m.d = a * a * m.q + hole->q * hole->q * m.k;
+    m.d = kd_hole_quartic(hole, m.q, m.k);
     struct point p = { { s, 0, u, isinf(r) ? 0 : 1 / r }, { -u * beta, -alpha, s * beta, 1 }, 0 };
     out->w = out->phi = 0;
     if (isinf(r)) /* at infinity w' = 1, so Mino time equals w */

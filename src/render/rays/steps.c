@@ -61,7 +61,7 @@ static double drag(const struct kd_hole *hole, double r)
 static void kerr_schild(const struct kd_hole *hole, double momentum, const struct record *record,
                         struct kd_rays_step *s)
 {
-    const double a = hole->a, less = 0.5 * hole->q * hole->q;
+    const double a = hole->a;
     const double *x = record->y, *p = record->dy;
     double rho2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - a * a;
     double r2 = 0.5 * (rho2 + sqrt(rho2 * rho2 + 4 * a * a * x[2] * x[2])), r = sqrt(r2), q = r2 + a * a;
@@ -70,7 +70,7 @@ static void kerr_schild(const struct kd_hole *hole, double momentum, const struc
     s->r = r, s->w = 1 / r, s->u = x[2] / r;
     s->phi = azimuth(x[1], x[0], drag(hole, r) - atan2(a, r));
     s->res_null = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1 -
-                  2 * (r - less) * r2 / (r2 * r2 + a * a * x[2] * x[2]) * (1 + lp) * (1 + lp);
+                  kd_hole_mass(hole, r) * r2 / (r2 * r2 + a * a * x[2] * x[2]) * (1 + lp) * (1 + lp);
     s->res_l = x[0] * p[1] - x[1] * p[0] - momentum;
 }
 
