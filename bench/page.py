@@ -5,7 +5,9 @@
                              (scripts/setup --browser)
 
 A window of 1440 x 900 on the server's machine. Rows: time running, the camera dragged round the hole, and both again on
-a line of 300 ms and 1 Mbit/s (simulated by Chromium). Each row has its target beside it. Writes
+a line of 300 ms and 1 Mbit/s (simulated by Chromium); the first view as a visitor finds it, untouched; a fall; a thick
+disk; a drag beside a second visitor whose time runs. Each row has its target beside it, as far as there is one. A
+recording may play instead of live pictures in the first view: the row says so. Writes
 bench/results/DATE-DEVICE-page.{json,md}.
 """
 
@@ -14,6 +16,7 @@ import os
 import re
 import statistics
 import subprocess
+import sys
 import urllib.request
 
 import measure
@@ -21,6 +24,8 @@ import measure
 WINDOW = {"width": 1440, "height": 900}
 PATIENCE_MS = 120_000
 SCENES = {"default": "preset=default", "first view": "preset=gas-stars"}
+# Not on a far line. The observer of the fall has a clock of its own.
+BESIDE = {"fall": "preset=infall", "thick disk": "preset=thick-disk&motion.time_rate=4"}
 FAR = {"offline": False, "latency": 300, "downloadThroughput": 1e6 / 8, "uploadThroughput": 1e6 / 8}
 # Records each frame that the page reads: its width, the server's time for it, and the time from answer to picture.
 WATCH = """() => {
@@ -65,12 +70,14 @@ def row(page, act, seconds):
     page.evaluate("() => { window.seen.length = 0; }")
     act(seconds)
     seen = page.evaluate("() => window.seen")
+    recorded = page.evaluate("() => !!document.querySelector('#loop:not([hidden])')")
     widths = [int(re.match(r"width=(\d+)", one["quality"])[1]) for one in seen]
     passes = [{name: float(ms) for name, ms in re.findall(r"(\w+);dur=([\d.]+)", one["timing"])} for one in seen]
     median = lambda values: round(statistics.median(values), 1) if values else None
     stage = page.evaluate('() => document.getElementById("stage").clientWidth')
     return {
         "fps": round(len(seen) / seconds, 1),
+        "recorded": recorded,
         "width": median(widths),
         "window": stage,
         "part": round(statistics.median(widths) / stage, 2) if widths else None,
@@ -94,14 +101,47 @@ def first_picture(browser, base):
     return round(statistics.median(times))
 
 
+def watched(browser, address):
+    """A page at this address whose frames are recorded, once it shows a picture."""
+    page = browser.new_page(viewport=WINDOW)
+    page.set_default_timeout(PATIENCE_MS)
+    page.goto(address)
+    page.wait_for_function('() => performance.getEntriesByName("first-picture").length')
+    page.evaluate(WATCH)
+    return page
+
+
+def waits(page):
+    return lambda seconds: page.wait_for_timeout(1e3 * seconds)
+
+
+def landing(browser, base, seconds):
+    """The first view, which drifts until somebody touches it."""
+    page = watched(browser, base)
+    page.wait_for_timeout(4000)
+    seen = row(page, waits(page), seconds)
+    page.close()
+    return seen
+
+
+def beside_another(browser, base, seconds):
+    """The default scene, dragged, while another visitor's time runs."""
+    pages = [watched(browser, f"{base}#{SCENES['default']}&motion.time_rate=4") for _ in range(2)]
+    drag(pages[1], 3)
+    before = len(pages[0].evaluate("() => window.seen"))
+    seen = row(pages[1], lambda s: drag(pages[1], s), seconds)
+    other = len(pages[0].evaluate("() => window.seen")) - before
+    for page in pages:
+        page.close()
+    if not other:
+        sys.exit("the second visitor saw no picture")
+    return seen
+
+
 def rows_of(browser, base, seconds):
-    rows = {}
+    rows = {"first view: untouched": landing(browser, base, seconds)}
     for name, scene in SCENES.items():
-        page = browser.new_page(viewport=WINDOW)
-        page.set_default_timeout(PATIENCE_MS)
-        page.goto(f"{base}#{scene}&motion.time_rate=4")
-        page.wait_for_selector("#stage[data-final]")
-        page.evaluate(WATCH)
+        page = watched(browser, f"{base}#{scene}&motion.time_rate=4")
         line = page.context.new_cdp_session(page)
         for far in (False, True):
             if far:
@@ -109,15 +149,31 @@ def rows_of(browser, base, seconds):
                 line.send("Network.emulateNetworkConditions", FAR)
             page.wait_for_timeout(4000)  # the page finds its size
             where = ", 300 ms and 1 Mbit/s" if far else ""
-            rows[f"{name}: time runs{where}"] = row(page, lambda s: page.wait_for_timeout(1e3 * s), seconds)
+            rows[f"{name}: time runs{where}"] = row(page, waits(page), seconds)
             drag(page, 3)
             rows[f"{name}: dragged{where}"] = row(page, lambda s: drag(page, s), seconds)
         page.close()
+    for name, scene in BESIDE.items():
+        page = watched(browser, f"{base}#{scene}")
+        page.wait_for_timeout(4000)
+        rows[f"{name}: time runs"] = row(page, waits(page), seconds)
+        page.close()
+    rows["default: dragged, a second visitor"] = beside_another(browser, base, seconds)
     return rows
 
 
 def asked_for(name):
+    if "untouched" in name:
+        return "≥ 25, at the full width"
+    if name.split(":")[0] in BESIDE or "second" in name:
+        return ""
     return "≥ 8" if "Mbit" in name else "≥ 30" if "time runs" in name else "≥ 20, at half the width"
+
+
+def shown_width(r):
+    if r["recorded"]:
+        return "recording"
+    return f"{r['width']:g} of {r['window']}" if r["width"] else f"none in the time, of {r['window']}"
 
 
 def main():
@@ -163,7 +219,7 @@ def main():
                 name,
                 str(r["fps"]),
                 asked_for(name),
-                f"{r['width']:g} of {r['window']}",
+                shown_width(r),
                 str(r["server_ms"]),
                 str(r["encode_ms"]),
                 str(r["browser_ms"]),

@@ -152,16 +152,16 @@ vec3 column(ivec3 rows, int x, vec3 b)
     return b.x * cell(rows.x + at) + b.y * cell(rows.y + at) + b.z * cell(rows.z + at);
 }
 
-/* If all four pixels are adjacent and the cells are larger, five columns of cells cover them. */
+/* If all four pixels are adjacent and the cells are larger, four or five columns of cells cover them. */
 spread arriving_all(place first, place second, place third, place fourth)
 {
-    if (!TOGETHER)
+    if (COLUMNS == 0)
         return spread(arriving(first), arriving(second), arriving(third), arriving(fourth));
     float u = (first.x + 0.5) * push.scale_x, v = (first.y + 0.5) * push.scale_y;
     int across = int(push.cells_x), x = int(u), y = int(v), rows = int(push.cells_y);
     ivec3 row = across * ivec3(bloom_mirror(y - 1, rows), y, bloom_mirror(y + 1, rows));
     vec3 weight = bloom_spline(v - float(y) - 0.5), of[4] = { vec3(0), vec3(0), vec3(0), vec3(0) };
-    for (int k = 0; k < 5; k++) {
+    for (int k = 0; k < int(COLUMNS); k++) {
         vec3 light = column(row, x + k - 1, weight);
         float t = u - float(x) + (0.5 - float(k));
         for (int i = 0; i < 4; i++)

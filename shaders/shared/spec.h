@@ -76,9 +76,9 @@
 #define KD_SPEC_BLOOM_GRID(U, B) B(0, AROUND, false)
 
 /* ACES: the film-like curve; WIDE: 16 bits a channel; NEUTRAL: the curve that keeps colours; without either light is
- * clipped. TOGETHER: the four pixels of an invocation are adjacent, within two cells of the bloom grid. */
-#define KD_SPEC_POST(U, B) \
-    B(0, ACES, true) B(1, WIDE, false) B(2, NEUTRAL, false) B(3, TOGETHER, false) B(4, AROUND, false)
+ * clipped. COLUMNS: columns of cells of the bloom grid that the four pixels of an invocation read together; 0: each
+ * pixel reads its own. */
+#define KD_SPEC_POST(U, B) B(0, ACES, true) B(1, WIDE, false) B(2, NEUTRAL, false) U(3, COLUMNS, 0) B(4, AROUND, false)
 
 /* For beam_gather.comp and beam_spread.comp: whether cells are larger than pixels. */
 #define KD_SPEC_BEAM(U, B) B(0, COARSE, true)

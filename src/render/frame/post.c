@@ -63,7 +63,7 @@ static enum kd_status kernel_of(struct kd_frame_job *j, const struct look *look,
         .ACES = j->scene->style.tone_map == KD_TONE_ACES,
         .NEUTRAL = j->scene->style.tone_map == KD_TONE_NEUTRAL,
         .WIDE = look->wide,
-        .TOGETHER = kd_bloom_together(look->bloom, j->plan->picture.width),
+        .COLUMNS = kd_bloom_together(look->bloom, j->plan->picture.width),
         .AROUND = look->bloom->around,
     };
     const uint64_t band_pixels = (uint64_t)j->plan->picture.width * j->plan->picture.band_rows;

@@ -47,11 +47,12 @@ static inline uint64_t kd_bloom_most(const struct kd_bloom *bloom)
     return blocks > cells ? blocks : cells;
 }
 
-/* Whether four adjacent pixels, all in one row of the picture, read at most five columns of cells; post then reads
- * fewer cells. */
-static inline bool kd_bloom_together(const struct kd_bloom *bloom, uint32_t width)
+/* Columns of cells that KD_POST_PIXELS adjacent pixels read, at most five; post then reads them together. 0: these
+ * pixels may read more, or need not be in one row of the picture. */
+static inline uint32_t kd_bloom_together(const struct kd_bloom *bloom, uint32_t width)
 {
-    return bloom->levels && width % KD_POST_PIXELS == 0 && 3 * bloom->columns <= 2 * width;
+    const uint32_t apart = (KD_POST_PIXELS - 1) * bloom->columns; /* of the first and last pixel, times the width */
+    return !bloom->levels || width % KD_POST_PIXELS ? 0 : apart <= width ? 4 : apart <= 2 * width ? 5 : 0;
 }
 
 #endif
