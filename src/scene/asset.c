@@ -60,8 +60,11 @@ static enum kd_status resolve(struct kd_scene *scene, const struct kd_field *fie
         return kd_error_field(error, pointer, "%s is \"%s\", which is not a known asset; it must be %s", path, name,
                               assets->allowed);
     enum kd_status status = suits(scene, path, pointer, &found, error);
-    if (!status)
-        kd_field_put_asset(scene, field, index, found.hash);
+    if (status)
+        return status;
+    kd_field_put_asset(scene, field, index, found.hash);
+    if (found.nodes[0])
+        scene->grid_nodes = (uint64_t)found.nodes[0] * found.nodes[1] * found.nodes[2];
     return status;
 }
 
@@ -69,6 +72,7 @@ enum kd_status kd_scene_resolve(struct kd_scene *scene, const struct kd_assets *
 {
     struct kd_scene resolved = *scene;
     enum kd_status status = KD_OK;
+    resolved.grid_nodes = 0;
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
         const struct kd_section *section = kd_section_find(kd_fields[i].section);
         for (size_t k = 0; kd_fields[i].kind == KD_FIELD_ASSET && k < kd_section_size(scene, section); k++)
