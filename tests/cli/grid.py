@@ -357,6 +357,15 @@ class Grid(Case):
                 },
                 "is 2048 x 1024 x 64 nodes: it must be at most 33554432 in all",
             ),
+            (
+                {
+                    "r": numpy.geomspace(2, 20, 2048),
+                    "theta": (numpy.arange(1024) + 0.5) * numpy.pi / 1024,
+                    "phi": numpy.arange(2) * numpy.pi,
+                    **header(packed=False),
+                },
+                "header.packed is false; it must be true in a grid of more than 2097152 nodes",
+            ),
         )
         for i, (changes, words) in enumerate(files):
             path = self.path(f"{i}.npz")

@@ -304,7 +304,10 @@ static enum kd_status take_places(struct kd_matter_reader *r, struct kd_error *e
                  g->columns, g->layers, KD_MATTER_NODES);
         KD_TRY(kd_matter_refuse("r", what, error));
     }
-    g->packed |= !g->whole && nodes_of(g) > KD_MATTER_WHOLE;
+    if (g->whole && nodes_of(g) > KD_MATTER_WHOLE)
+        KD_TRY(
+            kd_matter_refuse("header.packed", "is false; it must be true in a grid of more than 2097152 nodes", error));
+    g->packed |= nodes_of(g) > KD_MATTER_WHOLE;
     if ((g->rows - 1) / log(g->r[1] / g->r[0]) > FINEST)
         KD_TRY(kd_matter_refuse("r", "must have at most 1024 rows per factor e in r", error));
     KD_TRY(make_places(r, error));

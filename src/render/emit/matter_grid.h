@@ -2,13 +2,14 @@
  * describes the file. Pure, any thread.
  *
  *   header        JSON: {"format": "kerrd-grid", "version": 1, "spin": a, "azimuth": "boyer-lindquist" or
- *                 "kerr-schild", "units": {array: unit}, and optionally "packed": true or false, by default whether
- *                 there are more than 2^21 nodes}
- *   r theta phi   coordinates of rows, columns and layers. r is evenly spaced in log r, and phi in phi. theta is that
- * of each column, or, of the shape (rows, columns), that of each node. phi covers one turn or a whole fraction of it,
- * and may be missing density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi arrays of the
- * shape (rows, columns) or (rows, columns, layers) u_con_t       optional; if present, the velocity must be a unit
- * vector
+ *                 "kerr-schild", "units": {array: unit}, and optionally "packed": true or false; true in a grid of
+ *                 more than 2^21 nodes}
+ *   r theta phi   coordinates of rows, columns and layers. r is evenly spaced in log r, and phi in phi. theta is
+ *                 that of each column, or, of the shape (rows, columns), that of each node. phi covers one turn or
+ *                 a whole fraction of it, and may be missing
+ *   density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi
+ *                 arrays of the shape (rows, columns) or (rows, columns, layers)
+ *   u_con_t       optional; if present, the velocity must be a unit vector
  *
  * Components are in Boyer-Lindquist coordinates (con: contravariant, cov: covariant), namely those that are finite at
  * the horizon. u^t follows from the norm. b is the field in the frame of the matter, so b^t follows from b.u = 0. */

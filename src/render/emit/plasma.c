@@ -78,17 +78,25 @@ static uint64_t nodes_of(const struct kd_scene *scene)
     return scene->grid_nodes ? scene->grid_nodes : KD_MATTER_WHOLE;
 }
 
-/* The host also holds the grid's file and its arrays. A file may ask for nodes that are not packed. */
+static bool is_packed(const struct kd_scene *scene) { return nodes_of(scene) > KD_MATTER_WHOLE; }
+static uint64_t node_bytes(const struct kd_scene *scene)
+{
+    return KD_MATTER_FLOATS * sizeof(float) / (is_packed(scene) ? 2 : 1);
+}
+
+/* Host memory: the nodes before they are packed and one array of the file; if they are not packed, the file's arrays
+ * and the upload as well. */
 static uint64_t device_bytes(const struct kd_scene *scene)
 {
     return has_no_grid(scene) ? 4 * KD_MATTER_FLOATS * sizeof(float)
-           : is_grid(scene)   ? (nodes_of(scene) * KD_MATTER_FLOATS + KD_MATTER_PLACES * 4) * sizeof(float)
+           : is_grid(scene)   ? nodes_of(scene) * node_bytes(scene) + KD_MATTER_PLACES * 4 * sizeof(float)
                               : 0;
 }
 static uint64_t making_bytes(const struct kd_scene *scene)
 {
     return is_grid(scene) && *scene->volume.grid
-               ? nodes_of(scene) * (2 * KD_MATTER_FLOATS * sizeof(float) + 3 * sizeof(double)) +
+               ? nodes_of(scene) * (is_packed(scene) ? KD_MATTER_FLOATS * sizeof(float) + sizeof(double)
+                                                     : 2 * KD_MATTER_FLOATS * sizeof(float) + 3 * sizeof(double)) +
                      (uint64_t)KD_MATTER_PLACES * 8 * sizeof(float)
                : 0;
 } /* the grid's numbers as read, and as uploaded */
