@@ -49,6 +49,19 @@ def convert(kind, folder, nodes, mass):
     return grid, time.monotonic() - start
 
 
+def repeated(folder, nodes, mass):
+    """The torus by FMKS, of one layer that is repeated: a grid of many nodes without a dump of as many."""
+    rows, columns, layers = nodes
+    grid, _ = convert("fmks", folder, (rows, columns, 1), mass)
+    with np.load(grid) as file:
+        arrays = {name: of if of.ndim < 2 or name == "theta" else of[..., None] for name, of in file.items()}
+    phi = np.arange(layers) * 2 * np.pi / layers
+    shape = (rows, columns, layers)
+    arrays = {name: np.broadcast_to(of, shape) if of.ndim == 3 else of for name, of in arrays.items()}
+    np.savez(grid, **arrays, phi=phi)
+    return grid
+
+
 def light(program, folder, pixels, *more):
     out = str(folder / "light.npz")
     command = [program, "render", "-p", "torus", "--size", f"{pixels}x{pixels}", "--set", "image.critical_factor=1"]
@@ -75,7 +88,9 @@ def main():
     p = measure.parser(__doc__)
     p.add_argument("--nodes", type=int, nargs=3, default=[192, 96, 96], help="of the dumps that are compared")
     p.add_argument("--pixels", type=int, default=96, help="pixels along a side of the compared pictures (96)")
-    p.add_argument("--rates", nargs="*", default=["192x96x96"], help="nodes of grids whose rays are timed")
+    p.add_argument(
+        "--rates", nargs="*", default=["192x96x96", "256x256x128"], help="nodes of grids whose rays are timed"
+    )
     p.add_argument("--sizes", type=int, nargs=2, default=[64, 160], help="pixels along a side of the timed pictures")
     p.add_argument("--rounds", type=int, default=2, help="timed runs of each picture (2)")
     o = p.parse_args()
@@ -92,7 +107,7 @@ def main():
             errors[kind] = {"nmse": dict(zip(LIGHT, off)), "seconds": seconds}
             worst = max(worst, *(x / bound for x, bound in zip(off, BOUNDS)))
         for nodes in o.rates:
-            grid, _ = convert("fmks", folder, tuple(map(int, nodes.split("x"))), mass)
+            grid = repeated(folder, tuple(map(int, nodes.split("x"))), mass)
             rates[nodes], _ = rate(program, grid, o.sizes, o.core, o.rounds)
     doctor = subprocess.run([program, "doctor"], capture_output=True, text=True).stdout
     found = re.search(r"llvmpipe[^\n]*", doctor)

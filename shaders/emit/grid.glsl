@@ -1,14 +1,35 @@
 /* Matter on a grid of nodes: interpolation, linear in log r, in columns of theta and in phi. The buffer plasma_grid has
- * two quads a node, then the table of uneven columns (src/render/emit/matter_grid.h). Included by emit/plasma.glsl. */
+ * one or two quads a node, then the table of uneven columns (src/render/emit/matter_grid.h). Included by
+ * emit/plasma.glsl. */
 
 /* Interpolated values. matter: log2 of density and Theta, u^r, r u^theta; rest: u_phi/(r sin^2 theta), and b^r, r
  * b^theta and b_phi/(r sin^2 theta) in the grid's unit. */
 struct kd_grid_node { vec4 matter, rest; };
 
-kd_grid_node kd_grid_line(uint at, uint next, float part)
+const bool KD_GRID_TEXELS = (TRAITS_plasma & KD_TRAIT_TEXELS) != 0u;
+uvec4 kd_grid_quad(uint at) { return KD_GRID_TEXELS ? texelFetch(plasma_texels, int(at)) : plasma_grid[at]; }
+
+kd_grid_node kd_grid_whole(uint node)
 {
-    return kd_grid_node(mix(plasma_grid[at], plasma_grid[next], part),
-                        mix(plasma_grid[at + 1u], plasma_grid[next + 1u], part));
+    return kd_grid_node(uintBitsToFloat(kd_grid_quad(2u * node)), uintBitsToFloat(kd_grid_quad(2u * node + 1u)));
+}
+
+/* A packed node has density and Theta as parts of their ranges in 16 bits, and six halves. */
+kd_grid_node kd_grid_packed(uint node)
+{
+    uvec4 words = kd_grid_quad(node);
+    vec2 heat = unpackUnorm2x16(words.x), out_down = unpackHalf2x16(words.y), third = unpackHalf2x16(words.z),
+         last = unpackHalf2x16(words.w);
+    return kd_grid_node(vec4(emission.plasma.grid_density + emission.plasma.grid_densities * heat.x,
+                             emission.plasma.grid_heat + emission.plasma.grid_heats * heat.y,
+                             emission.plasma.grid_speed * out_down),
+                        vec4(emission.plasma.grid_speed * third.x, emission.plasma.grid_scale * vec3(third.y, last)));
+}
+
+void kd_grid_add(inout kd_grid_node sum, kd_grid_node one, float weight)
+{
+    sum.matter += weight * one.matter;
+    sum.rest += weight * one.rest;
 }
 
 /* phi of ingoing Kerr-Schild coordinates minus Boyer-Lindquist phi: int a/Delta dr = a/(r+ - r-) ln((r - r+)/(r - r-))
@@ -35,8 +56,9 @@ kd_grid_place kd_grid_place_at(kd_midst p, float log2_r)
         float steps = float(emission.plasma.grid_steps), row = min(floor(at.row), float(most.x - 1u)),
               x = clamp(theta * (steps / KD_PI), 0.0, steps), cell = min(floor(x), steps - 1.0);
         uint line = uint(min(row, float(emission.plasma.grid_place_rows - 1u))),
-             nodes = 2u * emission.plasma.grid_rows * emission.plasma.grid_columns * emission.plasma.grid_layers;
-        vec4 corners = plasma_grid[nodes + line * emission.plasma.grid_steps + uint(cell)];
+             quads = (2u - emission.plasma.grid_packed) * emission.plasma.grid_rows * emission.plasma.grid_columns *
+                     emission.plasma.grid_layers;
+        vec4 corners = uintBitsToFloat(kd_grid_quad(quads + line * emission.plasma.grid_steps + uint(cell)));
         vec2 ends = mix(corners.xy, corners.zw, at.row - row);
         at.column = mix(ends.x, ends.y, x - cell);
         at.per_theta = max(ends.y - ends.x, 0.0) * (steps / KD_PI);
@@ -49,21 +71,30 @@ kd_grid_node kd_grid_at(kd_midst p, float log2_r)
     kd_grid_place place = kd_grid_place_at(p, log2_r);
     vec2 most = vec2(float(emission.plasma.grid_rows - 1u), float(emission.plasma.grid_columns - 1u)),
          x = vec2(place.row, place.column), cell = min(floor(x), most - 1.0), part = x - cell;
-    uint layers = emission.plasma.grid_layers, node = 2u * layers, row = node * emission.plasma.grid_columns,
-         at = uint(cell.x) * row + uint(cell.y) * node;
+    uint layers = emission.plasma.grid_layers, row = layers * emission.plasma.grid_columns,
+         at = uint(cell.x) * row + uint(cell.y) * layers, rounds = min(layers, 2u);
     float turned = (p.phi + emission.frame.azimuth + kd_grid_fallen(1.0 / p.w) - emission.plasma.grid_phi) *
                    emission.plasma.grid_per_phi,
           layer = floor(turned), past = turned - layer;
     uint first = uint(clamp(layer - floor(layer / float(layers)) * float(layers), 0.0, float(layers - 1u)));
     kd_grid_node sum = kd_grid_node(vec4(0.0), vec4(0.0));
-    /* a loop as above */
-    for (uint n = 0u; n < min(layers, 2u); n++) {
-        uint k = first + n, from = at + 2u * (k < layers ? k : 0u);
-        kd_grid_node low = kd_grid_line(from, from + row, part.x),
-                     high = kd_grid_line(from + node, from + node + row, part.x);
-        float weight = layers == 1u ? 1.0 : n == 0u ? 1.0 - past : past;
-        sum.matter += weight * mix(low.matter, high.matter, part.y);
-        sum.rest += weight * mix(low.rest, high.rest, part.y);
+    vec4 weights = vec4(1.0 - part.x, part.x, 1.0 - part.x, part.x) * vec4(1.0 - part.yy, part.yy);
+    /* loops as above, of which one has no rounds */
+    for (uint n = 0u; n < (emission.plasma.grid_packed == 0u ? rounds : 0u); n++) {
+        uint k = first + n, from = at + (k < layers ? k : 0u);
+        vec4 w = weights * (layers == 1u ? 1.0 : n == 0u ? 1.0 - past : past);
+        kd_grid_add(sum, kd_grid_whole(from), w.x);
+        kd_grid_add(sum, kd_grid_whole(from + row), w.y);
+        kd_grid_add(sum, kd_grid_whole(from + layers), w.z);
+        kd_grid_add(sum, kd_grid_whole(from + layers + row), w.w);
+    }
+    for (uint n = 0u; n < (emission.plasma.grid_packed == 0u ? 0u : rounds); n++) {
+        uint k = first + n, from = at + (k < layers ? k : 0u);
+        vec4 w = weights * (layers == 1u ? 1.0 : n == 0u ? 1.0 - past : past);
+        kd_grid_add(sum, kd_grid_packed(from), w.x);
+        kd_grid_add(sum, kd_grid_packed(from + row), w.y);
+        kd_grid_add(sum, kd_grid_packed(from + layers), w.z);
+        kd_grid_add(sum, kd_grid_packed(from + layers + row), w.w);
     }
     return sum;
 }

@@ -26,6 +26,9 @@
     F(grid_r) F(grid_per_r) F(grid_theta) F(grid_per_theta) F(grid_phi) F(grid_per_phi) \
     F(grid_fall)           /* a if the grid's phi is that of ingoing coordinates; else 0 */ \
     F(grid_field)          /* log2 of the unit of the grid's field, gauss */ \
+    U(grid_packed)         /* 1: a node is one quad, else two */ \
+    /* a packed node: least values and ranges of log2 of density and Theta; units of velocity and field */ \
+    F(grid_density) F(grid_densities) F(grid_heat) F(grid_heats) F(grid_speed) F(grid_scale) \
     F(kappa) F(kappa_width) /* a kappa distribution: log2(kappa - 3) is `kappa`; */ \
     /* the other numbers are as in physics/disk/synchrotron.h */ \
     F(kappa_light_low) F(kappa_light_high) F(kappa_light_sharp) F(kappa_depth_low) F(kappa_depth_high) \
@@ -50,7 +53,7 @@
     T(PLASMA_VERTICAL) T(PLASMA_RADIAL) T(PLASMA_REST) T(PLASMA_POWER) T(PLASMA_TORUS) T(PLASMA_KAPPA) T(PLASMA_GRID) \
         T(AZIMUTH)
 /* clang-format on */
-#define KD_BUFFERS_plasma(B) B(5, quads, plasma_grid)
+#define KD_BUFFERS_plasma(B) B(5, quads, plasma_grid) B(6, quad_texels, plasma_texels)
 #define KD_GRID_CELLS 2.0 /* largest number of the grid's cells that a grain covers */
 #define KD_PASS_plasma(P)
 #define KD_TORUS_COLD -24.0 /* log2(h - 1) in place of log2 of 0 */

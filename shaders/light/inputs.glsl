@@ -35,7 +35,9 @@ struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 #define KD_OWN_stored(number, member) \
     layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { float member[]; };
 #define KD_OWN_quads(number, member) \
-    layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { vec4 member[]; };
+    layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { uvec4 member[]; };
+#define KD_OWN_quad_texels(number, member) \
+    layout(set = 0, binding = KD_OWN_BINDING + number) uniform utextureBuffer member;
 #ifdef KD_TEXELS
 #define KD_OWN_words(number, member) layout(set = 0, binding = KD_OWN_BINDING + number) uniform utextureBuffer member;
 #define KD_OWN_pairs(number, member) KD_OWN_words(number, member)

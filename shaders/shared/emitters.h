@@ -22,7 +22,8 @@
  *   KD_TRAITS_name(T)       its variants: T(trait), bits KD_TRAIT_trait of its word; emitters may share traits
  *   KD_BUFFERS_name(B)      device buffers that it fills before the light passes: B(number, type, member), numbered
  *                           from 0 over all emitters. They hold words, pairs of words or floats, which are read by
- *                           KD_OWN_WORD(member, at) and the like, or stored floats, member[at] (light/inputs.glsl)
+ *                           KD_OWN_WORD(member, at) and the like, stored floats, member[at], or quads of words, which
+ *                           are stored or texels by KD_TRAIT_TEXELS (light/inputs.glsl)
  *   KD_PASS_name(P)         the pass that fills them, if it has one: P(name, ID, word, guess). It is timed and named
  *                           in plans by the emitter's name, and its kernel is comp/name.comp. The cost of an
  *                           invocation is measured on frames as the figure KD_NS_ID, which GET /v1/device calls
@@ -83,6 +84,9 @@
 #define KD_TRAIT_POINTS \
     0x80000000u /* the emitter has points of light, which a separate pass spreads over pixels: comp/star_images.comp \
                  */
+#define KD_TRAIT_TEXELS \
+    0x10000000u                     /* the device reads the emitter's buffer of quads as texels; set by \
+                                     * kd_emit_as_texels */
 #define KD_TRAIT_SPREAD 0x40000000u /* the emitter emits light wherever a ray ends */
 
 #endif

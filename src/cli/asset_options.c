@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* limit of a file's size: local files may be larger than those that a server accepts */
-#define ASSET_MAX ((size_t)256 << 20)
+/* limit of a file's size, for the largest grid: local files may be larger than those that a server accepts */
+#define ASSET_MAX ((size_t)1200 << 20)
 
 enum kd_status kd_asset_options_add(struct kd_asset_options *options, const char *text, struct kd_error *error)
 {

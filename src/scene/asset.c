@@ -45,13 +45,18 @@ static enum kd_status resolve(struct kd_scene *scene, const struct kd_row *field
                               assets->allowed);
     enum kd_status status = suits(scene, path, pointer, &found, error);
     const struct kd_value hash = { KD_VALUE_STRING, 0, found.hash };
-    return status ? status : kd_field_store(scene, field, index, &hash, error);
+    if (!status)
+        status = kd_field_store(scene, field, index, &hash, error);
+    if (!status && found.nodes[0])
+        scene->grid_nodes = (uint64_t)found.nodes[0] * found.nodes[1] * found.nodes[2];
+    return status;
 }
 
 enum kd_status kd_scene_resolve(struct kd_scene *scene, const struct kd_assets *assets, struct kd_error *error)
 {
     struct kd_scene resolved = *scene;
     enum kd_status status = KD_OK;
+    resolved.grid_nodes = 0;
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
         const struct kd_section *section = kd_section_find(kd_fields[i].object);
         for (size_t k = 0; kd_fields[i].kind == KD_KIND_ASSET && k < kd_section_size(scene, section); k++)

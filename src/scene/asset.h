@@ -34,10 +34,10 @@ struct kd_assets {
     void *user;
 };
 
-/* kd_scene_resolve replaces each name by the hash, and checks that each hash exists. If an asset is missing or of the
- * wrong kind it returns KD_EINVAL with the field's pointer, and *scene stays unchanged. sky.image must be a picture
- * that is twice as wide as high and has KD_PANORAMA_LEAST to KD_PANORAMA_MOST rows. volume.grid must be a grid of
- * matter around a hole of the scene's spin. */
+/* kd_scene_resolve replaces each name by the hash, checks that each hash exists, and sets the scene's grid_nodes. If an
+ * asset is missing or of the wrong kind it returns KD_EINVAL with the field's pointer, and *scene stays unchanged.
+ * sky.image must be a picture that is twice as wide as high and has KD_PANORAMA_LEAST to KD_PANORAMA_MOST rows.
+ * volume.grid must be a grid of matter around a hole of the scene's spin. */
 enum { KD_PANORAMA_LEAST = 16, KD_PANORAMA_MOST = 4096 };
 static inline bool kd_asset_is_panorama(uint32_t width, uint32_t height)
 {

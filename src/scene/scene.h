@@ -41,7 +41,8 @@ struct kd_scene {
     struct kd_scene_dynamic {
         const struct kd_dynamic_bodies *at;
         uint64_t generation;
-    } dynamic; /* moving content shown in addition to the fields (scene/dynamic_bodies.h); NULL and 0: none */
+    } dynamic;           /* moving content shown in addition to the fields (scene/dynamic_bodies.h); NULL and 0: none */
+    uint64_t grid_nodes; /* nodes of volume.grid, set by kd_scene_resolve; 0: unknown */
 };
 
 /* Sets every field to its default, which is the scene of an empty document. */

@@ -106,6 +106,7 @@ enum kd_vk_kind {
     KD_VK_TEXELS_RGBA, /* uniform textureBuffer of R32G32B32A32_SFLOAT, four floats in each texel */
     KD_VK_TEXELS_WORD, /* uniform utextureBuffer of R32_UINT, one word in each texel */
     KD_VK_TEXELS_PAIR, /* uniform utextureBuffer of R32G32_UINT, two words in each texel */
+    KD_VK_TEXELS_QUAD, /* uniform utextureBuffer of R32G32B32A32_UINT, four words in each texel */
 };
 #define KD_VK_MAX_BINDINGS 12
 #define KD_VK_MAX_STORAGE 8 /* limit of storage bindings among these; a usable device permits that many */

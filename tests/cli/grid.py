@@ -282,6 +282,13 @@ class Grid(Case):
         self.assertIn("volume: volume.grid is not set: there is no matter", told["approximations"])
         self.assertEqual(told["flux_jy"], 0)
 
+    def test_the_plan_counts_its_nodes(self):
+        device = []
+        for shape in ((48, 24), (256, 128)):
+            scene = ["-p", "torus", *self.sampled(*shape)]
+            device.append(json.loads(self.good("plan", "--size", "24x24", *scene))["bytes"]["device"])
+        self.assertEqual(device[1] - device[0], 32 * (256 * 128 - 48 * 24))
+
     def test_what_is_refused(self):
         r, theta = numpy.geomspace(2, 20, 6), (numpy.arange(4) + 0.5) * numpy.pi / 4
         good = dict(
@@ -310,6 +317,7 @@ class Grid(Case):
             (header(format="other"), 'is not of the format "kerrd-grid"'),
             (header(spin=None), "header.spin is not a number from -1 to 1"),
             (header(azimuth="?"), "header.azimuth is neither"),
+            (header(packed=1), "header.packed is neither true nor false"),
             (header(units={**UNITS, "density": "g/cm^3"}), 'header.units.density is "g/cm^3"; it must be "cm^-3"'),
             (
                 header(units={k: v for k, v in UNITS.items() if k != "b_con_r"}),
@@ -342,8 +350,21 @@ class Grid(Case):
             ({"phi": numpy.linspace(0, 6.28, 4), **round_}, "phi must cover a full turn"),
             ({"phi": numpy.arange(4) * numpy.pi / 2}, "it must have the shape (6, 4, 4) of r, theta and phi"),
             (
-                {"r": numpy.geomspace(2, 20, 4096), "theta": (numpy.arange(1024) + 0.5) * numpy.pi / 1024},
-                "is 4096 x 1024 x 1 nodes: it must be at most 2097152 in all",
+                {
+                    "r": numpy.geomspace(2, 20, 2048),
+                    "theta": (numpy.arange(1024) + 0.5) * numpy.pi / 1024,
+                    "phi": numpy.arange(64) * numpy.pi / 32,
+                },
+                "is 2048 x 1024 x 64 nodes: it must be at most 33554432 in all",
+            ),
+            (
+                {
+                    "r": numpy.geomspace(2, 20, 2048),
+                    "theta": (numpy.arange(1024) + 0.5) * numpy.pi / 1024,
+                    "phi": numpy.arange(2) * numpy.pi,
+                    **header(packed=False),
+                },
+                "header.packed is false; it must be true in a grid of more than 2097152 nodes",
             ),
         )
         for i, (changes, words) in enumerate(files):

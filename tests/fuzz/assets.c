@@ -94,7 +94,9 @@ static void check_grid(const void *data, size_t size, const struct kd_asset_abou
     CHECK(grid.rows == about->nodes[0] && grid.columns == about->nodes[1] && grid.layers == about->nodes[2] &&
               grid.spin == about->spin,
           "a grid is another one than it was looked at");
-    for (size_t i = 0; i < (size_t)grid.rows * grid.columns * grid.layers * KD_MATTER_FLOATS; i++)
+    for (int k = 0; grid.packed && k < 2; k++)
+        CHECK(isfinite(grid.least[k]) && grid.range[k] >= 0, "range %d is %g from %g", k, grid.range[k], grid.least[k]);
+    for (size_t i = 0; !grid.packed && i < (size_t)grid.rows * grid.columns * grid.layers * KD_MATTER_FLOATS; i++)
         CHECK(isfinite(grid.nodes[i]), "number %zu of node %zu is %g", i % KD_MATTER_FLOATS, i / KD_MATTER_FLOATS,
               (double)grid.nodes[i]);
     kd_matter_grid_finish(&grid);

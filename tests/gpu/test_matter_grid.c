@@ -22,7 +22,7 @@ enum { ARRAYS = 8 };
 struct numbers {
     uint32_t rows, columns, layers;
     double a, r[2];
-    bool ingoing;
+    bool ingoing, packed;
     double phi;
     double bend[2]; /* theta = y + bend sin 2y in the first and in the last row, y even from pole to pole; 0: even */
     double of[ARRAYS][MOST];
@@ -90,17 +90,18 @@ static void keep(const struct numbers *g)
 {
     static int n;
     struct kd_zip *zip;
-    char header[700];
+    char header[720];
     double line[64];
     kd_buffer_finish(&keeper.file);
     snprintf(keeper.hash, sizeof keeper.hash, "%064x", ++n);
     OK(kd_zip_create(&keeper.file, true, &zip));
     snprintf(header, sizeof header,
-             "{\"format\":\"kerrd-grid\",\"version\":1,\"spin\":%.17g,\"azimuth\":\"%s\",\"units\":{\"r\":\"M\","
+             "{\"format\":\"kerrd-grid\",\"version\":1,\"packed\":%s,\"spin\":%.17g,\"azimuth\":\"%s\",\"units\":{"
+             "\"r\":\"M\","
              "\"theta\":\"rad\",\"density\":\"cm^-3\",\"temperature\":\"K\",\"u_con_r\":\"c\","
              "\"u_con_theta\":\"c/M\",\"u_cov_phi\":\"c "
              "M\",\"b_con_r\":\"G\",\"b_con_theta\":\"G/M\",\"b_cov_phi\":\"G M\"}}",
-             g->a, g->ingoing ? "kerr-schild" : "boyer-lindquist");
+             g->packed ? "true" : "false", g->a, g->ingoing ? "kerr-schild" : "boyer-lindquist");
     add(zip, "header",
         &(struct kd_npy) {
             .fields = { { "", KD_NPY_U1, 0 } }, .n_fields = 1, .shape = { strlen(header) }, .n_dimensions = 1 },
@@ -300,6 +301,9 @@ static void test_rays(void **state)
     compare(&turning, "{" HIGH ",\"camera\":{\"inclination_deg\":75,\"azimuth_deg\":20}}", 2e-3);
     fill(&round, 2, 0.5);
     fill(&ingoing, 3, 0.5);
+    bent.packed = turning.packed = true;
+    compare(&bent, "{" HIGH ",\"volume\":{\"grid_scale\":3}}", 2e-3);
+    compare(&turning, "{" HIGH ",\"camera\":{\"inclination_deg\":75,\"azimuth_deg\":20}}", 2e-3);
     compare(&flat, "{" HIGH ",\"volume\":{\"grid_scale\":3}}", 2e-3);
     compare(&round,
             "{" HIGH ",\"camera\":{\"inclination_deg\":105,\"azimuth_deg\":40},\"volume\":{\"inner\":3,\"outer\":15}}",
@@ -331,23 +335,25 @@ static void test_adversarial(void **state)
         { 1, 0, "{\"volume\":{\"electrons\":\"power-law\"}}" },
         { 1, 0, "{\"volume\":{\"grid_scale\":1e30}}" },
     };
-    for (size_t i = 0; i < 2 * sizeof extremes / sizeof *extremes; i++) {
-        const int of = extremes[i / 2].of, last = of == 5 ? 8 : of == 2 ? 5 : of + 1;
+    for (size_t i = 0; i < 4 * sizeof extremes / sizeof *extremes; i++) {
+        const int of = extremes[i / 4].of, last = of == 5 ? 8 : of == 2 ? 5 : of + 1;
         static struct numbers g = { .rows = 6, .columns = 5, .layers = 4, .a = 0.9 };
         g.r[0] = 1, g.r[1] = 30; /* the first rows within the horizon */
         fill(&g, 7, 0.4);
         for (int k = of; k < last; k++)
             for (uint32_t n = 0; n < g.rows * g.columns * g.layers; n++)
-                g.of[k][n] *= n % 3 ? extremes[i / 2].by : extremes[i / 2].by > 0 ? 1 : 0;
+                g.of[k][n] *= n % 3 ? extremes[i / 4].by : extremes[i / 4].by > 0 ? 1 : 0;
+        g.packed = i % 4 > 1;
         keep(&g);
-        struct kd_scene scene = scene_of(0.9, extremes[i / 2].json);
+        struct kd_scene scene = scene_of(0.9, extremes[i / 4].json);
         scene.polarization.model = i % 2 ? KD_POLARIZATION_TRANSFER : KD_POLARIZATION_NONE;
         struct kd_frame frame = rendered(&scene);
         for (int p = 0; p < PIXELS; p++)
             if (!isfinite(kelvin_of(&frame)[p]) || kelvin_of(&frame)[p] < 0)
-                fail_msg("array %d by %g, %s, %s, pixel %d: %g K", of, extremes[i / 2].by, extremes[i / 2].json,
-                         i % 2 ? "polarised" : "not polarised", p, (double)kelvin_of(&frame)[p]);
-        if (extremes[i / 2].by == 0 && of == 0)
+                fail_msg("array %d by %g, %s, %s%s, pixel %d: %g K", of, extremes[i / 4].by, extremes[i / 4].json,
+                         i % 2 ? "polarised" : "not polarised", g.packed ? ", packed" : "", p,
+                         (double)kelvin_of(&frame)[p]);
+        if (extremes[i / 4].by == 0 && of == 0)
             for (int p = 0; p < PIXELS; p++)
                 assert_true(kelvin_of(&frame)[p] == 0);
         kd_frame_finish(&frame);

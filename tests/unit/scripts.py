@@ -136,6 +136,7 @@ class Scripts(unittest.TestCase):
         self.assertGreater(len(tests), 9)
         elsewhere = {
             "cli_ehtim": SCRIPTS.parent / "venv-ehtim",
+            "python_yt": SCRIPTS.parent / "venv-yt",
             "cli_xspec": SCRIPTS.parent / "venv-xspec",
             "http_balanced": pathlib.Path("/usr/sbin/haproxy"),
         }

@@ -13,6 +13,7 @@ struct own {
     struct kd_vk_buffer *nodes;
     char of[KD_ASSET_NAME]; /* hash of the asset whose grid is uploaded */
     bool there;             /* whether a grid is uploaded */
+    bool texels;            /* whether kernels read it as texels */
 };
 
 static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }
@@ -64,6 +65,17 @@ done:
     return status;
 }
 
+static enum kd_status fits(const struct kd_vk *vk, bool texels, uint64_t bytes, struct kd_error *error)
+{
+    const struct kd_vk_info *info = kd_vk_info(vk);
+    const uint64_t most = texels ? 16 * info->max_texels : info->max_binding_bytes;
+    if (bytes <= most)
+        return KD_OK;
+    return kd_error_field(error, "/volume/grid",
+                          "volume.grid needs %llu bytes in one binding; on this device it must be at most %llu",
+                          (unsigned long long)bytes, (unsigned long long)most);
+}
+
 static enum kd_status prepare(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene,
                               struct kd_error *error)
 {
@@ -81,8 +93,10 @@ static enum kd_status prepare(const struct kd_emitter_buffers_work *work, const 
     }
     own->there = false;
     KD_TRY(grid_of(work->renderer, scene, true, &grid, error));
-    const uint64_t nodes = (uint64_t)grid->rows * grid->columns * grid->layers * KD_MATTER_FLOATS * sizeof *grid->nodes,
-                   places = kd_matter_grid_places(grid) * sizeof *grid->places, bytes = nodes + places;
+    const uint64_t nodes = kd_matter_grid_bytes(grid), places = kd_matter_grid_places(grid) * sizeof *grid->places,
+                   bytes = nodes + places;
+    own->texels = kd_kernels_map_as_texels(work->vk);
+    KD_TRY(fits(work->vk, own->texels, bytes, error));
     KD_TRY(kd_emitter_buffers_at_least(work, &own->nodes, bytes, KD_VK_DEVICE, "matter on a grid", error));
     KD_TRY(kd_vk_buffer_create(work->vk, bytes, KD_VK_UPLOAD, "matter on a grid on the host", &staging, error));
     memcpy(kd_vk_buffer_map(staging), grid->nodes, nodes);
@@ -124,6 +138,13 @@ static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, 
     to->grid_per_phi = g->layers > 1 ? (float)(g->layers / g->turn) : 0;
     to->grid_fall = g->ingoing ? (float)scene->spacetime.spin : 0;
     to->grid_field = (float)log2(g->field);
+    to->grid_packed = g->packed;
+    to->grid_density = (float)g->least[0];
+    to->grid_densities = (float)g->range[0];
+    to->grid_heat = (float)g->least[1];
+    to->grid_heats = (float)g->range[1];
+    to->grid_speed = (float)g->speed;
+    to->grid_scale = (float)(1 / KD_MATTER_FIELD);
     to->inner = (float)fmin(inner, outer);
     to->outer = (float)outer;
     if (kd_scene_is_radio_alone(scene)) { /* if the grid is the only volume, the march finds its edges */
@@ -135,7 +156,8 @@ static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, 
 
 static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT])
 {
-    out[KD_OWN_plasma_grid] = ((const struct own *)own)->nodes;
+    const struct own *o = own;
+    out[o->texels ? KD_OWN_plasma_texels : KD_OWN_plasma_grid] = o->nodes;
 }
 
 static void forget(void *own) { ((struct own *)own)->there = false; }

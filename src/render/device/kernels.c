@@ -69,8 +69,17 @@
 
 enum { MAKERS = 4 }; /* threads that make kernels concurrently, at most */
 
-_Static_assert(KD_OWN_BINDING + KD_OWN_COUNT <= KD_VK_MAX_BINDINGS && 2 + KD_OWN_COUNT <= KD_VK_MAX_STORAGE,
+#define KD_STORED_words 1
+#define KD_STORED_pairs 1
+#define KD_STORED_floats 1
+#define KD_STORED_stored 1
+#define KD_STORED_quads 1
+#define KD_STORED_quad_texels 0
+#define KD_B(number, type, member) +KD_STORED_##type
+_Static_assert(KD_OWN_BINDING + KD_OWN_COUNT <= KD_VK_MAX_BINDINGS && 2 + (0 KD_EMIT_BUFFERS) <= KD_VK_MAX_STORAGE,
                "the kernels of light bind all buffers of the emitters, the lens map and what they write");
+
+#undef KD_B
 
 /* Texel type of each kind of the emitters' buffers, for kernels that read them as texels
  * (shaders/light/inputs.glsl). */
@@ -79,6 +88,13 @@ _Static_assert(KD_OWN_BINDING + KD_OWN_COUNT <= KD_VK_MAX_BINDINGS && 2 + KD_OWN
 #define KD_KIND_floats KD_VK_TEXELS_R
 #define KD_KIND_stored KD_VK_STORAGE
 #define KD_KIND_quads KD_VK_STORAGE
+#define KD_KIND_quad_texels KD_VK_TEXELS_QUAD
+/* The bindings of a kernel of light that reads what it can as storage. */
+#define STORED_KINDS \
+    { [1] = KD_VK_UNIFORM, \
+      [2] = KD_VK_TEXELS_RGBA, \
+      [4] = KD_VK_UNIFORM, \
+      [KD_OWN_BINDING + KD_OWN_plasma_texels] = KD_VK_TEXELS_QUAD }
 #define KD_B(number, type, member) [KD_OWN_BINDING + (number)] = KD_KIND_##type,
 
 static const struct kd_vk_pipeline_params sources[] = {
@@ -172,12 +188,8 @@ static const struct kd_vk_pipeline_params sources[] = {
                                        sizeof(struct kd_stars_push),
                                        { KD_VK_TEXELS_R, [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA,
                                          [5] = KD_VK_UNIFORM } },
-    [KD_KERNEL_TRANSFER] = { "transfer",
-                             kd_spv_transfer,
-                             sizeof kd_spv_transfer,
-                             KD_OWN_BINDING + KD_OWN_COUNT,
-                             sizeof(struct kd_slice),
-                             { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
+    [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, KD_OWN_BINDING + KD_OWN_COUNT,
+                             sizeof(struct kd_slice), STORED_KINDS },
     [KD_KERNEL_TRANSFER_TEXELS] = { "transfer, texels",
                                     kd_spv_transfer_texels,
                                     sizeof kd_spv_transfer_texels,
@@ -185,42 +197,18 @@ static const struct kd_vk_pipeline_params sources[] = {
                                     sizeof(struct kd_slice),
                                     { KD_VK_TEXELS_R, [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM,
                                       KD_EMIT_BUFFERS } },
-    [KD_KERNEL_TRANSFER_PROBE] = { "transfer, told",
-                                   kd_spv_transfer_probe,
-                                   sizeof kd_spv_transfer_probe,
-                                   KD_OWN_BINDING + KD_OWN_COUNT,
-                                   sizeof(struct kd_slice),
-                                   { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
-    [KD_KERNEL_MARCH_PROBE] = { "march, told",
-                                kd_spv_transfer_march_probe,
-                                sizeof kd_spv_transfer_march_probe,
-                                KD_OWN_BINDING + KD_OWN_COUNT,
-                                sizeof(struct kd_slice),
-                                { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
-    [KD_KERNEL_LAYERS] = { "layers",
-                           kd_spv_layers,
-                           sizeof kd_spv_layers,
-                           KD_OWN_BINDING + KD_OWN_COUNT,
-                           sizeof(struct kd_slice),
-                           { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
-    [KD_KERNEL_MARCH] = { "march",
-                          kd_spv_transfer_march,
-                          sizeof kd_spv_transfer_march,
-                          KD_OWN_BINDING + KD_OWN_COUNT,
-                          sizeof(struct kd_slice),
-                          { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
-    [KD_KERNEL_MARCH_PIECES] = { "march, pieces",
-                                 kd_spv_transfer_march_pieces,
-                                 sizeof kd_spv_transfer_march_pieces,
-                                 KD_OWN_BINDING + KD_OWN_COUNT,
-                                 sizeof(struct kd_slice),
-                                 { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
-    [KD_KERNEL_LAYERS_MARCH] = { "layers, march",
-                                 kd_spv_layers_march,
-                                 sizeof kd_spv_layers_march,
-                                 KD_OWN_BINDING + KD_OWN_COUNT,
-                                 sizeof(struct kd_slice),
-                                 { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
+    [KD_KERNEL_TRANSFER_PROBE] = { "transfer, told", kd_spv_transfer_probe, sizeof kd_spv_transfer_probe,
+                                   KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice), STORED_KINDS },
+    [KD_KERNEL_MARCH_PROBE] = { "march, told", kd_spv_transfer_march_probe, sizeof kd_spv_transfer_march_probe,
+                                KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice), STORED_KINDS },
+    [KD_KERNEL_LAYERS] = { "layers", kd_spv_layers, sizeof kd_spv_layers, KD_OWN_BINDING + KD_OWN_COUNT,
+                           sizeof(struct kd_slice), STORED_KINDS },
+    [KD_KERNEL_MARCH] = { "march", kd_spv_transfer_march, sizeof kd_spv_transfer_march, KD_OWN_BINDING + KD_OWN_COUNT,
+                          sizeof(struct kd_slice), STORED_KINDS },
+    [KD_KERNEL_MARCH_PIECES] = { "march, pieces", kd_spv_transfer_march_pieces, sizeof kd_spv_transfer_march_pieces,
+                                 KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice), STORED_KINDS },
+    [KD_KERNEL_LAYERS_MARCH] = { "layers, march", kd_spv_layers_march, sizeof kd_spv_layers_march,
+                                 KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice), STORED_KINDS },
     [KD_KERNEL_PHOTOMETRY] = { "photometry", kd_spv_photometry, sizeof kd_spv_photometry, 2,
                                sizeof(struct kd_light_push) },
     [KD_KERNEL_EXPOSE] = { "expose", kd_spv_expose, sizeof kd_spv_expose, 2, 8 },

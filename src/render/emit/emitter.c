@@ -45,6 +45,13 @@ void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]
     }
 }
 
+void kd_emit_as_texels(uint32_t traits[KD_EMITTER_COUNT])
+{
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (traits[i] & kd_emitters[i]->quads)
+            traits[i] |= KD_TRAIT_TEXELS;
+}
+
 uint32_t kd_emit_needs(const struct kd_scene *scene)
 {
     uint32_t needs = 0;

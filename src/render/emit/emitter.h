@@ -46,6 +46,7 @@ struct kd_emitter {
      * computed (KD_PASS_name of its GLSL file). NULL: none; if only `invocations` is NULL, the host fills the
      * buffers. */
     const struct kd_emitter_buffers *own;
+    uint32_t quads; /* traits with which it reads a buffer of quads; 0: none */
     uint64_t (*device_bytes)(const struct kd_scene *scene);
     uint64_t (*making_bytes)(
         const struct kd_scene *scene); /* the most host memory needed while the buffers are made; NULL: little */
@@ -88,6 +89,8 @@ extern const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT];
 bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter);
 /* Computes the words of the specialisation constants; 0 for emitters that the scene does not have. */
 void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]);
+/* Sets KD_TRAIT_TEXELS in the words of those that read a buffer of quads, for a device that reads it as texels. */
+void kd_emit_as_texels(uint32_t traits[KD_EMITTER_COUNT]);
 /* What the scene's emitters need: quantities of the lens map; whether there is light at crossings of the plane, at the
  * ends of rays, light with separate luminance, or light from points. */
 uint32_t kd_emit_needs(const struct kd_scene *scene);

@@ -53,6 +53,8 @@ struct kd_matter_reader {
 
 bool kd_matter_grid_is(const void *data, size_t size) { return size > 4 && !memcmp(data, "PK\3\4", 4); }
 
+static size_t nodes_of(const struct kd_matter_grid *g) { return (size_t)g->rows * g->columns * g->layers; }
+
 static const char *text_of(const cJSON *header, const char *name)
 {
     const char *text = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(header, name));
@@ -89,6 +91,11 @@ static enum kd_status check_header(struct kd_matter_grid *grid, const cJSON *hea
     grid->ingoing = !strcmp(azimuth, "kerr-schild");
     if (!grid->ingoing && strcmp(azimuth, "boyer-lindquist"))
         return kd_matter_refuse("header.azimuth", "is neither \"boyer-lindquist\" nor \"kerr-schild\"", error);
+    const cJSON *packed = cJSON_GetObjectItemCaseSensitive(header, "packed");
+    if (packed && !cJSON_IsBool(packed))
+        return kd_matter_refuse("header.packed", "is neither true nor false", error);
+    grid->packed = cJSON_IsTrue(packed);
+    grid->whole = cJSON_IsFalse(packed);
     return check_units(cJSON_GetObjectItemCaseSensitive(header, "units"), error);
 }
 
@@ -297,14 +304,16 @@ static enum kd_status take_places(struct kd_matter_reader *r, struct kd_error *e
                  g->columns, g->layers, KD_MATTER_NODES);
         KD_TRY(kd_matter_refuse("r", what, error));
     }
+    if (g->whole && nodes_of(g) > KD_MATTER_WHOLE)
+        KD_TRY(
+            kd_matter_refuse("header.packed", "is false; it must be true in a grid of more than 2097152 nodes", error));
+    g->packed |= nodes_of(g) > KD_MATTER_WHOLE;
     if ((g->rows - 1) / log(g->r[1] / g->r[0]) > FINEST)
         KD_TRY(kd_matter_refuse("r", "must have at most 1024 rows per factor e in r", error));
     KD_TRY(make_places(r, error));
 done:
     return status;
 }
-
-static size_t nodes_of(const struct kd_matter_grid *g) { return (size_t)g->rows * g->columns * g->layers; }
 
 static enum kd_status check_shape(const struct kd_matter_grid *g, const char *name, const struct kd_matter_array *a,
                                   struct kd_error *error)
@@ -437,6 +446,73 @@ static void to_logarithms(struct kd_matter_grid *g)
     }
 }
 
+/* The nearest half, for numbers within its range; infinity is cut to the largest half. */
+static uint32_t half_of(float x)
+{
+    uint32_t bits, sign;
+    memcpy(&bits, &x, 4);
+    sign = bits >> 16 & 0x8000;
+    bits &= 0x7fffffff;
+    if (bits >= 0x477ff000)
+        return sign | 0x7bff;
+    if (bits < 0x38800000) { /* a sum with 1/2 rounds to multiples of 2^-24 */
+        x = fabsf(x) + 0.5f;
+        memcpy(&bits, &x, 4);
+        return sign | (bits - 0x3f000000);
+    }
+    return sign | (bits - 0x38000000 + 0xfff + (bits >> 13 & 1)) >> 13;
+}
+
+static uint32_t part_of(double x, double least, double range)
+{
+    return range > 0 ? (uint32_t)lrint(65535 * fmin(fmax((x - least) / range, 0), 1)) : 0;
+}
+
+static void measure(struct kd_matter_grid *g)
+{
+    double most[2] = { -INFINITY, -INFINITY }, fastest = 0;
+    g->least[0] = g->least[1] = INFINITY;
+    for (size_t i = 0; i < nodes_of(g); i++) {
+        const float *n = g->nodes + KD_MATTER_FLOATS * i;
+        for (int k = 0; k < 2; k++) {
+            g->least[k] = fmin(g->least[k], n[k]);
+            most[k] = fmax(most[k], n[k]);
+        }
+        for (int k = 0; k < 3; k++)
+            fastest = fmax(fastest, fabs((double)n[VELOCITY + k]));
+    }
+    for (int k = 0; k < 2; k++)
+        g->range[k] = most[k] - g->least[k];
+    g->speed = fastest > 1024 ? fastest / 1024 : 1;
+}
+
+/* Packs the nodes in place. */
+static void pack(struct kd_matter_grid *g)
+{
+    uint32_t words[KD_MATTER_FLOATS / 2];
+    measure(g);
+    for (size_t i = 0; i < nodes_of(g); i++) {
+        const float *n = g->nodes + KD_MATTER_FLOATS * i;
+        words[0] = part_of(n[DENSITY], g->least[0], g->range[0]) | part_of(n[TEMPERATURE], g->least[1], g->range[1])
+                                                                       << 16;
+        for (int k = 0; k < 6; k += 2) {
+            uint32_t halves[2];
+            for (int m = 0; m < 2; m++)
+                halves[m] = half_of(
+                    (float)(k + m < 3 ? n[VELOCITY + k + m] / g->speed : n[VELOCITY + k + m] * KD_MATTER_FIELD));
+            words[1 + k / 2] = halves[0] | halves[1] << 16;
+        }
+        memcpy(g->nodes + (KD_MATTER_FLOATS / 2) * i, words, sizeof words);
+    }
+    float *less = realloc(g->nodes, kd_matter_grid_bytes(g));
+    g->nodes = less ? less : g->nodes;
+}
+
+size_t kd_matter_grid_bytes(const struct kd_matter_grid *g)
+{
+    return nodes_of(g) * KD_MATTER_FLOATS * sizeof *g->nodes / (g->packed ? 2 : 1);
+}
+
 enum kd_status kd_matter_reader_open(const void *data, size_t size, bool look, struct kd_matter_reader **out,
                                      struct kd_error *error)
 {
@@ -517,6 +593,8 @@ enum kd_status kd_matter_reader_go_on(struct kd_matter_reader *r, double until_m
     if (*over && !r->look) {
         over_sine(r);
         to_logarithms(&r->grid);
+        if (r->grid.packed)
+            pack(&r->grid);
     }
 done:
     return status;

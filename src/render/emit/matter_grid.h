@@ -2,12 +2,14 @@
  * describes the file. Pure, any thread.
  *
  *   header        JSON: {"format": "kerrd-grid", "version": 1, "spin": a, "azimuth": "boyer-lindquist" or
- *                 "kerr-schild", "units": {array: unit}}
- *   r theta phi   coordinates of rows, columns and layers. r is evenly spaced in log r, and phi in phi. theta is that
- * of each column, or, of the shape (rows, columns), that of each node. phi covers one turn or a whole fraction of it,
- * and may be missing density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi arrays of the
- * shape (rows, columns) or (rows, columns, layers) u_con_t       optional; if present, the velocity must be a unit
- * vector
+ *                 "kerr-schild", "units": {array: unit}, and optionally "packed": true or false; true in a grid of
+ *                 more than 2^21 nodes}
+ *   r theta phi   coordinates of rows, columns and layers. r is evenly spaced in log r, and phi in phi. theta is
+ *                 that of each column, or, of the shape (rows, columns), that of each node. phi covers one turn or
+ *                 a whole fraction of it, and may be missing
+ *   density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi
+ *                 arrays of the shape (rows, columns) or (rows, columns, layers)
+ *   u_con_t       optional; if present, the velocity must be a unit vector
  *
  * Components are in Boyer-Lindquist coordinates (con: contravariant, cov: covariant), namely those that are finite at
  * the horizon. u^t follows from the norm. b is the field in the frame of the matter, so b^t follows from b.u = 0. */
@@ -23,8 +25,9 @@
 
 enum {
     KD_MATTER_SIDE = 4096,     /* limit for rows, columns and layers */
-    KD_MATTER_NODES = 1 << 21, /* limit for nodes: 256 x 128 x 64 */
-    KD_MATTER_FLOATS = 8,      /* floats a node */
+    KD_MATTER_NODES = 1 << 25, /* limit for nodes: 512 x 256 x 256 */
+    KD_MATTER_WHOLE = 1 << 21, /* grids of more nodes are packed */
+    KD_MATTER_FLOATS = 8,      /* floats a node, words of a packed one are half as many */
     KD_MATTER_PLACES = 1 << 20 /* limit for the cells of `places`, of four floats each */
 };
 #define KD_MATTER_TYPE "application/x-npz"
@@ -42,12 +45,18 @@ struct kd_matter_grid {
      * sin^2 theta), then b^r, r b^theta and b_phi/(r sin^2 theta), each divided by `field`. These numbers vary
      * little from node to node and are finite on the axis. */
     float *nodes;
+    /* Packed nodes are four words: density and Theta as parts of their ranges in 16 bits, then six halves in the order
+     * above, u over `speed` and b times KD_MATTER_FIELD. least, range: of log2 of density and Theta. */
+    bool packed, whole; /* whole: the file asks for nodes that are not packed */
+    double least[2], range[2], speed;
     /* Where columns are not even: the column at theta as a number with a fraction, bilinear between the numbers of a
      * table of `steps` cells in theta from 0 to pi, for each two rows next to each other, or one for all. A cell has
      * four floats: at its begin and its end in the one row, and in the next. NULL: the columns are even. */
     float *places;
     uint32_t steps, place_rows;
 };
+
+#define KD_MATTER_FIELD 16384.0 /* the largest half of a component of the field: smaller ones keep their 11 bits */
 
 /* Whether bytes begin as an NPZ file does. */
 bool kd_matter_grid_is(const void *data, size_t size);
@@ -56,6 +65,8 @@ enum kd_status kd_matter_grid_read(const void *data, size_t size, struct kd_matt
 /* As kd_matter_grid_read, but returns only the numbers of nodes in r, theta and phi, and the spin. */
 enum kd_status kd_matter_grid_look(const void *data, size_t size, uint32_t nodes[3], double *spin,
                                    struct kd_error *error);
+/* Bytes of the nodes on the device. */
+size_t kd_matter_grid_bytes(const struct kd_matter_grid *grid);
 void kd_matter_grid_told(const struct kd_matter_grid *grid, uint32_t nodes[3], double *spin);
 size_t kd_matter_grid_places(const struct kd_matter_grid *grid); /* floats of `places`; 0: the columns are even */
 void kd_matter_grid_finish(struct kd_matter_grid *grid);

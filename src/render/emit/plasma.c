@@ -72,18 +72,31 @@ static double knot(const struct kd_scene *scene)
 static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }
 static bool has_no_grid(const struct kd_scene *scene) { return is_grid(scene) && !*scene->volume.grid; }
 
-/* The scene does not contain the grid's size, so the size of the largest possible grid is assumed. The host also holds
- * the grid's file and its arrays. */
+/* Nodes of the scene's grid; if its file has not been found yet, as many as are not packed. */
+static uint64_t nodes_of(const struct kd_scene *scene)
+{
+    return scene->grid_nodes ? scene->grid_nodes : KD_MATTER_WHOLE;
+}
+
+static bool is_packed(const struct kd_scene *scene) { return nodes_of(scene) > KD_MATTER_WHOLE; }
+static uint64_t node_bytes(const struct kd_scene *scene)
+{
+    return KD_MATTER_FLOATS * sizeof(float) / (is_packed(scene) ? 2 : 1);
+}
+
+/* Host memory: the nodes before they are packed and one array of the file; if they are not packed, the file's arrays
+ * and the upload as well. */
 static uint64_t device_bytes(const struct kd_scene *scene)
 {
     return has_no_grid(scene) ? 4 * KD_MATTER_FLOATS * sizeof(float)
-           : is_grid(scene)   ? ((uint64_t)KD_MATTER_NODES * KD_MATTER_FLOATS + KD_MATTER_PLACES * 4) * sizeof(float)
+           : is_grid(scene)   ? nodes_of(scene) * node_bytes(scene) + KD_MATTER_PLACES * 4 * sizeof(float)
                               : 0;
 }
 static uint64_t making_bytes(const struct kd_scene *scene)
 {
     return is_grid(scene) && *scene->volume.grid
-               ? (uint64_t)KD_MATTER_NODES * (2 * KD_MATTER_FLOATS * sizeof(float) + 3 * sizeof(double)) +
+               ? nodes_of(scene) * (is_packed(scene) ? KD_MATTER_FLOATS * sizeof(float) + sizeof(double)
+                                                     : 2 * KD_MATTER_FLOATS * sizeof(float) + 3 * sizeof(double)) +
                      (uint64_t)KD_MATTER_PLACES * 8 * sizeof(float)
                : 0;
 } /* the grid's numbers as read, and as uploaded */
@@ -272,6 +285,7 @@ const struct kd_emitter kd_emit_plasma = {
     .traits = traits,
     .varies = varies,
     .own = &kd_emitter_buffers_plasma,
+    .quads = KD_TRAIT_PLASMA_GRID,
     .device_bytes = device_bytes,
     .making_bytes = making_bytes,
     .reach = reach,

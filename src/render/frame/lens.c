@@ -128,6 +128,8 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
     if (makes >= 0 && p->picture.layers[makes].order >= 0)
         spec.ORDER = (uint32_t)p->picture.layers[makes].order;
     memcpy(spec.traits, p->light.traits, sizeof spec.traits);
+    if (kd_kernels_map_as_texels(j->r->vk))
+        kd_emit_as_texels(spec.traits);
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
