@@ -288,7 +288,7 @@ def look(server, seconds, at_least=3, source="127.0.0.2", size=SIZE, session=Tru
         assert answer.status == 200, answer.status
 
     with concurrent.futures.ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
-        pool.submit(os.getpid).result()  # the frame exists already
+        pool.submit(os.getpid).result()  # starts the process before the measurement begins
         begun, frames = time.monotonic(), viewer.counts.get("own: 200", 0)
         health = pool.submit(look_at_health, server.port, source, seconds, at_least)
         # on a busy machine a session may show no frame within so few seconds

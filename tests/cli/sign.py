@@ -53,10 +53,7 @@ class Sign(Case):
                     ]
                     self.assertEqual(
                         pairs[-1],
-                        (
-                            "signature",
-                            hmac.new(KEY.encode(), "\n".join(lines).encode(), hashlib.sha256).hexdigest(),
-                        ),
+                        ("signature", hmac.new(KEY.encode(), "\n".join(lines).encode(), hashlib.sha256).hexdigest()),
                     )
                     self.assertEqual(dict(pairs).get("budget_ms"), "1500" if budget else None)
 
@@ -72,7 +69,21 @@ class Sign(Case):
         ):
             _, pairs = self.parts(self.sign(RENDER, expires=text))
             self.assertEqual(int(dict(pairs)["expires"]), then.timestamp())
-        for text in ("", "d", "-1d", "0h", "30", "30s", "inf d", "nanh", "11000d", "2020-01-01", "2027-13-01", "1e9d", "x"):
+        for text in (
+            "",
+            "d",
+            "-1d",
+            "0h",
+            "30",
+            "30s",
+            "inf d",
+            "nanh",
+            "11000d",
+            "2020-01-01",
+            "2027-13-01",
+            "1e9d",
+            "x",
+        ):
             self.refused("--expires is", "-T", self.tokens, "-k", "website", "-e", text)
 
     def test_what_is_missing(self):

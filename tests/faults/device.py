@@ -119,7 +119,7 @@ class Drawing:
             *wrap,
             "env",
             *(f"{name}={value}" for name, value in self.faults.environment().items()),
-        ]  # allocations of kerrd alone
+        ]  # set after `wrap`, so that only allocations of kerrd fail
         return subprocess.run(
             [*wrap, daemon.COMMAND[0], "render", *DRAW, *(options or ("-o", self.out))],
             stderr=subprocess.PIPE,

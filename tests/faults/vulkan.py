@@ -383,7 +383,7 @@ def live(server, scenario, faults, fault, same):
 
 
 def to_its_end(server, scenario, faults, fault, same):
-    """The same for a fault until the server has stopped."""
+    """As live(), for a fault that may also happen while the server stops."""
     try:
         outcome, got = live(server, scenario, faults, fault, same)
         code = stop(server)

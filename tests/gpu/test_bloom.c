@@ -4,9 +4,10 @@
 
 #include <math.h>
 
-static bool all_round; /* pictures of all directions */
+static bool all_round; /* whether the pictures show all directions */
 
-/* Shows the light as pixels of 16 bits, proportional to it. rows: of a band, 0: as many as there are. */
+/* Shows the light as pixels of 16 bits, proportional to it. rows: the number of rows in a band; 0: as many as there
+ * are. */
 static void show(int width, int height, double bloom, int rows, uint16_t *out)
 {
     struct kd_scene scene;
@@ -294,7 +295,7 @@ static void over_the_seam(void **state)
         int width, height, most;
     } sizes[] = {
         { 384, 192, 2 }, { 640, 320, 2 }, { 638, 360, 100 }, { 250, 300, 100 }
-    }; /* half a turn is not a whole number of coarse cells of the latter */
+    }; /* in the last two sizes half a turn is not a whole number of coarse cells */
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         const int w = sizes[s].width, h = sizes[s].height;
         int worst = 0, differ = 0;

@@ -85,7 +85,8 @@ static void same(const struct answers *a, const struct answers *b)
                             (size_t)x->width * x->height * (kd_frame_bit_depth(x) == 16 ? 6 : 3));
         assert_true(x->light.measured == y->light.measured);
         if (x->light.measured)
-            assert_true(fabs(x->light.all.flux / y->light.all.flux - 1) < 1e-6); /* summed in another order */
+            assert_true(fabs(x->light.all.flux / y->light.all.flux - 1) <
+                        1e-6); /* the light is summed in another order */
     }
     assert_memory_equal(a->crossings, b->crossings, sizeof a->crossings);
     assert_memory_equal(a->ends, b->ends, sizeof a->ends);
@@ -192,7 +193,7 @@ static void test_heap(void **state)
     fake_device_off();
 }
 
-/* Only what other programs leave of a large heap counts. */
+/* Of a large heap only the part that other programs leave free counts. */
 static void test_budget(void **state)
 {
     (void)state;

@@ -47,11 +47,11 @@ static void noted_kernels_are_made_once(void **state)
             assert_ptr_not_equal(all[i], all[k]);
     assert_int_equal(made(), before + 3);
     kd_kernels_note(&renderer->kernels);
-    kd_kernels_make(&renderer->kernels, renderer->vk); /* nothing */
+    kd_kernels_make(&renderer->kernels, renderer->vk); /* no kernel is missing */
     assert_int_equal(made(), before + 3);
 }
 
-/* More are requested than can be recorded: the others are compiled when they are used. */
+/* More kernels are requested than can be recorded. The others are compiled when they are used. */
 static void what_cannot_be_made_is_told_later(void **state)
 {
     (void)state;

@@ -41,7 +41,8 @@ static struct ks_photon photon_of(const struct kd_scene *scene, int i)
                : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, false, k);
 }
 
-/* A uniform shell for the oracle; with its shift, for observers of zero angular momentum from the metric. */
+/* The medium of a uniform shell, for the oracle. Its frequency shift is that of observers of zero angular momentum, by
+ * the metric. */
 static void shell(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     const struct kd_scene *scene = user;
@@ -289,7 +290,7 @@ static void test_no_bands(void **state)
         printf("%s: %d rows, worst %.2g of their own light; %d rays left out\n", stirred ? "stirred" : "smooth",
                compared, worst, left_out / 2);
         assert_true(compared == ROWS && worst < 0.005 &&
-                    left_out / 2 < ROWS * COLUMNS / 4); /* lavapipe stops so long a march: 832 of 4096 rays */
+                    left_out / 2 < ROWS * COLUMNS / 4); /* lavapipe stops so long a march on 832 of 4096 rays */
         kd_frame_finish(&plain);
         kd_frame_finish(&fine);
     }

@@ -205,7 +205,7 @@ struct view {
     const struct numbers *g;
 };
 
-/* For a metric whose only off-diagonal component is g_tphi. */
+/* The product x.y in a metric whose only off-diagonal component is g_tphi. */
 static double product(const double g[5], const double x[4], const double y[4])
 {
     return g[0] * x[0] * y[0] + g[1] * x[1] * y[1] + g[2] * x[2] * y[2] + g[3] * x[3] * y[3] +

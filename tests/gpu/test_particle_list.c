@@ -128,8 +128,8 @@ static void test_falling(void **state)
     }
 }
 
-/* The guiding orbit by physics/orbit/timelike.c: on it rates and constants belong to one orbit, about it to first
- * order: the rest falls as the square of the epicycles. */
+/* On the guiding orbit, computed by physics/orbit/timelike.c, the rates and constants belong to one orbit. With
+ * epicycles they do to first order: the difference falls as the square of the epicycles. */
 static void test_constants(void **state)
 {
     (void)state;

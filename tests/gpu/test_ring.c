@@ -42,7 +42,7 @@ static void rows_and_columns(void **state)
     }
 }
 
-/* w of each crossing, alpha. */
+/* Traces the lens map of a ring picture: planes of w of each crossing, and one of alpha. */
 static float *trace(const struct kd_scene *scene, struct kd_plan *plan)
 {
     const struct kd_needs needs = { .quantities = KD_LENS_W };

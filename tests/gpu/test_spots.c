@@ -416,7 +416,8 @@ static void test_seams(void **state)
     same_light(&aimed.spots, &first.spots, 2e-3, "aimed elsewhere, near");
 }
 
-/* The same at any resolution, in bands, with several rays a pixel; and bit for bit when rendered again. */
+/* The light is the same at any resolution, in bands, and with several rays a pixel. It is the same bit for bit when it
+ * is rendered again. */
 static void test_resolution(void **state)
 {
     (void)state;

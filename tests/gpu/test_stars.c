@@ -153,8 +153,8 @@ static void compare(struct kd_scene *scene, double x, double y, double *worst_li
     kd_frame_finish(&frame);
 }
 
-/* At several places of the picture, the last ones next to the critical curve of the primary image, where light
- * diverges. */
+/* Compares images at several places of the picture. The last ones are next to the critical curve of the primary image,
+ * where light diverges. */
 static void by_rays(double spin, double inclination, double *worst_light, double *worst_place)
 {
     struct kd_scene scene = scene_of(spin, inclination);
@@ -163,8 +163,8 @@ static void by_rays(double spin, double inclination, double *worst_light, double
         compare(&scene, 0.5 * (WIDTH - 1) + rho * cos(angle) / step, 0.5 * (HEIGHT - 1) - rho * sin(angle) / step,
                 worst_light, worst_place);
     }
-    /* where the picture's rays and those of the rim share an image's light, and on either side; once more where the
-     * curve is so large in the picture that its rim is wide */
+    /* The places are where the picture's rays and those of the rim share an image's light, and on either side. The
+     * second half uses a field of view in which the curve is so large that its rim is wide. */
     const double wide = step;
     for (int k = 0; k < 24; k++) {
         struct kd_rim rim;
@@ -306,8 +306,8 @@ static void round_the_hole(void **state)
     behind(betas, sizeof betas / sizeof *betas, 1);
 }
 
-/* A small picture of a place next to the curve, at a distance from the middle of a plane perpendicular to the inward
- * direction; `angle` from the right. */
+/* A small picture of a place next to the curve. The place is at the distance rho from the middle of a plane
+ * perpendicular to the inward direction, at `angle` from the right. */
 enum { CLOSE_WIDTH = 160, CLOSE_HEIGHT = 91 };
 #define CLOSE_FIELD 1.6
 struct close { double rho, angle; };

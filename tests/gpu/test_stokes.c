@@ -400,9 +400,9 @@ static void one_electron(double x, double out[3])
     }
 }
 
-/* Integrals of those over all energies, and of absorption, by -d(n/gamma^2)/dgamma; and rotativities of a mixture of
- * thermal electrons with 1/Theta = lambda/(kappa w), whose weights are lambda^kappa exp(-lambda): a kappa
- * distribution is the Laplace transform of that. */
+/* Integrals of these over all energies, and of absorption, which goes as -d(n/gamma^2)/dgamma. A kappa distribution is
+ * the Laplace transform of lambda^kappa exp(-lambda). So its rotativities are those of a mixture of thermal electrons
+ * with 1/Theta = lambda/(kappa w) and these weights. */
 static struct coefficients kappa_integrals(double kappa, double w, double turn, double s, double c, double nu)
 {
     struct coefficients o = { 0 };

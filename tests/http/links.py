@@ -131,7 +131,9 @@ class Links(access.Access):
         for one in (link.replace("a%20b", "a+b"), link.replace("spin", "%73pin"), link.replace("physics", "ph%79sics")):
             # the signature is right, and the quantity refuses the parameter
             self.assertProblem(self.ask("GET", one), 422)
-        self.assertEqual(self.ask("GET", signed(target)).status, self.ask("GET", target, None, access.own(access.VIEW)).status)
+        self.assertEqual(
+            self.ask("GET", signed(target)).status, self.ask("GET", target, None, access.own(access.VIEW)).status
+        )
 
     def test_what_is_malformed(self):
         link = signed(RENDER)
@@ -191,7 +193,7 @@ class Links(access.Access):
                 self.assertTrue(age - 300 <= one <= age, said)
 
     def test_the_page_of_a_shared_scene(self):
-        """All that the page shows works for whom the link was made."""
+        """All that the page shows works for the visitor for whom the link was made."""
         page = self.works(signed(f"/s/{CODE}"))
         head = Head(page.body.decode()).found
         base = "http://localhost"

@@ -174,9 +174,7 @@ class Routes(daemon.Case):
                 continue  # a picture or a film
             others = {
                 posixpath.normpath(posixpath.join(posixpath.dirname(name), other))
-                for other in re.findall(
-                    r"""(?:from ?|import ?\(?|new URL\()['"]([\w./-]+)['"]""", text.body.decode()
-                )
+                for other in re.findall(r"""(?:from ?|import ?\(?|new URL\()['"]([\w./-]+)['"]""", text.body.decode())
             }
             loaded.extend(other for other in others if "." in other and other not in seen)
         self.assertIn("web/views/playground/plane.js", seen)
@@ -196,7 +194,7 @@ class Routes(daemon.Case):
         self.assertEqual(self.daemon.get("/v1/presets/m87-EHT").status, 404)
 
     def test_a_small_picture_of_a_preset(self):
-        """It is rendered only once, however many clients request it at the same time, and then stored."""
+        """The picture is rendered only once, however many clients request it at the same time, and then stored."""
         before = self.settled()["kerrd_thumbnails_rendered_total"]
         with concurrent.futures.ThreadPoolExecutor(8) as many:
             answers = list(
@@ -227,8 +225,8 @@ class Routes(daemon.Case):
         self.assertEqual(self.daemon.get("/v1/presets/edge-on/thumbnail.png?width=9").status, 422)
 
     def test_small_pictures_are_kept_for_later_servers(self):
-        """They are stored in the folder of the device's files. A damaged file, or one of something else, is rendered
-        anew."""
+        """Small pictures are stored in the folder of the device's files. A damaged file, or one of something else, is
+        rendered anew."""
         target = "/v1/presets/edge-on/thumbnail.png"
 
         def ask():

@@ -303,8 +303,8 @@ static void what_cannot_be_mended_costs_no_resolution(void **state)
         }
 }
 
-/* But the part of the time that depends on the picture's size is limited to the larger of half the target and a quarter
- * of the fixed part. */
+/* The part of the time that depends on the picture's size is limited to the larger of half the target and a quarter of
+ * the fixed part. */
 static void what_can_be_mended_is(void **state)
 {
     (void)state;
@@ -400,12 +400,12 @@ static void what_only_rings_keeps_its_size(void **state)
             run(&s, before == 1 ? PLAY : DRAG, 5000);
         else
             change(&s, true);
-        s.now += before < 3 ? 3000 : 0; /* otherwise at the very end of a drag */
+        s.now += before < 3 ? 3000 : 0; /* in the last round the change comes at the very end of a drag */
         while (before < 3 && frame(&s))
             s.now += 200;
         assert_true(s.last.final == (before < 3));
         s.asked.motion.time_rate = 8;
-        change(&s, false); /* the picture does not depend on it */
+        change(&s, false); /* the picture does not change with time */
         assert_true(kd_governor_decide(&s.governor, s.now).wait_ms > 0);
         s.asked.style.ringdown = 1;
         for (int i = 0; i < 200; i++) {
@@ -415,13 +415,13 @@ static void what_only_rings_keeps_its_size(void **state)
             assert_true(s.last.scale == 1);
         }
         assert_int_equal(s.last.samples, 1);
-        s.asked.top.time = 1e4; /* faded */
+        s.asked.top.time = 1e4; /* the ringing has faded */
         change(&s, false);
         s.now += 200;
         while (frame(&s))
             s.now += 200;
         assert_true(s.last.final);
-        s.asked.disk.model = KD_DISK_PARTICLES; /* which moves */
+        s.asked.disk.model = KD_DISK_PARTICLES; /* particles move */
         run(&s, PLAY, 5000);
         assert_true(s.last.scale < 1);
     }
@@ -860,7 +860,7 @@ static void a_drag_has_fewer_rays_at_the_curve(void **state)
     }
 }
 
-/* Frames of an earlier rung or ladder, and invalid times. */
+/* Neither frames of an earlier rung or ladder nor invalid times are counted. */
 static void what_measures_nothing_is_not_counted(void **state)
 {
     (void)state;
@@ -950,7 +950,7 @@ static void what_stays_at_any_size_is_learned(void **state)
 {
     (void)state;
     static const enum pattern patterns[] = { PLAY, DRAG };
-    static const double least[] = { 0.5, 0.375 }; /* of 640 x 360: 18 ms, and 24 with a lens map */
+    static const double least[] = { 0.5, 0.375 }; /* of 640 x 360: 18 ms, or 24 with a new lens map */
     for (int k = 0; k < 2; k++) {
         struct simulation s;
         begin(&s, kd_governor_params(), 640, 360, (struct truth) { 0 });

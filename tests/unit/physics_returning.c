@@ -234,11 +234,11 @@ static void light_of_a_ring_goes_where_followed_rays_go(void **state)
 }
 
 enum { BINS = 8, RINGS = 24 };
-/* Light of the whole disk of Page & Thorne: shares of its luminosity, and what rings inside r = r_isco/s^2 receive,
- * s = 1/8, 2/8 ...: energy in the gas's frame, and the angular momentum that it lacks. */
+/* Light of the whole disk of Page & Thorne: shares of its luminosity, and what the rings inside r = r_isco/s^2 receive,
+ * for s = 1/8, 2/8, ...: energy in the gas's frame, and the angular momentum that it lacks. */
 struct sums {
     struct kd_returning_shares shares;
-    double energy[BINS], deficit[BINS], momentum; /* the last: L of the gas times the energy, of all */
+    double energy[BINS], deficit[BINS], momentum; /* momentum: L of the gas times the energy, summed over all rings */
 };
 
 static double area(const struct kd_hole *hole, double isco, double s) /* 4 pi r dr over the efficiency, by s */

@@ -70,7 +70,7 @@ static void the_tide_across_the_star(void **state)
         struct kd_tidal t = { ratio, 1, 1e5 };
         double r = kd_tidal_radius(t);
         close_to("spread", kd_tidal_energy_spread(t), t.hole / (r - t.radius) - t.hole / r, 1.2 * t.radius / r + 1e-11);
-        /* and at r_t the tide equals the star's own gravity */
+        /* at r_t the tide equals the star's own gravity */
         close_to("r_t", t.hole * t.radius / (r * r * r), t.mass / (t.radius * t.radius), 1e-14);
     }
 }

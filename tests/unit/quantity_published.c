@@ -171,11 +171,9 @@ static void face_on(void **state)
               -ASK("redshift", "beta", "inclination_deg=70", "phi_deg=200"), 1e-11);
 }
 
-/* From rest at r: sqrt(r^3/2) (eta + sin eta)/2 with the radius r cos^2(eta/2) (Misner, Thorne & Wheeler 1973, eq.
- * 31.10); pi/2 sqrt(r^3/2) in all. */
-/* The azimuth that rain from r covers until the inner horizon: in the coordinates of C. Doran 2000, eq. 16 and 18,
- * it is constant, and they differ from ingoing Kerr-Schild azimuth by the integral of -a/((r^2 + a^2) (1 + (2r/(r^2
- * + a^2))^(1/2))) dr; by Simpson's rule. */
+/* The azimuth that rain from r covers until the inner horizon, by Simpson's rule. In the coordinates of C. Doran 2000,
+ * eq. 16 and 18, it is constant. They differ from ingoing Kerr-Schild azimuth by the integral of -a/((r^2 + a^2) (1 +
+ * (2r/(r^2 + a^2))^(1/2))) dr. */
 static double rain_turns(double a, double r)
 {
     enum { PARTS = 2000 };
@@ -187,6 +185,8 @@ static double rain_turns(double a, double r)
     return -sum * step / 3;
 }
 
+/* The proper time of a fall from rest at r to the radius r cos^2(eta/2) is sqrt(r^3/2) (eta + sin eta)/2 (Misner,
+ * Thorne & Wheeler 1973, eq. 31.10), in all pi/2 sqrt(r^3/2). */
 static void fall(void **state)
 {
     (void)state;

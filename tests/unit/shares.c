@@ -191,7 +191,7 @@ static void a_picture_beside_living_sessions(void **state)
     assert_true(worst <= 300 && live_worst <= 200);
 }
 
-/* Within one client and class short works go before long ones, but not for ever. */
+/* Within one client and class, short pieces of work go before long ones, but not for ever. */
 static void short_first(void **state)
 {
     (void)state;

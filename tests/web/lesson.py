@@ -148,7 +148,7 @@ class Lesson(Browser):
         self.assertEqual(tongues(english), 4 * [None])
 
     def test_a_picture_at_rest_is_small(self):
-        """Thirty pupils would else fetch a megabyte each whenever the picture rests."""
+        """Otherwise thirty pupils would fetch a megabyte each whenever the picture rests."""
         teacher = self.teach("lang=en&preset=gas&pause=1")
         pupil, came = self.page(self.context(locale="en-US")), []
         pupil.on("response", lambda r: "last=" in r.url and r.status == 200 and came.append(r))

@@ -14,7 +14,7 @@ class Living(Browser):
     def test_a_scene_that_goes_on(self):
         page = self.open(
             "lang=en&sky.model=grid&motion.azimuth_rate_deg=30", "#stage[data-final]"
-        )  # the picture may never be at rest
+        )  # not AT_REST, because the picture might never come to rest
         seen = set()
         self.assertTrue(daemon.eventually(lambda: seen.add(self.pixels(page)) or len(seen) > 5))
         self.there(page, "pictures a second", "#exactly-words", text=True)
