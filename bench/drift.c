@@ -114,7 +114,8 @@ static void flow_mino(const struct orbit *o, const double *y, double *d)
 static void integrals_mino(const struct orbit *o, const double *y, double *invariant, double *carter)
 {
     double w = y[0], u = y[1], r = 1 / w, a = o->a, second = power2(o) - o->momentum * o->momentum;
-    double swing = y[3] * y[3] - o->carter - u * u * (second - o->carter - power2(o) * u * u); /* of the latitude */
+    double swing =
+        y[3] * y[3] - o->carter - u * u * (second - o->carter - power2(o) * u * u); /* the error of u'^2 = U(u) */
     double fall = r * r * r * r * (y[2] * y[2] - radial(o, w));
     *invariant = (fall / (r * (r - 2) + a * a) + swing / (1 - u * u)) / (r * r + a * a * u * u);
     *carter = o->carter + swing / (1 - u * u);

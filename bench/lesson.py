@@ -85,7 +85,7 @@ class Pupil(threading.Thread):
 
 
 def drag(line, session, seconds):
-    """(time of the change, its revision) of changes of the inclination."""
+    """Changes the inclination again and again; returns (time of the change, its revision) of each."""
     changes, begun = [], time.monotonic()
     while (now := time.monotonic() - begun) < seconds:
         angle = 75 + 10 * ((now / 4) % 2 if (now / 4) % 2 < 1 else 2 - (now / 4) % 2)

@@ -124,8 +124,8 @@ static void convolve(const double *in, double *out, int width, int height, doubl
         }
 }
 
-/* Splines of one width each approximate Gaussians of their variance: to 4 % of the largest brightness spread, of
- * which the narrowest has about a third, and nowhere with another sign. White light on black. */
+/* White light on black. The splines of each width approximate a Gaussian of their variance, to 4 % of the largest
+ * brightness that is spread. The narrowest has about a third of this brightness. No difference has another sign. */
 static void widths(void **state)
 {
     (void)state;

@@ -468,7 +468,7 @@ static void test_lit(void **state)
                                                                          .temperature_k = 5000,
                                                                          .albedo = 0.5 },
                                                 1);
-        /* Weakly bent: a first guess of its place is enough, since the picture is wide. */
+        /* Light is bent only weakly, so a first guess of the image's place is enough for this wide picture. */
         double image[2] = { at[1], sin(i) * at[2] - cos(i) * at[0] };
         const double ahead = sin(i) * at[0] + cos(i) * at[2], impact = hypot(image[0], image[1]),
                      more = ahead < 0 ? 4 * -ahead / impact / impact : 0;
@@ -485,7 +485,7 @@ static void test_lit(void **state)
             sum += layer_of(&frame, "intensity")[p];
             if (x * x + y * y < 1)
                 want += 0.5 / M_PI * falls_on(&scene, at, normal) *
-                        pow(1 - 2 / r, 2); /* the factor of its own redshift: the fourth power of the square root */
+                        pow(1 - 2 / r, 2); /* the body's own redshift: the fourth power of sqrt(1 - 2/r) */
         }
         printf("polar angle %g: %.4g of light, %.4g by the whole integral, brightest %.2g\n", polar[k], sum, want,
                most);

@@ -114,7 +114,7 @@ static void answer_as(const struct fake_device *device)
     forget(&answers);
 }
 
-/* Fewer workgroups than a picture has blocks of pixels, also if everything fits one binding. */
+/* The device has fewer workgroups than a picture has blocks of pixels, even if everything fits one binding. */
 static void test_groups(void **state)
 {
     (void)state;
@@ -134,7 +134,7 @@ static void test_binding(void **state)
     answer_as(&(struct fake_device) { .binding = 700000 });
 }
 
-/* Fewer texels than a band has: kernels then read storage. */
+/* The device has fewer texels than a band, so kernels read storage. */
 static void test_texels(void **state)
 {
     (void)state;

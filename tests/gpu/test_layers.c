@@ -301,7 +301,7 @@ static void test_temperature(void **state)
     }
 }
 
-/* x.y of covariant components in the plane, without those along r and theta: by the inverse metric. */
+/* The product x.y of vectors in the plane, from their covariant components along t and phi, by the inverse metric. */
 static double product(double a, double r, double x_t, double x_phi, double y_t, double y_phi)
 {
     double delta = r * r - 2 * r + a * a;
@@ -484,7 +484,7 @@ static void test_ends_beyond(void **state)
     }
 }
 
-/* Every layer, whatever its numbers, gives a picture with a legend, also for a hole without spin. */
+/* The numbers of a layer of the frame, which must exist. */
 static const float *numbers_of(const struct kd_frame *frame, const char *name)
 {
     const struct kd_layer *layer = kd_frame_layer(frame, name);

@@ -262,8 +262,8 @@ static double row_of(const struct kd_frame *frame, const struct kd_frame *other,
     return sum / COLUMNS;
 }
 
-/* Edge-on there are no bands: the vertical profile is that of a march with 16 times as many steps, row by row,
- * relative to the row's own light. */
+/* Seen edge-on there are no bands. The vertical profile agrees, row by row, with that of a march with 16 times as many
+ * steps. Differences are relative to the row's own light. */
 static void test_no_bands(void **state)
 {
     (void)state;

@@ -70,7 +70,7 @@ static double theta_of(const struct numbers *g, double row, double column)
     return y + bend * sin(2 * y);
 }
 
-/* theta: a line if all rows have the same, else a row for each. */
+/* Adds theta: one line if all rows have the same angles, otherwise a line for each row. */
 static void add_angles(struct kd_zip *zip, const struct numbers *g)
 {
     double theta[MOST];
@@ -282,7 +282,7 @@ static void compare(const struct numbers *g, const char *json, double allowed)
 
 #define HIGH "\"accuracy\":{\"profile\":\"high\"}"
 
-/* Errors come from the oracle's own steps, which do not end at the cells' edges either, and from single precision. */
+/* The errors come from single precision and from the oracle's own steps, which do not end at the edges of cells. */
 static void test_rays(void **state)
 {
     (void)state;

@@ -57,7 +57,7 @@ static struct kd_particle_orbit orbit_of(const struct kd_scene *scene, const str
     return kd_particle_orbit(scene, grid->radii, kd_particle_guide(grid, 3 + 29 * (uint32_t)row));
 }
 
-/* On circles: the azimuth after 1e4 M, and its place in space. */
+/* Particles on circles: the azimuth after 1e4 M, and the place in space. */
 static void test_phase(void **state)
 {
     (void)state;

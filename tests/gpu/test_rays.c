@@ -46,7 +46,8 @@ struct tally {
     int rays, bounded, crossings;
 };
 
-/* Errors over 1 + amplification. Crossings near the horizon are left out, where Boyer-Lindquist phi and t diverge. */
+/* Errors are divided by 1 + the amplification. Crossings near the horizon are left out, where Boyer-Lindquist phi and t
+ * diverge. */
 static void judge_crossing(const struct hole *o, const struct ks_path *p, const struct ks_path *q, int n,
                            const struct kd_ray_crossing *c, struct tally *t)
 {

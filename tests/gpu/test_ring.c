@@ -24,7 +24,7 @@ static struct kd_scene scene_of(double spin, double inclination_deg)
     return scene;
 }
 
-/* By hand: four rows of four decades, four columns of a quarter turn. */
+/* Four rows of four decades and four columns of a quarter turn, computed by hand. */
 static void rows_and_columns(void **state)
 {
     (void)state;

@@ -93,9 +93,9 @@ static double orbit_omega(double a, double r)
 }
 
 struct oracle {
-    int n;           /* rays */
-    double area;     /* of one ray, if all have the same */
-    double (*at)[3]; /* solid angle weight, and place in the picture's own measure */
+    int n;           /* number of rays */
+    double area;     /* area of one ray, if all have the same */
+    double (*at)[3]; /* for each ray: its solid angle weight, and its place in the picture's own measure */
     struct ks_photon *photons;
     struct ks_path *paths;
 };
@@ -477,7 +477,7 @@ static void test_plans(void **state)
     plan = plan_of(&scene, 0);
     assert_true(!kd_plan_holds(&plan.lens, KD_LENS_PHI) && !plan.light.photometry && !plan.light.apart &&
                 !kd_plan_holds(&plan.lens, KD_LENS_DELAY) && plan.lens.planes == plan.lens.orders);
-    scene.disk.slow_light = true; /* has nothing to act on */
+    scene.disk.slow_light = true; /* slow light has nothing to act on */
     plan = plan_of(&scene, 0);
     assert_false(kd_plan_holds(&plan.lens, KD_LENS_DELAY));
     scene.spots.at[0].brightness = 1;

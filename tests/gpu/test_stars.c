@@ -85,7 +85,7 @@ static double luminance(const struct kd_frame *frame, int x, int y)
     return 0.2126 * rgb[i] + 0.7152 * rgb[i + 1] + 0.0722 * rgb[i + 2];
 }
 
-/* Light about a place of the picture, and its centroid. */
+/* The sum of the light about a place of the picture, and its centroid. */
 struct blob { double light, x, y; };
 static struct blob blob_at(const struct kd_frame *frame, double x, double y, int reach)
 {
@@ -312,7 +312,7 @@ enum { CLOSE_WIDTH = 160, CLOSE_HEIGHT = 91 };
 #define CLOSE_FIELD 1.6
 struct close { double rho, angle; };
 
-/* A direction of the observer by right, up and inwards, for the oracle. */
+/* The origin of the light that is seen in the direction d (right, up and inwards), by the oracle. */
 static struct vec3 seen_by(const struct kd_scene *scene, struct vec3 d, double *g)
 {
     const double n = 1 / sqrt(dot(d, d)), k[] = { -n * d.z, -n * d.y, n * d.x };
@@ -389,8 +389,8 @@ static void look_at(struct kd_scene *scene, const struct close *c, double field_
     scene->image.critical_factor = 1;
 }
 
-/* Ever closer to the curve of a spinning hole, where images of ever higher orders are: each image above the
- * threshold. */
+/* Places ever closer to the curve of a spinning hole show images of ever higher orders. Each image above the threshold
+ * is tested. */
 static void next_to_the_curve(void **state)
 {
     (void)state;
@@ -500,7 +500,7 @@ static void whole_skies(void **state)
     kd_frame_finish(&bands);
 }
 
-/* Another picture by the renderer itself, whenever the background one yields the device. */
+/* Another picture, rendered whenever the background one yields the device. */
 struct other {
     struct kd_scene scene;
     struct kd_plan plan;

@@ -856,7 +856,7 @@ class Hostile(Files):
             kerrd.scene_from(self.folder)
 
     def test_damage(self):
-        """Cut and changed files are scenes or errors, and nothing else."""
+        """Cut and changed files give scenes or errors, and nothing else."""
         random = np.random.default_rng(42)
         outcomes = set()
         for path in FILES:

@@ -409,7 +409,8 @@ static void told(int model, double milky_way, const char *image, const char *sen
     kd_buffer_finish(&json);
 }
 
-/* A panorama alone, under stars, and missing; each has a sentence, the last as an approximation. */
+/* A panorama alone, a panorama under stars, and a missing panorama each have a sentence. The last one is an
+ * approximation. */
 static void pictures_of_the_sky(void **state)
 {
     (void)state;
@@ -481,8 +482,8 @@ static void none_of_a_thousand(void **state)
     assert_true(traits[KD_EMITTER_plunge]);
 }
 
-/* What costs more is other work: each emitter, each variant, twice as many of what has a pass or buffers of its own.
- * Where things are, when, and how bright is the same work. */
+/* kd_emit_work differs between scenes of different cost: with each emitter, with each variant, and with twice as many
+ * of what has a pass or buffers of its own. It is the same whatever the places, the time and the brightness. */
 static void work_follows_emitters(void **state)
 {
     (void)state;
@@ -512,7 +513,7 @@ static void work_follows_emitters(void **state)
         assert_true(kd_emit_work(&scene) == work); \
     } while (0)
     ALIKE(disk.model, KD_DISK_SHAKURA_SUNYAEV);
-    ALIKE(disk.slow_light, true); /* of a disk that does not move */
+    ALIKE(disk.slow_light, true); /* slow light of a disk that does not move */
     ALIKE(disk.outer, 30);
     ALIKE(spacetime.spin, 0.3);
     ALIKE(camera.azimuth_deg, 20);

@@ -89,10 +89,10 @@ static const struct {
       { 5065.686103305162, 3.978760837143336, 11.242809018326296 } },
 };
 
-/* UVFITS: 1e-6; 2e-8 was measured, because ehtim keeps weights, and means of the parallel hands, in single
- * precision. The CSV has amplitudes to 1e-8 Jy and phases to 1e-4 degrees: 1e-3 for chi^2, and 0.2 for that of log
- * closure amplitudes without a cut: where an amplitude is about as large as its error, sqrt(|V|^2 - sigma^2)
- * consists of rounding error. */
+/* UVFITS: the tolerance is 1e-6. The measured difference is 2e-8, because ehtim keeps weights, and means of the
+ * parallel hands, in single precision. The CSV has amplitudes to 1e-8 Jy and phases to 1e-4 degrees, so the tolerance
+ * is 1e-3 for chi^2. It is 0.2 for log closure amplitudes without a cut: where an amplitude is about as large as its
+ * error, sqrt(|V|^2 - sigma^2) consists of rounding error. */
 static void test_chi2_is_that_of_ehtim(void **state)
 {
     (void)state;

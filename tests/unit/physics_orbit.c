@@ -97,7 +97,8 @@ static void places_are_the_quadratures(void **state)
     }
 }
 
-/* Both methods, with enough steps that only rounding, including that of the constants, remains. */
+/* Both methods agree with the quadratures, with enough steps that only rounding remains, including that of the
+ * constants. */
 static void paths_are_the_quadratures(void **state)
 {
     (void)state;

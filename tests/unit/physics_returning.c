@@ -204,7 +204,7 @@ static const struct kd_hole *holes(size_t i)
     return &all[i];
 }
 
-/* Rings at the ISCO and at 3 times that. */
+/* Tested for rings at the ISCO and at 3 times its radius. */
 static void light_of_a_ring_goes_where_followed_rays_go(void **state)
 {
     (void)state;
