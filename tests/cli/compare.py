@@ -103,7 +103,7 @@ class Compare(Case):
         for one in (0.97, 1.03):
             other = self.told(*options, "-s", f"spacetime.mass_msun={mass * size * one}", "--solve", "position_angle")
             self.assertGreater(self.total(other), self.total(scaled))
-        # what a search leaves alone is as it was
+        # a search leaves the values that it does not vary as they were
         plain, flux = self.told(*options), self.told(*options, "--solve", "flux")
         self.assertEqual(plain["values"], flux["values"])
         self.assertEqual(plain["values"]["size"], 1)

@@ -247,7 +247,7 @@ class Pictures(Case):
             self.assertGreater(numpy.abs(shown - other).max(), 1000)
 
     def test_motion_blur_in_bands(self):
-        """The same for a picture that is rendered in two bands, from the top down."""
+        """A blurred picture that is rendered in two bands, from the top down, is the same."""
         image = {"width": 320, "height": 180, "samples": 8}
         request = {
             **self.BLURRED,

@@ -13,7 +13,7 @@ CONVERSION = re.compile(r"%(?:\.\*|\.\d+)?(?:ll|z|h)?([a-zA-Z])")
 
 
 def words(sentence):
-    """A regular expression for what a format of C may produce."""
+    """A regular expression for the texts that a format string of C may produce."""
     parts, at = [], 0
     for one in CONVERSION.finditer(sentence):
         parts += [re.escape(sentence[at : one.start()].replace("%%", "%")), ".*?" if one[1] == "s" else r"[-+.\deinf]+"]

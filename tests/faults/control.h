@@ -14,11 +14,11 @@ enum { KD_FAULT_BLOCKS = 1 << 16, KD_FAULT_STACKS = 1 << 12 };
 enum {
     KD_FAULT_OPEN = 1,   /* an existing file or folder */
     KD_FAULT_CREATE = 2, /* creates a file or a folder */
-    KD_FAULT_WRITE = 4,  /* to a regular file; also the operations below */
+    KD_FAULT_WRITE = 4,  /* writes to a regular file; the operations below are on such files, too */
     KD_FAULT_READ = 8,
     KD_FAULT_SYNC = 16, /* folders too */
     KD_FAULT_RENAME = 32,
-    KD_FAULT_CLOSE = 64, /* of a file opened for writing */
+    KD_FAULT_CLOSE = 64, /* closes a file opened for writing */
 };
 
 struct kd_faults {

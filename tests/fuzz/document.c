@@ -48,7 +48,7 @@ static void check(struct tea *tea, enum kd_status status, const struct kd_error 
     kd_json_end(&json);
     CHECK(!kd_json_finish(&json), "the document cannot be written");
     kd_fuzz_json(&out);
-    /* What is written reads back as the same values, except for infinity, which JSON lacks. */
+    /* The written text reads back as the same values, except for infinity, which JSON lacks. */
     struct tea again;
     cJSON *tree = NULL;
     struct kd_error why = { 0 };

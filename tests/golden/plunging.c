@@ -66,9 +66,9 @@ static struct kd_frame shot(struct kd_scene *scene, bool doppler, bool redshift)
     "\"spacetime\":{\"spin\":0.3}," \
     "\"camera\":{\"r\":3.2,\"observer\":\"zamo\",\"inclination_deg\":75,\"fov_deg\":120,\"yaw_deg\":180}"
 
-/* The same pixel with and without the factors of g: brightness goes as g^4, whatever the gas's state. Seen from far
- * away most light left the gas outwards; an observer inside also sees light moving inwards. 16 bits: the fourth root of
- * a luminance of 0.01 is known to 1e-4. */
+/* Compares a pixel with and without the factors of g: brightness goes as g^4, whatever the gas's state. Seen from far
+ * away most light left the gas outwards; an observer inside also sees light moving inwards. With 16 bits the fourth
+ * root of a luminance of 0.01 is known to 1e-4. */
 static void redshift_of_light(void **state)
 {
     (void)state;

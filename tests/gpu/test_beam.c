@@ -220,7 +220,7 @@ static void exposure_is_of_what_the_beam_sees(void **state)
     for (int coarse = 0; coarse < 2; coarse++) {
         const struct look look = { 301, 200, .sigma = coarse ? 12 : 3, .exposure = INFINITY };
         int most = 0;
-        /* a point of which less than 0.4 % of the pixels receive most of the light */
+        /* synthetic light in which less than 0.4 % of the pixels receive most of the light */
         for (int i = 0; i < 3 * 301 * 200; i++)
             light[i] = i / 3 == 90 * 301 + 100 ? 7 : 1e-6f;
         show(&look, pixels);

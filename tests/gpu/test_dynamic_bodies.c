@@ -204,8 +204,7 @@ static struct kd_dynamic_bodies *one(const struct kd_seen_body *body, size_t n)
     return dynamic;
 }
 
-/* test_bodies.c judges what a body of a scene shows, hides and is hidden by. A body of a playground gives the same, to
- * the bit. */
+/* A body of a playground shows and hides the same, to the bit, as a body of a scene, which test_bodies.c tests. */
 static void test_as_a_scene_has_it(void **state)
 {
     (void)state;

@@ -172,7 +172,7 @@ static void test_lost(void **state)
         }
         assert_int_equal(status, KD_EDEVICE);
         assert_non_null(strstr(why.message, "VK_ERROR_DEVICE_LOST"));
-        FAILS(KD_EDEVICE, "lost", draw(renderer, 1, &frame, &error)); /* and stays so */
+        FAILS(KD_EDEVICE, "lost", draw(renderer, 1, &frame, &error)); /* the device stays lost */
         kd_renderer_destroy(renderer);
         fake_device_off();
     }

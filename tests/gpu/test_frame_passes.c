@@ -66,7 +66,8 @@ static void test_names(void **state)
 }
 
 /* After fifteen frames a wrong estimate has moved to the true cost of its pass. An estimate that the frames do not
- * measure stays. The time of a frame includes time in which other processes had the cores; what is learned does not. */
+ * measure stays. The time of a frame includes time in which other processes had the cores, but the learned cost does
+ * not. */
 static void test_learned(void **state)
 {
     (void)state;

@@ -344,7 +344,7 @@ static void test_plunge(void **state)
     kd_frame_finish(&frame);
 }
 
-/* The same numbers bit for bit in many bands, and from a cached lens map. */
+/* The numbers are the same bit for bit in many bands, and from a cached lens map. */
 static void test_bands(void **state)
 {
     (void)state;

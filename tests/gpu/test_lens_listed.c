@@ -162,8 +162,9 @@ static void test_slices(void **state)
     test_free(cut.planes);
 }
 
-/* Promises of the profiles for crossing radii over the bulk set, from the ISCO to 1000 M, against the closed form:
- * median and worst. The rows of the accuracy table that they stand for promise less, over all sets. */
+/* Tests what the profiles promise for crossing radii, as median and largest error against the closed form, over the
+ * bulk set from the ISCO to 1000 M. The rows of the accuracy table that the profiles use promise less, but over all
+ * sets. */
 static void test_profiles(void **state)
 {
     (void)state;

@@ -122,7 +122,7 @@ static void test_closed_form(void **state)
     printf("%d rays: worst %.2g\n", lit, worst);
 }
 
-/* The same with the frequency shift, compared with the integral of emission and absorption. */
+/* A uniform shell with the frequency shift, compared with the integral of emission and absorption. */
 static void test_shift(void **state)
 {
     (void)state;
@@ -296,7 +296,7 @@ static void test_no_bands(void **state)
     }
 }
 
-/* A ray that stays in the plane, where cos theta is exactly 0, sees what its neighbours see. */
+/* A ray that stays in the plane, where cos theta is exactly 0, has the light of its neighbours. */
 static void test_in_the_plane(void **state)
 {
     (void)state;

@@ -19,7 +19,8 @@ static const struct seer {
     const char *name;
     double spin, inclination, r;
     struct kd_observer_motion motion;
-    double energy; /* of bodies in free fall and on circular orbits: by Bardeen, Press & Teukolsky or by hand */
+    double
+        energy; /* energy of bodies in free fall and on circular orbits, from Bardeen, Press & Teukolsky or by hand */
     double momentum;
 } seers[] = {
     { "zamo", 0.9, 60, 4, { .observer = KD_OBSERVER_ZAMO }, 0, 0 },

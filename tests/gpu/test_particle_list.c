@@ -98,8 +98,8 @@ static struct constants constants_of(double a, const struct row *p)
     return (struct constants) { -ut * (gtt + gtp * p->dphi), ut * (gtp + gpp * p->dphi), norm };
 }
 
-/* Falling particles: their rates are those of a body with the ISCO's E and L, as the list says. Next to the horizon the
- * norm is almost 0, although both constants contribute to it in single precision. */
+/* The rates of falling particles are those of a body with the E and L of the ISCO, which the list states. Next to the
+ * horizon the norm is almost 0, although both constants contribute to it in single precision. */
 static void test_falling(void **state)
 {
     (void)state;

@@ -117,7 +117,7 @@ static void places(void **state)
     }
 }
 
-/* The same bytes for both readers; NaN and infinite light do not affect neighbouring pixels. */
+/* Both readers give the same bytes. NaN and infinite light do not affect neighbouring pixels. */
 static void both_readers(void **state)
 {
     (void)state;

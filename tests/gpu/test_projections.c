@@ -36,8 +36,8 @@ static struct direction seen(const struct kd_scene *scene, double x, double y)
     return d;
 }
 
-/* Roll, pitch, yaw: after a clockwise roll what was above is on the left; a camera that is pitched up looks above
- * the hole. */
+/* The photon of a pixel, by roll, pitch and yaw. After a clockwise roll what was above is on the left. A camera that is
+ * pitched up looks above the hole. */
 static struct ks_photon photon(const struct kd_scene *scene, double x, double y)
 {
     const struct kd_camera *c = &scene->camera;

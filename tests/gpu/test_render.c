@@ -370,7 +370,7 @@ static void test_asides(void **state)
         assert_same(&alone, &o.frames[i]);
     }
     OK(kd_render_in_background(fresh, &scene, &plan, NULL, NULL, NULL, &alone, &error));
-    assert_true(alone.lens_reused); /* and a picture in the background finds a map from the foreground */
+    assert_true(alone.lens_reused); /* a picture in the background finds a map from the foreground */
     kd_frame_finish(&alone);
     kd_renderer_destroy(fresh);
     assert_int_equal(kd_renderer_validation_messages(o.r), 0);
@@ -437,7 +437,8 @@ static void test_rest(void **state)
     scene.camera.inclination_deg = 41;
     for (int often = 0; often < 2; often++) {
         struct kd_frame before = rendered_by(fresh, &scene), after;
-        /* As if no memory, or all of this process's and much more, had been added since it was opened. */
+        /* Simulates that no memory has been added since the renderer was opened, or all of this process's and much
+         * more. */
         fresh->opened_bytes = fresh->started_bytes = often ? 0 : UINT64_MAX / 4;
         OK(kd_renderer_rest(fresh, &error));
         kd_renderer_cached(fresh, kept);

@@ -1,5 +1,5 @@
 /* Tests of the ring projection. The edges of the orders in a lens map are compared with the solved ones, pixel by
- * pixel; also the measured e^-gamma, and the light of a ring picture with that of a plane picture. */
+ * pixel. The light of a ring picture is compared with that of a plane picture. Also tests the measured e^-gamma. */
 #include "render_support.h"
 
 #include "physics/null/lensing.h"
@@ -98,7 +98,7 @@ static void every_edge_is_where_it_belongs(void **state)
                                  x, n, sources[s], wrong);
                 }
         }
-        assert_true(skipped < 20); /* of 460 800 pixels */
+        assert_true(skipped < 20); /* pixels, of 460 800 */
         test_free(w);
     }
 }

@@ -267,7 +267,7 @@ static double upward(struct kd_scene *scene, double from, double step)
     return NAN;
 }
 
-/* The centroid returns after 2 pi (r^(3/2) + a), whichever way the hole turns; also after 1e8 M. */
+/* The centroid returns after 2 pi (r^(3/2) + a), whichever way the hole turns, and also after 1e8 M. */
 static void test_period(void **state)
 {
     (void)state;
@@ -323,7 +323,8 @@ static void test_slow_light(void **state)
     assert_true(most - least > 15);
 }
 
-/* The light of several spots is the sum of theirs; also behind gas, which passes a fraction of each order. */
+/* The light of several spots is the sum of the light of each, also behind gas, which passes a fraction of each
+ * order. */
 static void test_parts(void **state)
 {
     (void)state;

@@ -104,7 +104,7 @@ static struct blob blob_at(const struct kd_frame *frame, double x, double y, int
 
 static double step = 2 * 0.83909963117728001177 / WIDTH; /* tan(40 degrees) */
 
-/* Origin of the ray at a place of the picture, by the oracle; and its g. */
+/* The origin of the ray at a place of the picture and its g, by the oracle. */
 static struct vec3 from(const struct kd_scene *scene, double x, double y, double *g)
 {
     double right = (x - 0.5 * (WIDTH - 1)) * step, up = (0.5 * (HEIGHT - 1) - y) * step,
@@ -428,8 +428,8 @@ static void next_to_the_curve(void **state)
     assert_true(n == 39 && tried == 41 && worst < 0.005 && off_most < 0.02);
 }
 
-/* The same for fast holes, seen edge-on or not, on the approaching side: each image is only some hundredths nearer
- * to the curve than the last, and the picture is so small that the middle one is `AWAY` pixels from the curve. */
+/* Fast holes, seen edge-on or not, on the approaching side. Each image is only some hundredths nearer to the curve than
+ * the last. The picture is so small that the middle one is `AWAY` pixels from the curve. */
 #define AWAY 100
 static void next_to_the_curve_of_fast_holes(void **state)
 {

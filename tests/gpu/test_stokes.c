@@ -116,7 +116,7 @@ static void take(void *user, const struct ks_carried *at)
     for (int i = 0; i < 4; i++)
         across[i] = field[i] / size - c * (at->k[i] / seen - flow[i]);
     const double x = ks_carried_product(at, across, at->right), y = ks_carried_product(at, across, at->up),
-                 angle = atan2(-x, y) + M_PI / 2; /* of the electric field, from up to the left */
+                 angle = atan2(-x, y) + M_PI / 2; /* the angle of the electric field, from up to the left */
     const double z = r * u, h = v->height * r * sine, share = (v->adiabatic_index - 1) / v->adiabatic_index;
     double n = v->density_cm3 * pow(r, -v->density_index) * (v->height > 0 ? exp(-z * z / (2 * h * h)) : 1);
     double magnetic = v->magnetisation * pow(r, -v->magnetisation_index),

@@ -618,7 +618,7 @@ class Jobs(Case):
             ),
             ({"scenes": [{}] * 10001}, 422, "/scenes"),
             ({"scenes": [{}, {"accuracy": {"tolerance": 1e-15}}]}, 422, "/scenes/1/accuracy/tolerance"),
-            # These are valid at both ends, but in between the disk's edge is inside the ISCO.
+            # These scenes are valid at both ends, but in between the disk's edge is inside the ISCO.
             (
                 {
                     "scene": {"spacetime": {"spin": -0.9}, "disk": {"outer": 9.5}},

@@ -68,7 +68,7 @@ class Physics(daemon.Case):
             self.assertAlmostEqual(values[name], exact, delta=1e-14 * exact)
 
     def test_charge(self):
-        """Quantities of a charged hole have the charge as a parameter; the others refuse it by name."""
+        """Quantities of a charged hole have the charge as a parameter. Other quantities refuse it by name."""
         charged = {
             "kerr",
             "shadow",

@@ -90,8 +90,8 @@ REFUSED = {
 
 
 def read_all(s, patience):
-    """What arrives until the server closes the connection, or until nothing has come for `patience` seconds; and
-    whether it closed."""
+    """Reads until the server closes the connection, or until nothing has come for `patience` seconds. Returns the
+    bytes, and whether it closed."""
     got = b""
     s.settimeout(patience)
     try:

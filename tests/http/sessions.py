@@ -742,7 +742,7 @@ class Sessions(daemon.Owned):
             ({"keyframes": [{"at": 1, "proper_time": 3}]}, "/keyframes/0/proper_time"),
             ({"keyframes": [{"at": 1, "scene": {"motion": {"time_rate": 1}}}]}, "/keyframes"),
             ({"keyframes": [{"at": 1, "scene": {"disk": {"outer": 1}}}]}, "/keyframes/0/scene/disk/outer"),
-            # These are valid at both ends, but in between the disk's edge is inside the ISCO.
+            # These scenes are valid at both ends, but in between the disk's edge is inside the ISCO.
             (
                 {
                     "keyframes": [

@@ -507,7 +507,7 @@ int ks_passes(struct ks_photon photon, double r, double u, double phi, double wi
     return n;
 }
 
-/* Position of a path by distances from the axis and the plane; and its closest point to each place so far. */
+/* Position of a path by its distances from the axis and the plane. nearest: its point closest to a place so far. */
 struct meridian { double x, z; };
 struct nearest {
     state from;

@@ -213,7 +213,7 @@ static void settles_on_a_steady_machine(void **state)
     assert_true(reached > 200 && hopeless > 20);
 }
 
-/* The same if frames report only their total time. */
+/* The governor settles also if frames report only their total time. */
 static void settles_when_told_only_totals(void **state)
 {
     (void)state;
@@ -498,7 +498,7 @@ static void load_that_comes_and_goes_is_followed(void **state)
         run(&s, DRAG, 30e3);
         assert_true(s.changes <= 7);
         s.load = 1;
-        run(&s, DRAG, 15e3); /* and back, by no more changes */
+        run(&s, DRAG, 15e3); /* it climbs back by no more changes */
         assert_int_equal(s.governor.paces[1].rung, 0);
         run(&s, DRAG, 60e3);
         assert_true(s.changes <= 8);
@@ -516,7 +516,7 @@ static struct kd_frame_cost slow_after_each_climb(const struct simulation *s, co
     return (struct kd_frame_cost) { .rays_ms = ms / 2, .pixels_ms = ms / 2, .total_ms = ms };
 }
 
-/* The same machine, which also forces the governor down a rung at a time when it does not climb. */
+/* A machine like slow_after_each_climb, which also forces the governor down a rung at a time when it does not climb. */
 static struct kd_frame_cost greedy(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     (void)scene, (void)reused;
@@ -969,7 +969,7 @@ static void what_stays_at_any_size_is_learned(void **state)
     }
 }
 
-/* The same view in a session that started on the lowest rung, because kernels were compiled during its first frame. It
+/* A starry view in a session that started on the lowest rung, because kernels were compiled during its first frame. It
  * has seen no other rung from which the fixed part could be inferred. */
 static void who_began_low_finds_out(void **state)
 {

@@ -45,7 +45,7 @@ struct simulation {
     uint64_t summed;
     uint32_t lens;             /* counter of the scene's lens map */
     uint32_t kept[4][3], next; /* cached lens maps: lens, width, samples */
-    struct kd_quality last;    /* of the last frame rendered */
+    struct kd_quality last;    /* quality of the last frame rendered */
     bool forgets;              /* never caches a lens map */
 };
 

@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-#define PIXEL (4 * M_PI / 180 / 3.6e9) /* of the ring's picture */
+#define PIXEL (4 * M_PI / 180 / 3.6e9) /* width of a pixel of the ring's picture */
 enum { N = 32, MOST = 1 << 18, BLOCK = 2880 };
 
 static uint8_t *read_file(const char *name, size_t *size)
@@ -547,8 +547,8 @@ static void test_files_that_are_damaged(void **state)
     free(data);
 }
 
-/* A file whose second group has the time and the baseline of its first one, BSCALE 2 and BZERO 0.5: the simulated file
- * has the model, and what was left out is empty, so that it is flagged. */
+/* The second group of the file has the time and the baseline of the first, BSCALE 2 and BZERO 0.5. The simulated file
+ * has the model. The group that was left out is empty, so that it is flagged. */
 static void test_simulated_file(void **state)
 {
     (void)state;

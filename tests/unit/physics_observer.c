@@ -379,8 +379,8 @@ static double square_gamma(const struct kd_observer_motion *m, const struct kd_v
     return m->observer > KD_OBSERVER_ZAMO ? gamma * gamma * (1 + at->r / (at->r - at->hole.outer)) : 1;
 }
 
-/* Components survive the conversion into the frame and back, and a photon is seen in the direction it comes from; also
- * for a frame whose axes are mixed by rotations. */
+/* Components survive the conversion into the frame and back, and a photon is seen in the direction from which it comes.
+ * This holds also for a frame whose axes are mixed by rotations. */
 static void back_and_forth_at(const struct kd_observer_motion *m, const struct kd_vantage *at,
                               const struct kd_tetrad *frame)
 {

@@ -246,8 +246,8 @@ static void a_view_is_as_wide_as_what_there_is(void **state)
     kd_playground_destroy(p);
 }
 
-/* Pieces already torn off keep their weight, whatever number of pieces is set for later bodies; also in a snapshot.
- * With two stars each keeps its own. */
+/* Pieces already torn off keep their weight, whatever number of pieces is set for later bodies, also in a snapshot.
+ * With two stars the pieces of each keep their weight. */
 static void a_piece_keeps_its_worth(void **state)
 {
     (void)state;

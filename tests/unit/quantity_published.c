@@ -119,7 +119,7 @@ static void constants(void **state)
     double k = KD_K_J_K, h = KD_H_J_S, c = KD_C_M_S;
     double stefan = 2 * pow(M_PI, 5) * k * k * k * k / (15 * h * h * h * c * c);
     published("Stefan-Boltzmann", KD_STEFAN_BOLTZMANN_SI / stefan, 1, 1e-15);
-    double x = 5, y = 3; /* of the maxima of B_lambda and B_nu: x = 5 (1 - e^-x), y = 3 (1 - e^-y) */
+    double x = 5, y = 3; /* the maxima of B_lambda and B_nu are at x = 5 (1 - e^-x) and y = 3 (1 - e^-y) */
     for (int i = 0; i < 100; i++)
         x = -5 * expm1(-x), y = -3 * expm1(-y);
     published("Wien", KD_WIEN_M_K / (h * c / (k * x)), 1, 1e-15);

@@ -96,8 +96,7 @@ static void by_the_oracle(void **state)
     printf("by the oracle within %.2g rad\n", worst);
 }
 
-/* The interpolated origin agrees with that of each ray, for all kinds of observers and places; and every ray
- * escapes. */
+/* The interpolated origin agrees with that of each ray, for all kinds of observers and places. Every ray escapes. */
 static void each_ray(void **state)
 {
     (void)state;

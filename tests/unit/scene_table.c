@@ -1,5 +1,5 @@
-/* Tests of the code for scenes with another table of fields (table/scene/fields.h): what it does for spots it does
- * for any list, and assets are names until they are resolved. */
+/* Tests of the code for scenes with another table of fields (table/scene/fields.h). The code treats any list as it
+ * treats spots, and assets are names until they are resolved. */
 #include "cli/asset_options.h"
 #include "cli/cli.h"
 #include "image/png.h"
@@ -302,7 +302,7 @@ static void schema_has_natures_places_and_groups(void **state)
     kd_buffer_finish(&text);
 }
 
-/* What the page needs for its controls is in the schema of each field, also in lists. */
+/* The schema of each field, also in lists, has what the page needs for its controls. */
 static void schema_has_controls(void **state)
 {
     (void)state;

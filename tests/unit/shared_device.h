@@ -13,7 +13,7 @@ enum { MOST = 64 };
 struct sharer {
     struct simulation sim;
     struct kd_budget_entry entry;
-    struct kd_claim claim; /* of its frame */
+    struct kd_claim claim; /* claim of its frame */
     double pause; /* mean time from a frame to the next request; the actual one is half to one and a half times that */
     double from, to;     /* its scene changes at each request between these times */
     double stroke, lift; /* changes last for `stroke` and pause for `lift`, in turn; 0: no pauses */
@@ -36,7 +36,7 @@ struct device {
     int n;
     struct kd_shares shares;
     struct kd_budget budget;
-    struct sharer *served; /* NULL: nobody */
+    struct sharer *served; /* the sharer that has the device; NULL: nobody */
     double now, until, slice;
     bool alone; /* governors do not learn of each other */
 };

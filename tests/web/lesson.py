@@ -121,8 +121,8 @@ class Lesson(Browser):
         self.shot(teacher, "lesson-it")
 
     def test_a_pupil_of_another_language(self):
-        """A ready question is shown in the pupil's language. What the teacher writes, and what describes the picture, is
-        marked as the teacher's."""
+        """A ready question is shown in the pupil's language. The teacher's own words, and the description of the
+        picture, are marked as the teacher's."""
         teacher = self.teach()
         italian = self.follow(self.link(teacher), locale="it-IT")
         english = self.follow(self.link(teacher))
