@@ -261,8 +261,9 @@ def repeat_for(seconds, at_least, step, is_enough=lambda: True):
 
 
 def look_at_health(port, source, seconds, at_least):
-    """Milliseconds that /healthz takes, and the delay of a sleep before it: this is how long the machine delays any
-    process. Runs in a process of its own, since beside the threads of the loads it would measure Python's lock."""
+    """Milliseconds that /healthz takes, and the delay of a sleep before each request, which shows how long the machine
+    delays any process. This runs in a process of its own, since among the threads of the loads it would measure
+    Python's lock."""
     connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120, source_address=(source, 0))
     late = []
 

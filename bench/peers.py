@@ -138,7 +138,7 @@ def first_crossing(np, lam, eta, up, w0):
 
 
 def judge_kerrz(np, library, n):
-    """Errors of r: against the reference with kerrz's own constants and start, and for an observer at infinity."""
+    """Errors of r, for kerrz's own constants and start and for an observer at infinity, compared with the reference."""
     metric = library.krz_KerrMetric_init(1.0, SPIN)
     eye = library.krz_FourVector(t=0, r=OBSERVER, th=math.radians(INCLINATION), ph=0)
     at = (np.arange(n) + 0.5) / n * 2 * HALF_WIDTH - HALF_WIDTH

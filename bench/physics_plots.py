@@ -270,7 +270,7 @@ def azimuths_seen(axes):
 
 
 def distances(axes):
-    """Size of the shadow from near the hole, against the straight lines for a distant observer."""
+    """Size of the shadow as seen from near the hole, compared with the straight lines for a distant observer."""
     for name, colour in (("static", BLUE), ("zamo", RED)):
         radius, angle = [], []
         for k in range(41):
@@ -290,7 +290,7 @@ def distances(axes):
 
 
 def tone(axes):
-    """The curve of S. Hill between its two matrices, for grey, against clipping."""
+    """The curve of S. Hill between its two matrices, for grey light, compared with clipping."""
     x = [10 ** (-3 + 4.5 * k / 200) for k in range(201)]
     f = lambda c: (c * (c + 0.0245786) - 0.000090537) / (c * (0.983729 * c + 0.4329510) + 0.238081)
     axes.plot(x, [max(f(c), 0) for c in x], color=BLUE, label="f(c)")

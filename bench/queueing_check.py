@@ -341,7 +341,7 @@ def calmest(rounds):
 
 
 def cells(row, way):
-    """Figures of the model beside the real ones."""
+    """A table row: the figures of the model and the real ones."""
     of, real = row[way], row["real"]
     return (
         [f"{of['rate']:.1f} ({100 * (of['rate'] / real['rate'] - 1):+.0f} %)"]

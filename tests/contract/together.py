@@ -289,7 +289,7 @@ TOGETHER = [
             "the picture of %u x %u pixels is dark and has no visibilities",
         ),
     ),
-    # pictures whose light is measured
+    # a measurement of the light of pictures
     (
         "POST /v1/(spectrum|visibility|compare|observe|jobs)",
         (

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* Pixels of 2 x 2 rays against those of one ray of a picture twice as wide and high. */
+/* Compares pixels of 2 x 2 rays with those of one ray of a picture twice as wide and high. */
 static void assert_same_light(struct kd_scene scene)
 {
     const int w = 96, h = 61; /* the last column of pixels has two rows */

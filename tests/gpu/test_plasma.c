@@ -232,8 +232,8 @@ static double kelvin(const struct kd_scene *scene, int i)
            (2 * K * nu * nu);
 }
 
-/* Inner edges are where the light is still 0, because the oracle's rule is not for unbounded growth. The outer ones
- * are close, to save time. */
+/* The inner edges are where the light is still 0, because the oracle's quadrature is inaccurate for unbounded growth.
+ * The outer edges are close to the hole, to save time. */
 static const struct view {
     const char *preset, *json;
     double allowed;

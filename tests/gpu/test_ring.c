@@ -129,7 +129,8 @@ static void each_order_is_a_gamma_further_in(void **state)
                 double apart = row * (row_of(w + (n + 1) * plan.lens.rays + x, HEIGHT) -
                                       row_of(w + n * plan.lens.rays + x, HEIGHT));
                 if (!(fabs(apart - gamma) <
-                      1.05 * row + 0.02)) /* two roundings to a row; order 3 is not at the limit yet */
+                      1.05 * row +
+                          0.02)) /* rounding to rows is two half rows at most; order 3 is not at the limit yet */
                     fail_msg("a = %g, column %u: orders %d and %d are e^-%.4f apart, not e^-%.4f", views[k].spin, x, n,
                              n + 1, apart, gamma);
                 sum += apart / gamma;

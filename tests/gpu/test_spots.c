@@ -172,9 +172,9 @@ static struct kd_light oracle_light(const struct kd_scene *scene, const struct o
     return (struct kd_light) { flux, atan2(x, z) * 180 / M_PI, atan2(y, hypot(x, z)) * 180 / M_PI };
 }
 
-/* At several phases, with fast and slow light, for prograde and retrograde spots, from infinity and nearby, also
- * behind half transparent gas. In 32 bits a ray beside the critical curve may miss a crossing, which the bound
- * allows. The width is not a round number, and the spot crosses the edges of the picture. */
+/* Compares the light at several phases with the oracle: with fast and slow light, for prograde and retrograde spots,
+ * from infinity and nearby, also behind half transparent gas. In 32 bits a ray next to the critical curve may miss a
+ * crossing, which the bound allows. The width is not a round number, and the spot crosses the edges of the picture. */
 static void test_oracle(void **state)
 {
     (void)state;

@@ -132,7 +132,7 @@ static double patch(const struct kd_scene *scene, double x, double y, double ste
     return (4 * area[1] - area[0]) / 3;
 }
 
-/* Light and place of the star's image at a place of the picture, against the oracle's. */
+/* Compares light and place of the star's image at a place of the picture with the oracle's. */
 static void compare(struct kd_scene *scene, double x, double y, double *worst_light, double *worst_place)
 {
     double g;
@@ -494,7 +494,8 @@ static void whole_skies(void **state)
             most = fmax(most, luminance(&one, x, y));
         }
     printf("in bands: off by %.2g of the light\n", off / sum);
-    assert_true(sum > 0 && off / sum < 5e-4 && most > 100); /* without the rows beside each band it is more */
+    assert_true(sum > 0 && off / sum < 5e-4 &&
+                most > 100); /* if the rows next to each band were missing, the difference would be larger */
     kd_frame_finish(&one);
     kd_frame_finish(&again);
     kd_frame_finish(&bands);
@@ -568,8 +569,9 @@ static bool was_run(const struct kd_frame *frame, const char *pass)
     return false;
 }
 
-/* The light of stars is cached with the lens map. A frame with one change and the reused map equals one with its own
- * map, which is forced by the number of rays at the curve, where only one ray a pixel is visible. */
+/* The light of stars is cached with the lens map. A frame that reuses the map after one change equals a frame with a
+ * map of its own. Another number of rays at the curve forces the latter; it changes no pixel, because the curve is out
+ * of view. */
 static void kept_and_made_anew(void **state)
 {
     (void)state;

@@ -303,9 +303,9 @@ static void test_adversarial(void **state)
                                   layer_of(&frame, "stokes_u")[p], layer_of(&frame, "stokes_v")[p] };
             if (!(isfinite(s[0]) && s[0] >= 0 && hypot(hypot(s[1], s[2]), s[3]) <= s[0] * (1 + 1e-5)))
                 fail_msg("%s, pixel %d: %g %g %g %g", extremes[i], p, s[0], s[1], s[2], s[3]);
-            /* Degree and angle follow from the numbers beside them, however dim or bright. They come from another
-             * kernel, whose rounding Faraday rotation amplifies. Below 1e-30 light has fewer than 24 bits on its
-             * way. */
+            /* Degree and angle agree with the numbers of the other layers, however dim or bright. They come from
+             * another kernel, whose rounding Faraday rotation amplifies. Below 1e-30 light has fewer than 24 bits on
+             * its way. */
             const double part = hypot(s[1], s[2]) / s[0], told = layer_of(&frame, "polarization_fraction")[p],
                          angle = layer_of(&frame, "evpa")[p];
             if (s[0] > 1e-30 && !(fabs(told - part) <= 1e-3))

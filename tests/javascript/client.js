@@ -1,4 +1,4 @@
-// The client against the real server: node client.js KERRD, beside node_modules with the package.
+// Tests of the client with the real server: node client.js KERRD, in a folder with node_modules that has the package.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';

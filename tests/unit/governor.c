@@ -932,8 +932,8 @@ static void whatever_happens_the_answer_is_sound(void **state)
     }
 }
 
-/* A starry view whose azimuth changes. By the frames of a session, 7.2 ms of the rays' time do not depend on the
- * picture's size, which frames do not report. The view was too slow for a while because of other load. Then it must
+/* A starry view whose azimuth changes. In the frames of a session 7.2 ms of the rays' time did not depend on the
+ * picture's size; frames do not report this part. The view was too slow for a while because of other load. Then it must
  * regain the size that meets the target. */
 static struct kd_frame_cost starry(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {

@@ -365,8 +365,8 @@ static void from_any_phase(void **state)
     }
 }
 
-/* The azimuth computed without its pole at the axis, against the plain sum of L/(1 - u^2): also for E > 1 and for
- * motions that stay on one side of the equator. */
+/* The azimuth computed without its pole at the axis equals the plain sum of L/(1 - u^2), also for E > 1 and for motions
+ * that stay on one side of the equator. */
 static void azimuth_has_no_pole(void **state)
 {
     (void)state;

@@ -151,7 +151,7 @@ static void debris_is_all_there(void **state)
         assert_true((size_t)d->rows * d->columns <= KD_SHOW_NODES && d->rows >= 2 && d->columns >= 2);
         const double all = (double)(n - free_) / N;
         assert_true(fabs(s.worth / all - 1) < 1e-4 && fabs(s.phi - vphi / N) < 1e-4 * all);
-        if (shape != 1) /* that ring is thick: the velocity along e_r is not that along the plane */
+        if (shape != 1) /* the ring is thick: there the velocity along e_r is not that along the plane */
             assert_true(fabs(s.r / (vr / N) - 1) < 1e-3);
         kd_dynamic_bodies_release(dynamic);
     }

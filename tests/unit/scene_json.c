@@ -256,7 +256,6 @@ static void elements_are_set(void **state)
                  kd_scene_same_path("spot2", "spots.1"));
 }
 
-/* A file from an earlier version must keep its meaning. */
 /* A section nested in another is a member of it, in documents, in patches, in paths, and in written documents. */
 static void sections_stand_in_sections(void **state)
 {
