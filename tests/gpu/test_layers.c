@@ -434,7 +434,7 @@ static void test_picture_beside(void **state)
     }
 }
 
-/* A single layer is the picture: each pixel has the colour of its number, none is black; in 8 bits as in 16. */
+/* In a picture of a single layer each pixel has the colour of its number, in 8 bits as in 16. No pixel is black. */
 static void test_false_colour(void **state)
 {
     (void)state;

@@ -342,9 +342,9 @@ static double edge(const struct kd_scene *scene, double angle)
     return high;
 }
 
-/* The solid angle of the sky that a pixel at the small picture's middle maps to, to fourth order, by steps outwards
- * and along the curve. The latter are longer, because the oracle's rays this close are not accurate enough for short
- * ones, and the curve bends by the step's square. */
+/* The solid angle of the sky that a pixel at the small picture's middle maps to, to fourth order, by steps outwards and
+ * along the curve. The steps along the curve are longer, because the oracle's rays this close are not accurate enough
+ * for short ones, and the curve bends by the step's square. */
 static double patch_close(const struct kd_scene *scene, const struct close *c, double off, double curve)
 {
     const double ahead = c->angle + 1e-3, behind = c->angle - 1e-3, far = edge(scene, ahead),

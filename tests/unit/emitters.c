@@ -205,7 +205,7 @@ static int follow_each_field(const char *document)
             kd_emit_update(one, &base, 100);
             kd_emit_update(one, &scene, 100);
             memset(fresh, 0, sizeof *fresh);
-            fresh->colours = one->colours; /* 15 ms each, and independent of the scene */
+            fresh->colours = one->colours; /* computing these takes 15 ms, and they do not depend on the scene */
             fresh->luminous = one->luminous;
             kd_emit_update(fresh, &scene, 100);
             uint32_t traits[KD_EMITTER_COUNT];

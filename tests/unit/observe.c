@@ -1,6 +1,6 @@
-/* Tests of observations: chi^2 against numbers by ehtim 1.3.2, for a model ring, of M87* as it was observed
- * (data/eht), from both files of one observation; searches for size, orientation and position; the scattering kernel;
- * and damaged files. */
+/* Tests of observations. chi^2 of a model ring for M87* as it was observed (data/eht), from both files of one
+ * observation, is compared with numbers by ehtim 1.3.2. Also tests searches for size, orientation and position, the
+ * scattering kernel, and damaged files. */
 #include "observe/align.h"
 #include "observe/scattering.h"
 #include "observe/simulate.h"

@@ -47,7 +47,8 @@ static void rates(const struct flight *f, const double y[4], double out[4])
     out[3] = l * l * c / (s * s * s) - a * a * e * e * c * s;
 }
 
-/* Dormand & Prince 1980, J. Comput. Appl. Math. 6, 19. Returns an estimate of the error over the tolerance. */
+/* Makes a step by the method of Dormand & Prince 1980, J. Comput. Appl. Math. 6, 19. Returns an estimate of the error
+ * over the tolerance. */
 static double step(const struct flight *f, const double y[4], double h, double out[4])
 {
     static const double b[7][6] = { { 0 },

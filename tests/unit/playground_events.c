@@ -261,9 +261,8 @@ static void scenes_that_mean_harm_stay_finite(void **state)
             const double m = masses[i];
             playground_put(p, (struct kd_playground_body) { .mass = m, .x = { 10, 0, 0 } }); /* on top of each other */
             playground_put(p, (struct kd_playground_body) { .mass = m, .x = { 10, 0, 0 }, .v = { 1, 0, 0 } });
-            playground_put(
-                p, (struct kd_playground_body) {
-                       .mass = m, .x = { 8, 0, 0 }, .v = { -1, 0, 0 } }); /* at the horizon, with the speed of light */
+            playground_put(p, (struct kd_playground_body) {
+                                  .mass = m, .x = { 8, 0, 0 }, .v = { -1, 0, 0 } }); /* at the horizon, with speed c */
             playground_put(p, (struct kd_playground_body) {
                                   .mass = m, .radius = 3, .x = { 2.06, 0, 0 } }); /* next to the hole, at rest */
             playground_put(p, (struct kd_playground_body) { .mass = 1e12, .x = { 0, 0, -1e6 } });

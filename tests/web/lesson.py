@@ -420,7 +420,7 @@ class Lesson(Browser):
 
 
 class Tokens(Browser):
-    """On a server with access tokens."""
+    """Tests of lessons on a server with access tokens."""
 
     PUPIL, TEACHER = "pupil-0123456789abcdef", "teacher-0123456789abcdef"
 
