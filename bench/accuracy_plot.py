@@ -28,7 +28,7 @@ FLOOR = 1e-16  # where an error of 0 is drawn
 
 
 def points(table, name):
-    """(engine, precision, steps, error, speed) of each row with such an error."""
+    """(engine, precision, steps, error, speed) of each row that has the error `name`."""
     for row in table["rows"]:
         entry = row["sets"][name]
         if "r" in entry:

@@ -174,7 +174,7 @@ def quality(pictures, scene):
 
 
 def ring(pictures, scene):
-    """Noise at the critical curve of a scene, by factor, and that of 3 x 3 rays everywhere."""
+    """Noise of a scene at the critical curve: with one ray, with 3 x 3 rays everywhere, and by critical_factor."""
     shown = lambda samples, factor: pictures.render(of_size(scene, SIZE, samples, critical_factor=factor))[0]
     truth, bare = shown(8, 2), shown(1, 1)
     at = (bare != shown(1, 16)).any(axis=2)
@@ -210,7 +210,7 @@ class Server:
 
 
 def least(server, scenes, rounds):
-    """The least time of each, in alternation. Each round has its own lens maps."""
+    """The least time of each scene, rendered in alternation. Each round has its own lens maps."""
     found = {name: [] for name in scenes}
     for n in range(rounds + 1):
         for name, scene in scenes.items():

@@ -110,11 +110,12 @@ static void flow_mino(const struct orbit *o, const double *y, double *d)
     pull(o, y, d + 2);
 }
 
-/* The error of p.p + m, and Q. */
+/* The error of the invariant p.p + m, and Carter's constant Q. */
 static void integrals_mino(const struct orbit *o, const double *y, double *invariant, double *carter)
 {
     double w = y[0], u = y[1], r = 1 / w, a = o->a, second = power2(o) - o->momentum * o->momentum;
-    double swing = y[3] * y[3] - o->carter - u * u * (second - o->carter - power2(o) * u * u); /* of the latitude */
+    double swing =
+        y[3] * y[3] - o->carter - u * u * (second - o->carter - power2(o) * u * u); /* the error of u'^2 = U(u) */
     double fall = r * r * r * r * (y[2] * y[2] - radial(o, w));
     *invariant = (fall / (r * (r - 2) + a * a) + swing / (1 - u * u)) / (r * r + a * a * u * u);
     *carter = o->carter + swing / (1 - u * u);
@@ -126,7 +127,7 @@ static double radius(double a, const double *x)
     return sqrt(rho2 > 0 ? 0.5 * (rho2 + root) : 2 * a * a * x[2] * x[2] / (root - rho2));
 }
 
-static double hamiltonian(const struct orbit *o, const double *x, const double *p) /* twice */
+static double hamiltonian(const struct orbit *o, const double *x, const double *p) /* twice the Hamiltonian */
 {
     double a = o->a, r = radius(a, x), q = r * r + a * a, f = 2 * r * r * r / (r * r * r * r + a * a * x[2] * x[2]);
     double s = o->energy + ((r * x[0] + a * x[1]) * p[0] + (r * x[1] - a * x[0]) * p[1]) / q + x[2] * p[2] / r;
@@ -270,7 +271,7 @@ static struct orbit matter(void)
 {
     struct kd_orbit k;
     if (kd_orbit_from_shape(kd_hole(0.9), 8, 0.5, 0.5, &k, NULL))
-        abort(); /* there is such an orbit */
+        abort(); /* cannot happen: there is such an orbit */
     return (struct orbit) { .name = "matter",
                             .a = k.hole.a,
                             .mass2 = 1,
@@ -298,7 +299,7 @@ static struct orbit light(void)
 }
 
 /* One row: the largest value of both errors up to each mark. lost: the loop in which the error of the invariant reached
- * its unit; 0: none did. */
+ * its unit, or 0 if it did not. */
 static void measure(const struct orbit *o, const struct method *m, int steps, cJSON *row)
 {
     void (*integrals)(const struct orbit *, const double *, double *, double *) =

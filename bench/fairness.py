@@ -261,8 +261,9 @@ def repeat_for(seconds, at_least, step, is_enough=lambda: True):
 
 
 def look_at_health(port, source, seconds, at_least):
-    """Milliseconds that /healthz takes, and the delay of a sleep before it: this is how long the machine delays any
-    process. Runs in a process of its own, since beside the threads of the loads it would measure Python's lock."""
+    """Milliseconds that /healthz takes, and the delay of a sleep before each request, which shows how long the machine
+    delays any process. This runs in a process of its own, since among the threads of the loads it would measure
+    Python's lock."""
     connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120, source_address=(source, 0))
     late = []
 
@@ -288,7 +289,7 @@ def look(server, seconds, at_least=3, source="127.0.0.2", size=SIZE, session=Tru
         assert answer.status == 200, answer.status
 
     with concurrent.futures.ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
-        pool.submit(os.getpid).result()  # the frame exists already
+        pool.submit(os.getpid).result()  # starts the process before the measurement begins
         begun, frames = time.monotonic(), viewer.counts.get("own: 200", 0)
         health = pool.submit(look_at_health, server.port, source, seconds, at_least)
         # on a busy machine a session may show no frame within so few seconds

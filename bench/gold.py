@@ -38,7 +38,7 @@ IPOLE_DEG = {
     60: 3.0402553586023138,
     75: 3.021039735088821,
 }
-# and with polarised transfer, which lowers I
+# the same with polarised transfer, which lowers I
 IPOLE_POLARISED_DEG = {5: 1.864400335340764, 30: 2.1902815688664155, 60: 2.6534246703175217, 75: 2.6304077917851245}
 IPOLE_GHZ = {
     26.1016: 0.21402505951085055,
@@ -51,7 +51,7 @@ IPOLE_GHZ = {
 
 
 def flux(kerrd, preset, size, **changes):
-    """The flux in Jy, and the error that nine of ten rays are within."""
+    """The flux in Jy, and the error that nine of ten rays do not exceed."""
     settings = [word for name, value in changes.items() for word in ("--set", f"{name.replace('__', '.')}={value}")]
     with tempfile.TemporaryDirectory() as folder:
         command = [

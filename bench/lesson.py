@@ -85,7 +85,7 @@ class Pupil(threading.Thread):
 
 
 def drag(line, session, seconds):
-    """(time of the change, its revision) of changes of the inclination."""
+    """Changes the inclination again and again; returns (time of the change, its revision) of each."""
     changes, begun = [], time.monotonic()
     while (now := time.monotonic() - begun) < seconds:
         angle = 75 + 10 * ((now / 4) % 2 if (now / 4) % 2 < 1 else 2 - (now / 4) % 2)
@@ -112,7 +112,8 @@ def lesson_of(port, preset, pupils, seconds):
     size = {"image": {"width": 480, "height": 270}}
     session = teacher.json("POST", f"/v1/sessions?preset={preset}&min_scale=1", size)
     lesson = teacher.json("POST", "/v1/lessons", {"session": session["id"]})
-    viewers = [Viewer(port, session["id"], over) for _ in range(pupils + 1)]  # the teacher's page is one
+    # one more than pupils: the teacher's page is a viewer, too
+    viewers = [Viewer(port, session["id"], over) for _ in range(pupils + 1)]
     pupils_ = [Pupil(port, lesson["id"], f"{k:016x}", over) for k in range(pupils)]
     drag(teacher, session, 3)
     begun = time.monotonic()

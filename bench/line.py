@@ -48,8 +48,8 @@ def used(pid):
 
 
 def asked(server, count, tolerance, accept, cold):
-    """Processor and wall seconds of a profile, all on one connection; for the changing spins and inclinations of a fit,
-    or for one pair with a changing emissivity."""
+    """Processor and wall seconds of a profile. All requests use one connection. cold: each has another spin and
+    inclination, as in a fit; otherwise they have one pair with a changing emissivity."""
     connection, draw = http.client.HTTPConnection("127.0.0.1", server["port"], timeout=60), random.Random(4711)
     before, begun = used(server["pid"]), time.monotonic()
     for n in range(count):

@@ -129,7 +129,7 @@ def drag(port, k, begin, seconds, settle, scene=None):
     scene = scene or {"image": SIZE, "sky": {"model": "grid"}}
     session = Session(
         port, {**scene, "camera": {**scene.get("camera", {}), "azimuth_deg": 40 * k % 360}}
-    )  # and its own inclinations, so that no lens map is shared
+    )  # each session also has its own inclinations, so no two share a lens map
     time.sleep(max(0, begin - time.monotonic()))
     answers, waits, n = [], [], 0
     while time.monotonic() < begin + seconds:

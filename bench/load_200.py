@@ -105,7 +105,7 @@ def wrk(server, connections, nice, script):
 
 
 def run(path, seconds, rounds, connections, nice):
-    """The session's figures for each round, alone and beside the load, and the load's."""
+    """For each round the session's figures, alone and together with the load, and the figures of the load."""
     with tempfile.TemporaryDirectory() as folder:
         script = pathlib.Path(folder) / "paths.lua"
         script.write_text(LUA)

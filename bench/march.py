@@ -70,7 +70,7 @@ def least(runs, kind, name):
 
 
 def told(kerrd, scene):
-    """The frame's estimate of its volumes' error: of nine rays in ten, and the worst."""
+    """The frame's estimate of the error of its volumes: what nine rays in ten do not exceed, and the largest."""
     with tempfile.TemporaryDirectory() as folder:
         command = [
             kerrd,

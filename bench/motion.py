@@ -40,7 +40,7 @@ def ask(port, method, target, body=None):
 
 
 def film(port, samples, inclination):
-    """(frames, height, width), luminance of linear light."""
+    """Luminance of linear light, as an array (frames, height, width)."""
     field = 46
     scene = {
         "image": {"width": WIDTH, "height": HEIGHT, "samples": samples, "layers": ["rgb"]},

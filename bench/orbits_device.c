@@ -34,7 +34,7 @@ static double between(double low, double high) { return low + (high - low) * dra
 
 static struct orbit pack(const struct kd_orbit_path *p, double h)
 {
-    struct kd_orbit_path stepped = *p; /* has the springs' turns */
+    struct kd_orbit_path stepped = *p; /* a step computes the rotations of the springs */
     const struct kd_orbit *k = &p->orbit;
     kd_orbit_path_step(&stepped, h);
     struct orbit o = { .a = k->hole.a,

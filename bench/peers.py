@@ -25,8 +25,8 @@ PAIRS = [
     ("r, later crossings too", ("closed form", "r of 3 crossings"), "radius", []),
     ("r and φ, later crossings too", ("closed form", "r, phi of 3 crossings"), "azimuth", []),
 ]
-# kd_bench_trace's `computes` without a picture of kerrz. AART 2.1.10 and geokerr compute r, t and φ of a crossing;
-# their figures were measured earlier, on a core of such a machine.
+# Values of kd_bench_trace's `computes` for which kerrz makes no picture. AART 2.1.10 and geokerr compute r, t and φ of
+# a crossing; their figures were measured earlier, on a core of such a machine.
 ALONE = ["r, phi, sky, fate", "r, phi, sky, fate, delay"]
 AART, GEOKERR = 136_000, 300_000
 
@@ -114,7 +114,7 @@ def first_crossing(np, lam, eta, up, w0):
     a, u = SPIN, math.cos(math.radians(INCLINATION))
     A, K, D = a * a - lam**2 - eta, eta + (lam - a) ** 2, a * a * eta
     root = np.sqrt(A * A + 4 * D)
-    b = np.where(A < 0, (root - A) / 2, 2 * D / (root + A))  # a^2 times minus the negative root of U(u^2)
+    b = np.where(A < 0, (root - A) / 2, 2 * D / (root + A))  # a^2 times the magnitude of the negative root of U(u^2)
     top = eta / b
 
     def since_plane(x):
@@ -138,7 +138,7 @@ def first_crossing(np, lam, eta, up, w0):
 
 
 def judge_kerrz(np, library, n):
-    """Errors of r: against the reference with kerrz's own constants and start, and for an observer at infinity."""
+    """Errors of r, for kerrz's own constants and start and for an observer at infinity, compared with the reference."""
     metric = library.krz_KerrMetric_init(1.0, SPIN)
     eye = library.krz_FourVector(t=0, r=OBSERVER, th=math.radians(INCLINATION), ph=0)
     at = (np.arange(n) + 0.5) / n * 2 * HALF_WIDTH - HALF_WIDTH

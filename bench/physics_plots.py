@@ -73,7 +73,7 @@ def frequencies(axes):
         for name, label, colour in lines:
             axes.plot(p["r"], v[name], style, color=colour, label=f"{label}, a = {a}")
         isco = ask("kerr", spin=a)[1]["isco"]
-        p, v = ask("kerr", spin=a, r=f"{isco!r}:14:601")  # from where it vanishes
+        p, v = ask("kerr", spin=a, r=f"{isco!r}:14:601")  # kappa is drawn from the ISCO on, where it vanishes
         axes.plot(p["r"], v["kappa"], style, color=RED, label=f"$\\kappa$, a = {a}")
     axes.set(
         xlabel="r / M",
@@ -213,8 +213,8 @@ def fallback(axes):
 
 
 def light(axes):
-    """Rays in the equatorial plane from an eye far to the right, as the Kerr-Schild engine steps along them; these are
-    mirrored rays."""
+    """Rays in the equatorial plane that end at an observer far to the right, by the steps of the Kerr-Schild engine.
+    The engine traces them in the mirrored spacetime (t, phi) -> (-t, -phi), so y is drawn with the opposite sign."""
     for b in (-12, -10, -8, -6, -4, -3.2, -2.9, -2.7, -2, 0, 2, 4, 6, 6.6, 6.9, 7.5, 9, 11):
         text = run(
             "rays",
@@ -270,7 +270,7 @@ def azimuths_seen(axes):
 
 
 def distances(axes):
-    """Size of the shadow from near the hole, against the straight lines for a distant observer."""
+    """Size of the shadow as seen from near the hole, compared with the straight lines for a distant observer."""
     for name, colour in (("static", BLUE), ("zamo", RED)):
         radius, angle = [], []
         for k in range(41):
@@ -290,7 +290,7 @@ def distances(axes):
 
 
 def tone(axes):
-    """The curve of S. Hill between its two matrices, for grey, against clipping."""
+    """The curve of S. Hill between its two matrices, for grey light, compared with clipping."""
     x = [10 ** (-3 + 4.5 * k / 200) for k in range(201)]
     f = lambda c: (c * (c + 0.0245786) - 0.000090537) / (c * (0.983729 * c + 0.4329510) + 0.238081)
     axes.plot(x, [max(f(c), 0) for c in x], color=BLUE, label="f(c)")

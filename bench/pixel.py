@@ -25,7 +25,7 @@ LONG = {"image": {"width": 2560, "height": 1440, "samples": 4}}
 
 
 def rests(load):
-    """A view whose camera jumps every 3 s and is then made finer."""
+    """A view whose camera jumps every 3 s. Its picture is made finer after each jump."""
 
     def jump():
         time.sleep(3)

@@ -58,7 +58,7 @@ class Client:
 
 
 class Shares:
-    """kd_shares_add, _remove, _next and _charge."""
+    """Models kd_shares_add, _remove, _next and _charge."""
 
     def __init__(self):
         self.now, self.clients = 0.0, {}
@@ -304,7 +304,7 @@ class Habits:
     rest: float = 12.0  # mean seconds between two
     pause: float = 0.001  # from a picture to the next request
     frames: int = (
-        2  # for an input: the frame under way when it comes, as time goes on by itself, and the one that shows it
+        2  # frames for an input: the one under way when it comes, as time goes on by itself, and the one that shows it
     )
     encode: float = 0.001
     floor: float = 0.010  # device seconds of the smallest frame

@@ -262,7 +262,7 @@ def run(proxied, setting, load, rng, n):
     like = [
         [took for took, (at, _) in zip(served, asked) if took and at == size] or c["took"][size]
         for size in range(len(MIX))
-    ]  # of the size, for those that were refused
+    ]  # service times of pictures of this size, from which those of refused pictures are drawn
     replayed = [(took or rng.choice(like[size])) + c["beyond_s"] for took, (size, _) in zip(served, asked)]
     out = {"real": told([(took, status) for status, took, *_ in answers], seconds)}
     estimated = [c["estimates"][size] for size, _ in asked]
@@ -314,8 +314,8 @@ def sleeping(path, n, load, rng, count):
         answers, seconds = asyncio.run(opened(proxied.port, asked, arrivals))
     finally:
         proxied.stop()
-    beyond = max(0.0, n / rate - mean)  # from the end of one to the start of the next
-    estimate = 64 * 36 * 1e-6  # of that renderer: a microsecond a ray
+    beyond = max(0.0, n / rate - mean)  # seconds from the end of a picture to the start of the next
+    estimate = 64 * 36 * 1e-6  # that renderer's estimate in seconds: a microsecond a ray
     model = simulate(
         n,
         SETTINGS["as in docs/examples"],
@@ -341,7 +341,7 @@ def calmest(rounds):
 
 
 def cells(row, way):
-    """Figures of the model beside the real ones."""
+    """A table row: the figures of the model and the real ones."""
     of, real = row[way], row["real"]
     return (
         [f"{of['rate']:.1f} ({100 * (of['rate'] / real['rate'] - 1):+.0f} %)"]

@@ -77,7 +77,7 @@ def haproxy_cost(path, n=4000, rounds=5):
 
 
 def pictures(rng, measured):
-    """A function that draws a picture's work from the measured ones; and the mean seconds of one."""
+    """A function that draws the work of a picture from the measured ones, and the mean seconds of a picture."""
     samples, beyond, estimated = measured["samples_s"], measured["beyond_s"], measured["estimates"]
     weights = [weight for *_, weight in queueing_check.MIX]
     mean = sum(w * statistics.mean(took) for w, took in zip(weights, samples)) / sum(weights) + beyond
@@ -190,8 +190,8 @@ def dragging(count, habits, seconds=20):
 
 
 def habits_of(plan):
-    """From the results of bench/scale_plan.py for the first view: device seconds of a frame, of a single dragging
-    visitor and of the smallest frames, and the time between frames; and the rows by number."""
+    """Reads the results of bench/scale_plan.py for the first view. Returns the device seconds of a frame, of a single
+    dragging visitor and of the smallest frames, and the time between frames; and the rows by number."""
     rows = {int(live.re.match(r"\d+", name)[0]): row for name, row in plan["dragged"].items() if "3840" not in name}
     frame = {n: row["device_each"] / row["fps"] for n, row in rows.items()}
     return queueing.Habits(

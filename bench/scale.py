@@ -51,7 +51,7 @@ def alone(kerrd, binary, scenes):
 
 
 def together(kerrd, distributed, binary, scenes, killed=False):
-    """Seconds, and the pictures, of two workers, one of which is killed when half of the pictures are there."""
+    """Seconds and pictures of two workers, one of which is killed when half of the pictures have been made."""
     with (
         distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster,
         distributed.Client(cluster) as dask,

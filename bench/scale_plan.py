@@ -63,7 +63,7 @@ def frames(server, rounds):
     for k in range(rounds + 1):
         for name in PRESETS:
             if name == "volume" and k > 2:
-                continue  # it takes longest, and equally long each time
+                continue  # two rounds are enough: it takes longest, and equally long each time
             scene = scene_of(server, name)
             scene["camera"] = {
                 **scene.get("camera", {}),

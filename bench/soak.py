@@ -431,8 +431,8 @@ def first_view_s(world):
 
 
 def rest(world, start):
-    """After more than a minute without requests: the server's memory, what it names as kept, and the time of the next
-    picture."""
+    """Waits for more than a minute without requests. Then checks the server's memory, what it names as kept, and the
+    time of the next picture."""
     time.sleep(RESTS_S)
     now = world.server.sample()
     return {
@@ -557,7 +557,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "log", "w+b") as log:
         state = str(pathlib.Path(folder) / "state")
         if a.faults:
-            import soak_faults  # what it needs is built with the tests
+            import soak_faults  # it is built with the tests
 
             harm = soak_faults.Faults(a.build, random.Random(a.seed))
             server = Server(harm.command(), state, log, "--device-reopenings", "100000", env=harm.environment())

@@ -149,7 +149,8 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
         const double began = kd_clock_ms();
         double *out_ms = &ms[k < 0 ? 0 : k];
         status = kd_render_lens(renderer, &scene, &plan, planes, out_ms, error);
-        if (plan.lens.path == KD_LENS_LISTED) /* the host does a part of these, and copying the map counts too */
+        if (plan.lens.path ==
+            KD_LENS_LISTED) /* the host computes a part of listed rays, and the time of copying the map counts too */
             *out_ms = kd_clock_ms() - began;
     }
     if (!status) {

@@ -103,7 +103,7 @@ class Compare(Case):
         for one in (0.97, 1.03):
             other = self.told(*options, "-s", f"spacetime.mass_msun={mass * size * one}", "--solve", "position_angle")
             self.assertGreater(self.total(other), self.total(scaled))
-        # what a search leaves alone is as it was
+        # a search leaves the values that it does not vary as they were
         plain, flux = self.told(*options), self.told(*options, "--solve", "flux")
         self.assertEqual(plain["values"], flux["values"])
         self.assertEqual(plain["values"]["size"], 1)
@@ -114,7 +114,8 @@ class Compare(Case):
         return sum(told["chi2"][name] * n for name, n in told["n"].items() if n)
 
     def test_visibilities_determine_the_position(self):
-        """Amplitudes and closures do not change with a shift. The rows of a visibility are its two parts."""
+        """Amplitudes and closures do not change with a shift. A visibility has two rows, its real and its imaginary
+        part."""
         options = ["--observation", compared.UVFITS, "-p", "m87", "--pixels", "64", "--average-s", "600"]
         options += ["--check", "none", "--flux-jy", "0.6", "--products", "amplitude,closure_phase,visibility"]
         plain, found = self.told(*options), self.told(*options, "--solve", "shift")
@@ -136,7 +137,7 @@ class Compare(Case):
         self.assertAlmostEqual(chi2 / found["chi2"]["visibility"], 1, delta=1e-9)
 
     def test_a_set_that_cannot_be_rendered(self):
-        """What only a picture shows names its set too: this torus has no such flux at any density."""
+        """An error that only rendering finds names its set too: this torus has no such flux at any density."""
         request = {"preset": "torus", "pixels": 32, "average_s": 600, "sets": [{}, {"volume.normalise_to_jy": 1e6}]}
         with open(self.path("sets.json"), "w", encoding="utf-8") as file:
             json.dump(request, file)
@@ -160,7 +161,8 @@ class Compare(Case):
             self.assertEqual([number is None for number in columns[name]], [False, True, False], name)
 
     def test_scattering(self):
-        """The kernel multiplies each amplitude of the model, and longer baselines more. It leaves closure phases."""
+        """The kernel multiplies each amplitude of the model, and affects longer baselines more. Closure phases do not
+        change."""
         options = ["--observation", compared.UVFITS, "-p", "m87", "--pixels", "64", "--average-s", "600"]
         options += ["--check", "none", "--flux-jy", "0.6"]
         plain, scattered = self.told(*options), self.told(*options, "--scattering", "sgra")
@@ -179,8 +181,8 @@ class Compare(Case):
 
     def test_a_simulated_observation(self):
         """Without noise chi^2 is 0 to the file's single precision. With noise it is 1 within its error. The files of
-        both forms have the visibilities of the answer; other seeds give other noise. All other bytes of the uvfits
-        remain, and nothing of the measured light does."""
+        both forms have the visibilities of the answer; other seeds give other noise. All other bytes of the uvfits are
+        unchanged, and none of the measured light remains."""
         options = ["-p", "riaf", "--pixels", "32", "--check", "none", "--flux-jy", "0.6"]
         seen = ["--observation", compared.UVFITS, *options]
         told = json.loads(self.good("observe", *seen, "--seed", "3"))

@@ -240,9 +240,10 @@ print(json.dumps(told))
         return json.loads(done.stdout.splitlines()[-1])
 
     def test_scattering(self):
-        """The scattered amplitudes over those that are not are the kernel of ehtim's ScatteringModel, by its exact
-        phase structure function, at each baseline of the observation. ehtim 1.3.2 takes the result of scipy's minimize
-        as an array, which its next step refuses with numpy 2.4; here it gets a number, of a finer search."""
+        """At each baseline of the observation, the ratio of scattered to unscattered amplitude is the kernel of ehtim's
+        ScatteringModel, with its exact phase structure function. ehtim 1.3.2 uses the one-element array that scipy's
+        minimize returns as a number, which numpy 2.4 refuses. Here minimize is replaced by one that searches more
+        finely and returns a number."""
         code = """
 import json, sys
 import numpy, ehtim.scattering.stochastic_optics as optics

@@ -24,7 +24,7 @@ except ImportError as missing:
     print(f"left out: {missing}; scripts/setup --browser installs it")
     sys.exit(77)
 
-PSNR = 46  # dB; 50 was measured: the loss by 4:2:0 at edges of colours, and by H.264 at its quality
+PSNR = 46  # in dB; 50 was measured. The loss comes from 4:2:0 at edges of colours, and from H.264 at its quality.
 REAL = os.environ.get("FFMPEG") == "real"
 SIZE = {"width": 96, "height": 54}
 TURN = {
@@ -247,7 +247,7 @@ class Pictures(Case):
             self.assertGreater(numpy.abs(shown - other).max(), 1000)
 
     def test_motion_blur_in_bands(self):
-        """The same for a picture that is rendered in two bands, from the top down."""
+        """A blurred picture that is rendered in two bands, from the top down, is the same."""
         image = {"width": 320, "height": 180, "samples": 8}
         request = {
             **self.BLURRED,

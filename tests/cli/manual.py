@@ -102,7 +102,7 @@ class Manual(Case):
 
 class Installed(Case):
     def test_places(self):
-        """Installed where Debian looks for them, below the prefix."""
+        """The pages and completions are installed where Debian looks for them, below the prefix."""
         build = MADE.parents[2]
         places = json.loads(
             subprocess.run(["meson", "introspect", "--installed", build], capture_output=True, check=True).stdout

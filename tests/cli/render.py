@@ -106,7 +106,7 @@ class Pictures(Case):
         self.assertFalse(os.path.exists(self.path("c.jpg")) or os.path.exists(self.path("c.webp")))
 
     def test_panoramas(self):
-        """Viewers of photographs find what they need to turn a picture into a view all round, in each kind of file."""
+        """Each kind of file has what viewers of photographs need to turn a picture into a view all round."""
         scene = (
             "--set",
             "camera.r=20",

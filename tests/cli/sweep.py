@@ -273,7 +273,8 @@ class Sweep(support.Case):
             pixels = [[0] * axis + [j] + [0] for j in range(3)]
             self.assertEqual((world.wcs.ctype[axis], str(world.wcs.cunit[axis])), ("FREQ-TAB", "Hz"))
             self.assertEqual([*world.all_pix2world(pixels, 0)[:, axis]], [f * 1e9 for f in given])
-            first = WCS(units[name].header)  # this needs no file
+            # the primary coordinates 1, 2, 3 are in the header itself; only those of key F are in a table of the file
+            first = WCS(units[name].header)
             self.assertEqual([*first.all_pix2world(pixels, 0)[:, axis]], [1, 2, 3])
             self.assertEqual([*first.celestial.wcs.ctype], [*world.celestial.wcs.ctype])
             self.assertEqual([*first.celestial.wcs.cdelt], [*world.celestial.wcs.cdelt])

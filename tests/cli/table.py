@@ -97,7 +97,7 @@ class Table(support.Case):
             self.assertLess(off, 3e-6, nodes[k])
 
     def test_charge_is_an_axis(self):
-        """It comes after the spin, and each of its values has the image of its hole."""
+        """The axis of the charge comes after that of the spin, and each of its values has the image of its hole."""
         axes = "charge=0,0.8", "inclination_deg=40,50", "index=2,3"
         self.good(
             "table", *(f"-x{axis}" for axis in axes), "-s", "spin=0.5", "-s", "bins=50", "-o", self.path("q.fits")
@@ -113,7 +113,7 @@ class Table(support.Case):
             self.assertLess(off, 3e-6, (q, i, index))
 
     def test_axes(self):
-        """An inner edge over the ISCO, a fixed inclination, and an axis of ranges."""
+        """Tests an inner edge over the ISCO, a fixed inclination, and an axis of ranges."""
         axes = "-x", "inner_isco=1,2:4/3", "-x", "spin=0,0.9"
         self.good("table", *axes, "-s", "inclination_deg=40", "-s", "index=2.5", "-o", self.path("a.fits"))
         file = self.opened("a.fits")
@@ -161,7 +161,7 @@ class Table(support.Case):
         self.assertEqual(self.read("b.fits"), whole)
 
     def test_the_request_can_be_asked(self):
-        """KDTABLE is a request of kerrd line but for its axes, with edges or without."""
+        """KDTABLE is a request that kerrd line accepts, except for its axes, with edges or without."""
         for extra in [], ["-s", "edges=1,2,4,8"]:
             self.good("table", *SMALL, *extra, "-o", self.path("a.fits"))
             asked = json.loads(self.opened("a.fits")[0].header["KDTABLE"])

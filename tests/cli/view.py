@@ -216,7 +216,7 @@ class View(Case):
         self.assertEqual(self.size(*wide, answer=KITTY, pixels=(160, 384)), (160, 90))
         self.assertEqual(
             self.size(*wide, answer=KITTY, pixels=(640, 96)), (163, 92)
-        )  # of 24 lines one stays free for the next output
+        )  # one of 24 lines stays free for the next output
         self.assertEqual(self.size(*wide, answer=KITTY, pixels=(640, 384), columns=0, rows=0), (320, 180))
         self.assertEqual(self.size(*SMALL, "--enlarge", answer=KITTY, pixels=(128, 384)), (128, 72))
         self.assertEqual(self.size("--size", "100x1", answer=KITTY, pixels=(20, 384)), (20, 1))

@@ -13,7 +13,7 @@ CONVERSION = re.compile(r"%(?:\.\*|\.\d+)?(?:ll|z|h)?([a-zA-Z])")
 
 
 def words(sentence):
-    """A regular expression for what a format of C may produce."""
+    """A regular expression for the texts that a format string of C may produce."""
     parts, at = [], 0
     for one in CONVERSION.finditer(sentence):
         parts += [re.escape(sentence[at : one.start()].replace("%%", "%")), ".*?" if one[1] == "s" else r"[-+.\deinf]+"]
@@ -48,8 +48,8 @@ def together(label, sentence):
 
 
 def of_an_axis(label, problem):
-    """True if a value of a sweep's axis is refused. Such a value is one of the axis' field, so that its schema depends
-    on the axis' name: the document would have to repeat each of its 331."""
+    """True if a value of a sweep's axis is refused. Which values are valid depends on the field that the axis names, so
+    the document would have to repeat the schema of each of its 331 fields."""
     name = re.match(r"/axes/([^/]+)(/\d+)?$", problem.get("pointer", ""))
     return (
         label in ("POST /v1/jobs", "POST /v1/plan")

@@ -76,7 +76,7 @@ SCENE = (
     'polarization.model is "transfer", which needs a scene where only the volume shines: disk.model and sky.model "none", no jets, spots or bodies',
     'polarization.model is "transfer"; with camera.projection "ring", whose picture has no upward direction, it must be "none"',
     "volume.grid has matter for a hole of spin %s; spacetime.spin is %s and must be the same",
-    # found by the plan of a scene
+    # the plan of a scene refuses this
     "image.layers has %s; its image orders must be below accuracy.orders, %d",
     "image.layers has %s; with volumes or bodies, whose light is between the crossings, it must be %.*s",
     'image.layers has %s, which needs polarised light: polarization.model must not be "none"',
@@ -114,7 +114,7 @@ SCENE = (
     'volume.grid is "%s", whose file is missing; it must be %s',
     'sky.image is "%s", whose file is missing; it must be %s',
 )
-# These depend on the engine and its precision, and on the device or the table of its driver.
+# These refusals depend on the engine and its precision, and on the device or the table of its driver.
 ENGINE = (
     'the closed engine works in double precision: precision must be "f64", or the engine must be another',
     "steps cannot be used with the closed engine, which takes none: it must be 0, or the engine must be another",
@@ -288,7 +288,7 @@ TOGETHER = [
             "the picture of %u x %u pixels is dark and has no visibilities",
         ),
     ),
-    # pictures whose light is measured
+    # a measurement of the light of pictures
     (
         "POST /v1/(spectrum|visibility|compare|observe|jobs)",
         (
@@ -440,7 +440,7 @@ TOGETHER = [
             "position is %.9g M from the hole; it must be more than %g M, inside which the hole captures everything",
             "a snapshot cannot have this body, because it is captured by the hole or faster than c",
             "name is not a string of at most %zu bytes",  # a schema counts characters, not bytes
-            "r is %.16g; it must be above the horizon at %.9g",  # this and what follows: with gravity "kerr"
+            "r is %.16g; it must be above the horizon at %.9g",  # this sentence and the next two: with gravity "kerr"
             "%s at r = %.16g, inside %s, which ends at %.9g here: use %s",
             "double precision cannot follow the motion from r = %.16g",
         ),

@@ -14,11 +14,11 @@ enum { KD_FAULT_BLOCKS = 1 << 16, KD_FAULT_STACKS = 1 << 12 };
 enum {
     KD_FAULT_OPEN = 1,   /* an existing file or folder */
     KD_FAULT_CREATE = 2, /* creates a file or a folder */
-    KD_FAULT_WRITE = 4,  /* to a regular file; also the operations below */
+    KD_FAULT_WRITE = 4,  /* writes to a regular file; the operations below are on such files, too */
     KD_FAULT_READ = 8,
     KD_FAULT_SYNC = 16, /* folders too */
     KD_FAULT_RENAME = 32,
-    KD_FAULT_CLOSE = 64, /* of a file opened for writing */
+    KD_FAULT_CLOSE = 64, /* closes a file opened for writing */
 };
 
 struct kd_faults {
@@ -29,8 +29,8 @@ struct kd_faults {
     /* 1: record each stack of an allocation in `stacks`. Another value except 0: fail_at counts only allocations by
      * that stack. */
     _Atomic int64_t by_stack;
-    _Atomic int64_t by_library;  /* of those, how many libmicrohttpd requested; it closes the connection then */
-    _Atomic int64_t failed_from; /* caller of the last failed one, as in `blocks` */
+    _Atomic int64_t by_library;  /* failed allocations that libmicrohttpd requested; it closes the connection then */
+    _Atomic int64_t failed_from; /* caller of the last failed allocation, as in `blocks` */
     _Atomic int64_t files_mask;  /* bit mask of the file operations that are counted */
     _Atomic int64_t files_at;    /* operations before one fails; negative: none fails */
     _Atomic int64_t files_for;   /* as fail_for */

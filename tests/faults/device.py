@@ -119,7 +119,7 @@ class Drawing:
             *wrap,
             "env",
             *(f"{name}={value}" for name, value in self.faults.environment().items()),
-        ]  # allocations of kerrd alone
+        ]  # set after `wrap`, so that only allocations of kerrd fail
         return subprocess.run(
             [*wrap, daemon.COMMAND[0], "render", *DRAW, *(options or ("-o", self.out))],
             stderr=subprocess.PIPE,
@@ -227,8 +227,8 @@ class Command(unittest.TestCase):
                 faults.record(errno.errorcode[number], "kerrd render", outcomes, count + 1)
 
     def test_a_cache_that_is_read_only(self):
-        """What is learnt about a device cannot be stored, and nothing else suffers. The disk needs a mount namespace,
-        which some machines do not permit to users."""
+        """The server cannot store what it learns about a device, and nothing else suffers. The disk needs a mount
+        namespace, which some machines do not permit to users."""
         wrap = (
             ["unshare", "--mount", "--propagation", "private"]
             if os.geteuid() == 0
@@ -285,7 +285,7 @@ class Command(unittest.TestCase):
         )
 
     def test_caches(self):
-        """What is cached about a device can be made again, and is made again after damage."""
+        """A cache of the device can be made again, and is made again after damage."""
         folder = os.path.join(CACHES.name, "kerrd")
         names = sorted(os.listdir(folder))
         self.assertTrue([name for name in names if name.endswith(".pipelines")], names)
@@ -309,7 +309,7 @@ class Command(unittest.TestCase):
 
 class Streams(unittest.TestCase):
     def test_nobody_reads_what_a_server_says(self):
-        """The server's standard output and error are closed pipes, and it logs everything."""
+        """The server's standard output and error are closed pipes, while it logs everything."""
         read, write = os.pipe()
         os.close(read)
         server = daemon.Daemon("--log-level", "debug", stderr=write)

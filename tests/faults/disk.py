@@ -1,6 +1,6 @@
 """Disks that are full, fail, or are slow, with a renderer without a device.
 
-What was accepted is done when there is room again; what was refused leaves nothing behind.
+An accepted request is completed when there is room again. A refused one leaves nothing behind.
 
 disk.py FAULTS SERVER                 some operations of each series
 KD_WHOLE=1 disk.py FAULTS SERVER      all of them

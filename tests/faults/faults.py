@@ -71,7 +71,7 @@ class Faults:
         self.set("fail_at", n)
 
     def files(self, mask, errno, n=0, count=ALWAYS):
-        """The same for operations on files."""
+        """As memory(), for operations on files."""
         self.set("files_at", -1)
         self.set("files_mask", mask)
         self.set("files_errno", errno)

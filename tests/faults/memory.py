@@ -20,7 +20,7 @@ RING = {"spin": 0.5, "rays": [[5.0, 1.0], [2.0, -3.0]]}
 
 class Memory(sweep.Case):
     def owned(self, kind, body=None):
-        """Creates one and deletes it; returns the answer to the creation."""
+        """Creates a resource of this kind and deletes it; returns the answer to the creation."""
 
         def ask():
             answer = self.post(kind, body or ({"scene": IMAGE} if kind == "/v1/jobs" else IMAGE))()
@@ -69,7 +69,7 @@ class Memory(sweep.Case):
                 self.sweep(self.get(target), status, "GET " + target)
 
     def test_scene(self):
-        """A scene is checked by planning it, and is merged over a preset."""
+        """A scene is checked by planning it. A document is merged over a preset."""
         self.sweep(self.post("/v1/plan", IMAGE), 200, "POST /v1/plan")
         self.sweep(
             self.post(

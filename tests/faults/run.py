@@ -24,7 +24,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 DOCUMENT = ROOT / "docs/faults.md"
 BEGIN, END = "<!-- what run.py has found -->", "<!-- its end -->"
-# These run side by side. Each case of the last ones runs separately.
+# These tests run side by side. Each case of those with several words runs separately.
 TESTS = (
     "memory",
     "disk",

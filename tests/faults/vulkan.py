@@ -113,7 +113,7 @@ MAKERS = ["AllocateMemory", *(name for name in NAMES if name.startswith("Create"
 FIELDS = ("entry", "countdown", "code", "injected", "lost", "dead", "hang", "incoherent")
 PROBLEMS = ((500, "device-lost"), (503, "out-of-memory"))
 EXIT_DEVICE = 3
-PATIENCE_S = 240  # within which each request must be answered; otherwise the server counts as hanging
+PATIENCE_S = 240  # seconds within which each request must be answered; otherwise the server counts as hanging
 RENDER = "/v1/render?image.width=48&image.height=27"
 IMAGE = {"width": 48, "height": 27}
 SCENE = {"image": IMAGE, "disk": {"gas": {"amplitude": 0}}}
@@ -383,7 +383,7 @@ def live(server, scenario, faults, fault, same):
 
 
 def to_its_end(server, scenario, faults, fault, same):
-    """The same for a fault until the server has stopped."""
+    """As live(), for a fault that may also happen while the server stops."""
     try:
         outcome, got = live(server, scenario, faults, fault, same)
         code = stop(server)

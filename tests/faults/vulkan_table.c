@@ -230,7 +230,8 @@ static void keep_driver(const struct kd_vk_functions *fn)
 #endif
 }
 
-/* After each of the three steps: members that are still ours were copied from an earlier table. */
+/* Called after each of the three steps that load functions. Members that are already ours were copied from an earlier
+ * table. */
 static void plant(struct kd_vk_functions *fn)
 {
 #define PLANT(name, parameters, arguments) \

@@ -1,4 +1,4 @@
-/* Fuzz target: a token file, and look-ups of tokens that may be in it, the file's words. */
+/* Fuzz target: a token file. The words of the file are then looked up as tokens. */
 #include "fuzz.h"
 
 #include "server/http/access.h"

@@ -4,7 +4,7 @@
 #include "../document_example.h"
 #include "document/tree.h"
 
-/* A range that a row accepts has numbers that it holds. */
+/* Checks that a row accepts the numbers of a range that it accepts. */
 static void check_range(const char *name, const char *text)
 {
     const struct kd_row *row = kd_document_find(&tea_document, name);
@@ -48,7 +48,7 @@ static void check(struct tea *tea, enum kd_status status, const struct kd_error 
     kd_json_end(&json);
     CHECK(!kd_json_finish(&json), "the document cannot be written");
     kd_fuzz_json(&out);
-    /* What is written reads back as the same values. */
+    /* The written text reads back as the same values. */
     struct tea again;
     cJSON *tree = NULL;
     struct kd_error why = { 0 };

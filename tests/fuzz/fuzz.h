@@ -23,7 +23,7 @@ struct kd_fuzz_text {
     size_t size;
 };
 struct kd_fuzz_text kd_fuzz_copy(const uint8_t *data, size_t size);
-/* The same without the NUL, for readers that are given a size. */
+/* A copy of bytes without the NUL, for readers that are given a size. */
 struct kd_fuzz_text kd_fuzz_bare(const uint8_t *data, size_t size);
 
 /* Takes the next part of an input: up to a line "---", which is dropped, or to the end. Empty if nothing is left. */
@@ -36,8 +36,8 @@ void kd_fuzz_refused(enum kd_status status, const struct kd_error *error);
 
 /* Checks that each field of the scene has a value that its row allows. */
 void kd_fuzz_fields(const struct kd_scene *scene);
-/* The same, and that the canonical document reads back as the same scene with the same hash, and that the scene has
- * a plan or an error. */
+/* As kd_fuzz_fields. Also checks that the canonical document reads back as the same scene with the same hash, and that
+ * the scene has a plan or an error. */
 void kd_fuzz_sound(const struct kd_scene *scene);
 
 /* Capacity of a typical device, for plans. */

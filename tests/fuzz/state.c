@@ -72,7 +72,7 @@ static void found(void *user, const struct kd_job_record *record, struct kd_buff
 
 static void read_job(const struct kd_fuzz_text *text)
 {
-    static struct kd_job_store *store; /* as long as the process */
+    static struct kd_job_store *store; /* lives as long as the process */
     const uint8_t *data = (const uint8_t *)text->at;
     size_t size = text->size;
     struct kd_fuzz_text record = kd_fuzz_part(&data, &size);

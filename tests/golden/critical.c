@@ -1,4 +1,5 @@
-/* Pixels at the critical curve, which get more rays than others, against pictures with 8 x 8 rays in every pixel. */
+/* Compares pixels at the critical curve, which get more rays than others, with pictures that have 8 x 8 rays in every
+ * pixel. */
 #include "studio.h"
 
 #include "render/view/critical_pixels.h"

@@ -17,8 +17,8 @@
 
 #include <cmocka.h>
 
-/* line: -1/g^2 for u^t = 1 at this angular velocity, g_tt + 2 Omega g_tphi + Omega^2 g_phiphi in the plane. A
- * circular geodesic has the Omega for which its derivative in r vanishes. */
+/* ds^2/dt^2 of a circle at this angular velocity: g_tt + 2 Omega g_tphi + Omega^2 g_phiphi in the plane. A circular
+ * geodesic has the Omega for which its derivative in r vanishes. */
 static double line(double a, double r, double omega)
 {
     return -(1 - 2 / r) - 4 * a / r * omega + (r * r + a * a + 2 * a * a / r) * omega * omega;

@@ -28,7 +28,7 @@
 static const struct shot {
     const char *name, *preset, *json;
     const char *playground; /* NULL, or JSON of a playground that is shown */
-    double after;           /* time after its beginning */
+    double after;           /* time after the playground's beginning */
 } shots[] = {
     { "default", "gas", "{" SIZE "}" },
     { "smooth", "smooth", "{" SIZE "}" },
@@ -38,7 +38,7 @@ static const struct shot {
       "{\"spacetime\":{\"spin\":0.7,\"charge\":0.6},\"camera\":{\"r\":30,\"observer\":\"infall\"},\"sky\":{\"model\":"
       "\"grid\"}," SIZE "}" },
     { "gargantua", "gargantua", "{" SIZE "}" },
-    { "m87", "m87", "{\"image\":{\"width\":400,\"height\":225}}" }, /* with room for its scales */
+    { "m87", "m87", "{\"image\":{\"width\":400,\"height\":225}}" }, /* large enough for its scales */
     { "sgra", "sgra", "{\"image\":{\"width\":400,\"height\":225}}" },
     { "luminet1979", "luminet1979", "{" SIZE "}" },
     { "edge-on", "edge-on", "{" SIZE "}" },

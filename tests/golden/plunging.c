@@ -66,9 +66,9 @@ static struct kd_frame shot(struct kd_scene *scene, bool doppler, bool redshift)
     "\"spacetime\":{\"spin\":0.3}," \
     "\"camera\":{\"r\":3.2,\"observer\":\"zamo\",\"inclination_deg\":75,\"fov_deg\":120,\"yaw_deg\":180}"
 
-/* The same pixel with and without the factors of g: brightness goes as g^4, whatever the gas's state. Seen from far
- * away most light left the gas outwards; an observer inside also sees light moving inwards. 16 bits: the fourth root of
- * a luminance of 0.01 is known to 1e-4. */
+/* Compares a pixel with and without the factors of g: brightness goes as g^4, whatever the gas's state. Seen from far
+ * away most light left the gas outwards; an observer inside also sees light moving inwards. With 16 bits the fourth
+ * root of a luminance of 0.01 is known to 1e-4. */
 static void redshift_of_light(void **state)
 {
     (void)state;
@@ -87,7 +87,7 @@ static void redshift_of_light(void **state)
         { "from among it", AMONG_IT, "" },
         { "from among it, listed", AMONG_IT, ",\"precision\":\"f64\"" },
     };
-    int judged[2][3] = { { 0 } }; /* light moving inwards, outwards; 1/u^t, g, g u^t */
+    int judged[2][3] = { { 0 } }; /* first index: light moving inwards, outwards; second: 1/u^t, g, g u^t */
     double worst[3] = { 0 };
     for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
         char json[1024];
@@ -196,8 +196,9 @@ static void surface_density(void **state)
     }
 }
 
-/* Slow light: a pixel of the stream is as in a fast-light picture of the emission time, for far and near observers.
- * Not to the last step, because parcels at other places between nodes of the grid are blurred differently. */
+/* Slow light: a pixel of the stream is as in a fast-light picture of the emission time, for far and near observers. The
+ * two do not agree to the last step, because parcels at other places between nodes of the grid are blurred
+ * differently. */
 static void delay_of_light(void **state)
 {
     (void)state;

@@ -93,7 +93,7 @@ static void the_shadow_has_synges_angle(void **state)
         { 3.5, 160, 0, "static" }, { 2.5, 150, 180, "static" }, { 2.1, 120, 180, "zamo" },
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        /* from the hole's direction, or inside 3 from the sky's */
+        /* angle from the direction of the hole, or, inside r = 3, from the opposite direction */
         double r = cases[k].r, edge = asin(sqrt(27 * (1 - 2 / r)) / r);
         bool away = cases[k].yaw;
         int seen[2] = { 0 };

@@ -8,7 +8,7 @@
 
 #define SKIPPED 77
 
-/* Opens a device. 0; SKIPPED after a line that says why there is no device; 1 after a line that says why it failed.
+/* Opens a device and returns 0. Otherwise prints the reason and returns SKIPPED if there is no device, 1 if it failed.
  * KERRD_TEST_DEVICE chooses a device. */
 int studio_open(void);
 void studio_close(void);
@@ -33,6 +33,6 @@ double studio_value(const struct kd_frame *frame, uint32_t x, uint32_t y, int c)
 double studio_light(const struct kd_frame *frame, uint32_t x, uint32_t y, int c);
 /* Luminance of a pixel by the weights of linear sRGB; -1 if a channel may be clipped. */
 double studio_luminance(const struct kd_frame *frame, uint32_t x, uint32_t y);
-bool studio_black(const struct kd_frame *frame, uint32_t x, uint32_t y); /* exactly */
+bool studio_black(const struct kd_frame *frame, uint32_t x, uint32_t y); /* exactly black */
 
 #endif

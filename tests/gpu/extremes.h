@@ -13,10 +13,10 @@
 struct extreme_row {
     char what[48];
     const char *engine;         /* "mino-rkn6 f32", "lens map 16", ... */
-    size_t rays;                /* or pixels */
-    double median, most, worst; /* of r; most: 99 % */
-    double phi;                 /* worst error, of crossings beyond 1.6 times the horizon's radius */
-    double bound, phi_bound;    /* of the worst error */
+    size_t rays;                /* number of rays or pixels */
+    double median, most, worst; /* errors of r: the median, the 99th percentile, the largest */
+    double phi;                 /* largest error of phi, of crossings beyond 1.6 times the horizon's radius */
+    double bound, phi_bound;    /* the largest allowed `worst` and `phi` */
     size_t unsure;              /* rays that the answer itself marks as inaccurate */
     double unsure_most;         /* maximum fraction of such rays */
     size_t loose;               /* rays whose error exceeds their stated error */

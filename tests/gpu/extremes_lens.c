@@ -107,11 +107,12 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
         }
     while (found < ORDERS && map[(uint64_t)found * plan->lens.rays] > 0)
         found++;
-    for (int n = 0; n < p.crossings; n++) { /* from the horizon, and from infinity for a ray on its way out */
+    for (int n = 0; n < p.crossings;
+         n++) { /* distance in 1/r from the horizon and, for a ray on its way out, from infinity */
         double w = 1 / p.crossing[n].r;
         least = fmin(least, fmin(p.crossing[n].sense > 0 ? 1 : w, 1 / kd_hole(v->spin)->outer - w));
     }
-    /* Some twenty roundings, the length of the chain from a pixel to its labels and the motion. */
+    /* There are some twenty roundings from a pixel to its labels and the motion. */
     bool steady = p.status == KD_NULL_OK && least > 1e-6 && extreme_steady(ray, &p, 20 * FLT_EPSILON, weight);
     extreme_condition(ray, &p, 1e-9, weight, gain, phi_gain);
     if (!steady || (p.crossings && gain[p.crossings - 1] > 1e5)) {

@@ -65,7 +65,7 @@ static bool captured(const struct view *v, double alpha, double beta)
     return kd_null_trace_fast(&ray).fate == KD_NULL_CAPTURED;
 }
 
-/* At a relative distance from the shadow's edge, in the direction of angle t from a point inside it. */
+/* Places a ray at a relative distance from the shadow's edge, in the direction of angle t from a point inside it. */
 static void near_critical(const struct view *v, double t, double distance, double *out)
 {
     double middle = 2.4 * v->spin * sin(v->inclination * (M_PI / 180)), c = cos(t), s = sin(t), in = 0, edge = 12;

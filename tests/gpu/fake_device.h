@@ -11,7 +11,7 @@
 struct fake_device {
     uint32_t groups;                    /* workgroups of a dispatch along x and y */
     uint64_t binding, allocation, heap; /* bytes */
-    uint64_t budget;                    /* of each heap; adds VK_EXT_memory_budget to the device */
+    uint64_t budget;                    /* budget of each heap; adds VK_EXT_memory_budget to the device */
     uint32_t texels, uniform;           /* maximum texels and bytes of a binding */
     bool incoherent; /* no memory is coherent: the host sees a copy, which only flushes and invalidations update */
     int lost_at;     /* number, from 1, of the submission that loses the device */

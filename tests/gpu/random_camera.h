@@ -75,8 +75,8 @@ static void random_camera(struct kd_random *random, int side, struct kd_scene *s
     }
 }
 
-/* The same with a spin close to 1 and a radius close to the horizon: image orders have small islands there. An
- * infalling observer is sometimes within the horizon. */
+/* Makes a random camera with a spin close to 1 and a radius close to the horizon, where image orders have small
+ * islands. An infalling observer is sometimes within the horizon. */
 static void random_camera_near_horizon(struct kd_random *random, int side, struct kd_scene *s)
 {
     struct kd_camera *c = &s->camera;

@@ -1,5 +1,5 @@
-// Goes through a length of matter by shaders/light/stokes.glsl: 10 numbers of it in, 8 out: light from behind, as it
-// comes through, and its own.
+// Passes light through a length of matter by shaders/light/stokes.glsl. Input: 10 numbers of the matter. Output: 8
+// numbers, the light from behind as it comes through, and the matter's own.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #define real float

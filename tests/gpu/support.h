@@ -51,7 +51,7 @@ static inline void keep_drivers_loaded(void)
         kd_vk_instance_init(&keeper, false, NULL);
 }
 
-/* 0, or 77 after a line that says why. */
+/* Returns 0 if there is a device; otherwise prints why there is none and returns 77. */
 static inline int skip_without_device(void)
 {
     keep_drivers_loaded();

@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-/* sigma: of the beam, in pixels; 0: no beam. rows: of a band; 0: the whole picture. lit: rows whose light is complete;
- * 0: all. */
+/* sigma: standard deviation of the beam in pixels; 0: no beam. rows: number of rows of a band; 0: the whole picture.
+ * lit: number of rows whose light is complete; 0: all. */
 struct look {
     int width, height, rows, lit;
     double sigma, bloom, exposure;
@@ -92,8 +92,8 @@ static double convolved(const struct look *look, int at, int channel)
     return sum;
 }
 
-/* Beams from far below a pixel to wider than the picture, in sizes that no cell divides: to 4e-4 of the largest
- * value, of which a coarse grid contributes 3e-4 if all light is within a cell, and 16 bits 3e-5. Corners and edges
+/* Beams from far below a pixel to wider than the picture, in sizes that no cell divides. The error is at most 4e-4 of
+ * the largest value: a coarse grid contributes 3e-4 if all light is within a cell, and 16 bits 3e-5. Corners and edges
  * are among the pixels checked. */
 static void it_is_a_convolution(void **state)
 {
@@ -220,7 +220,7 @@ static void exposure_is_of_what_the_beam_sees(void **state)
     for (int coarse = 0; coarse < 2; coarse++) {
         const struct look look = { 301, 200, .sigma = coarse ? 12 : 3, .exposure = INFINITY };
         int most = 0;
-        /* a point of which less than 0.4 % of the pixels receive most of the light */
+        /* synthetic light in which less than 0.4 % of the pixels receive most of the light */
         for (int i = 0; i < 3 * 301 * 200; i++)
             light[i] = i / 3 == 90 * 301 + 100 ? 7 : 1e-6f;
         show(&look, pixels);

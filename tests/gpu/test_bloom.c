@@ -4,9 +4,10 @@
 
 #include <math.h>
 
-static bool all_round; /* pictures of all directions */
+static bool all_round; /* whether the pictures show all directions */
 
-/* Shows the light as pixels of 16 bits, proportional to it. rows: of a band, 0: as many as there are. */
+/* Shows the light as pixels of 16 bits, proportional to it. rows: the number of rows in a band; 0: as many as there
+ * are. */
 static void show(int width, int height, double bloom, int rows, uint16_t *out)
 {
     struct kd_scene scene;
@@ -123,8 +124,8 @@ static void convolve(const double *in, double *out, int width, int height, doubl
         }
 }
 
-/* Splines of one width each approximate Gaussians of their variance: to 4 % of the largest brightness spread, of
- * which the narrowest has about a third, and nowhere with another sign. White light on black. */
+/* White light on black. The splines of each width approximate a Gaussian of their variance, to 4 % of the largest
+ * brightness that is spread. The narrowest has about a third of this brightness. No difference has another sign. */
 static void widths(void **state)
 {
     (void)state;
@@ -294,7 +295,7 @@ static void over_the_seam(void **state)
         int width, height, most;
     } sizes[] = {
         { 384, 192, 2 }, { 640, 320, 2 }, { 638, 360, 100 }, { 250, 300, 100 }
-    }; /* half a turn is not a whole number of coarse cells of the latter */
+    }; /* in the last two sizes half a turn is not a whole number of coarse cells */
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         const int w = sizes[s].width, h = sizes[s].height;
         int worst = 0, differ = 0;

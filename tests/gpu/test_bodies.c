@@ -195,7 +195,7 @@ static void test_light(void **state)
             const struct ks_photon photon = photon_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5);
             const double x = first_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5).b / b->radius, c = b->limb_darkening;
             if (x > 0.9)
-                continue; /* the limb falls steeply; its place is judged elsewhere */
+                continue; /* the limb's brightness falls steeply; its place is tested elsewhere */
             const double t = b->temperature_k / scene.disk.peak_temperature_k / shift_of(&scene, &photon),
                          limb = (1 - c * (1 - sqrt(1 - x * x))) / (1 - c / 3);
             worst = fmax(worst, fabs(intensity(&frame)[i] / (b->brightness * limb * t * t * t * t) - 1));
@@ -357,7 +357,7 @@ static void test_layers(void **state)
     struct kd_frame frame = rendered(&scene);
     int lit = 0;
     for (int i = 0; i < PIXELS; i++) {
-        if (!(intensity(&frame)[i] > 0) || layer_at(&frame, "r", i) <= 10) /* or the disk in front of it */
+        if (!(intensity(&frame)[i] > 0) || layer_at(&frame, "r", i) <= 10) /* no body, or the disk */
             continue;
         const struct ks_photon photon = photon_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5);
         const double x = first_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5).b / 2;

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* Pixels of 2 x 2 rays against those of one ray of a picture twice as wide and high. */
+/* Compares pixels of 2 x 2 rays with those of one ray of a picture twice as wide and high. */
 static void assert_same_light(struct kd_scene scene)
 {
     const int w = 96, h = 61; /* the last column of pixels has two rows */
@@ -114,9 +114,9 @@ static void assert_same_readers(struct kd_scene scene)
     kd_frame_finish(&of_storage);
 }
 
-/* Footprints and light are the same to the byte whether the lens map and the emitters' buffers are read as texels or
- * as storage: on the grid and on pixels at the critical curve; for crossings, the sky, stars with others and alone,
- * and particles. */
+/* Footprints and light are the same to the byte whether the lens map and the emitters' buffers are read as texels or as
+ * storage. This is tested on the grid and on pixels at the critical curve, for crossings, the sky, stars with other
+ * light and alone, and particles. */
 static void test_readers(void **state)
 {
     (void)state;

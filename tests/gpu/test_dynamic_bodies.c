@@ -204,8 +204,7 @@ static struct kd_dynamic_bodies *one(const struct kd_seen_body *body, size_t n)
     return dynamic;
 }
 
-/* test_bodies.c judges what a body of a scene shows, hides and is hidden by. A body of a playground gives the same, to
- * the bit. */
+/* A body of a playground shows and hides the same, to the bit, as a body of a scene, which test_bodies.c tests. */
 static void test_as_a_scene_has_it(void **state)
 {
     (void)state;
@@ -368,7 +367,7 @@ static double falls_on(const struct kd_scene *scene, const double at[3], const d
 {
     const double inner = kd_disk_inner(scene), outer = scene->disk.outer,
                  radius = sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
-    static double heat[FINE]; /* of this scene's disk, for all bodies */
+    static double heat[FINE]; /* the heat of this scene's disk, computed once for all bodies */
     double sum = 0;
     for (int i = 0; i < FINE; i++)
         for (int k = 0; k < FINE; k++) {
@@ -468,7 +467,7 @@ static void test_lit(void **state)
                                                                          .temperature_k = 5000,
                                                                          .albedo = 0.5 },
                                                 1);
-        /* Weakly bent: a first guess of its place is enough, since the picture is wide. */
+        /* Light is bent only weakly, so a first guess of the image's place is enough for this wide picture. */
         double image[2] = { at[1], sin(i) * at[2] - cos(i) * at[0] };
         const double ahead = sin(i) * at[0] + cos(i) * at[2], impact = hypot(image[0], image[1]),
                      more = ahead < 0 ? 4 * -ahead / impact / impact : 0;
@@ -485,7 +484,7 @@ static void test_lit(void **state)
             sum += layer_of(&frame, "intensity")[p];
             if (x * x + y * y < 1)
                 want += 0.5 / M_PI * falls_on(&scene, at, normal) *
-                        pow(1 - 2 / r, 2); /* the factor of its own redshift: the fourth power of the square root */
+                        pow(1 - 2 / r, 2); /* the body's own redshift: the fourth power of sqrt(1 - 2/r) */
         }
         printf("polar angle %g: %.4g of light, %.4g by the whole integral, brightest %.2g\n", polar[k], sum, want,
                most);

@@ -85,7 +85,8 @@ static void same(const struct answers *a, const struct answers *b)
                             (size_t)x->width * x->height * (kd_frame_bit_depth(x) == 16 ? 6 : 3));
         assert_true(x->light.measured == y->light.measured);
         if (x->light.measured)
-            assert_true(fabs(x->light.all.flux / y->light.all.flux - 1) < 1e-6); /* summed in another order */
+            assert_true(fabs(x->light.all.flux / y->light.all.flux - 1) <
+                        1e-6); /* the light is summed in another order */
     }
     assert_memory_equal(a->crossings, b->crossings, sizeof a->crossings);
     assert_memory_equal(a->ends, b->ends, sizeof a->ends);
@@ -113,7 +114,7 @@ static void answer_as(const struct fake_device *device)
     forget(&answers);
 }
 
-/* Fewer workgroups than a picture has blocks of pixels, also if everything fits one binding. */
+/* The device has fewer workgroups than a picture has blocks of pixels, even if everything fits one binding. */
 static void test_groups(void **state)
 {
     (void)state;
@@ -133,7 +134,7 @@ static void test_binding(void **state)
     answer_as(&(struct fake_device) { .binding = 700000 });
 }
 
-/* Fewer texels than a band has: kernels then read storage. */
+/* The device has fewer texels than a band, so kernels read storage. */
 static void test_texels(void **state)
 {
     (void)state;
@@ -171,7 +172,7 @@ static void test_lost(void **state)
         }
         assert_int_equal(status, KD_EDEVICE);
         assert_non_null(strstr(why.message, "VK_ERROR_DEVICE_LOST"));
-        FAILS(KD_EDEVICE, "lost", draw(renderer, 1, &frame, &error)); /* and stays so */
+        FAILS(KD_EDEVICE, "lost", draw(renderer, 1, &frame, &error)); /* the device stays lost */
         kd_renderer_destroy(renderer);
         fake_device_off();
     }
@@ -192,7 +193,7 @@ static void test_heap(void **state)
     fake_device_off();
 }
 
-/* Only what other programs leave of a large heap counts. */
+/* Of a large heap only the part that other programs leave free counts. */
 static void test_budget(void **state)
 {
     (void)state;

@@ -17,7 +17,7 @@
 #define HEIGHT 90
 #define ORDERS 3
 #define NUDGE \
-    1e-3 /* of a step: its square is what the oracle's own differences are off by; 1e-12 over it, their rounding */
+    1e-3 /* in steps; the error of the oracle's differences is its square, and their rounding 1e-12 divided by it */
 
 struct view {
     const char *name;
@@ -135,10 +135,9 @@ static struct change change_of(const struct ks_path *p, const struct ks_path *q,
     return (struct change) { s * (b.x - a.x), s * (b.y - a.y), s * (b.z - a.z) };
 }
 
-/* Footprints of all orders and of the sky at one place; NAN if undefined. */
-struct sizes {
-    double of[ORDERS + 1], share[ORDERS + 1], tilt[ORDERS + 1];
-}; /* share, tilt: of J J^T: rr over the trace; rf over sqrt(rr ff) */
+/* Footprints of all orders and of the sky at one place; NAN if undefined. share and tilt describe J J^T: rr over the
+ * trace, and rf over sqrt(rr ff). */
+struct sizes { double of[ORDERS + 1], share[ORDERS + 1], tilt[ORDERS + 1]; };
 
 static struct sizes sizes_at(const struct view *v, const struct kd_scene *scene, double x, double y)
 {
@@ -190,7 +189,7 @@ struct tally {
     double errors[WIDTH * HEIGHT], shapes[WIDTH * HEIGHT];
 };
 
-/* noise: of the map's own arithmetic, over the size. */
+/* noise: the error of the map's own arithmetic, relative to the size. */
 static void judge(struct tally *t, const struct range *range, int n, double got, double slack, double noise)
 {
     double own = range->own.of[n], least = range->least.of[n], most = range->most.of[n];
@@ -201,15 +200,15 @@ static void judge(struct tally *t, const struct range *range, int n, double got,
         return;
     }
     t->errors[t->n++] = fabs(got / own - 1);
-    /* The ends are samples and the long axis turns between them; the second difference is included, which is of
-     * second order as well. */
+    /* `least` and `most` are samples, between which the long axis turns, and the kernel includes the second difference.
+     * Both effects are of second order in the step; the slack allows for them. */
     if (got < least * (1 - slack - noise) || got > most * (1 + slack + noise)) {
         t->outside++;
         print_message("  order %d: %.6g, the oracle's %.6g between %.6g and %.6g\n", n, got, own, least, most);
     }
 }
 
-/* Against the numbers that shaders/shared/lens.h packs into one. */
+/* Compares the shape with the numbers that shaders/shared/lens.h packs into one. */
 static void judge_shape(struct tally *t, const struct sizes *own, int n, float packed)
 {
     long bits = lround(((double)packed - 1) * 8388608);

@@ -66,7 +66,8 @@ static void test_names(void **state)
 }
 
 /* After fifteen frames a wrong estimate has moved to the true cost of its pass. An estimate that the frames do not
- * measure stays. The time of a frame includes time in which other processes had the cores; what is learned does not. */
+ * measure stays. The time of a frame includes time in which other processes had the cores, but the learned cost does
+ * not. */
 static void test_learned(void **state)
 {
     (void)state;
@@ -152,7 +153,8 @@ static void test_refining_is_learned(void **state)
     kd_frame_finish(&frame);
     const double estimate = estimated(&plan, "refine");
     print_message("refining took %.1f ms of %.1f, and is estimated at %.1f\n", took, others, estimate);
-    /* Without the time in which others had the cores: a fifth of it beside eight busy threads on two cores. */
+    /* The estimate excludes the time in which other processes had the cores. Beside eight busy threads on two cores it
+     * is a fifth of the measured time. */
     assert_true(estimate > took / 50 && estimate < 2 * took);
 }
 
@@ -182,7 +184,7 @@ static void test_classes_are_learned(void **state)
     kd_frame_finish(&frame);
     const double known = kd_cost_known(&learned, plan.cost.class, KD_PASS_MARCH);
     print_message("a ray took %.0f ns, and is known to take %.0f\n", took, known);
-    assert_true(known > took / 100 && known < 4 * took); /* without the time in which others had the cores */
+    assert_true(known > took / 100 && known < 4 * took); /* time of other processes excluded */
     assert_true(fabs(estimated(&plan, "march") - known * 1e-6 * (double)kd_plan_rays(&plan.lens)) < 1e-6 * known);
 }
 

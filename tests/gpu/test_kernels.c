@@ -7,7 +7,7 @@
 #include "scene/dynamic_bodies.h"
 #include "vk/device.h"
 
-/* As test_pieces of test_march_rays.c. */
+/* The scene of test_pieces in test_march_rays.c. */
 static const char TALL[] =
     "{\"accuracy\":{\"profile\":\"reference\"},\"style\":{\"exposure\":0,\"bloom\":0},\"disk\":{\"height\":0.3,"
     "\"emission_opacity\":10,\"gas\":{\"amplitude\":0.8}},\"image\":{\"width\":96,\"height\":72,\"samples\":1,"
@@ -19,7 +19,7 @@ static uint32_t made(void) { return renderer->vk->n_pipelines; }
 
 static const struct kd_vk_pipeline *post(bool film, bool wide)
 {
-    /* a value that nobody wrote, and not NULL */
+    /* any address, to show that the pointer is set */
     const struct kd_vk_pipeline *out = (const struct kd_vk_pipeline *)renderer;
     OK(kd_kernels_get(&renderer->kernels, renderer->vk, KD_KERNEL_POST, (uint32_t[]) { film, wide }, 2, &out, &error));
     return out;
@@ -47,11 +47,11 @@ static void noted_kernels_are_made_once(void **state)
             assert_ptr_not_equal(all[i], all[k]);
     assert_int_equal(made(), before + 3);
     kd_kernels_note(&renderer->kernels);
-    kd_kernels_make(&renderer->kernels, renderer->vk); /* nothing */
+    kd_kernels_make(&renderer->kernels, renderer->vk); /* no kernel is missing */
     assert_int_equal(made(), before + 3);
 }
 
-/* More are requested than can be recorded: the others are compiled when they are used. */
+/* More kernels are requested than can be recorded. The others are compiled when they are used. */
 static void what_cannot_be_made_is_told_later(void **state)
 {
     (void)state;

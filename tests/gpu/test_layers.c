@@ -41,7 +41,7 @@ static struct kd_scene scene_of(double spin, double inclination, double r, const
     return scene;
 }
 
-/* For the format NPY, which takes any layers. */
+/* The plan of a picture in the format NPY, which takes any layers. */
 static struct kd_plan plan_of(struct kd_scene *scene, uint64_t most_bytes)
 {
     struct kd_capacity c;
@@ -160,7 +160,7 @@ static void judge(const struct kd_scene *scene, const struct kd_frame *frame, co
                 if (i == DELAY && !delay)
                     continue;
                 double gain = apart(i, moved[i], want[i]) / 1e-6, scale = i == R || i == DELAY ? 1 + fabs(want[i]) : 1;
-                double steep = i == ANGLE ? 1 / fmax(sin(want[i]), 1e-3) : 1; /* of the arc cosine */
+                double steep = i == ANGLE ? 1 / fmax(sin(want[i]), 1e-3) : 1; /* the slope of the arc cosine */
                 worst[i] = fmax(worst[i], apart(i, values[i][n][k], want[i]) / (scale * steep + gain));
             }
             compared++;
@@ -209,7 +209,7 @@ static void test_crossings(void **state)
     }
 }
 
-/* Directions in the sky, by the oracle; and fates. */
+/* Directions in the sky and fates are those of the oracle. */
 static void test_ends(void **state)
 {
     (void)state;
@@ -301,7 +301,7 @@ static void test_temperature(void **state)
     }
 }
 
-/* x.y of covariant components in the plane, without those along r and theta: by the inverse metric. */
+/* The product x.y of vectors in the plane, from their covariant components along t and phi, by the inverse metric. */
 static double product(double a, double r, double x_t, double x_phi, double y_t, double y_phi)
 {
     double delta = r * r - 2 * r + a * a;
@@ -344,7 +344,7 @@ static void test_plunge(void **state)
     kd_frame_finish(&frame);
 }
 
-/* The same numbers bit for bit in many bands, and from a cached lens map. */
+/* The numbers are the same bit for bit in many bands, and from a cached lens map. */
 static void test_bands(void **state)
 {
     (void)state;
@@ -434,7 +434,7 @@ static void test_picture_beside(void **state)
     }
 }
 
-/* A single layer is the picture: each pixel has the colour of its number, none is black; in 8 bits as in 16. */
+/* In a picture of a single layer each pixel has the colour of its number, in 8 bits as in 16. No pixel is black. */
 static void test_false_colour(void **state)
 {
     (void)state;
@@ -484,7 +484,7 @@ static void test_ends_beyond(void **state)
     }
 }
 
-/* Every layer, whatever its numbers, gives a picture with a legend, also for a hole without spin. */
+/* The numbers of a layer of the frame, which must exist. */
 static const float *numbers_of(const struct kd_frame *frame, const char *name)
 {
     const struct kd_layer *layer = kd_frame_layer(frame, name);
@@ -572,7 +572,7 @@ static void test_each_is_a_picture(void **state)
                 scene.polarization.model = turns ? KD_POLARIZATION_SCATTERING : KD_POLARIZATION_SYNCHROTRON;
                 if (kind == KD_LAYER_brightness_temperature || kind == KD_LAYER_specific_intensity ||
                     kind == KD_LAYER_jy_per_pixel ||
-                    kind == KD_LAYER_stokes_v) { /* of matter at a radio frequency only */
+                    kind == KD_LAYER_stokes_v) { /* these exist only for matter at a radio frequency */
                     scene.disk.model = KD_DISK_NONE;
                     scene.volume.model = KD_VOLUME_RIAF;
                     scene.polarization.model =

@@ -105,7 +105,7 @@ static void test_engines_agree(void **state)
         /* bound of the medians: single precision is used on one side or on both; the Kerr-Schild engine's start in
          * single precision costs more */
         double bound;
-        int stray; /* maximum of such rays at the rim of the shadow, of 1440 */
+        int stray; /* largest number of rays of 1440 that may differ, all at the rim of the shadow */
     } engines[] = {
         { KD_ENGINE_CLOSED, KD_PRECISION_F64, 5e-7, 3 },    { KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 5e-7, 3 },
         { KD_ENGINE_MINO_RKN4, KD_PRECISION_F32, 5e-6, 3 }, { KD_ENGINE_MINO_RKN4, KD_PRECISION_F64, 5e-7, 3 },
@@ -162,8 +162,9 @@ static void test_slices(void **state)
     test_free(cut.planes);
 }
 
-/* Promises of the profiles for crossing radii over the bulk set, from the ISCO to 1000 M, against the closed form:
- * median and worst. The rows of the accuracy table that they stand for promise less, over all sets. */
+/* Tests what the profiles promise for crossing radii, as median and largest error against the closed form, over the
+ * bulk set from the ISCO to 1000 M. The rows of the accuracy table that the profiles use promise less, but over all
+ * sets. */
 static void test_profiles(void **state)
 {
     (void)state;

@@ -230,7 +230,8 @@ static void test_integrated(void **state)
     }
 }
 
-/* Directions of escape, as the angle between unit vectors, and fates. */
+/* Compares the fates of rays, and the directions of those that escape (the angle between unit vectors), with the
+ * oracle's. */
 static void check_sky(int steps)
 {
     for (int i = 0; i < VIEWS; i++) {

@@ -42,7 +42,8 @@ static struct ks_photon photon_of(const struct kd_scene *scene, int i)
                : ks_from_camera_charged(a, q, scene->camera.r, theta, false, k);
 }
 
-/* A uniform shell for the oracle; with its shift, for observers of zero angular momentum from the metric. */
+/* The medium of a uniform shell, for the oracle. Its frequency shift is that of observers of zero angular momentum, by
+ * the metric. */
 static void shell(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     const struct kd_scene *scene = user;
@@ -125,7 +126,7 @@ static void test_closed_form(void **state)
     printf("%d rays: worst %.2g\n", lit, worst);
 }
 
-/* The same with the frequency shift, compared with the integral of emission and absorption. */
+/* A uniform shell with the frequency shift, compared with the integral of emission and absorption. */
 static void test_shift(void **state)
 {
     (void)state;
@@ -267,8 +268,8 @@ static double row_of(const struct kd_frame *frame, const struct kd_frame *other,
     return sum / COLUMNS;
 }
 
-/* Edge-on there are no bands: the vertical profile is that of a march with 16 times as many steps, row by row,
- * relative to the row's own light. */
+/* Seen edge-on there are no bands. The vertical profile agrees, row by row, with that of a march with 16 times as many
+ * steps. Differences are relative to the row's own light. */
 static void test_no_bands(void **state)
 {
     (void)state;
@@ -295,13 +296,13 @@ static void test_no_bands(void **state)
         printf("%s: %d rows, worst %.2g of their own light; %d rays left out\n", stirred ? "stirred" : "smooth",
                compared, worst, left_out / 2);
         assert_true(compared == ROWS && worst < 0.005 &&
-                    left_out / 2 < ROWS * COLUMNS / 4); /* lavapipe stops so long a march: 832 of 4096 rays */
+                    left_out / 2 < ROWS * COLUMNS / 4); /* lavapipe stops so long a march on 832 of 4096 rays */
         kd_frame_finish(&plain);
         kd_frame_finish(&fine);
     }
 }
 
-/* A ray that stays in the plane, where cos theta is exactly 0, sees what its neighbours see. */
+/* A ray that stays in the plane, where cos theta is exactly 0, has the light of its neighbours. */
 static void test_in_the_plane(void **state)
 {
     (void)state;

@@ -67,7 +67,7 @@ struct judged {
     double worst, least, most;
 };
 
-/* Both ends of each step of a ray. */
+/* Compares the emission times at both ends of each step of a ray with the oracle's. */
 static void judge_ray(const struct kd_scene *scene, int x, int y, struct judged *all)
 {
     static double places[2 * KD_PROBED_STRETCHES][2], want[2 * KD_PROBED_STRETCHES], off[2 * KD_PROBED_STRETCHES];

@@ -59,7 +59,7 @@ static struct errors compare(const struct kd_frame *a, const struct kd_frame *b)
     }
     print_message("%d of %d rays left out\n", left_out, pixels);
     assert_true(n > pixels / 20 &&
-                left_out < pixels / 40); /* lavapipe stops so long a march: 252 of 20 736 rays in turbulence */
+                left_out < pixels / 40); /* lavapipe stops so long a march on 252 of 20 736 rays, in turbulence */
     qsort(off, (size_t)n, sizeof *off, by_value);
     return (struct errors) { off[n * 8 / 10], off[n * 9 / 10], off[n * 96 / 100], off[n - 1] };
 }
@@ -95,7 +95,7 @@ static void test_said(void **state)
     }
 }
 
-/* The oracle's path of a ray through a shell. */
+/* A medium for the oracle that measures the length of a ray's path through a shell. */
 static void path(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     (void)user, (void)p, (void)r, (void)u;

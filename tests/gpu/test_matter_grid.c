@@ -70,7 +70,7 @@ static double theta_of(const struct numbers *g, double row, double column)
     return y + bend * sin(2 * y);
 }
 
-/* theta: a line if all rows have the same, else a row for each. */
+/* Adds theta: one line if all rows have the same angles, otherwise a line for each row. */
 static void add_angles(struct kd_zip *zip, const struct numbers *g)
 {
     double theta[MOST];
@@ -206,7 +206,7 @@ struct view {
     const struct numbers *g;
 };
 
-/* For a metric whose only off-diagonal component is g_tphi. */
+/* The product x.y in a metric whose only off-diagonal component is g_tphi. */
 static double product(const double g[5], const double x[4], const double y[4])
 {
     return g[0] * x[0] * y[0] + g[1] * x[1] * y[1] + g[2] * x[2] * y[2] + g[3] * x[3] * y[3] +
@@ -283,7 +283,7 @@ static void compare(const struct numbers *g, const char *json, double allowed)
 
 #define HIGH "\"accuracy\":{\"profile\":\"high\"}"
 
-/* Errors come from the oracle's own steps, which do not end at the cells' edges either, and from single precision. */
+/* The errors come from single precision and from the oracle's own steps, which do not end at the edges of cells. */
 static void test_rays(void **state)
 {
     (void)state;

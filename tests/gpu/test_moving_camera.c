@@ -89,8 +89,8 @@ static void labels(const struct kd_scene *scene)
     }
 }
 
-/* Errors over the crossing's amplification, as in test_lens_map.c. A ray whose number of crossings changes when it
- * is moved is unsure. */
+/* Errors are divided by the crossing's amplification, as in test_lens_map.c. A ray whose number of crossings changes
+ * when it is moved is unsure. */
 static void map(const struct kd_scene *scene, enum kd_lens_path path, const char *engine)
 {
     static float planes[4 * RAYS];

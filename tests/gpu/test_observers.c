@@ -19,7 +19,8 @@ static const struct seer {
     const char *name;
     double spin, inclination, r;
     struct kd_observer_motion motion;
-    double energy; /* of bodies in free fall and on circular orbits: by Bardeen, Press & Teukolsky or by hand */
+    double
+        energy; /* energy of bodies in free fall and on circular orbits, from Bardeen, Press & Teukolsky or by hand */
     double momentum;
 } seers[] = {
     { "zamo", 0.9, 60, 4, { .observer = KD_OBSERVER_ZAMO }, 0, 0 },
@@ -383,7 +384,7 @@ static void no_seam_at_the_horizon(void **state)
                                  moved = hypot(acos(end[0]) - acos(before[0]), s * turn(end[RAYS] - before[RAYS]));
                     turned += moved > 1e-4 + 100 * apart;
                 }
-            /* Rays within 0.01 of the critical curve move by 100 times as much: some in a hundred. */
+            /* Rays within 0.01 of the critical curve, some in a hundred, move by 100 times as much. */
             if (turned > FACES * RAYS / 100 || (k && sky < FACES * RAYS / 3))
                 fail_msg("a = %g, inclination %g, r = %.7g: %zu of %zu rays end elsewhere than next to it", spins[i],
                          inclinations[i], r, turned, sky);

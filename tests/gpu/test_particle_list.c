@@ -57,7 +57,7 @@ static struct kd_particle_orbit orbit_of(const struct kd_scene *scene, const str
     return kd_particle_orbit(scene, grid->radii, kd_particle_guide(grid, 3 + 29 * (uint32_t)row));
 }
 
-/* On circles: the azimuth after 1e4 M, and its place in space. */
+/* Particles on circles: the azimuth after 1e4 M, and the place in space. */
 static void test_phase(void **state)
 {
     (void)state;
@@ -98,8 +98,8 @@ static struct constants constants_of(double a, const struct row *p)
     return (struct constants) { -ut * (gtt + gtp * p->dphi), ut * (gtp + gpp * p->dphi), norm };
 }
 
-/* Falling particles: their rates are those of a body with the ISCO's E and L, as the list says. Next to the horizon the
- * norm is almost 0, although both constants contribute to it in single precision. */
+/* The rates of falling particles are those of a body with the E and L of the ISCO, which the list states. Next to the
+ * horizon the norm is almost 0, although both constants contribute to it in single precision. */
 static void test_falling(void **state)
 {
     (void)state;
@@ -128,8 +128,8 @@ static void test_falling(void **state)
     }
 }
 
-/* The guiding orbit by physics/orbit/timelike.c: on it rates and constants belong to one orbit, about it to first
- * order: the rest falls as the square of the epicycles. */
+/* On the guiding orbit, computed by physics/orbit/timelike.c, the rates and constants belong to one orbit. With
+ * epicycles they do to first order: the difference falls as the square of the epicycles. */
 static void test_constants(void **state)
 {
     (void)state;

@@ -495,9 +495,9 @@ static void many_rays(void **state)
     }
 }
 
-/* From within the horizon: the stepwise double-precision path, which unit/physics_course.c judges, agrees with the
- * picture's kernel: crossings with azimuths and frequencies, the fate, the direction in the sky; and the light adds
- * up. */
+/* From within the horizon the explanation follows the ray by steps in double precision, as unit/physics_course.c tests.
+ * It agrees with the picture's kernel in crossings with azimuths and frequencies, in the fate, and in the direction in
+ * the sky. The light adds up. */
 static void from_within(void **state)
 {
     const struct {

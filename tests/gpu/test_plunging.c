@@ -63,8 +63,8 @@ static void integrate(double a, double time, double *r, double *phi)
 
 static double angle(uint32_t turns) { return turns * (2 * M_PI / 4294967296.0); }
 
-/* A particle at (r, phi) falls on along its geodesic, or starts anew; at early, late and negative times. The
- * reported r has single precision, 6e-8, at either end. */
+/* A particle at (r, phi) continues along its geodesic, or starts anew. This holds at early, late and negative times.
+ * The reported r has single precision, 6e-8, at either end. */
 static void test_geodesics(void **state)
 {
     (void)state;

@@ -255,9 +255,9 @@ static void test_face_on(void **state)
     }
 }
 
-/* Pixels of a disk with an atmosphere: their ratio to an isotropic disk's is f(mu), and their brightness f(mu) g^4 F,
- * with mu, g and r from the ray in Kerr-Schild coordinates in double precision. Gas that falls from the ISCO stays
- * isotropic. Within a disk of half opacity, order 1 is dimmed alike in both. */
+/* Pixels of a disk with an atmosphere. Their ratio to an isotropic disk's is f(mu), and their brightness is f(mu) g^4
+ * F, with mu, g and r from the ray in Kerr-Schild coordinates in double precision. Gas that falls from the ISCO stays
+ * isotropic. Within a disk of half opacity, order 1 is dimmed by the same factor in both disks. */
 static void judge_atmosphere(const struct view *view, const char *word, enum kd_limb law)
 {
     struct kd_scene even = scene_of(view, "intensity_0,intensity_1"), dark = even;

@@ -9,7 +9,7 @@
 
 /* Light of an encoded value (IEC 61966-2-1). */
 
-/* Radiance through a kernel; out has room for whole groups. Returns the number of pixels whose light is not a
+/* Passes radiance through a kernel; out has room for whole groups. Returns the number of pixels whose light is not a
  * number. */
 static uint32_t post_by(bool texels, const uint32_t *constants, size_t n, const float *light, struct kd_post_push push,
                         void *out)
@@ -45,9 +45,9 @@ static uint32_t post(bool texels, bool film, bool wide, const float *light, stru
     return post_by(texels, (uint32_t[]) { film, wide }, 2, light, push, out);
 }
 
-/* Light slightly less than half a step from each level still rounds to it. The distance to the half step, 0.06, is
- * 9e-7 of the whole, which is the tolerance of the curve; a twentieth of it is the rounding of light to a float and
- * of 65535 times the curve. */
+/* Light 0.44 of a step from a level, on either side, is rounded to that level. It is 0.06 of a step away from where
+ * rounding changes. That is 9e-7 of the whole range, the tolerance of the curve. The rounding of the light to a float
+ * and of 65535 times the curve takes a twentieth of it. */
 static void every_level(void **state)
 {
     (void)state;
@@ -67,8 +67,8 @@ static void every_level(void **state)
     }
 }
 
-/* Interleaved gradient noise (J. Jimenez 2014) in double, from -1/2 to 1/2. fract amplifies the kernel's rounding by
- * 53, of sums of up to a few hundred. */
+/* Interleaved gradient noise (J. Jimenez 2014) in double, from -1/2 to 1/2. The inner fraction is multiplied by 53, and
+ * so is the kernel's rounding of sums of up to a few hundred. */
 static double noise(double x, double y)
 {
     double inner = 0.06711056 * x + 0.00583715 * y, outer = 52.9829189 * (inner - floor(inner));
@@ -117,7 +117,7 @@ static void places(void **state)
     }
 }
 
-/* The same bytes for both readers; NaN and infinite light do not affect neighbouring pixels. */
+/* Both readers give the same bytes. NaN and infinite light do not affect neighbouring pixels. */
 static void both_readers(void **state)
 {
     (void)state;
@@ -145,7 +145,8 @@ static void both_readers(void **state)
     }
 }
 
-/* Counts pixels, not channels, at any of the four places of an invocation; places beyond the end do not count. */
+/* The kernel counts pixels without valid light, not channels, at any of the four places of an invocation. Places beyond
+ * the end do not count. */
 static void no_number(void **state)
 {
     (void)state;

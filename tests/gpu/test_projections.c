@@ -36,8 +36,8 @@ static struct direction seen(const struct kd_scene *scene, double x, double y)
     return d;
 }
 
-/* Roll, pitch, yaw: after a clockwise roll what was above is on the left; a camera that is pitched up looks above
- * the hole. */
+/* The photon of a pixel, by roll, pitch and yaw. After a clockwise roll what was above is on the left. A camera that is
+ * pitched up looks above the hole. */
 static struct ks_photon photon(const struct kd_scene *scene, double x, double y)
 {
     const struct kd_camera *c = &scene->camera;
@@ -140,9 +140,9 @@ static void wide(void **state)
     }
 }
 
-/* Rays that fly outwards along the hole's axis more than round it never meet the plane, or meet it late: Q is 0 or
- * nearly so, and the polar motion's closed form gave a time for a crossing that does not exist. At these sizes a row
- * of pixels lies there. */
+/* Rays that fly outwards, along the hole's axis more than round it, meet the plane late or never. Their Q is 0 or
+ * nearly so, and the polar motion's closed form gave a time for a crossing that does not exist. At these sizes a row of
+ * pixels lies there. */
 static void outwards(void **state)
 {
     (void)state;
@@ -159,8 +159,8 @@ static void outwards(void **state)
     }
 }
 
-/* The same for rays inwards, which fill an ellipse in a picture: none of them may have a crossing that the
- * independent closed form in double does not have. One in this picture did. */
+/* The same for rays inwards, which fill an ellipse in a picture. None of them may have a crossing that the independent
+ * closed form in double does not have. One in this picture did. */
 static void inwards(void **state)
 {
     (void)state;

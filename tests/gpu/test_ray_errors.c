@@ -78,7 +78,7 @@ static void place(const struct view *v, const struct kd_critical *curve, size_t 
     }
     if (v->where != CRITICAL)
         return;
-    /* From a tenth of its distance to 1e-7 of it, on either side. */
+    /* At a relative distance from the curve of 0.1 to 1e-7, on either side. */
     const struct kd_critical_point p = kd_critical_at(curve, 2 * M_PI * x);
     double rho = p.rho * (1 + (k % 2 ? 0.1 : -0.1) * pow(10, -6 * y));
     out[0] = curve->centre + rho * cos(p.angle);
@@ -114,7 +114,7 @@ static void prepare(void)
     }
 }
 
-/* The oracle against 38 digits. */
+/* Compares the oracle with values of 38 digits. */
 static void test_series(void **state)
 {
     (void)state;

@@ -46,7 +46,8 @@ struct tally {
     int rays, bounded, crossings;
 };
 
-/* Errors over 1 + amplification. Crossings near the horizon are left out, where Boyer-Lindquist phi and t diverge. */
+/* Errors are divided by 1 + the amplification. Crossings near the horizon are left out, where Boyer-Lindquist phi and t
+ * diverge. */
 static void judge_crossing(const struct hole *o, const struct ks_path *p, const struct ks_path *q, int n,
                            const struct kd_ray_crossing *c, struct tally *t)
 {
@@ -165,8 +166,8 @@ static double median_error(enum kd_engine engine, uint32_t steps, int order)
     return errors[n / 2];
 }
 
-/* The stated error against the true one, by the closed form, where the steps are too coarse for the asymptotic law:
- * a bound for 999 of 1000 rays, and at most a hundred times too large for half of them. */
+/* Compares the stated error with the true one, by the closed form, where the steps are too coarse for the asymptotic
+ * law. The stated error is a bound for 999 of 1000 rays, and at most a hundred times too large for half of them. */
 static void check_estimate(enum kd_engine engine, uint32_t steps)
 {
     static struct kd_ray_crossing crossings[RAYS * ORDERS], exact[RAYS * ORDERS];
@@ -246,9 +247,9 @@ static void test_orders(void **state)
     }
 }
 
-/* The Kerr-Schild engines at difficult starts, against the closed form: on the axis and next to it, in the plane, an
- * ulp from it, and where rays meet it far beyond the start at 1000 M, on the way in or out; impact parameters beyond
- * that start. */
+/* The Kerr-Schild engines at difficult starts, compared with the closed form. The starts are on the axis and next to
+ * it, in the plane and an ulp from it. Some rays meet the plane far beyond the start at 1000 M, on the way in or out,
+ * and some impact parameters are beyond that start. */
 static void test_starts(void **state)
 {
     (void)state;

@@ -273,7 +273,7 @@ static void test_glances(void **state)
         scene.accuracy.profile = k ? KD_PROFILE_HIGH : KD_PROFILE_BALANCED; /* all rays traced, and a sampled map */
         scene.image.bit_depth = k % 2 ? 16 : 8;
         scene.style.exposure = k < 3 ? 0 : INFINITY;
-        scene.style.bloom = k < 3 ? 0 : 0.5; /* of the finished part, or of all */
+        scene.style.bloom = k < 3 ? 0 : 0.5; /* glare of the finished part of the picture, or of the whole */
         scene.image.critical_factor = 1;
         scene.accuracy.precision = k == 2 ? (int32_t)KD_PRECISION_F64 + 1 : KD_PRECISION_WORD_AUTO;
         if (k == 2 && !has_float64("glances of f64 rays, of the closed form instead"))
@@ -356,7 +356,7 @@ static void test_asides(void **state)
     assert_true(o.calls > 10 && !beside.lens_reused);
     assert_true(timing_of(&beside, "trace") > 0 && timing_of(&beside, "transfer") > 0 &&
                 timing_of(&beside, "total") > 0);
-    assert_true(isnan(timing_of(&beside, "particles"))); /* those belonged to the other picture */
+    assert_true(isnan(timing_of(&beside, "particles"))); /* the particles belonged to the other picture */
 
     OK(kd_render(o.r, &scene, &plan, NULL, NULL, &alone, &error));
     assert_true(alone.lens_reused); /* the lens map is found wherever it was made */
@@ -370,7 +370,7 @@ static void test_asides(void **state)
         assert_same(&alone, &o.frames[i]);
     }
     OK(kd_render_in_background(fresh, &scene, &plan, NULL, NULL, NULL, &alone, &error));
-    assert_true(alone.lens_reused); /* and a picture in the background finds a map from the foreground */
+    assert_true(alone.lens_reused); /* a picture in the background finds a map from the foreground */
     kd_frame_finish(&alone);
     kd_renderer_destroy(fresh);
     assert_int_equal(kd_renderer_validation_messages(o.r), 0);
@@ -437,7 +437,8 @@ static void test_rest(void **state)
     scene.camera.inclination_deg = 41;
     for (int often = 0; often < 2; often++) {
         struct kd_frame before = rendered_by(fresh, &scene), after;
-        /* As if no memory, or all of this process's and much more, had been added since it was opened. */
+        /* Simulates that no memory has been added since the renderer was opened, or all of this process's and much
+         * more. */
         fresh->opened_bytes = fresh->started_bytes = often ? 0 : UINT64_MAX / 4;
         OK(kd_renderer_rest(fresh, &error));
         kd_renderer_cached(fresh, kept);

@@ -1,5 +1,5 @@
 /* Tests of the ring projection. The edges of the orders in a lens map are compared with the solved ones, pixel by
- * pixel; also the measured e^-gamma, and the light of a ring picture with that of a plane picture. */
+ * pixel. The light of a ring picture is compared with that of a plane picture. Also tests the measured e^-gamma. */
 #include "render_support.h"
 
 #include "physics/null/lensing.h"
@@ -24,7 +24,7 @@ static struct kd_scene scene_of(double spin, double inclination_deg)
     return scene;
 }
 
-/* By hand: four rows of four decades, four columns of a quarter turn. */
+/* Four rows of four decades and four columns of a quarter turn, computed by hand. */
 static void rows_and_columns(void **state)
 {
     (void)state;
@@ -42,7 +42,7 @@ static void rows_and_columns(void **state)
     }
 }
 
-/* w of each crossing, alpha. */
+/* Traces the lens map of a ring picture: planes of w of each crossing, and one of alpha. */
 static float *trace(const struct kd_scene *scene, struct kd_plan *plan)
 {
     const struct kd_needs needs = { .quantities = KD_LENS_W };
@@ -98,7 +98,7 @@ static void every_edge_is_where_it_belongs(void **state)
                                  x, n, sources[s], wrong);
                 }
         }
-        assert_true(skipped < 20); /* of 460 800 pixels */
+        assert_true(skipped < 20); /* pixels, of 460 800 */
         test_free(w);
     }
 }
@@ -129,7 +129,8 @@ static void each_order_is_a_gamma_further_in(void **state)
                 double apart = row * (row_of(w + (n + 1) * plan.lens.rays + x, HEIGHT) -
                                       row_of(w + n * plan.lens.rays + x, HEIGHT));
                 if (!(fabs(apart - gamma) <
-                      1.05 * row + 0.02)) /* two roundings to a row; order 3 is not at the limit yet */
+                      1.05 * row +
+                          0.02)) /* rounding to rows is two half rows at most; order 3 is not at the limit yet */
                     fail_msg("a = %g, column %u: orders %d and %d are e^-%.4f apart, not e^-%.4f", views[k].spin, x, n,
                              n + 1, apart, gamma);
                 sum += apart / gamma;

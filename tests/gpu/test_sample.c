@@ -63,13 +63,14 @@ static uint32_t crossings(const struct map *m, size_t i)
 
 struct tally {
     uint64_t rays, other_fate, other_order, other_side, same;
-    /* between, followed: errors of w relative to the condition, in either map; sky: differences of directions */
+    /* errors of w over the condition: between in the interpolated map, followed in the traced one; sky: the angles
+     * between the directions of both */
     double *between, *followed, *sky;
     size_t n, n_sky;
 };
 
-/* Change of w, or of a direction, when all directions change by CONDITION of themselves, from the neighbours: the
- * tolerance is relative to it (comp/lens_cells.comp). */
+/* How much w changes when all directions change by a fraction CONDITION of themselves, from the differences of
+ * neighbours. The tolerance is relative to it (comp/lens_cells.comp). */
 static double condition(const struct map *m, uint32_t n, uint32_t x, uint32_t y)
 {
     const float *w = plane(m, KD_LENS_W, n);
@@ -104,7 +105,7 @@ enum { EVERY = 13, JUDGED = (RAYS + EVERY - 1) / EVERY, ORDERS = 3 };
 static struct kd_ray_crossing truth[JUDGED * ORDERS];
 static struct kd_ray_end ends[JUDGED];
 
-/* Traces one ray of each EVERY by the closed form in double, and fills `truth` and `ends`. */
+/* Traces every EVERY-th ray by the closed form in double, and fills `truth` and `ends`. */
 static void follow(const struct kd_scene *scene)
 {
     static double alpha_beta[2 * JUDGED];
@@ -129,7 +130,7 @@ static void follow(const struct kd_scene *scene)
     OK(kd_rays_closed(&params, &rays, true, truth, ends, NULL, NULL, &error));
 }
 
-/* Radii of both against the closed form. */
+/* Compares the radii of both maps with the closed form. */
 static void judge(const struct kd_scene *scene, const struct map *a, const struct map *b, struct tally *t)
 {
     if (scene->camera.r <= kd_scene_hole(scene)->outer)
@@ -190,8 +191,9 @@ static void rays_between_nodes_are_those_that_are_followed(void **state)
     assert_int_equal(t.other_fate, 0);
     assert_int_equal(t.other_order, 0);
     assert_int_equal(t.other_side, 0);
-    /* Half: twice the single-precision error of a radius where each ray is traced. 99.9 %: that error next to the
-     * critical curve, whose condition the neighbours determine only roughly. */
+    /* The bound of the median is twice the single-precision error of a radius where each ray is traced. The bound of
+     * the 99.9 % quantile is that error next to the critical curve, whose condition the neighbours determine only
+     * roughly. */
     assert_true(between_half < 2.5e-7 && between < fmax(2 * followed, 5e-6));
     test_free(t.between);
     test_free(t.followed);

@@ -270,11 +270,11 @@ static void lifted_all_the_same(void **state)
     scene = scene_of(KD_SKY_CATALOGUE, "");
     scene.disk.model = KD_DISK_NOVIKOV_THORNE;
     assert_true(isinf(kd_scene_exposure_most(&scene)));
-    scene.sky.brightness = INFINITY; /* a hundredth beside a disk, */
+    scene.sky.brightness = INFINITY; /* the brightness is a hundredth beside a disk */
     assert_true(fabs(kd_scene_exposure_most(&scene) - log2(25)) < 1e-12);
     scene.disk.model = KD_DISK_NONE;
     assert_true(fabs(kd_scene_exposure_most(&scene) - log2(1.25)) < 1e-12);
-    scene.volume.model = KD_VOLUME_UNIFORM; /* and beside a volume */
+    scene.volume.model = KD_VOLUME_UNIFORM; /* and a hundredth beside a volume */
     assert_true(fabs(kd_scene_exposure_most(&scene) - log2(25)) < 1e-12);
 }
 

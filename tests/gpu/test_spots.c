@@ -93,9 +93,9 @@ static double orbit_omega(double a, double r)
 }
 
 struct oracle {
-    int n;           /* rays */
-    double area;     /* of one ray, if all have the same */
-    double (*at)[3]; /* solid angle weight, and place in the picture's own measure */
+    int n;           /* number of rays */
+    double area;     /* area of one ray, if all have the same */
+    double (*at)[3]; /* for each ray: its solid angle weight, and its place in the picture's own measure */
     struct ks_photon *photons;
     struct ks_path *paths;
 };
@@ -172,9 +172,9 @@ static struct kd_light oracle_light(const struct kd_scene *scene, const struct o
     return (struct kd_light) { flux, atan2(x, z) * 180 / M_PI, atan2(y, hypot(x, z)) * 180 / M_PI };
 }
 
-/* At several phases, with fast and slow light, for prograde and retrograde spots, from infinity and nearby, also
- * behind half transparent gas. In 32 bits a ray beside the critical curve may miss a crossing, which the bound
- * allows. The width is not a round number, and the spot crosses the edges of the picture. */
+/* Compares the light at several phases with the oracle: with fast and slow light, for prograde and retrograde spots,
+ * from infinity and nearby, also behind half transparent gas. In 32 bits a ray next to the critical curve may miss a
+ * crossing, which the bound allows. The width is not a round number, and the spot crosses the edges of the picture. */
 static void test_oracle(void **state)
 {
     (void)state;
@@ -267,7 +267,7 @@ static double upward(struct kd_scene *scene, double from, double step)
     return NAN;
 }
 
-/* The centroid returns after 2 pi (r^(3/2) + a), whichever way the hole turns; also after 1e8 M. */
+/* The centroid returns after 2 pi (r^(3/2) + a), whichever way the hole turns, and also after 1e8 M. */
 static void test_period(void **state)
 {
     (void)state;
@@ -323,7 +323,8 @@ static void test_slow_light(void **state)
     assert_true(most - least > 15);
 }
 
-/* The light of several spots is the sum of theirs; also behind gas, which passes a fraction of each order. */
+/* The light of several spots is the sum of the light of each, also behind gas, which passes a fraction of each
+ * order. */
 static void test_parts(void **state)
 {
     (void)state;
@@ -416,7 +417,8 @@ static void test_seams(void **state)
     same_light(&aimed.spots, &first.spots, 2e-3, "aimed elsewhere, near");
 }
 
-/* The same at any resolution, in bands, with several rays a pixel; and bit for bit when rendered again. */
+/* The light is the same at any resolution, in bands, and with several rays a pixel. It is the same bit for bit when it
+ * is rendered again. */
 static void test_resolution(void **state)
 {
     (void)state;
@@ -476,7 +478,7 @@ static void test_plans(void **state)
     plan = plan_of(&scene, 0);
     assert_true(!kd_plan_holds(&plan.lens, KD_LENS_PHI) && !plan.light.photometry && !plan.light.apart &&
                 !kd_plan_holds(&plan.lens, KD_LENS_DELAY) && plan.lens.planes == plan.lens.orders);
-    scene.disk.slow_light = true; /* has nothing to act on */
+    scene.disk.slow_light = true; /* slow light has nothing to act on */
     plan = plan_of(&scene, 0);
     assert_false(kd_plan_holds(&plan.lens, KD_LENS_DELAY));
     scene.spots.at[0].brightness = 1;

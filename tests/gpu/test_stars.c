@@ -85,7 +85,7 @@ static double luminance(const struct kd_frame *frame, int x, int y)
     return 0.2126 * rgb[i] + 0.7152 * rgb[i + 1] + 0.0722 * rgb[i + 2];
 }
 
-/* Light about a place of the picture, and its centroid. */
+/* The sum of the light about a place of the picture, and its centroid. */
 struct blob { double light, x, y; };
 static struct blob blob_at(const struct kd_frame *frame, double x, double y, int reach)
 {
@@ -104,7 +104,7 @@ static struct blob blob_at(const struct kd_frame *frame, double x, double y, int
 
 static double step = 2 * 0.83909963117728001177 / WIDTH; /* tan(40 degrees) */
 
-/* Origin of the ray at a place of the picture, by the oracle; and its g. */
+/* The origin of the ray at a place of the picture and its g, by the oracle. */
 static struct vec3 from(const struct kd_scene *scene, double x, double y, double *g)
 {
     double right = (x - 0.5 * (WIDTH - 1)) * step, up = (0.5 * (HEIGHT - 1) - y) * step,
@@ -132,7 +132,7 @@ static double patch(const struct kd_scene *scene, double x, double y, double ste
     return (4 * area[1] - area[0]) / 3;
 }
 
-/* Light and place of the star's image at a place of the picture, against the oracle's. */
+/* Compares light and place of the star's image at a place of the picture with the oracle's. */
 static void compare(struct kd_scene *scene, double x, double y, double *worst_light, double *worst_place)
 {
     double g;
@@ -153,8 +153,8 @@ static void compare(struct kd_scene *scene, double x, double y, double *worst_li
     kd_frame_finish(&frame);
 }
 
-/* At several places of the picture, the last ones next to the critical curve of the primary image, where light
- * diverges. */
+/* Compares images at several places of the picture. The last ones are next to the critical curve of the primary image,
+ * where light diverges. */
 static void by_rays(double spin, double inclination, double *worst_light, double *worst_place)
 {
     struct kd_scene scene = scene_of(spin, inclination);
@@ -163,8 +163,8 @@ static void by_rays(double spin, double inclination, double *worst_light, double
         compare(&scene, 0.5 * (WIDTH - 1) + rho * cos(angle) / step, 0.5 * (HEIGHT - 1) - rho * sin(angle) / step,
                 worst_light, worst_place);
     }
-    /* where the picture's rays and those of the rim share an image's light, and on either side; once more where the
-     * curve is so large in the picture that its rim is wide */
+    /* The places are where the picture's rays and those of the rim share an image's light, and on either side. The
+     * second half uses a field of view in which the curve is so large that its rim is wide. */
     const double wide = step;
     for (int k = 0; k < 24; k++) {
         struct kd_rim rim;
@@ -306,13 +306,13 @@ static void round_the_hole(void **state)
     behind(betas, sizeof betas / sizeof *betas, 1);
 }
 
-/* A small picture of a place next to the curve, at a distance from the middle of a plane perpendicular to the inward
- * direction; `angle` from the right. */
+/* A small picture of a place next to the curve. The place is at the distance rho from the middle of a plane
+ * perpendicular to the inward direction, at `angle` from the right. */
 enum { CLOSE_WIDTH = 160, CLOSE_HEIGHT = 91 };
 #define CLOSE_FIELD 1.6
 struct close { double rho, angle; };
 
-/* A direction of the observer by right, up and inwards, for the oracle. */
+/* The origin of the light that is seen in the direction d (right, up and inwards), by the oracle. */
 static struct vec3 seen_by(const struct kd_scene *scene, struct vec3 d, double *g)
 {
     const double n = 1 / sqrt(dot(d, d)), k[] = { -n * d.z, -n * d.y, n * d.x };
@@ -342,9 +342,9 @@ static double edge(const struct kd_scene *scene, double angle)
     return high;
 }
 
-/* The solid angle of the sky that a pixel at the small picture's middle maps to, to fourth order, by steps outwards
- * and along the curve. The latter are longer, because the oracle's rays this close are not accurate enough for short
- * ones, and the curve bends by the step's square. */
+/* The solid angle of the sky that a pixel at the small picture's middle maps to, to fourth order, by steps outwards and
+ * along the curve. The steps along the curve are longer, because the oracle's rays this close are not accurate enough
+ * for short ones, and the curve bends by the step's square. */
 static double patch_close(const struct kd_scene *scene, const struct close *c, double off, double curve)
 {
     const double ahead = c->angle + 1e-3, behind = c->angle - 1e-3, far = edge(scene, ahead),
@@ -389,8 +389,8 @@ static void look_at(struct kd_scene *scene, const struct close *c, double field_
     scene->image.critical_factor = 1;
 }
 
-/* Ever closer to the curve of a spinning hole, where images of ever higher orders are: each image above the
- * threshold. */
+/* Places ever closer to the curve of a spinning hole show images of ever higher orders. Each image above the threshold
+ * is tested. */
 static void next_to_the_curve(void **state)
 {
     (void)state;
@@ -428,8 +428,8 @@ static void next_to_the_curve(void **state)
     assert_true(n == 39 && tried == 41 && worst < 0.005 && off_most < 0.02);
 }
 
-/* The same for fast holes, seen edge-on or not, on the approaching side: each image is only some hundredths nearer
- * to the curve than the last, and the picture is so small that the middle one is `AWAY` pixels from the curve. */
+/* Fast holes, seen edge-on or not, on the approaching side. Each image is only some hundredths nearer to the curve than
+ * the last. The picture is so small that the middle one is `AWAY` pixels from the curve. */
 #define AWAY 100
 static void next_to_the_curve_of_fast_holes(void **state)
 {
@@ -494,13 +494,14 @@ static void whole_skies(void **state)
             most = fmax(most, luminance(&one, x, y));
         }
     printf("in bands: off by %.2g of the light\n", off / sum);
-    assert_true(sum > 0 && off / sum < 5e-4 && most > 100); /* without the rows beside each band it is more */
+    assert_true(sum > 0 && off / sum < 5e-4 &&
+                most > 100); /* if the rows next to each band were missing, the difference would be larger */
     kd_frame_finish(&one);
     kd_frame_finish(&again);
     kd_frame_finish(&bands);
 }
 
-/* Another picture by the renderer itself, whenever the background one yields the device. */
+/* Another picture, rendered whenever the background one yields the device. */
 struct other {
     struct kd_scene scene;
     struct kd_plan plan;
@@ -568,8 +569,9 @@ static bool was_run(const struct kd_frame *frame, const char *pass)
     return false;
 }
 
-/* The light of stars is cached with the lens map. A frame with one change and the reused map equals one with its own
- * map, which is forced by the number of rays at the curve, where only one ray a pixel is visible. */
+/* The light of stars is cached with the lens map. A frame that reuses the map after one change equals a frame with a
+ * map of its own. Another number of rays at the curve forces the latter; it changes no pixel, because the curve is out
+ * of view. */
 static void kept_and_made_anew(void **state)
 {
     (void)state;

@@ -74,7 +74,8 @@ static void test_by_hand(void **state)
         const double off = (double)whole[i / (3 * one.width) * 6 * one.width + i % (3 * one.width)] - half[i];
         sum += off * off;
     }
-    assert_true(sqrt(sum / (one.width * one.height * 3.)) < 0.5); /* of 255: the same camera up to rounding */
+    assert_true(sqrt(sum / (one.width * one.height * 3.)) <
+                0.5); /* in steps of 255 levels: the same camera up to rounding */
     kd_frame_finish(&pair);
     kd_frame_finish(&one);
 }

@@ -116,7 +116,7 @@ static void take(void *user, const struct ks_carried *at)
     for (int i = 0; i < 4; i++)
         across[i] = field[i] / size - c * (at->k[i] / seen - flow[i]);
     const double x = ks_carried_product(at, across, at->right), y = ks_carried_product(at, across, at->up),
-                 angle = atan2(-x, y) + M_PI / 2; /* of the electric field, from up to the left */
+                 angle = atan2(-x, y) + M_PI / 2; /* the angle of the electric field, from up to the left */
     const double z = r * u, h = v->height * r * sine, share = (v->adiabatic_index - 1) / v->adiabatic_index;
     double n = v->density_cm3 * pow(r, -v->density_index) * (v->height > 0 ? exp(-z * z / (2 * h * h)) : 1);
     double magnetic = v->magnetisation * pow(r, -v->magnetisation_index),
@@ -303,9 +303,9 @@ static void test_adversarial(void **state)
                                   layer_of(&frame, "stokes_u")[p], layer_of(&frame, "stokes_v")[p] };
             if (!(isfinite(s[0]) && s[0] >= 0 && hypot(hypot(s[1], s[2]), s[3]) <= s[0] * (1 + 1e-5)))
                 fail_msg("%s, pixel %d: %g %g %g %g", extremes[i], p, s[0], s[1], s[2], s[3]);
-            /* Degree and angle follow from the numbers beside them, however dim or bright. They come from another
-             * kernel, whose rounding Faraday rotation amplifies. Below 1e-30 light has fewer than 24 bits on its
-             * way. */
+            /* Degree and angle agree with the numbers of the other layers, however dim or bright. They come from
+             * another kernel, whose rounding Faraday rotation amplifies. Below 1e-30 light has fewer than 24 bits on
+             * its way. */
             const double part = hypot(s[1], s[2]) / s[0], told = layer_of(&frame, "polarization_fraction")[p],
                          angle = layer_of(&frame, "evpa")[p];
             if (s[0] > 1e-30 && !(fabs(told - part) <= 1e-3))
@@ -400,9 +400,9 @@ static void one_electron(double x, double out[3])
     }
 }
 
-/* Integrals of those over all energies, and of absorption, by -d(n/gamma^2)/dgamma; and rotativities of a mixture of
- * thermal electrons with 1/Theta = lambda/(kappa w), whose weights are lambda^kappa exp(-lambda): a kappa
- * distribution is the Laplace transform of that. */
+/* Integrals of these over all energies, and of absorption, which goes as -d(n/gamma^2)/dgamma. A kappa distribution is
+ * the Laplace transform of lambda^kappa exp(-lambda). So its rotativities are those of a mixture of thermal electrons
+ * with 1/Theta = lambda/(kappa w) and these weights. */
 static struct coefficients kappa_integrals(double kappa, double w, double turn, double s, double c, double nu)
 {
     struct coefficients o = { 0 };

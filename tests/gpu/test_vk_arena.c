@@ -1,4 +1,4 @@
-/* The suballocator against a map of bytes: blocks do not overlap, and all memory is recovered. */
+/* Compares the suballocator with a map of bytes: blocks do not overlap, and all memory is recovered. */
 #include "support.h"
 
 #include "vk/arena.h"

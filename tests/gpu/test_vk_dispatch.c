@@ -1,4 +1,5 @@
-/* A kernel with specialisation and push constants against the same arithmetic here; and refused dispatches. */
+/* Compares a kernel with specialisation and push constants with the same arithmetic here. Also tests refused
+ * dispatches. */
 #include "support.h"
 
 static void sizes(void **state)

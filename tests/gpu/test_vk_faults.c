@@ -274,7 +274,7 @@ static void deadline(void **state)
         OK(kd_vk_submit(vk, &ticket, &error));
     }
     finishes = false, busy = true,
-    waits = 0; /* a device that got processor time counts as lost, after a second's grace for the watchdog */
+    waits = 0; /* a device that got processor time counts as lost after the watchdog's grace of a second */
     FAILS(KD_EDEVICE, "missed its deadline of 1500 ms", kd_vk_wait(vk, ticket, &error));
     assert_int_equal(waits, 2);
 

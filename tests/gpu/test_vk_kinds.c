@@ -1,5 +1,5 @@
-/* Bindings other than storage: a uniform block, texels of one float and of four, of one word and of two; refused
- * bindings, and the lifetime of their views. */
+/* Tests of bindings other than storage: a uniform block, texels of one float and of four, of one word and of two. Also
+ * tests refused bindings, and the lifetime of their views. */
 #include "support.h"
 
 #include "fake_device.h"

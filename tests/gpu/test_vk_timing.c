@@ -1,4 +1,4 @@
-/* Device time by pass: plausible against the clock, summed by name, absent without timestamps. */
+/* Tests of device time by pass: it is plausible by the clock, summed by name, and absent without timestamps. */
 #include "support.h"
 
 #include <time.h>

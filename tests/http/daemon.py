@@ -204,7 +204,7 @@ class Owned(Case):
     """Tests of resources that have an address on the server, belong to the holder of a token, and are deleted after
     the test."""
 
-    kind = made = None  # such as '/v1/sessions'; the status of a creation
+    kind = made = None  # kind: such as '/v1/sessions'; made: the status of a creation
 
     def setUp(self):
         self.opened = []

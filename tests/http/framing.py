@@ -238,8 +238,8 @@ class Sizes(daemon.Case):
                 pass
 
     def test_a_body_of_just_the_limit(self):
-        """Bodies of exactly the limit: of a scene; and of a job, whose limit is four times as large and which POST
-        /v1/plan accepts too."""
+        """A body of exactly the limit is accepted: of a scene, and of a job, whose limit is four times as large. POST
+        /v1/plan accepts the latter, too."""
         small = '{"image": {"width": 2, "height": 2}}'
         self.assertEqual(self.daemon.post("/v1/render", small + " " * ((1 << 20) - len(small))).status, 200)
         self.assertProblem(self.daemon.post("/v1/render", "{}" + " " * ((1 << 20) - 1)), 413, "body-too-large")

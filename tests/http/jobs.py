@@ -365,7 +365,7 @@ class Jobs(Case):
         self.assertGreater(len(data), 5)
         self.assertTrue(all(a["finished"] <= b["finished"] for a, b in zip(data, data[1:])))
         self.assertNotIn("token", answer.body.decode())
-        with self.stream(job, "/events") as s:  # of a job that has ended
+        with self.stream(job, "/events") as s:  # the events of a job that has ended
             self.assertEqual(daemon.read_answer(s).body.count(b"event: end"), 1)
 
     def test_stream_as_they_come(self):
@@ -618,7 +618,7 @@ class Jobs(Case):
             ),
             ({"scenes": [{}] * 10001}, 422, "/scenes"),
             ({"scenes": [{}, {"accuracy": {"tolerance": 1e-15}}]}, 422, "/scenes/1/accuracy/tolerance"),
-            # These are valid at both ends, but in between the disk's edge is inside the ISCO.
+            # These scenes are valid at both ends, but in between the disk's edge is inside the ISCO.
             (
                 {
                     "scene": {"spacetime": {"spin": -0.9}, "disk": {"outer": 9.5}},

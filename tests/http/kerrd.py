@@ -905,8 +905,8 @@ class Kerrd(unittest.TestCase):
                     self.assertEqual(self.daemon.get(at + rest).status, 422, rest)
 
     def test_a_film_of_a_job_is_that_of_the_command_line(self):
-        """With one exposure, motion blur computed beside other jobs, and a playground: the ZIP file is the same to the
-        byte."""
+        """The ZIP file is the same to the byte: with one exposure, with motion blur computed while other jobs run, and
+        of a playground."""
         scene = {"image": {"width": 96, "height": 54}, "spots": [{"brightness": 3}]}
         for asked in (
             {

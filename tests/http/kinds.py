@@ -56,7 +56,8 @@ class Kinds(daemon.Owned):
         self.assertEqual(self.daemon.get(self.at(session, "/frame.png")).body, frame.body, "the same file")
 
     def test_the_last_frame_may_be_lossy_too(self):
-        """Whoever asks for it gets JPEG as long as the frame's pixels are there, then PNG; others always get PNG."""
+        """A client that requests JPEG gets it as long as the frame's pixels are there, then PNG. Others always get
+        PNG."""
         session = self.make(RESTING)
         frame, number = None, 0
         while not frame or " final=1" not in frame.header("Kerrd-Quality"):
@@ -68,8 +69,8 @@ class Kinds(daemon.Owned):
         self.assertEqual((width, height), (64, 36))
 
         def gone(k):
-            """Whether the pixels are gone, so that no other quality can be made. Each try makes one if they are not, and
-            there are five at most."""
+            """True if the pixels are gone, so that no other quality can be made. Otherwise each try makes another
+            quality, and there are at most five."""
             time.sleep(2**k)
             return self.get(session, f"last={k + 1}").header("Content-Type") == "image/png"
 

@@ -193,7 +193,7 @@ class Links(access.Access):
                 self.assertTrue(age - 300 <= one <= age, said)
 
     def test_the_page_of_a_shared_scene(self):
-        """All that the page shows works for whom the link was made."""
+        """All that the page shows works for the visitor for whom the link was made."""
         page = self.works(signed(f"/s/{CODE}"))
         head = Head(page.body.decode()).found
         base = "http://localhost"

@@ -81,7 +81,7 @@ class Plans(daemon.Case):
     options = ("--queue", 1)
 
     def test_what_is_too_large_is_refused_before_anything_is_listed(self):
-        def seconds():  # of processor time, of all threads
+        def seconds():  # processor time of all threads
             with open(f"/proc/{self.daemon.process.pid}/stat") as f:
                 return sum(map(int, f.read().rsplit(")", 1)[1].split()[11:13])) / os.sysconf("SC_CLK_TCK")
 

@@ -552,7 +552,7 @@ class OpenApi(daemon.Case):
                         self.assertIn(str(self.said(method, at + query, line)), operation["responses"])
 
     def test_a_parameter_that_there_is_not_is_refused(self):
-        """By each operation below /v1, whatever it reads besides."""
+        """Each operation below /v1 refuses an unknown parameter, whatever other parameters it has."""
         scene = {"image": {"width": 32, "height": 18}, "disk": {"model": "particles", "inner": 8, "outer": 16}}
         session = self.daemon.post("/v1/sessions", scene).json()
         owner = {"Authorization": "Bearer " + session["token"]}

@@ -167,7 +167,8 @@ class Orbits(daemon.Case):
         mercury = strict(self.good({"orbit": {"case": "mercury"}, "samples": 0}).body)
         self.assertEqual(f"{mercury['advance']['periastron_arcsec_per_century']:.2f}", "42.98")
         self.assertNotIn("series", mercury)
-        self.good({"orbit": {"case": "mercury"}, "charge": 0.9, "samples": 0})  # its spin is 0, which leaves room
+        # the spin of this case is 0, which leaves room for the charge
+        self.good({"orbit": {"case": "mercury"}, "charge": 0.9, "samples": 0})
         fall = strict(self.good({"spin": 0.5, "orbit": {"case": "plunge"}, "samples": 10}).body)
         self.assertEqual((fall["fate"], fall["result"]["end"]), ("plunge", "horizon"))
         self.assertEqual(fall["series"]["rows"][-1][2], None)  # t at the horizon

@@ -68,7 +68,7 @@ class Physics(daemon.Case):
             self.assertAlmostEqual(values[name], exact, delta=1e-14 * exact)
 
     def test_charge(self):
-        """Quantities of a charged hole have the charge as a parameter; the others refuse it by name."""
+        """Quantities of a charged hole have the charge as a parameter. Other quantities refuse it by name."""
         charged = {
             "kerr",
             "shadow",
@@ -592,8 +592,8 @@ class Integrals(daemon.Case):
         self.assertAlmostEqual(totals[3] / totals[0], 1.2573, delta=2e-3)
 
     def test_light_that_returns(self):
-        """Over all directions and frequencies arrives the share of the luminosity that /v1/physics/returning says escapes:
-        at once, where returning light is ignored, and in the end, where the disk absorbs it."""
+        """The light that arrives, over all directions and frequencies, is the share of the luminosity that escapes by
+        /v1/physics/returning: at once if returning light is ignored, in the end if the disk absorbs it."""
         nodes = ((0.0694318442, 0.1739274226), (0.3300094782, 0.3260725774), (0.6699905218, 0.3260725774))
         nodes += ((0.9305681558, 0.1739274226),)
         asked = {"spin": 0.9, "outer": 1e4, "frequencies": 150, "frequency_min_hz": 1e13, "frequency_max_hz": 1e20}
@@ -657,7 +657,8 @@ class Integrals(daemon.Case):
     def test_visibilities_of_a_bright_rectangle(self):
         """The fake renderer's maps have uniform brightness. Their transform is the product of two sums of a geometric
         row, sin(n x)/(n sin x)."""
-        pixel = math.pi * 1e9 * 56 / 32 * 6.5e9 * 1476.625 / (16.8e6 * 3.0856775814913673e16)  # times u: x
+        # x for a baseline u is this times u
+        pixel = math.pi * 1e9 * 56 / 32 * 6.5e9 * 1476.625 / (16.8e6 * 3.0856775814913673e16)
         rows = lambda n, x: 1 if x == 0 else math.sin(n * x) / (n * math.sin(x))
         document = {
             "preset": "m87",

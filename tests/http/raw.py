@@ -22,7 +22,7 @@ def post(*lines, body=b"{}"):
     return POST + b"".join(line + b"\r\n" for line in lines) + b"\r\n" + body
 
 
-# name: (bytes, permitted statuses). An empty set: a problem document or no answer.
+# name: (bytes, permitted statuses). An empty set permits any problem document, or no answer.
 REFUSED = {
     # lengths
     "length negative": (post(b"Content-Length: -1"), {400}),
@@ -90,8 +90,8 @@ REFUSED = {
 
 
 def read_all(s, patience):
-    """What arrives until the server closes the connection, or until nothing has come for `patience` seconds; and
-    whether it closed."""
+    """Reads until the server closes the connection, or until nothing has come for `patience` seconds. Returns the
+    bytes, and whether it closed."""
     got = b""
     s.settimeout(patience)
     try:

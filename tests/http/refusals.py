@@ -1,5 +1,5 @@
-"""Refusals give back all memory that they took: every route with bodies and queries that it does not take, and assets
-that are damaged or beyond each limit.
+"""Refusals give back all memory that they took: every route with bodies and queries that it refuses, and assets that
+are damaged or beyond each limit.
 
     refusals.py SERVER              each kind a few times
     REPEATS=200 refusals.py SERVER  the long run"""
@@ -17,7 +17,7 @@ import daemon
 import memory
 
 REPEATS = int(os.environ.get("REPEATS", "2"))
-# Of what takes memory, so often that a leak of 32 KiB a time is beyond memory.SLACK.
+# Repetitions of the kinds that take memory: enough for a leak of 32 KiB each time to exceed memory.SLACK.
 OFTEN = max(REPEATS, 8)
 OF_EACH_READER = {
     "header is cut",
@@ -49,7 +49,7 @@ OF_EACH_READER = {
     "post /v1/sessions, long",
     "post /v1/playground, long",
 }
-WARM = 2  # what is made once, and heaps that find their size
+WARM = 2  # repetitions before the first measurement: they make what is made once, and heaps reach their size
 NPZ = "application/x-npz"
 UVFITS = "application/x-uvfits"
 MEMBERS = (
@@ -247,7 +247,8 @@ class Refusals(daemon.Case):
         self.hold(routes(self.daemon.get("/openapi.json").json()), 200)
 
     def test_comparisons(self):
-        """Parameter sets of which the last is refused have taken a scene each; a simulation has a copy of its file."""
+        """If the last parameter set of a list is refused, each set before it has taken a scene. A simulation has taken
+        a copy of its file."""
         folder = pathlib.Path(__file__).resolve().parents[2] / "data/eht"
         seen = {}
         for end, kind in (("uvfits", "application/x-uvfits"), ("csv", "text/csv")):
@@ -278,7 +279,7 @@ class Refusals(daemon.Case):
         self.hold(kinds, len(kinds), OFTEN)
 
     def test_small_leaks(self):
-        """A few kinds of each reader that takes memory, often."""
+        """Repeats a few kinds of each reader that takes memory many times."""
         kinds = [kind for each, _ in self.of_assets() for kind in each]
         kinds += routes(self.daemon.get("/openapi.json").json())
         chosen = [kind for kind in kinds if kind[0] in OF_EACH_READER]

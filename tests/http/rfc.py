@@ -199,7 +199,8 @@ class Rows(daemon.Case):
     def chunk_extensions(self):
         library = ctypes.CDLL("libmicrohttpd.so.12")
         library.MHD_get_version.restype = ctypes.c_char_p
-        refuses = library.MHD_get_version().startswith(b"1.0.")  # it refuses those of chunks that hold data
+        # such a version refuses extensions of chunks that hold data
+        refuses = library.MHD_get_version().startswith(b"1.0.")
         for body, status in (
             ('1;a\r\n{\r\n1;b="c;d"\r\n}\r\n0\r\n\r\n', 400 if refuses else 200),
             ("2\r\n{}\r\n0;e=f\r\n\r\n", 200),

@@ -196,7 +196,7 @@ class Routes(daemon.Case):
         self.assertEqual(self.daemon.get("/v1/presets/m87-EHT").status, 404)
 
     def test_a_small_picture_of_a_preset(self):
-        """It is rendered only once, however many clients request it at the same time, and then stored."""
+        """The picture is rendered only once, however many clients request it at the same time, and then stored."""
         before = self.settled()["kerrd_thumbnails_rendered_total"]
         with concurrent.futures.ThreadPoolExecutor(8) as many:
             answers = list(
@@ -227,8 +227,8 @@ class Routes(daemon.Case):
         self.assertEqual(self.daemon.get("/v1/presets/edge-on/thumbnail.png?width=9").status, 422)
 
     def test_small_pictures_are_kept_for_later_servers(self):
-        """They are stored in the folder of the device's files. A damaged file, or one of something else, is rendered
-        anew."""
+        """Small pictures are stored in the folder of the device's files. A damaged file, or one of something else, is
+        rendered anew."""
         target = "/v1/presets/edge-on/thumbnail.png"
 
         def ask():

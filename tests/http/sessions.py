@@ -200,7 +200,7 @@ class Sessions(daemon.Owned):
         self.assertProblem(self.patch(session, "{}", **{"Content-Type": "text/plain"}), 415)
 
     def test_what_varies(self):
-        """It is reported for each emitter of the scene, whether or not time runs."""
+        """The state names what varies for the emitters of the scene, whether or not time runs."""
         session = self.open()
         self.assertEqual(self.status(session)["varies"], [])
         for patch, varies in (
@@ -488,8 +488,8 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.frame(session, number, 100).status, 204)
 
     def test_how_far_a_finer_picture_is(self):
-        """Reported only while a finer picture is being made: the part that is done grows, and the remaining time is in
-        seconds."""
+        """The progress is reported only while a finer picture is being made. The part that is done grows, and the
+        remaining time is in seconds."""
         session = self.open(
             {**SCENE, "image": {"width": 64, "height": 36, "samples": 2}, "time": 60}
         )  # 1.8 s with four rays a pixel
@@ -520,8 +520,8 @@ class Sessions(daemon.Owned):
         self.assertNotIn("refining", self.status(session))
 
     def test_how_far_the_first_picture_is(self):
-        """Reported before the first picture exists: the part that is done grows, and the remaining time is in seconds.
-        Once the picture exists neither is reported."""
+        """The progress is reported before the first picture exists. The part that is done grows, and the remaining time
+        is in seconds. Once the picture exists neither is reported."""
         session, told = self.open({**SCENE, "image": {"width": 64, "height": 36, "samples": 1}, "time": 1500}), []
         thread = threading.Thread(target=lambda: self.frame(session, 0))
         thread.start()
@@ -742,7 +742,7 @@ class Sessions(daemon.Owned):
             ({"keyframes": [{"at": 1, "proper_time": 3}]}, "/keyframes/0/proper_time"),
             ({"keyframes": [{"at": 1, "scene": {"motion": {"time_rate": 1}}}]}, "/keyframes"),
             ({"keyframes": [{"at": 1, "scene": {"disk": {"outer": 1}}}]}, "/keyframes/0/scene/disk/outer"),
-            # These are valid at both ends, but in between the disk's edge is inside the ISCO.
+            # These scenes are valid at both ends, but in between the disk's edge is inside the ISCO.
             (
                 {
                     "keyframes": [
@@ -1093,8 +1093,8 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.status(session)["scene"]["image"]["width"], 64)
 
     # By their plan, full frames of these scenes would take half a second or two. So coarser frames with one ray a pixel
-    # come first; these take `time` ms, and the last step takes 30 times as long. What must not wait for the last step
-    # is allowed a part of its time, so that the bound holds on a busy machine.
+    # come first; these take `time` ms, and the last step takes 30 times as long. An answer that must not wait for the
+    # last step has a part of its time as its limit, so that the bound holds on a busy machine.
     COARSE = {"image": {"width": 400, "height": 300, "samples": 2, "critical_factor": 1}, "time": 1000}
     LONG = {"image": {"width": 800, "height": 600, "samples": 2, "critical_factor": 1}, "time": 100}
     SOON = 20  # s

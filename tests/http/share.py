@@ -224,7 +224,8 @@ class Share(Case):
                     self.assertLess(len(answer.body), 1500)
 
     def test_nothing_of_a_link_reaches_the_page_as_it_stands(self):
-        """Values are written anew from the scene, so that each number has one spelling."""
+        """The page contains the values of the scene, and not the text of the link, so that each number has one
+        spelling."""
         path = "/s/" + code_of("spacetime.spin=0.50000000000000000000001&camera.r=%33%30")
         self.assertEqual(self.page(path).open, "../#preset=default&spacetime.spin=0.5&camera.r=30")
         self.assertNotIn(b"0.500", self.get(path).body)

@@ -16,7 +16,7 @@ LONG = "/v1/render?image.width=1280&image.height=1280&image.samples=2&accuracy.p
 
 class Case(daemon.Case):
     def setUp(self):
-        """The renders that the test before has left are over: Daemon.reaches would count them."""
+        """Waits until the renders that the previous test left are over, because Daemon.reaches would count them."""
         super().setUp()
         self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()["kerrd_renders_unfinished"] == 0))
 
@@ -43,7 +43,7 @@ class Device(Case):
     options = ("--queue", 16, "--client-share", 50)
 
     def test_a_long_picture_holds_nobody(self):
-        """Small pictures wait for a few of its slices of 10 ms, and not for the 4 s that it takes."""
+        """Small pictures wait for a few slices of 10 ms of the long picture, and not for the 4 s that it takes."""
         long = self.begin(LONG % 4000)
         self.daemon.reaches("renders_unfinished", 1)
         for source in ("127.0.0.1", "127.0.0.2"):
@@ -62,7 +62,8 @@ class Device(Case):
         self.assertRaises(BlockingIOError, first.recv, 1)
 
     def test_beside_living_sessions_a_picture_has_its_turn(self):
-        """So does a frame of a job, although sessions of the same client use all the time that they can get."""
+        """A picture gets its turn, and so does a frame of a job, although sessions of the same client use all the time
+        that they can get."""
         sessions = [
             self.daemon.post(
                 "/v1/sessions",
@@ -477,7 +478,8 @@ class Dawdling(Announced):
     options = ("--body-ms", 1500)
 
     def test_a_body_that_dawdles_is_cut(self):
-        """A slow body is cut after the time for a small body, however much it has announced and sent."""
+        """If a body arrives slowly, the request is refused after the time for a small body, whatever its Content-Length
+        and however much of it has arrived."""
         s = self.announce(3000000)
         answer = daemon.read_answer(s)
         self.assertProblem(answer, 408, "timeout")

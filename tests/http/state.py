@@ -119,7 +119,7 @@ class Stops(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_the_frames_of_a_large_sweep_are_put_in_order_first(self):
-        """This takes a while after a start, during which the job says so and the server answers."""
+        """Putting the frames in order takes a while after a start. Meanwhile the job says so and the server answers."""
         server = self.start()
         axes = {"camera.inclination_deg": "1:100:1", "spacetime.spin": "0:0.95:0.05", "style.exposure": "0:4:1"}
         job = self.make({"scene": {"image": {"width": 2, "height": 2}, "time": 30000}, "axes": axes}, server=server)
@@ -296,7 +296,8 @@ class Foreign(Case):
         server.stop()
 
     def test_what_a_job_makes_is_in_its_record(self):
-        """The record has it under "output". Records of earlier versions have "curve". An unknown one is left alone."""
+        """The record names what a job makes under "output"; records of earlier versions have "curve". A record with an
+        unknown name is left alone."""
         server = self.start()
         job = self.make({"scene": SCENE, "output": "light-curve"}, server=server)
         self.until(job, "done", server)

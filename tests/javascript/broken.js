@@ -1,4 +1,4 @@
-// The client against servers that are busy, break connections, or are none of kerrd's: node broken.js.
+// Tests of the client against servers that are busy, break connections, or are not kerrd: node broken.js.
 import assert from 'node:assert/strict';
 import { createServer } from 'node:http';
 import { after, test } from 'node:test';
@@ -7,8 +7,8 @@ import { Client, JobFailed, Problem } from 'kerr-hole/client';
 const open = [];
 after(() => open.forEach(server => (server.closeAllConnections?.(), server.close())));
 
-// A server that answers one after the other: [status, headers, body], or null for a connection that breaks; a body of
-// null breaks off. The last answer is given again and again. asked: what came.
+// A server that gives these answers one after the other. Each is [status, headers, body], or null for a connection that
+// breaks; a body of null breaks off. The last answer is repeated. asked: the requests that came.
 async function answering(...answers) {
   const asked = [];
   const server = createServer(async (request, response) => {

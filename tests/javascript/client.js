@@ -1,4 +1,4 @@
-// The client against the real server: node client.js KERRD, beside node_modules with the package.
+// Tests of the client with the real server: node client.js KERRD, in a folder with node_modules that has the package.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
@@ -113,14 +113,14 @@ test('a session: frames, a patch, the end', async () => {
   assert.deepEqual(sizeOf(seen.at(-1).bytes), [48, 27], 'the last one is exact');
   assert.equal(await live.frame({ after: seen.at(-1).number, wait: 0 }), null, 'it rests');
 
-  // Another one changes the scene: refresh() and the iterator hear of it.
+  // Another client changes the scene: refresh() and the iterator notice it.
   const { token, id } = live;
   await hole.request('PATCH /v1/sessions/{id}', { path: { id }, token, body: { spacetime: { spin: 0.1 } } });
   assert.equal(live.revision, 3);
   assert.equal((await live.refresh()).spacetime.spin, 0.1);
   assert.equal(live.revision, 4);
 
-  // An iterator that waits ends when the session is closed, quietly; its signal is an error.
+  // A waiting iterator ends without an error when the session is closed. When its signal is aborted, it throws.
   const left = new AbortController(),
     numbers = [];
   const aborted = (async () => {

@@ -1,5 +1,5 @@
-"""The types of the npm package are those of the server and of the client's source, and code that people write has them.
-types.py KERRD ROOT"""
+"""Tests that the types of the npm package are those of the server and of the client's source, and that code which uses
+the package has them. typed.py KERRD ROOT"""
 
 import json
 import pathlib
@@ -22,7 +22,7 @@ OPTIONS = {
     "strict": True,
     "noEmit": True,
 }
-# What the examples use of Node.js, whose own types are 2 MB.
+# The part of Node.js's types that the examples use. All of them are 2 MB.
 NODE = """\
 declare module 'node:fs/promises' {
   export function writeFile(name: string, data: Uint8Array): Promise<void>;
@@ -36,7 +36,7 @@ def tsc(*arguments, **options):
 
 
 def declared():
-    """Whether client.d.ts is what TypeScript makes of client.js, which it checks for that."""
+    """True if client.d.ts is what TypeScript makes of client.js. TypeScript checks client.js for this."""
     with tempfile.TemporaryDirectory() as folder:
         if tsc("-p", CLIENT, "--outDir", folder):
             return False
@@ -48,7 +48,7 @@ def declared():
 
 
 def used():
-    """Whether code that uses the package has its types: used.ts, and what the document shows."""
+    """True if code that uses the package passes the type check: used.ts, and the examples of the document."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         package.make(ROOT, folder)

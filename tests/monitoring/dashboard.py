@@ -148,7 +148,7 @@ class Dashboard(unittest.TestCase):
             "kerrd_playground_events",
             "kerrd_assets",
             "kerrd_device_lost",
-        }  # it ends with that
+        }  # the server ends when kerrd_device_lost becomes 1
         used = {name for e in expressions(self.dashboard) for name, _ in selectors(e)}
         plain = lambda name: re.sub(r"_(total|bucket|sum|count)$", "", name)
         self.assertEqual(

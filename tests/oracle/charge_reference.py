@@ -63,7 +63,7 @@ def orbit(a, q, r):
 
 
 def bisect(f, low, high):
-    """The last place from the outside where f, positive at high, is not."""
+    """The place between low and high where f, which is positive at `high`, changes its sign."""
     while high - low > mpf(10) ** (5 - mp.dps) * high:
         middle = (low + high) / 2
         if f(middle) > 0:

@@ -271,7 +271,7 @@ struct ks_photon ks_from_infinity_charged(double a, double charge, double u, dou
 {
     double s = sqrt((1 - u) * (1 + u)), l = -alpha * s, r = 1e6;
     double q = (alpha * alpha - a * a) * u * u + beta * beta;
-    /* From infinity to here by the first terms of the series in 1/r. */
+    /* The way from infinity to here, by the first terms of the series in 1/r. */
     double t = 1 / r, pull = a * a - l * l - q, here = u + s * beta * t + 0.5 * (pull - 2 * a * a * u * u) * u * t * t;
     double delta = r * r - 2 * r + a * a + charge * charge, w = r * r + a * a - a * l;
     double big = w * w - delta * (q + (l - a) * (l - a));
@@ -384,7 +384,7 @@ static double radius_after(const struct along *w, const double *from, double t)
 
 static bool holds(const struct along *w, double r) { return r >= w->inner && r <= w->outer; }
 
-/* The same for the part between the two radii, of which at most one is passed. */
+/* As add_stretch, for the part of the interval that is between the two radii, at most one of which is passed. */
 static void add_inside(struct along *w, const double *from, double t0, double t1)
 {
     bool first = holds(w, radius_after(w, from, t0)), last = holds(w, radius_after(w, from, t1));
@@ -508,7 +508,7 @@ int ks_passes(struct ks_photon photon, double r, double u, double phi, double wi
     return n;
 }
 
-/* Position of a path by distances from the axis and the plane; and its closest point to each place so far. */
+/* Position of a path by its distances from the axis and the plane. nearest: its point closest to a place so far. */
 struct meridian { double x, z; };
 struct nearest {
     state from;
@@ -532,8 +532,8 @@ static double part_of(struct meridian a, struct meridian b, struct meridian c, d
     return t;
 }
 
-/* Finds the closest point to the place between `low` and `high` after a state; stores it if it is closer than the
- * best so far. */
+/* Searches the path between the parameters `low` and `high` after the state `from` for its point closest to `place`. If
+ * this point is closer than the best so far, stores it in `best`. */
 static void look(const struct system *s, const double *from, double low, double high, struct meridian place,
                  struct nearest *best)
 {

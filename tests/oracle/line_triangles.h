@@ -115,7 +115,7 @@ static inline double lt_power(const void *user, double r, double g, double mu)
     return g * g * g * pow(r, -*(const double *)user);
 }
 
-/* The same for a line r^-index from the ISCO to `outer`. */
+/* As lt_profile_of, for a line r^-index from the ISCO to `outer`. */
 static inline double lt_profile(const struct kd_disk_image *image, double index, double outer, int n, int m,
                                 const double *edges, int bins, double *cumulative)
 {

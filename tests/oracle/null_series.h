@@ -19,7 +19,7 @@ enum { SERIES_CROSSINGS = 16 };
 
 struct series_ray {
     long double spin, radius; /* INFINITY allowed */
-    long double cosine, sine; /* of the observer's polar angle */
+    long double cosine, sine; /* cosine and sine of the observer's polar angle */
     long double alpha, beta;
     bool outward;
 };
@@ -30,7 +30,7 @@ struct series_path {
     enum series_fate fate; /* LOST: the ray winds for ever */
     int crossings;
     long double r[SERIES_CROSSINGS], phi[SERIES_CROSSINGS];
-    long double u, sky_phi; /* of the direction of escape */
+    long double u, sky_phi; /* direction of escape: cosine of the polar angle, and azimuth */
 };
 
 /* Cosine and sine of an angle in degrees, each with full precision. */

@@ -351,7 +351,7 @@ def srgb(x):
 
 
 def grey_rows():
-    """Grey levels: linear, as sRGB (IEC 61966-2-1), and first through S. Hill's fit of ACES, whose matrices keep grey
+    """Grey levels: linear, as sRGB (IEC 61966-2-1), and as sRGB after S. Hill's fit of ACES, whose matrices keep grey
     grey to 1e-4."""
     for c in (0.0, 0.0009765625, 0.0031308, 0.01, 0.18, 0.5, 0.75, 1.0, 4.0):
         seen = mp.matrix(OUT_OF) * mp.matrix([film(x) for x in mp.matrix(INTO) * mp.matrix([c, c, c])])

@@ -53,8 +53,8 @@ class Containerfile(unittest.TestCase):
         )
 
     def test_of_itself_it_serves_nobody_else(self):
-        """Without options the server is not reachable from outside. What makes it reachable is in the command that a
-        user types, and in the documented one."""
+        """Without options the server is not reachable from outside. The options that make it reachable are in the
+        command that a user types, and in the documented one."""
         commands = re.findall(r"^CMD (.*)$", TEXT, re.M)
         self.assertEqual(commands[0], '["serve"]')
         documented = re.findall(

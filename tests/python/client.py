@@ -742,7 +742,7 @@ class Documented(unittest.TestCase):
         self.assertEqual((len(blocks), len(run)), (7, 6))
         with tempfile.TemporaryDirectory() as folder:
             os.makedirs(f"{folder}/docs")
-            os.symlink(root / "docs/examples", f"{folder}/docs/examples")  # of which a block names a file
+            os.symlink(root / "docs/examples", f"{folder}/docs/examples")  # a block names a file of this folder
             for block in run:
                 env = {
                     **os.environ,

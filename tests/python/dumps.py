@@ -15,7 +15,7 @@ import numpy as np
 # The preset `torus`: spin, inner edge, largest pressure, Gamma, beta, density in cm^-3.
 SPIN, INNER, MIDDLE, GAMMA, BETA, PEAK = 0.9375, 6.0, 12.0, 13 / 9, 10.0, 1.776e7
 PROTON, ELECTRON = 1.67262192369e-24, 9.1093837015e-28
-FLOOR = 1e-8  # of the largest density
+FLOOR = 1e-8  # share of the largest density
 
 
 def metric(a, r, theta):
@@ -183,8 +183,8 @@ def write_iharm(path, kind, shape, flow, a=SPIN, outer=60.0, inner=1.2, entropy=
 
 
 def write_athdf(path, shape, flow, a=SPIN, outer=60.0, inner=1.2, blocks=(2, 2, 2), fine=(), single=True):
-    """blocks: blocks along r, theta and phi. fine: those of the coarse blocks that are refined once, by their numbers
-    (i, j, k); they are left out, and eight finer ones come instead."""
+    """blocks: numbers of blocks along r, theta and phi. fine: the coarse blocks, by their numbers (i, j, k), that are
+    refined once. Each is left out, and eight finer blocks replace it."""
     import h5py
 
     count = [b if n > 1 else 1 for b, n in zip(blocks, shape)]

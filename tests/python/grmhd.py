@@ -88,7 +88,7 @@ class Dumps(unittest.TestCase):
             self.assertLess(off, tolerance, name)
 
     def test_iharm(self):
-        """Any flow, in MKS and FMKS: what is read is what was written, by derivatives and metrics of its own."""
+        """Any flow, in MKS and FMKS, is read as it was written. dumps.py has derivatives and metrics of its own."""
         for kind, a in (("mks", 0.7), ("fmks", -0.5), ("fmks", 0.95)):
             path = self.path("dump.h5")
             r, theta, phi = dumps.write_iharm(path, kind, SMALL, any_flow(a), a=a, single=False)
@@ -101,7 +101,8 @@ class Dumps(unittest.TestCase):
                 self.check_vectors(found, a, any_flow(a), 2e-6)
 
     def test_athena(self):
-        """Any flow, in blocks. Where one is refined, zones of the others are repeated."""
+        """Any flow, in blocks, is read as it was written. Where one block is refined, zones of the others are
+        repeated."""
         a = 0.6
         dumps.write_athdf(self.path("one.athdf"), SMALL, any_flow(a), a=a, single=False)
         found = kerrd.matter(self.path("one.athdf"), spin=a, gamma=1.4, sigma_cut=None)
@@ -173,8 +174,9 @@ class Dumps(unittest.TestCase):
         self.assertTrue(any("rows beyond r = 20" in note for note in got.notes))
 
     def test_torus(self):
-        """The torus, sampled by each code, is the analytic torus: polarised light, relative to its square. Errors fall
-        with the fourth power of the steps; at 192 x 96 x 96, bench/grmhd.py."""
+        """The torus as each code samples it has the polarised light of the analytic torus; errors are relative to the
+        square of the light. They fall with the fourth power of the steps. bench/grmhd.py measures them at 192 x 96 x
+        96."""
         if subprocess.run([KERRD, "doctor"], capture_output=True, timeout=60).returncode:
             self.skipTest("there is no Vulkan device")
 
@@ -346,7 +348,7 @@ class Dumps(unittest.TestCase):
         self.refused("gamma is 9; it must be a number from 1.0001 to 3", path, spin=0.5, gamma=9)
 
     def test_files_that_are_cut(self):
-        """Of a file that ends early nothing is used, and the memory is as before."""
+        """Nothing of a file that ends early is used, and no memory is kept."""
         for source, options in ((self.written(), {}), (self.written_athena(), ATHENA)):
             data = pathlib.Path(source).read_bytes()
             path = self.path("cut.h5")

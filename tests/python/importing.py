@@ -62,7 +62,7 @@ def changed(name, **values):
 
 
 def whole(hole, scene=None, **more):
-    """The scene with every field, but for its size."""
+    """The scene with every field except its size."""
     full = hole.render(scene, size=(8, 8), **more).scene
     del full["image"]["width"], full["image"]["height"]
     return full
@@ -106,7 +106,8 @@ class Blacklight(Files):
         )
 
     def test_the_tests_of_gold_are_the_presets(self):
-        """Each field that light depends on, but for what the file says otherwise: 6e11 cm, and the frequency at 1000 M."""
+        """Each field that affects light is that of the preset, except what the file states differently: 6e11 cm, and
+        the frequency at 1000 M."""
         with kerrd.local(binary=KERRD) as hole:
             for test in GOLD:
                 preset = whole(hole, preset=f"gold-{test}")
@@ -560,7 +561,7 @@ class Gyoto(Files):
                 self.assertLess(abs(off), 3, (paln, inclination, argument, phase, x, y, east, north))
 
     def test_a_disk_that_turns_against_the_spin(self):
-        """It is that of the hole turned over, seen from the other side with the camera upside down."""
+        """The picture is that of the hole turned over, seen from the other side with the camera upside down."""
         with kerrd.local(binary=KERRD) as hole:
             maps = [
                 hole.layers(self.imported(scenery(spin=spin, place=place, matter=matter)).scene, ["r", "g"])
@@ -575,7 +576,8 @@ class Gyoto(Files):
         self.assertGreater(np.nanmax(maps[0]["g"]) / np.nanmin(maps[0]["g"]), 1.5)
 
     def test_bodies_beside_a_disk_that_turns_against_the_spin(self):
-        """They are turned over with the hole, half a turn about the x axis. A list that is full is said."""
+        """The bodies are turned over with the hole, by half a turn about the x axis. If the list is full, a note says
+        so."""
         star = "<SubAstrobj kind='FixedStar'><Radius>0.5</Radius><Position>9 1.2 0.4</Position></SubAstrobj>"
         disk = "<SubAstrobj kind='PageThorneDisk'><CounterRotating/></SubAstrobj>"
         places = []
@@ -800,7 +802,7 @@ class Gyoto(Files):
 
 
 class Hostile(Files):
-    """One error each, with a sentence, in less than a second, and without more memory."""
+    """Each file gives one error with a sentence, in less than a second and without more memory."""
 
     def test_entities(self):
         bomb = "".join(f'<!ENTITY l{k} "{f"&l{k - 1};" * 10}">' for k in range(1, 12))
@@ -854,7 +856,7 @@ class Hostile(Files):
             kerrd.scene_from(self.folder)
 
     def test_damage(self):
-        """Cut and changed files are scenes or errors, and nothing else."""
+        """Cut and changed files give scenes or errors, and nothing else."""
         random = np.random.default_rng(42)
         outcomes = set()
         for path in FILES:

@@ -16,15 +16,23 @@ MODULES = {
     "document": {"base"},
     "physics": {"base"},
     "scene": {"base", "document", "physics"},
-    "quantity": {"base", "document", "physics", "scene"},  # of scene: its field table and its writer
+    "quantity": {"base", "document", "physics", "scene"},  # uses scene's field table and its writer
     "image": {"base"},
-    "orbit": {"base", "document", "physics", "scene", "image"},  # of scene, the same as quantity
+    "orbit": {"base", "document", "physics", "scene", "image"},  # uses the same of scene as quantity
     "observe": {"base"},
-    "integral": {"base", "document", "observe", "physics", "scene", "image", "render"},  # of render: plans and frames
-    "playground": {"base", "document", "physics", "scene", "image"},  # of scene, the same as quantity
+    "integral": {
+        "base",
+        "document",
+        "observe",
+        "physics",
+        "scene",
+        "image",
+        "render",
+    },  # uses plans and frames of render
+    "playground": {"base", "document", "physics", "scene", "image"},  # uses the same of scene as quantity
     "vk": {"base"},
     "render": {"base", "document", "physics", "scene", "image", "vk"},
-    "job": {"base", "document", "scene", "playground", "render"},  # of render: what frames become
+    "job": {"base", "document", "scene", "playground", "render"},  # uses what render makes of frames
     "server": {
         "base",
         "document",

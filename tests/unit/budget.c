@@ -175,8 +175,8 @@ static void clients_come_before_their_sessions(void **state)
         assert_true(fabs(kd_budget_share(&b.budget, &b.entries[i], b.now) - 1.0 / 14) < 1e-9);
 }
 
-/* Another algorithm, which pours drop by drop, each drop to the least full vessel with room: n bowls, and one without a
- * bottom. */
+/* Another algorithm for the division. It pours drop by drop, each drop into the least full vessel that has room. There
+ * are n bowls, and a vessel without a bottom. */
 static double pour(const double *sizes, int n, double whole)
 {
     static const double drop = 1e-4;

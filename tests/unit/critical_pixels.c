@@ -198,8 +198,8 @@ void *__wrap_calloc(size_t n, size_t size)
     return __real_calloc(n, size);
 }
 
-/* Planning the largest picture takes memory for the length of the curve, not for its 2^30 pixels, of which a bit each
- * would be 128 MiB. */
+/* Planning the largest picture takes memory for the length of the curve, and not for its 2^30 pixels. A bit for each
+ * pixel would be 128 MiB. */
 static void the_largest_picture(void **state)
 {
     (void)state;
@@ -215,7 +215,7 @@ static void the_largest_picture(void **state)
     kd_critical_pixels_finish(&list);
 }
 
-/* The rays of a pixel: one in each column and row, point-symmetric; and their spacing, compared with the closest
+/* The rays of a pixel are point-symmetric, with one in each column and row. Their spacing is compared with the closest
  * packing, sqrt(2/sqrt 3) over the square root of their number. */
 static void places(void **state)
 {

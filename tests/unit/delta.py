@@ -10,7 +10,7 @@ import re
 import sys
 
 HOMES = {"src/physics/spacetime/hole.h", "shaders/ray/fall.glsl"}
-# Lines that look like Delta elsewhere: their number, and why they stand.
+# Files with lines that look like Delta and may stand there: the number of these lines, and the reason.
 OTHERS = {
     "src/physics/orbit/orbit_lanes.c": (1, "the form of hole.h for several orbits at once, in vectors"),
     "src/physics/orbit/orbit_shape.c": (3, "polynomials of Schmidt's conditions on bound orbits, outside the horizon"),

@@ -229,7 +229,7 @@ static void ranges_are_read_and_refused(void **state)
                                leaf = { .name = "leaf", .kind = KD_KIND_WORD, .words = "none|green", .typed = "green" };
     static const struct {
         const struct kd_row *row;
-        const char *text, *message; /* message NULL: is read */
+        const char *text, *message; /* message: NULL if the text is accepted */
         struct kd_range range;
     } cases[] = {
         { &whole, "-2", NULL, { -2, -2, 1 } },

@@ -206,7 +206,7 @@ static int follow_each_field(const char *document)
             kd_emit_update(one, &base, 100);
             kd_emit_update(one, &scene, 100);
             memset(fresh, 0, sizeof *fresh);
-            fresh->colours = one->colours; /* 15 ms each, and independent of the scene */
+            fresh->colours = one->colours; /* computing these takes 15 ms, and they do not depend on the scene */
             fresh->luminous = one->luminous;
             kd_emit_update(fresh, &scene, 100);
             uint32_t traits[KD_EMITTER_COUNT];
@@ -410,7 +410,8 @@ static void told(int model, double milky_way, const char *image, const char *sen
     kd_buffer_finish(&json);
 }
 
-/* A panorama alone, under stars, and missing; each has a sentence, the last as an approximation. */
+/* A panorama alone, a panorama under stars, and a missing panorama each have a sentence. The last one is an
+ * approximation. */
 static void pictures_of_the_sky(void **state)
 {
     (void)state;
@@ -488,8 +489,8 @@ static bool alike(const struct kd_scene *scene, const struct kd_work *work)
     return kd_work_alike(&own, work);
 }
 
-/* What costs more is other work: each emitter, each variant, twice as many of what has a pass or buffers of its own.
- * Where things are, when, and how bright is the same work. */
+/* kd_emit_work differs between scenes of different cost: with each emitter, with each variant, and with twice as many
+ * of what has a pass or buffers of its own. It is the same whatever the places, the time and the brightness. */
 static void work_follows_emitters(void **state)
 {
     (void)state;
@@ -519,7 +520,7 @@ static void work_follows_emitters(void **state)
         assert_true(alike(&scene, &work)); \
     } while (0)
     ALIKE(disk.model, KD_DISK_SHAKURA_SUNYAEV);
-    ALIKE(disk.slow_light, true); /* of a disk that does not move */
+    ALIKE(disk.slow_light, true); /* slow light of a disk that does not move */
     ALIKE(disk.outer, 30);
     ALIKE(spacetime.spin, 0.3);
     ALIKE(camera.azimuth_deg, 20);

@@ -215,7 +215,7 @@ static void settles_on_a_steady_machine(void **state)
     assert_true(reached > 200 && hopeless > 20);
 }
 
-/* The same if frames report only their total time. */
+/* The governor settles also if frames report only their total time. */
 static void settles_when_told_only_totals(void **state)
 {
     (void)state;
@@ -305,8 +305,8 @@ static void what_cannot_be_mended_costs_no_resolution(void **state)
         }
 }
 
-/* But the part of the time that depends on the picture's size is limited to the larger of half the target and a quarter
- * of the fixed part. */
+/* The part of the time that depends on the picture's size is limited to the larger of half the target and a quarter of
+ * the fixed part. */
 static void what_can_be_mended_is(void **state)
 {
     (void)state;
@@ -455,12 +455,12 @@ static void what_only_rings_keeps_its_size(void **state)
             run(&s, before == 1 ? PLAY : DRAG, 5000);
         else
             change(&s, true);
-        s.now += before < 3 ? 3000 : 0; /* otherwise at the very end of a drag */
+        s.now += before < 3 ? 3000 : 0; /* in the last round the change comes at the very end of a drag */
         while (before < 3 && frame(&s))
             s.now += 200;
         assert_true(s.last.final == (before < 3));
         s.asked.motion.time_rate = 8;
-        change(&s, false); /* the picture does not depend on it */
+        change(&s, false); /* the picture does not change with time */
         assert_true(kd_governor_decide(&s.governor, s.now).wait_ms > 0);
         s.asked.style.ringdown = 1;
         for (int i = 0; i < 200; i++) {
@@ -470,13 +470,13 @@ static void what_only_rings_keeps_its_size(void **state)
             assert_true(s.last.scale == 1);
         }
         assert_int_equal(s.last.samples, 1);
-        s.asked.top.time = 1e4; /* faded */
+        s.asked.top.time = 1e4; /* the ringing has faded */
         change(&s, false);
         s.now += 200;
         while (frame(&s))
             s.now += 200;
         assert_true(s.last.final);
-        s.asked.disk.model = KD_DISK_PARTICLES; /* which moves */
+        s.asked.disk.model = KD_DISK_PARTICLES; /* particles move */
         run(&s, PLAY, 5000);
         assert_true(s.last.scale < 1);
     }
@@ -553,7 +553,7 @@ static void load_that_comes_and_goes_is_followed(void **state)
         run(&s, DRAG, 30e3);
         assert_true(s.changes <= 7);
         s.load = 1;
-        run(&s, DRAG, 15e3); /* and back, by no more changes */
+        run(&s, DRAG, 15e3); /* it climbs back by no more changes */
         assert_int_equal(s.governor.paces[1].rung, 0);
         run(&s, DRAG, 60e3);
         assert_true(s.changes <= 8);
@@ -571,7 +571,7 @@ static struct kd_frame_cost slow_after_each_climb(const struct simulation *s, co
     return (struct kd_frame_cost) { .rays_ms = ms / 2, .pixels_ms = ms / 2, .total_ms = ms };
 }
 
-/* The same machine, which also forces the governor down a rung at a time when it does not climb. */
+/* A machine like slow_after_each_climb, which also forces the governor down a rung at a time when it does not climb. */
 static struct kd_frame_cost greedy(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     (void)scene, (void)reused;
@@ -915,7 +915,7 @@ static void a_drag_has_fewer_rays_at_the_curve(void **state)
     }
 }
 
-/* Frames of an earlier rung or ladder, and invalid times. */
+/* Neither frames of an earlier rung or ladder nor invalid times are counted. */
 static void what_measures_nothing_is_not_counted(void **state)
 {
     (void)state;
@@ -987,8 +987,8 @@ static void whatever_happens_the_answer_is_sound(void **state)
     }
 }
 
-/* A starry view whose azimuth changes. By the frames of a session, 7.2 ms of the rays' time do not depend on the
- * picture's size, which frames do not report. The view was too slow for a while because of other load. Then it must
+/* A starry view whose azimuth changes. In the frames of a session 7.2 ms of the rays' time did not depend on the
+ * picture's size; frames do not report this part. The view was too slow for a while because of other load. Then it must
  * regain the size that meets the target. */
 static struct kd_frame_cost starry(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
@@ -1005,7 +1005,7 @@ static void what_stays_at_any_size_is_learned(void **state)
 {
     (void)state;
     static const enum pattern patterns[] = { PLAY, DRAG };
-    static const double least[] = { 0.5, 0.375 }; /* of 640 x 360: 18 ms, and 24 with a lens map */
+    static const double least[] = { 0.5, 0.375 }; /* of 640 x 360: 18 ms, or 24 with a new lens map */
     for (int k = 0; k < 2; k++) {
         struct simulation s;
         begin(&s, kd_governor_params(), 640, 360, (struct truth) { 0 });
@@ -1024,7 +1024,7 @@ static void what_stays_at_any_size_is_learned(void **state)
     }
 }
 
-/* The same view in a session that started on the lowest rung, because kernels were compiled during its first frame. It
+/* A starry view in a session that started on the lowest rung, because kernels were compiled during its first frame. It
  * has seen no other rung from which the fixed part could be inferred. */
 static void who_began_low_finds_out(void **state)
 {

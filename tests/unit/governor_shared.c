@@ -111,7 +111,7 @@ static void many_keep_moving(void **state)
         }
 }
 
-/* The same with noise of 15 % and spikes. */
+/* All sessions keep moving also with noise of 15 % and spikes. */
 static void noise_divides_nobody(void **state)
 {
     (void)state;

@@ -26,11 +26,11 @@ typedef struct kd_frame_cost machine(const struct simulation *s, const struct kd
 
 /* A machine with costs by rays, by pixels and fixed; plus noise and spikes. */
 struct truth {
-    /* ms of the scene as requested: for rays traced, for rays with their lens map, ... */
+    /* ms of a frame of the scene as requested: to trace its rays, to reuse their lens map, and for its pixels */
     double traced, reused, pixels;
-    double fixed, hidden; /* independent of size: reported, and not reported */
-    double noise;         /* relative; uniform */
-    double spikes, spike; /* how often, and how many times as long */
+    double fixed, hidden; /* ms independent of the size: reported, and not reported */
+    double noise;         /* relative to the time, uniformly distributed */
+    double spikes, spike; /* how often a spike comes, and how many times as long a frame then takes */
     bool silent;          /* reports only the total */
 };
 
@@ -40,12 +40,12 @@ struct simulation {
     struct truth truth;
     machine *cost;
     double now;
-    uint64_t frames, changes, climbs;           /* changes of rung, of both kinds of frames; those upwards */
+    uint64_t frames, changes, climbs;           /* changes: of rung, of both kinds of frames; climbs: those upwards */
     double last_change, sum, load, least_pause; /* least_pause: shortest time between a change and the next climb */
     uint64_t summed;
     uint32_t lens;             /* counter of the scene's lens map */
     uint32_t kept[4][3], next; /* cached lens maps: lens, width, samples */
-    struct kd_quality last;    /* of the last frame rendered */
+    struct kd_quality last;    /* quality of the last frame rendered */
     bool forgets;              /* never caches a lens map */
 };
 

@@ -1,5 +1,5 @@
-/* Layouts agree between C and kernels: offsets and types of the members of push constants and buffers in the SPIR-V
- * against offsetof. */
+/* Layouts agree between C and kernels. Offsets and types of the members of push constants and buffers in the SPIR-V are
+ * compared with offsetof. */
 #include "render/view/layout.h"
 #include "render/emit/emitter.h"
 

@@ -50,7 +50,7 @@ static uint8_t *decode(const uint8_t *file, size_t size, uint32_t width, uint32_
     return pixels;
 }
 
-/* By libjpeg in one scan, with the settings named in jpeg.h. */
+/* The pixels after libjpeg encoded them in one scan, with the settings named in jpeg.h. */
 static uint8_t *expected(const uint8_t *pixels, uint32_t width, uint32_t height, unsigned quality)
 {
     struct jpeg_compress_struct info;

@@ -184,7 +184,7 @@ static void what_cannot_be_is_refused(void **state)
     }
 }
 
-/* A picture format takes one layer, NPY all; a table of rows none, and its plan has none. */
+/* A picture format takes one layer, and NPY takes all. A table of rows takes none, and its plan has none. */
 static void formats_take_what_they_hold(void **state)
 {
     (void)state;

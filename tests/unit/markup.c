@@ -1,4 +1,4 @@
-/* Tests of text in HTML and XML: what is escaped is as it was after it is read back. */
+/* Tests of text in HTML and XML: escaped text reads back unchanged. */
 #include "base/markup.h"
 
 #include <setjmp.h>

@@ -1,6 +1,6 @@
-/* Tests of observations: chi^2 against numbers by ehtim 1.3.2, for a model ring, of M87* as it was observed
- * (data/eht), from both files of one observation; searches for size, orientation and position; the scattering kernel;
- * and damaged files. */
+/* Tests of observations. chi^2 of a model ring for M87* as it was observed (data/eht), from both files of one
+ * observation, is compared with numbers by ehtim 1.3.2. Also tests searches for size, orientation and position, the
+ * scattering kernel, and damaged files. */
 #include "observe/align.h"
 #include "observe/scattering.h"
 #include "observe/simulate.h"
@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-#define PIXEL (4 * M_PI / 180 / 3.6e9) /* of the ring's picture */
+#define PIXEL (4 * M_PI / 180 / 3.6e9) /* width of a pixel of the ring's picture */
 enum { N = 32, MOST = 1 << 18, BLOCK = 2880 };
 
 static uint8_t *read_file(const char *name, size_t *size)
@@ -89,10 +89,10 @@ static const struct {
       { 5065.686103305162, 3.978760837143336, 11.242809018326296 } },
 };
 
-/* UVFITS: 1e-6; 2e-8 was measured, because ehtim keeps weights, and means of the parallel hands, in single
- * precision. The CSV has amplitudes to 1e-8 Jy and phases to 1e-4 degrees: 1e-3 for chi^2, and 0.2 for that of log
- * closure amplitudes without a cut: where an amplitude is about as large as its error, sqrt(|V|^2 - sigma^2)
- * consists of rounding error. */
+/* UVFITS: the tolerance is 1e-6. The measured difference is 2e-8, because ehtim keeps weights, and means of the
+ * parallel hands, in single precision. The CSV has amplitudes to 1e-8 Jy and phases to 1e-4 degrees, so the tolerance
+ * is 1e-3 for chi^2. It is 0.2 for log closure amplitudes without a cut: where an amplitude is about as large as its
+ * error, sqrt(|V|^2 - sigma^2) consists of rounding error. */
 static void test_chi2_is_that_of_ehtim(void **state)
 {
     (void)state;
@@ -509,7 +509,7 @@ static void test_files_that_are_cut(void **state)
     }
 }
 
-/* Replaces all visibilities of a file by 0.1 + 0.2 i, and compares what is told of them with the file. */
+/* Replaces all visibilities of a file by 0.1 + 0.2 i, and compares the reported ones with the file. */
 static void simulate(const struct kd_observation *o, uint8_t *file, size_t size, uint64_t seed, bool exact)
 {
     double (*model)[2] = calloc(o->n, sizeof *model), (*out)[2] = calloc(o->n, sizeof *out);
@@ -547,8 +547,8 @@ static void test_files_that_are_damaged(void **state)
     free(data);
 }
 
-/* A file whose second group has the time and the baseline of its first one, BSCALE 2 and BZERO 0.5: the simulated file
- * has the model, and what was left out is empty, so that it is flagged. */
+/* The second group of the file has the time and the baseline of the first, BSCALE 2 and BZERO 0.5. The simulated file
+ * has the model. The group that was left out is empty, so that it is flagged. */
 static void test_simulated_file(void **state)
 {
     (void)state;

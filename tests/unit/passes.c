@@ -138,8 +138,8 @@ static void emitters_are_prepared(void **state)
     assert_true(kd_emit_device_bytes(&scene) > 4 * 5000 / 5 * 2);
 }
 
-/* Estimates of cost, computed by hand for the passes of a default plan: what is learned from one frame is the
- * estimate for the next plan. */
+/* Estimates of cost, computed by hand for the passes of a default plan. The cost learned from one frame is the estimate
+ * for the next plan. */
 static void estimates_are_figures(void **state)
 {
     (void)state;
@@ -200,8 +200,8 @@ static uint64_t class_of(const char *json)
     return planned(json, &c).cost.class;
 }
 
-/* What is learned from one picture is the estimate for others of its class, whatever their size and the side from which
- * the hole is seen, and for no other class. */
+/* The cost learned from one picture is the estimate for others of its class, whatever their size and the side from
+ * which the hole is seen, and for no other class. */
 static void estimates_are_of_a_class(void **state)
 {
     (void)state;
@@ -224,7 +224,7 @@ static void estimates_are_of_a_class(void **state)
     };
     struct kd_capacity c = device();
     kd_cost_learn(&c, class_of(small), KD_PASS_TRANSFER, 1000);
-    kd_cost_learn(&c, class_of(small), KD_PASS_TRANSFER, 2000); /* 1300 */
+    kd_cost_learn(&c, class_of(small), KD_PASS_TRANSFER, 2000); /* their mean, weighted by 0.7 and 0.3, is 1300 */
     for (size_t i = 0; i < sizeof alike / sizeof *alike; i++) {
         const struct kd_plan plan = planned(alike[i], &c);
         assert_true(plan.cost.class == class_of(small));

@@ -68,7 +68,8 @@ static bool spherical(const struct kd_hole *hole, double r, double *lambda, doub
     return *eta > 0;
 }
 
-/* Across the curve of these labels the fate changes, by 1e-9 of the distance from its middle. */
+/* A ray inside the curve of these labels has another fate than one outside it, at 1e-9 of the distance from its
+ * middle. */
 static void edge_of_the_shadow(void **state)
 {
     (void)state;
@@ -192,7 +193,8 @@ static void extremes(void **state)
     }
 }
 
-/* The direction of escape by the bend, whose azimuth is a sum of other terms than the closed form's. */
+/* The direction of escape by the bend agrees with the closed form's. The azimuth of the bend is a sum of other
+ * terms. */
 static void bends(void **state)
 {
     (void)state;

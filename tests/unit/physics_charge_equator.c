@@ -50,7 +50,7 @@ static struct kd_hole random_hole(uint64_t *seed)
     return kd_hole_charged(0.9999 * size * cos(turn), 0.9999 * size * sin(turn));
 }
 
-/* The frequencies of a circle's neighbours, by the closed form of bound orbits. */
+/* The frequencies of orbits next to a circle, by the closed form of bound orbits. */
 static void small_oscillations(void **state)
 {
     (void)state;
@@ -122,7 +122,8 @@ static void potentials(void **state)
     assert_true(circles > 300);
 }
 
-/* r^3 - 4 r^2 + 4 q^2 r - q^4 = 0 without spin; (3 + sqrt 5)/2 at q = 1. */
+/* The marginally bound circle of a hole without spin is a root of r^3 - 4 r^2 + 4 q^2 r - q^4; at q = 1 it is (3 + sqrt
+ * 5)/2. */
 static void marginally_bound(void **state)
 {
     (void)state;

@@ -28,7 +28,7 @@ static void near(double got, double want, double allowed, const char *what, doub
                  want, got - want, allowed);
 }
 
-/* Beside r = 1 the distance from there keeps digits, not only r. */
+/* Near r = 1 the distance r - 1 keeps its digits, and not only r. */
 static void places(void **state)
 {
     (void)state;
@@ -93,7 +93,8 @@ static void plunge(void **state)
         const double r0 = kd_kerr_isco(&hole);
         near(kd_disk_redshift_plunging(&hole, r0, 0.5, 9, true), kd_disk_redshift(&hole, r0, 0.5), 1e-7,
              "g at the ISCO", e->a, e->q, r0);
-        /* The principal photon, lambda = a and eta = 0, measures W = E (1 + a^2 w^2) - a L w^2 and w' = -u^r alone. */
+        /* For the principal photon, lambda = a and eta = 0, g depends on W = E (1 + a^2 w^2) - a L w^2 and w' = -u^r
+         * alone. */
         for (int k = 1; k < 8; k++) {
             const double r = hole.outer + (r0 - hole.outer) * k / 8, w = 1 / r;
             const double en = kd_kerr_energy(&hole, r0), j = kd_kerr_momentum(&hole, r0) - e->a * en;
@@ -114,7 +115,7 @@ static double product(const struct kd_vantage *at, const struct kd_covector *p, 
     return (-(pt * kt - p->radial * k->radial) / delta + p->polar * k->polar + pf * kf) / sigma;
 }
 
-/* Frames are orthonormal by Carter's inverse metric; what defines the motions holds. */
+/* Frames are orthonormal by Carter's inverse metric, and each motion has the property that defines it. */
 static void frames(void **state)
 {
     (void)state;
@@ -147,7 +148,7 @@ static void frames(void **state)
             }
 }
 
-/* A static observer has p^phi = 0, which is momentum (Sigma - mass)/(s^2) + ... = 0: by u^phi of the inverse metric. */
+/* A static observer has u^phi = 0, by the inverse metric. */
 static void at_rest(void **state)
 {
     (void)state;
@@ -176,7 +177,7 @@ static void rain(void **state)
     }
 }
 
-/* Beside the critical curve of a charged hole a ray ends as its side of the curve says. */
+/* A ray next to the critical curve of a charged hole has the fate of its side of the curve. */
 static void curve(void **state)
 {
     (void)state;

@@ -242,8 +242,8 @@ static const struct kd_null_place *crossing_of(const struct kd_null_course *cour
     return NULL;
 }
 
-/* Light that reaches an infalling observer inside the horizon, with energy at infinity above and below 0: crossings,
- * fate and direction against the reference integration, whose coordinates are regular at the horizon. */
+/* Light that reaches an infalling observer inside the horizon, with energy at infinity above and below 0. Crossings,
+ * fate and direction are compared with the reference integration, whose coordinates are regular at the horizon. */
 static void from_within(void **state)
 {
     static struct kd_null_place places[MOST], others[MOST];

@@ -78,7 +78,7 @@ static void the_edge_is_where_it_is_seen(void **state)
             direction(&curve, angle, m);
             direction(&curve, angle - 1e-4, before);
             direction(&curve, angle + 1e-4, after);
-            /* the tangent, counterclockwise, cross the direction: points away from the dark side */
+            /* the cross product of the counterclockwise tangent and the direction points away from the dark side */
             for (int j = 0; j < 3; j++) {
                 const int a = (j + 1) % 3, b = (j + 2) % 3;
                 across[j] = (after[a] - before[a]) * m[b] - (after[b] - before[b]) * m[a];

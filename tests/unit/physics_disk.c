@@ -188,8 +188,8 @@ static void plunging_at_both_ends(void **state)
     }
 }
 
-/* The same physics computed in grams and with Newton's G, which is known to 2.2e-5; T goes as M^(-1/4). The fourth
- * root of the flux adds no error. */
+/* Compares with the same physics computed in grams and with Newton's G, which is known to 2.2e-5; T goes as M^(-1/4).
+ * The fourth root of the flux adds no error. */
 static void temperature_in_kelvin(void **state)
 {
     (void)state;

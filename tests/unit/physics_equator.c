@@ -24,8 +24,8 @@ static void within(const char *what, double a, double x, double got, double want
                  fabs(got - want), bound);
 }
 
-/* A few ulp. kappa^2 has a zero at the ISCO: a sixteenth of the radius away from it a factor of ten is lost or, at 1
- * - a = 1e-12, where r - 1 is 1e-4 and r known to 1e-16, a factor of 1e4. */
+/* The errors are a few ulp. kappa^2 has a zero at the ISCO. A sixteenth of the radius away from it, a factor of ten is
+ * lost. At 1 - a = 1e-12, where r - 1 is 1e-4 and r known to 1e-16, a factor of 1e4 is lost. */
 static void frequencies(void **state)
 {
     (void)state;

@@ -104,8 +104,9 @@ static void metric(void **state)
             }
 }
 
-/* Delta/r^2 of w = 1/r: the error is that of h = root w, an ulp or two, over 1 - w r+. 1 - 2w + a^2 w^2 would have one
- * of 1e-16 over Delta/r^2, which is smaller than that for the last spins here. */
+/* Delta/r^2 as a function of w = 1/r. Its relative error is that of h = root w, an ulp or two, over 1 - w r+. The form
+ * 1 - 2w + a^2 w^2 would have an error of 1e-16 over Delta/r^2; for the last spins here Delta/r^2 is smaller than
+ * 1e-16. */
 static void metric_of_the_inverse_radius(void **state)
 {
     (void)state;

@@ -103,7 +103,7 @@ static void the_isco_is_the_minimum(void **state)
             double h = 1e-3 * gap,
                    slope = (functions[i](kd_hole(a), r + h) - functions[i](kd_hole(a), r - h)) / (2 * h);
             double bend = (left + right - 2 * at) / (step * step);
-            /* In units of bend * gap: the offset of the minimum as a share of the gap. */
+            /* slope/(bend * gap) is the offset of the minimum as a share of the gap. */
             if (!(fabs(slope) < 1e-5 * bend * gap))
                 fail_msg("a = %g: the slope of %s at the ISCO is %g", a, i ? "L" : "E", slope);
         }

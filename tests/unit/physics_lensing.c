@@ -34,7 +34,7 @@ static void against_the_oracle(void **state)
         double d = kd_lensing_edge(&c, &p, e->order, e->source);
         if (!(fabs(d / e->distance - 1) < 4e-14 + 1e-16 / sqrt(1 - e->spin)))
             fail_msg("row %zu: %.17g, not %.17g", i, d, e->distance);
-        /* and from d back to the source; d ln r/d ln d is some 10 at most, except at infinity and at the horizon */
+        /* d gives the source back; d ln r/d ln d is some 10 at most, except at infinity and at the horizon */
         double r = kd_lensing_source(&c, &p, e->order, d);
         if (e->source == 6 && !(fabs(r / 6 - 1) < 1e-12))
             fail_msg("row %zu: source at %.17g", i, r);

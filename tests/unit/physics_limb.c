@@ -106,8 +106,8 @@ static double scattered_cube(const void *user, double r, double g, double mu)
     return kd_limb_at(KD_LIMB_SCATTERING, mu) * pow(r, -3) * g * g * g;
 }
 
-/* Lines of a scattering atmosphere against triangles between rays (tests/oracle/line_triangles.h), and against the line
- * of an isotropic surface, from which they must differ by more than their errors. */
+/* Lines of a scattering atmosphere, compared with triangles between rays (tests/oracle/line_triangles.h). They must
+ * differ from the line of an isotropic surface by more than the errors of both. */
 static void test_lines(void **state)
 {
     static const struct { double a, i; } cases[] = { { 0, 30 }, { 0.9, 60 }, { 0.998, 75 }, { -0.9, 45 } };

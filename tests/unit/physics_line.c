@@ -363,11 +363,11 @@ static void test_lamp(void **state)
 {
     struct kd_lamppost lamp;
     (void)state;
-    /* Flat space: far above a far ring. What is left is the deflection of light, some 4/b. */
+    /* Far above a far ring space is flat, except for the deflection of light, some 4/b. */
     assert_true(kd_lamppost_init(&lamp, kd_hole(0), 2000, 2, 1000, 10000));
     for (double r = 1200; r < 9000; r *= 1.7)
         within("flat", 0, r, kd_lamppost_at(&lamp, r) / (2000 / (4 * M_PI * pow(r * r + 4e6, 1.5))), 1, 0.01);
-    /* Without spin: the slope of r by differences; and what all rings receive adds up to what was sent to them. */
+    /* Without spin the profile follows from the slope of r by differences. */
     for (double h = 3, q = 0; h < 50; h *= q > 0 ? 2.3 : 1, q = 0.9 - q) {
         const struct kd_hole hole = kd_hole_charged(0, q);
         const double isco = kd_kerr_isco(&hole);

@@ -132,7 +132,7 @@ static void from_nearby(void **state)
     assert_true(compared > 2000);
 }
 
-/* The same about charged holes, up to a^2 + q^2 = 1 - 1e-9, seen from infinity and from nearby. */
+/* Random rays about charged holes, up to a^2 + q^2 = 1 - 1e-9, seen from infinity and from nearby. */
 static void charged(void **state)
 {
     (void)state;

@@ -248,7 +248,8 @@ static void what_it_is_called_after(const struct kd_observer_motion *m, const st
     }
 }
 
-/* For an infalling body: p^r and E - Omega_H L nearly cancel in these coordinates. */
+/* The rounding of a product of two legs of an infalling body, where p^r and E - Omega_H L nearly cancel in these
+ * coordinates; 0 for other observers. */
 static double cancelled(const struct kd_observer_motion *m, const struct kd_vantage *at, const vector p, const vector x)
 {
     long double size = 0;
@@ -275,8 +276,8 @@ static void orthonormal_at(const struct kd_observer_motion *m, const struct kd_v
                  : i    ? 1
                         : -1,
                  rounding(m, at) + cancelled(m, at, down[i], up[j]), "product", m, at);
-    /* Time towards the future; the others outwards, away from the north pole and along the rotation, carried by a
-     * boost. */
+    /* The time leg points to the future. The other legs point outwards, away from the north pole and along the
+     * rotation, carried by a boost. */
     const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);
     const struct kd_tetrad rest = kd_observer_tetrad(&zamo, at);
     const struct kd_covector *const still[] = { &rest.t, &rest.r, &rest.theta, &rest.phi };
@@ -368,7 +369,7 @@ static void constants(void **state)
     everywhere(constants_at);
 }
 
-/* The Lorentz factor, squared, of the observer as one of zero angular momentum sees it. */
+/* The square of the Lorentz factor of the observer relative to one of zero angular momentum. */
 static double square_gamma(const struct kd_observer_motion *m, const struct kd_vantage *at,
                            const struct kd_tetrad *frame)
 {
@@ -378,8 +379,8 @@ static double square_gamma(const struct kd_observer_motion *m, const struct kd_v
     return m->observer > KD_OBSERVER_ZAMO ? gamma * gamma * (1 + at->r / (at->r - at->hole.outer)) : 1;
 }
 
-/* Components survive the conversion into the frame and back, and a photon is seen in the direction it comes from; also
- * for a frame whose axes are mixed by rotations. */
+/* Components survive the conversion into the frame and back, and a photon is seen in the direction from which it comes.
+ * This holds also for a frame whose axes are mixed by rotations. */
 static void back_and_forth_at(const struct kd_observer_motion *m, const struct kd_vantage *at,
                               const struct kd_tetrad *frame)
 {

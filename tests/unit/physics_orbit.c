@@ -97,7 +97,8 @@ static void places_are_the_quadratures(void **state)
     }
 }
 
-/* Both methods, with enough steps that only rounding, including that of the constants, remains. */
+/* Both methods agree with the quadratures, with enough steps that only rounding remains, including that of the
+ * constants. */
 static void paths_are_the_quadratures(void **state)
 {
     (void)state;
@@ -144,7 +145,8 @@ static void falls_are_the_quadratures(void **state)
         }
 }
 
-struct line { double worst, slope; /* of |drift| per orbit; slope per orbit by least squares */ };
+/* worst: the largest |drift|; slope: by how much the largest |drift| of an orbit grows an orbit, by least squares. */
+struct line { double worst, slope; };
 
 static struct line energy_drift(enum kd_orbit_method method, int steps, int orbits)
 {
@@ -169,7 +171,7 @@ static struct line energy_drift(enum kd_orbit_method method, int steps, int orbi
     return line;
 }
 
-/* The drift is 1e-13 over a thousand orbits, of which less than a hundredth is growth. */
+/* Over a thousand orbits the error of E is at most 1e-13. Steady growth is less than a hundredth of that. */
 static void yoshida_does_not_drift(void **state)
 {
     (void)state;
@@ -183,7 +185,7 @@ static void yoshida_does_not_drift(void **state)
     assert_true(nystroem.slope * 1000 > 0.5 * nystroem.worst); /* shows that the fit finds growth where there is some */
 }
 
-/* All first integrals stay constant, off the plane and across the axis; the order by halving the step. */
+/* All first integrals stay constant, off the plane and across the axis. Halving the step shows the order. */
 static void first_integrals_stay(void **state)
 {
     (void)state;
@@ -298,7 +300,7 @@ static void constants_and_back(void **state)
     }
 }
 
-/* The velocity that an observer measures, by contraction with the metric; and the norm. */
+/* The velocity that an observer measures, and the norm, agree with contractions with the metric. */
 static void states_are_what_is_seen(void **state)
 {
     (void)state;
@@ -363,8 +365,8 @@ static void from_any_phase(void **state)
     }
 }
 
-/* The azimuth computed without its pole at the axis, against the plain sum of L/(1 - u^2): also for E > 1 and for
- * motions that stay on one side of the equator. */
+/* The azimuth computed without its pole at the axis equals the plain sum of L/(1 - u^2), also for E > 1 and for motions
+ * that stay on one side of the equator. */
 static void azimuth_has_no_pole(void **state)
 {
     (void)state;

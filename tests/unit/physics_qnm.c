@@ -99,7 +99,7 @@ static void public_tables(void **state)
     close_to("omega", 2, 2, 0, 0.68, found(2, 2, 0, 0.68).omega, 0.5239751042900845 - 0.08151262363119974 * I, 1e-13);
 }
 
-/* In the whole domain each mode is one curve, without a jump to a neighbouring one: a walk in steps so fine that it
+/* In the whole domain each mode is one curve, without a jump to a neighbouring one. A walk in steps so fine that it
  * cannot change curves passes every value that is found individually, and a walk back returns to the start. Most
  * neighbours are 1e-2 away. */
 static void one_branch(void **state)

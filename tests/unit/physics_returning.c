@@ -47,7 +47,8 @@ static void rates(const struct flight *f, const double y[4], double out[4])
     out[3] = l * l * c / (s * s * s) - a * a * e * e * c * s;
 }
 
-/* Dormand & Prince 1980, J. Comput. Appl. Math. 6, 19. Returns an estimate of the error over the tolerance. */
+/* Makes a step by the method of Dormand & Prince 1980, J. Comput. Appl. Math. 6, 19. Returns an estimate of the error
+ * over the tolerance. */
 static double step(const struct flight *f, const double y[4], double h, double out[4])
 {
     static const double b[7][6] = { { 0 },
@@ -204,7 +205,7 @@ static const struct kd_hole *holes(size_t i)
     return &all[i];
 }
 
-/* Rings at the ISCO and at 3 times that. */
+/* Tested for rings at the ISCO and at 3 times its radius. */
 static void light_of_a_ring_goes_where_followed_rays_go(void **state)
 {
     (void)state;
@@ -234,11 +235,11 @@ static void light_of_a_ring_goes_where_followed_rays_go(void **state)
 }
 
 enum { BINS = 8, RINGS = 24 };
-/* Light of the whole disk of Page & Thorne: shares of its luminosity, and what rings inside r = r_isco/s^2 receive,
- * s = 1/8, 2/8 ...: energy in the gas's frame, and the angular momentum that it lacks. */
+/* Light of the whole disk of Page & Thorne: shares of its luminosity, and what the rings inside r = r_isco/s^2 receive,
+ * for s = 1/8, 2/8, ...: energy in the gas's frame, and the angular momentum that it lacks. */
 struct sums {
     struct kd_returning_shares shares;
-    double energy[BINS], deficit[BINS], momentum; /* the last: L of the gas times the energy, of all */
+    double energy[BINS], deficit[BINS], momentum; /* momentum: L of the gas times the energy, summed over all rings */
 };
 
 static double area(const struct kd_hole *hole, double isco, double s) /* 4 pi r dr over the efficiency, by s */

@@ -219,8 +219,8 @@ static void round_disks(void **state)
     }
 }
 
-/* The solid angle against the integral over its boundary's distance from a centre, where that is simple, and against
- * counted directions. */
+/* The solid angle is compared with the integral over its boundary's distance from a centre, where this is simple, and
+ * with counted directions. */
 static void solid_angles(void **state)
 {
     (void)state;

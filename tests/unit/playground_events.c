@@ -49,8 +49,8 @@ static void pairs_spiral_in_as_peters_says(void **state)
     }
 }
 
-/* The same for a light body and the hole, far out in the hole's potential, which differs from Newton's by 2/r^2
- * there. */
+/* A light body and the hole spiral together as Peters says, far out in the hole's potential, which differs from
+ * Newton's by 2/r^2 there. */
 static void spiral_in(double mass, double amplification)
 {
     struct kd_playground_params params = playground_quiet();
@@ -66,7 +66,8 @@ static void spiral_in(double mass, double amplification)
     double r = r0;
     while (r > r1 && p->t < 2 * expected) {
         playground_advance(p, expected / 1000);
-        const double e = kd_playground_totals(p).energy / mass; /* of a circle: (4 - r)/(2 (r - 2)^2) */
+        const double e =
+            kd_playground_totals(p).energy / mass; /* energy of a circle over the mass: (4 - r)/(2 (r - 2)^2) */
         const double x = (-0.5 - sqrt(0.25 + 4 * e)) / (2 * e); /* e = 1/x^2 - 1/(2 x), x = r - 2 */
         r = x + 2;
     }
@@ -261,7 +262,7 @@ static void scenes_that_mean_harm_stay_finite(void **state)
             playground_put(p, (struct kd_playground_body) { .mass = m, .x = { 10, 0, 0 } }); /* on top of each other */
             playground_put(p, (struct kd_playground_body) { .mass = m, .x = { 10, 0, 0 }, .v = { 1, 0, 0 } });
             playground_put(p, (struct kd_playground_body) {
-                                  .mass = m, .x = { 8, 0, 0 }, .v = { -1, 0, 0 } }); /* at the horizon at c */
+                                  .mass = m, .x = { 8, 0, 0 }, .v = { -1, 0, 0 } }); /* at the horizon, with speed c */
             playground_put(p, (struct kd_playground_body) {
                                   .mass = m, .radius = 3, .x = { 2.06, 0, 0 } }); /* next to the hole, at rest */
             playground_put(p, (struct kd_playground_body) { .mass = 1e12, .x = { 0, 0, -1e6 } });

@@ -151,7 +151,7 @@ static void debris_is_all_there(void **state)
         assert_true((size_t)d->rows * d->columns <= KD_SHOW_NODES && d->rows >= 2 && d->columns >= 2);
         const double all = (double)(n - free_) / N;
         assert_true(fabs(s.worth / all - 1) < 1e-4 && fabs(s.phi - vphi / N) < 1e-4 * all);
-        if (shape != 1) /* that ring is thick: the velocity along e_r is not that along the plane */
+        if (shape != 1) /* the ring is thick: there the velocity along e_r is not that along the plane */
             assert_true(fabs(s.r / (vr / N) - 1) < 1e-3);
         kd_dynamic_bodies_release(dynamic);
     }
@@ -246,8 +246,8 @@ static void a_view_is_as_wide_as_what_there_is(void **state)
     kd_playground_destroy(p);
 }
 
-/* Pieces already torn off keep their weight, whatever number of pieces is set for later bodies; also in a snapshot.
- * With two stars each keeps its own. */
+/* Pieces already torn off keep their weight, whatever number of pieces is set for later bodies, also in a snapshot.
+ * With two stars the pieces of each keep their weight. */
 static void a_piece_keeps_its_worth(void **state)
 {
     (void)state;

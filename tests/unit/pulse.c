@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#define DEADLINE_MS 20u /* of a submission: the longest time that may pass between two looks */
+#define DEADLINE_MS 20u /* deadline of a submission: the longest time that may pass between two looks */
 
 static void sleep_ms(double ms) { nanosleep(&(struct timespec) { .tv_nsec = (long)(1e6 * ms) }, NULL); }
 
@@ -58,7 +58,7 @@ static void a_process_that_was_stopped_does_not_hang(void **state)
         sleep_ms(i ? 2 * DEADLINE_MS : 2.0 * KD_PULSE_DEADLINES * DEADLINE_MS);
         assert_true(kd_pulse_missing_s(&pulse, DEADLINE_MS) == 0);
     }
-    assert_true(look(&pulse, 60e3, false) > 0); /* but one that stays silent afterwards is reported */
+    assert_true(look(&pulse, 60e3, false) > 0); /* a thread that stays silent afterwards is reported */
 }
 
 int main(void)

@@ -119,7 +119,7 @@ static void constants(void **state)
     double k = KD_K_J_K, h = KD_H_J_S, c = KD_C_M_S;
     double stefan = 2 * pow(M_PI, 5) * k * k * k * k / (15 * h * h * h * c * c);
     published("Stefan-Boltzmann", KD_STEFAN_BOLTZMANN_SI / stefan, 1, 1e-15);
-    double x = 5, y = 3; /* of the maxima of B_lambda and B_nu: x = 5 (1 - e^-x), y = 3 (1 - e^-y) */
+    double x = 5, y = 3; /* the maxima of B_lambda and B_nu are at x = 5 (1 - e^-x) and y = 3 (1 - e^-y) */
     for (int i = 0; i < 100; i++)
         x = -5 * expm1(-x), y = -3 * expm1(-y);
     published("Wien", KD_WIEN_M_K / (h * c / (k * x)), 1, 1e-15);
@@ -171,11 +171,9 @@ static void face_on(void **state)
               -ASK("redshift", "beta", "inclination_deg=70", "phi_deg=200"), 1e-11);
 }
 
-/* From rest at r: sqrt(r^3/2) (eta + sin eta)/2 with the radius r cos^2(eta/2) (Misner, Thorne & Wheeler 1973, eq.
- * 31.10); pi/2 sqrt(r^3/2) in all. */
-/* The azimuth that rain from r covers until the inner horizon: in the coordinates of C. Doran 2000, eq. 16 and 18,
- * it is constant, and they differ from ingoing Kerr-Schild azimuth by the integral of -a/((r^2 + a^2) (1 + (2r/(r^2
- * + a^2))^(1/2))) dr; by Simpson's rule. */
+/* The azimuth that rain from r covers until the inner horizon, by Simpson's rule. In the coordinates of C. Doran 2000,
+ * eq. 16 and 18, it is constant. They differ from ingoing Kerr-Schild azimuth by the integral of -a/((r^2 + a^2) (1 +
+ * (2r/(r^2 + a^2))^(1/2))) dr. */
 static double rain_turns(double a, double r)
 {
     enum { PARTS = 2000 };
@@ -187,6 +185,8 @@ static double rain_turns(double a, double r)
     return -sum * step / 3;
 }
 
+/* The proper time of a fall from rest at r to the radius r cos^2(eta/2) is sqrt(r^3/2) (eta + sin eta)/2 (Misner,
+ * Thorne & Wheeler 1973, eq. 31.10), in all pi/2 sqrt(r^3/2). */
 static void fall(void **state)
 {
     (void)state;

@@ -75,7 +75,7 @@ class Queues(unittest.TestCase):
                     self.near(found, MEAN * load / (1 - load))
 
     def test_works_of_one_length(self):
-        """By Pollaczek and Khinchine the wait is half of that with exponential lengths."""
+        """The wait is half of that with exponential lengths (Pollaczek and Khinchine)."""
         found, _ = waits(1, 0.7, 10000, lambda rng: MEAN, 5)
         self.near(found, MEAN * 0.7 / (1 - 0.7) / 2)
 

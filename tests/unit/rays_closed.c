@@ -200,9 +200,9 @@ static struct ks_path seen_by(const struct kd_rays_params *p, const double *look
     return ks_follow(&at, photon, ORDERS);
 }
 
-/* Every kind of observer, in all directions. The reference starts from a velocity with the square root of the radial
- * potential, which is 0 where an observer stays or circles; that leaves 1e-8, which grows by up to 23 times an
- * order. */
+/* Every kind of observer, in all directions. The reference starts from a velocity that contains the square root of the
+ * radial potential, which is 0 where an observer stays or circles. This leaves an error of 1e-8, which grows by up to
+ * 23 times an order. */
 static void observers_that_move(void **state)
 {
     static const double looks[][2] = { { 3, 2 },  { -21, 13 }, { 40, -33 },  { -75, 5 },

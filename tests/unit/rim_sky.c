@@ -59,7 +59,8 @@ static double apart(const double a[3], const struct ray *ray)
     return sqrt(pow(a[0] - sky[at], 2) + pow(a[1] - sky[rays + at], 2) + pow(a[2] - sky[2 * rays + at], 2));
 }
 
-/* For an observer at rest, by the reference integration, which uses no curve, no roots and no angles. */
+/* For an observer at rest the origins agree with the reference integration, which uses no curve, no roots and no
+ * angles. */
 static void by_the_oracle(void **state)
 {
     (void)state;
@@ -95,8 +96,7 @@ static void by_the_oracle(void **state)
     printf("by the oracle within %.2g rad\n", worst);
 }
 
-/* The interpolated origin agrees with that of each ray, for all kinds of observers and places; and every ray
- * escapes. */
+/* The interpolated origin agrees with that of each ray, for all kinds of observers and places. Every ray escapes. */
 static void each_ray(void **state)
 {
     (void)state;

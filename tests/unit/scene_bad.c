@@ -14,7 +14,7 @@ static void expect_refused(const char *text, size_t length, const char *pointer,
     kd_scene_defaults(&scene);
     scene.camera.r = 12;
     before = scene;
-    /* of exact size, so that a read past the end is noticed; NULL for no bytes */
+    /* has the exact size, so that a sanitizer notices a read past the end; NULL for no bytes */
     char *exact = length ? malloc(length) : NULL;
     if (length)
         memcpy(exact, text, length);
@@ -262,7 +262,8 @@ static void names_are_found(void **state)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         size_t length = strlen(cases[i].text);
-        char *exact = malloc(length ? length : 1); /* so that a read past the end is noticed */
+        char *exact =
+            malloc(length ? length : 1); /* has the exact size, so that a sanitizer notices a read past the end */
         memcpy(exact, cases[i].text, length);
         if (kd_scan_names(exact, length, "axes") != cases[i].there)
             fail_msg("%s", cases[i].text);
@@ -351,7 +352,8 @@ static void random_damage_is_harmless(void **state)
         memcpy(text, good, length);
         for (uint64_t n = 1 + support_random(&seed) % 3; n; n--)
             length = length ? mutate(text, length, capacity, &seed) : 0;
-        text = realloc(text, length ? length : 1); /* of exact size, so that a read past the end is noticed */
+        text = realloc(text,
+                       length ? length : 1); /* has the exact size, so that a sanitizer notices a read past the end */
         struct kd_error error = { 0 };
         if (kd_scene_from_json(&target, text, length, &error)) {
             refused++;

@@ -73,7 +73,8 @@ static void documents_merge(void **state)
     assert_true(isinf(scene.camera.r));
 }
 
-/* RFC 7396: null sets a field or a section to its default; what is not named stays; a failing patch changes nothing. */
+/* By RFC 7396 null sets a field or a section to its default, and what is not named stays. A failing patch changes
+ * nothing. */
 static void patches(void **state)
 {
     (void)state;
@@ -122,7 +123,7 @@ static void expect_spots(const struct kd_scene *scene, size_t count, const doubl
     assert_int_equal(scene->spots.count, count);
     for (size_t i = 0; i < count; i++)
         assert_true(scene->spots.at[i].r == radii[i]);
-    for (size_t i = count; i < KD_SPOTS; i++) /* beyond the end of the list nothing of the former content is left */
+    for (size_t i = count; i < KD_SPOTS; i++) /* nothing of the former content is left beyond the end of the list */
         assert_true(scene->spots.at[i].r == 9 && scene->spots.at[i].brightness == 0);
 }
 
@@ -220,7 +221,7 @@ static void old_names_are_read(void **state)
     expect_spots(&scene, 0, NULL);
 }
 
-/* The same list elements set on a command line or in a link. */
+/* List elements can also be set on a command line or in a link. */
 static void elements_are_set(void **state)
 {
     (void)state;
@@ -255,7 +256,6 @@ static void elements_are_set(void **state)
                  kd_scene_same_path("spot2", "spots.1"));
 }
 
-/* A file from an earlier version must keep its meaning. */
 /* A section nested in another is a member of it, in documents, in patches, in paths, and in written documents. */
 static void sections_stand_in_sections(void **state)
 {

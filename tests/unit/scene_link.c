@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-/* Applies what a link says as the query is read: the preset, the style, the rest in order. */
+/* Applies the parameters of a link in the order in which the query is read: the preset, the style, the rest. */
 static struct kd_scene read_link(const char *link)
 {
     struct kd_scene scene;

@@ -1,5 +1,5 @@
-/* Tests of the code for scenes with another table of fields (table/scene/fields.h): what it does for spots it does
- * for any list, and assets are names until they are resolved. */
+/* Tests of the code for scenes with another table of fields (table/scene/fields.h). The code treats any list as it
+ * treats spots, and assets are names until they are resolved. */
 #include "cli/asset_options.h"
 #include "cli/cli.h"
 #include "image/png.h"
@@ -14,14 +14,14 @@
 
 #include <cjson/cJSON.h>
 
-/* This scene has no volumes, */
+/* This scene has no volumes. */
 enum kd_status kd_asset_check_grid(double spin, const struct kd_scene *scene, struct kd_error *error)
 {
     return (void)spin, (void)scene, (void)error, KD_OK;
 }
-/* no widths in two units, */
+/* This scene has no widths in two units. */
 void kd_scene_settle(struct kd_scene *scene, const uint64_t *given) { (void)scene, (void)given; }
-/* no rules and no presets. */
+/* This scene has no rules and no presets. */
 const struct kd_rule kd_rules[1];
 const size_t kd_rule_count = 0;
 const struct kd_preset kd_presets[1];
@@ -285,7 +285,7 @@ static void schema_has_natures_places_and_groups(void **state)
         const cJSON *row = cJSON_GetObjectItemCaseSensitive(rows, natures[i][0]);
         assert_string_equal(word_of(row, "x-nature"), natures[i][1]);
         assert_int_equal(cJSON_HasObjectItem(row, "x-front"), i < 2);
-        assert_false(cJSON_HasObjectItem(row, "x-group")); /* its section has that */
+        assert_false(cJSON_HasObjectItem(row, "x-group")); /* its section has the group */
     }
     assert_string_equal(word_of(bodies, "x-group"), "gas");
     assert_string_equal(word_of(cJSON_GetObjectItemCaseSensitive(all, "stops"), "x-group"), "hole");
@@ -302,7 +302,7 @@ static void schema_has_natures_places_and_groups(void **state)
     kd_buffer_finish(&text);
 }
 
-/* What the page needs for its controls is in the schema of each field, also in lists. */
+/* The schema of each field, also in lists, has what the page needs for its controls. */
 static void schema_has_controls(void **state)
 {
     (void)state;

@@ -13,10 +13,10 @@ enum { MOST = 64 };
 struct sharer {
     struct simulation sim;
     struct kd_budget_entry entry;
-    struct kd_claim claim; /* of its frame */
+    struct kd_claim claim; /* claim of its frame */
     double pause; /* mean time from a frame to the next request; the actual one is half to one and a half times that */
-    double from, to;     /* its scene changes at each request between these times, */
-    double stroke, lift; /* alternately for `stroke` and not for `lift`; 0: without a break */
+    double from, to;     /* its scene changes at each request between these times */
+    double stroke, lift; /* changes last for `stroke` and pause for `lift`, in turn; 0: no pauses */
     bool still;          /* the changes reuse the lens map, as a change of time does */
     /* internal */
     double due; /* time of the next request; INFINITY: a frame is in the queue */
@@ -24,7 +24,7 @@ struct sharer {
     struct kd_frame_cost cost;
     double left;        /* ms of the device that the frame still needs */
     double latest, gap; /* time of the newest frame that was not a refinement; the longest time between two in a drag */
-    uint64_t moved, refined; /* frames */
+    uint64_t moved, refined; /* number of frames */
     double used;             /* ms of the device, without refinement */
     /* changes of scale; frames of a drag after which the server would start to refine before the next request
      * arrives */
@@ -36,7 +36,7 @@ struct device {
     int n;
     struct kd_shares shares;
     struct kd_budget budget;
-    struct sharer *served; /* NULL: nobody */
+    struct sharer *served; /* the sharer that has the device; NULL: nobody */
     double now, until, slice;
     bool alone; /* governors do not learn of each other */
 };

@@ -191,7 +191,7 @@ static void a_picture_beside_living_sessions(void **state)
     assert_true(worst <= 300 && live_worst <= 200);
 }
 
-/* Within one client and class short works go before long ones, but not for ever. */
+/* Within one client and class, short pieces of work go before long ones, but not for ever. */
 static void short_first(void **state)
 {
     (void)state;
@@ -230,8 +230,7 @@ static void no_savings_and_no_debts(void **state)
     assert_true(late->served - before >= 1000 - 200 - 2 * SLICE);
 }
 
-/* The same for one class of a client's work: whatever its weight, a class that was blocked catches up by at most 200 ms
- * of the device. */
+/* A class of a client's work that was blocked catches up by at most 200 ms of the device, whatever its weight. */
 static void a_class_that_was_barred(void **state)
 {
     (void)state;
@@ -248,8 +247,8 @@ static void a_class_that_was_barred(void **state)
             const double before = other->served, waited = b.now;
             while (other->served <= before)
                 assert_non_null(turn(&b));
-            /* The sum of 200 ms; its own share between two slices of the other class, by their weights; a slice of the
-             * other class that is being computed; and the rounding to one slice. */
+            /* The bound is the sum of 200 ms, its own share between two slices of the other class by their weights, a
+             * slice of the other class that is being computed, and the rounding to one slice. */
             assert_true(b.now - waited <= 200 + SLICE * (weight[i] / weight[k]) + 3 * SLICE);
         }
 }

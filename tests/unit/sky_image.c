@@ -163,8 +163,8 @@ static void credits(void **state)
 
 enum { WIDTH = 512, HEIGHT = 256 };
 
-/* What is left of a pattern along the meridians, a wave with a period of that number of texels, in the row of that
- * latitude at a level: its amplitude, and the row's mean. */
+/* Draws a pattern along the meridians, a wave with a period of that number of texels. Measures in the row of that
+ * latitude, at a level, what is left of its amplitude, and the row's mean. */
 static void wave(bool even, double period, double latitude, int level, double *amplitude, double *mean)
 {
     struct kd_sky_picture p = { WIDTH, HEIGHT, malloc(3 * sizeof(float) * WIDTH * HEIGHT), even };

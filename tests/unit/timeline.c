@@ -72,8 +72,8 @@ static void free_fall_by_proper_time(void **state)
     kd_timeline_finish(&t);
 }
 
-/* An orbit at 10 M, where d(phi)/dtau = 1/(r^(3/2) sqrt(1 - 3/r)) without spin; and eased, halfway at half of the
- * time. */
+/* An orbit at 10 M, where d(phi)/dtau = 1/(r^(3/2) sqrt(1 - 3/r)) without spin. With easing the observer is halfway at
+ * half of the time. */
 static void an_orbit_by_proper_time(void **state)
 {
     (void)state;

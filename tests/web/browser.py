@@ -219,7 +219,7 @@ class Browser(unittest.TestCase):
         page.wait_for_selector(AT_REST)
 
     def there(self, page, words, selector, text=False):
-        """Waits for words to appear. text: also in what is folded up."""
+        """Waits for words to appear. text: also where they are in a part that is folded up."""
         read = page.text_content if text else page.inner_text
         self.assertTrue(daemon.eventually(lambda: words in read(selector)), f"{words!r} in {read(selector)!r}")
 

@@ -105,7 +105,8 @@ class Falling(Browser):
         page.wait_for_selector(AT_REST)
         page.click("#fall-in")
         page.wait_for_selector("#fall-guide:visible")
-        page.evaluate("for (const _ of '12') document.getElementById('fall-guide').click()")  # impatiently
+        # clicks twice, as an impatient user does
+        page.evaluate("for (const _ of '12') document.getElementById('fall-guide').click()")
         caption = lambda words: self.there(page, words, "#fall-caption")
         page.wait_for_selector("#fall-caption")
         self.assertEqual(page.inner_text("#fall-guide"), "End the guide")

@@ -199,7 +199,7 @@ class First(Browser):
         self.assertEqual(page.inner_text("#play"), "Play")
 
     def test_a_recording_that_comes_after_a_live_picture(self):
-        """It does not begin: what is live stays."""
+        """The recording does not begin, and the live pictures stay."""
         page, release, _ = self.landed(lambda n: False)
         films = []
         page.route("**/first.webm", lambda route: films.append(route))
@@ -212,7 +212,8 @@ class First(Browser):
         self.assertTrue(daemon.eventually(lambda: page.evaluate(begun) == "null"))
 
     def test_where_there_is_no_recording(self):
-        """In a high window it would not fill the height; and who wants no motion gets none."""
+        """There is no recording in a high window, whose height it would not fill, nor for a user who wants no
+        motion."""
         for options in {"viewport": {"width": 390, "height": 844}}, {"reduced_motion": "reduce"}:
             page, release, _ = self.landed(lambda n: False, **options)
             begun = "import('./web/picture/loop.js').then(async ({ begun }) => String(await begun()))"
@@ -236,7 +237,7 @@ class First(Browser):
         self.linked(page, "camera.azimuth_deg=")
 
     def test_before_the_first_touch_half_the_width_is_kept(self):
-        """Also where such pictures take long; afterwards a drag may make them narrower."""
+        """Half the width is kept also where pictures of it take long. After the first touch a drag may make them narrower."""
         page, _, patches = self.landed(lambda n: True)
         self.linked(page, "camera.azimuth_deg=")
         asked = [r.url for r in self.requests if "min_scale=" in r.url]

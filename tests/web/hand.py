@@ -289,7 +289,7 @@ class Hand(Browser):
         self.assertFalse(page.is_visible("#pixel"))
 
     def points_at(self, page, stop):
-        """The ring of the tour is at the thing that its words describe: gas, as the server finds it in this pixel, or
+        """The ring of the tour marks the thing that its words describe: gas, as the server finds it in this pixel, or
         the edge."""
         u, v = page.evaluate("""() => { const ring = document.getElementById('tour-ring');
             return [ring.style.left, ring.style.top].map(x => parseFloat(x) / 100); }""")

@@ -13,7 +13,7 @@ import daemon
 
 # bytes that a visit to every view loads, as transmitted, without pictures and the updates of a playground
 BUDGET = 350_000
-AT_FIRST = 120_000  # bytes of the first view, likewise
+AT_FIRST = 120_000  # bytes of the first view, counted in the same way
 
 
 class Lensing(Browser):
@@ -261,7 +261,7 @@ class Lensing(Browser):
         self.assertEqual(sent()["style"]["tone_map"], "aces")
 
     def test_a_charged_hole_has_its_own_lines(self):
-        """The lines are those of the charge."""
+        """The lines are those of a charged hole."""
         page = self.open("lang=en&preset=reissner-nordstrom&over=shadow,isco,photons,flamm,orbit,polarization", FINE)
         page.wait_for_selector("#overlay .over-shadow path", state="attached")
         page.wait_for_function("() => document.querySelector('#over-isco-words').textContent")
@@ -348,8 +348,8 @@ class Lensing(Browser):
         self.assertTrue(daemon.eventually(lambda: float(self.field(page, "camera.ring_decades_min")) > least))
 
     def test_the_style_of_a_radio_telescope(self):
-        """Its fields appear with the style. Controls that make no sense without false colours are hidden otherwise;
-        where one of them prevents a change, this is explained."""
+        """The style's fields appear with it. Controls that make no sense without false colours are hidden otherwise.
+        Where one of them prevents a change, this is explained."""
         self.expected = "422"  # the answer to a colour bar without its colours
         page = self.open("lang=en&preset=edge-on")
         self.open_groups(page)
@@ -453,8 +453,8 @@ class Lensing(Browser):
         self.assertEqual(json.loads(again.input_value("#scene-text")), json.loads(page.input_value("#scene-text")))
 
     def test_a_low_window_holds_the_whole_hole(self):
-        """The same height is visible as in a window of 16:9. A width chosen by the user stays, and a link does not
-        contain one that was not chosen."""
+        """The same height is visible as in a window of 16:9. A width that the user has chosen stays. A link does not
+        contain the width if the user has not chosen it."""
         shape = lambda page: page.evaluate(
             '() => document.getElementById("stage").clientWidth / document.getElementById("stage").clientHeight'
         )

@@ -121,8 +121,8 @@ class Lesson(Browser):
         self.shot(teacher, "lesson-it")
 
     def test_a_pupil_of_another_language(self):
-        """A ready question is shown in the pupil's language. What the teacher writes, and what describes the picture, is
-        marked as the teacher's."""
+        """A ready question is shown in the pupil's language. The teacher's own words, and the description of the
+        picture, are marked as the teacher's."""
         teacher = self.teach()
         italian = self.follow(self.link(teacher), locale="it-IT")
         english = self.follow(self.link(teacher))
@@ -148,7 +148,7 @@ class Lesson(Browser):
         self.assertEqual(tongues(english), 4 * [None])
 
     def test_a_picture_at_rest_is_small(self):
-        """Thirty pupils would else fetch a megabyte each whenever the picture rests."""
+        """Otherwise thirty pupils would fetch a megabyte each whenever the picture rests."""
         teacher = self.teach("lang=en&preset=gas&pause=1")
         pupil, came = self.page(self.context(locale="en-US")), []
         pupil.on("response", lambda r: "last=" in r.url and r.status == 200 and came.append(r))
@@ -420,7 +420,7 @@ class Lesson(Browser):
 
 
 class Tokens(Browser):
-    """On a server with access tokens."""
+    """Tests of lessons on a server with access tokens."""
 
     PUPIL, TEACHER = "pupil-0123456789abcdef", "teacher-0123456789abcdef"
 

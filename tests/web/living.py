@@ -14,7 +14,7 @@ class Living(Browser):
     def test_a_scene_that_goes_on(self):
         page = self.open(
             "lang=en&sky.model=grid&motion.azimuth_rate_deg=30", "#stage[data-final]"
-        )  # the picture may never be at rest
+        )  # not AT_REST, because the picture might never come to rest
         seen = set()
         self.assertTrue(daemon.eventually(lambda: seen.add(self.pixels(page)) or len(seen) > 5))
         self.there(page, "pictures a second", "#exactly-words", text=True)
@@ -112,8 +112,8 @@ class Living(Browser):
         )
 
     def test_a_list_grows(self):
-        """There is a group of controls for each spot and for the next one. What is saved and sent has the order of the
-        groups, whichever is switched on first."""
+        """There is a group of controls for each spot and for the next one. The saved and sent scene has the order of
+        the groups, whichever is switched on first."""
         page = self.open("lang=en&spots.2.brightness=4&spots.2.r=14", FINE)
         self.open_groups(page)
         groups = lambda: [g for g in page.locator("#fields summary").all_inner_texts() if g.startswith("Spot ")]

@@ -71,7 +71,8 @@ def faults(folder, approximations):
     languages = {file.stem: json.loads(file.read_text()) for file in sorted((folder / "locale").glob("*.json"))}
     for language, words in languages.items():
         for part, stated in (("page", english), ("server", server)):
-            own = {"refusal.range", "refusal.strips"} if part == "server" else set()  # of words/server.js alone
+            # sentences that only words/server.js has
+            own = {"refusal.range", "refusal.strips"} if part == "server" else set()
             for name in sorted((stated.keys() | own) - words[part].keys()):
                 yield f"{language}: {name} is untranslated: {stated.get(name)}"
             for name in sorted(words[part].keys() - stated.keys() - own):

@@ -77,7 +77,7 @@ class Pages(Browser):
         )
 
     def test_each_field_has_its_name(self):
-        """In each language, by its path or, if its label says enough, by its last name."""
+        """Each field has a name in each language, found by its path or, if its label says enough, by its last name."""
         for lang in LANGUAGES:
             fields = self.words(lang)["fields"]
             paths = [re.sub(r"\.\d+\.", ".", path) for path, _, _ in rows(self.schema())]
@@ -196,7 +196,7 @@ class Pages(Browser):
         self.assertGreaterEqual(len(buttons), 4)
 
     def test_an_approximation_is_translated_by_its_name(self):
-        """So that a comma mended in the server's sentence loses no translation."""
+        """A correction of a comma in the server's sentence loses no translation."""
         page = self.page(self.context())
         listed = self.daemon.get("/v1/approximations").json()
         for row in listed["approximations"]:

@@ -30,7 +30,7 @@ class Playground(Browser):
         return self.daemon.request("GET", "/v1/playground/" + self.address()).json()
 
     def bodies(self):
-        """By id: position, velocity, mass, radius, temperature, from the packed rows."""
+        """Position, velocity, mass, radius and temperature by id, from the packed rows."""
         packed = self.daemon.request("GET", f"/v1/playground/{self.address()}/bodies").body
         n, words = struct.unpack_from("<II", packed)
         return {

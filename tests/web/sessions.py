@@ -122,7 +122,7 @@ class Sessions(Browser):
         self.assertEqual((len(gone), len(opened())), (1, 2))
 
     def test_a_session_that_ends_while_nobody_looks(self):
-        """The session is opened anew when a user looks again, with the size that the window then has."""
+        """The session is opened anew when a user looks again. It has the size that the window then has."""
         page = self.open()
         self.expected = "404"
         own = next(r.response().json() for r in self.requests if "/v1/sessions?" in r.url)

@@ -15,7 +15,7 @@ for program in "$build"/tests/fuzz/fuzz_*; do
   [ -f "$program" ] || continue
   name=${program##*/fuzz_}
   cp "$program" "$OUT/"
-  # The image that runs them has none of these; the loader and the C library it has.
+  # The image that runs the targets lacks these libraries. It has the loader and the C library, which are not copied.
   ldd "$program" | awk '$2 == "=>" && $3 ~ /^\// { print $3 }' | grep -Ev '/(libc|libm|libdl|libpthread|librt|libresolv|libgcc_s|ld-linux[^/]*)\.so' | xargs -r cp -nLt "$OUT/lib"
   ! command -v patchelf > /dev/null || patchelf --force-rpath --set-rpath '$ORIGIN/lib' "$OUT/fuzz_$name"
   seeds=()
