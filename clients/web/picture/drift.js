@@ -26,7 +26,9 @@ export function begin(stage, scene, fresh) {
   }
 
   const tell = () =>
-    scene.tick(seconds() * scene.get('motion.time_rate'), false, { 'camera.azimuth_deg': seconds() * rate_deg });
+    scene.tick(seconds() * scene.get('motion.time_rate'), false, {
+      'camera.azimuth_deg': Number((seconds() * rate_deg).toFixed(3)), // as of live pictures
+    });
 
   // Returns a promise of whether the recording plays.
   async function record() {
