@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""Compare the passes of two builds by processor time, on a machine where other programs run.
+
+    bench/paired.py OLD NEW [--pairs 8] [--frames 3] [--markdown FILE] PRESET ...
+
+OLD and NEW are build folders; the presets are those of NEW's kerrd. Both builds render each scene in turn, many times, on
+one lavapipe thread; NEW's clock of processor time (cpu_clock.c) is loaded into both. The ratio of a pass is that of the
+least times, and its spread that of the medians. Frames are 640 x 360.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import tempfile
+
+
+def frames(build, clock, scene, count):
+    command = [build / "bench/kd_bench_frame", "-s", scene, "-x", "640", "-y", "360", "-r", str(count)]
+    env = {**os.environ, "LD_PRELOAD": str(clock), "LP_NUM_THREADS": "1"}
+    out = subprocess.run(list(map(str, command)), env=env, stdout=subprocess.PIPE, check=True).stdout
+    return json.loads(out)["cold"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("old", type=pathlib.Path)
+    parser.add_argument("new", type=pathlib.Path)
+    parser.add_argument("presets", nargs="+", metavar="PRESET")
+    parser.add_argument("--pairs", type=int, default=8)
+    parser.add_argument("--frames", type=int, default=3)
+    given = parser.parse_args()
+    clock = given.new.resolve() / "bench/libkd_bench_cpu_clock.so"
+    print("| scene | pass | old, ms | new, ms | ratio of the least | of the medians |\n|---|---|---|---|---|---|")
+    for preset in given.presets:
+        with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+            scene = subprocess.run(
+                [given.new / "src/kerrd", "scene", "--preset", preset], stdout=subprocess.PIPE, check=True
+            ).stdout.decode()
+            file.write(scene)
+            file.flush()
+            times = {}
+            for pair in range(given.pairs):
+                for side in (0, 1) if pair % 2 else (1, 0):
+                    for run in frames((given.old, given.new)[side].resolve(), clock, file.name, given.frames):
+                        for name, ms in run.items():
+                            if not isinstance(ms, bool) and not name.startswith("encode"):
+                                times.setdefault(name, ([], []))[side].append(ms)
+        for name, (old, new) in times.items():
+            if not old or not new or statistics.median(old) < 0.5:
+                continue
+            least, middle = min(new) / min(old), statistics.median(new) / statistics.median(old)
+            print(f"| {preset} | {name} | {min(old):.2f} | {min(new):.2f} | {least:.3f} | {middle:.3f} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
