@@ -398,7 +398,8 @@ def main():
             proxied = Proxied(two_servers(path, setting["queue"]), setting)
             try:
                 device = live.device_of(proxied.servers[0])
-                asyncio.run(closed(proxied.port, targets(rng, 100), 4))  # kernels, and the plans' estimates
+                # compiles the kernels, and gives the plans their estimates
+                asyncio.run(closed(proxied.port, targets(rng, 100), 4))
                 for at in (at for at in RUNS if at[0] == name):
                     rounds[at].append(run(proxied, setting, at[1], rng, arguments.pictures))
                     print(*at, rounds[at][-1]["real"], rounds[at][-1]["replayed"], file=sys.stderr)

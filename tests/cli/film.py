@@ -86,7 +86,7 @@ class Case(support.Case):
         return json.loads(self.good("scene", "--from", self.write("some.png", png)))
 
     def again(self, png):
-        """The picture rendered again from the scene in its file."""
+        """Renders the picture again from the scene in its file."""
         self.good("render", "--from", self.write("one.png", png), "-o", self.path("again.png"))
         return self.read("again.png")
 

@@ -203,7 +203,7 @@ TOGETHER = [
             "count is %zu with %zu bytes a particle; it must be 1 to %llu in one answer: first gives the rest, stride fewer",
         ),
     ),
-    # depends on the contents of a job
+    # the refusal depends on the contents of a job
     (
         "GET /v1/jobs/{id}/result",
         (

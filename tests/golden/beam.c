@@ -1,5 +1,5 @@
-/* M87* through a beam of 20 microarcseconds: the ring's diameter, compared with that of the picture without beam,
- * convolved here in double precision. */
+/* Tests the diameter of the ring in a picture of M87* through a beam of 20 microarcseconds. It is compared with that of
+ * the picture without beam, convolved here in double precision. */
 #include "studio.h"
 
 #include <math.h>
@@ -61,8 +61,8 @@ static double at(double p[H][W], double x, double y)
 
 struct ring { double diameter, scatter; };
 
-/* Ring about a centre: twice the mean over directions of the radius of largest brightness, and its scatter (EHT
- * Collaboration 2019, ApJL 875, L4, section 9). */
+/* Measures the ring about a centre: its diameter, twice the mean over directions of the radius of largest brightness,
+ * and the scatter of this radius (EHT Collaboration 2019, ApJL 875, L4, section 9). */
 static struct ring about(double p[H][W], double x0, double y0)
 {
     enum { DIRECTIONS = 90 };

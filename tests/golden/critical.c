@@ -112,7 +112,7 @@ static void against_many_rays(void **state)
     }
 }
 
-/* When it is switched off, it costs nothing: no rays, and the picture is the same to the byte. */
+/* When the additional rays are switched off, they cost nothing: no rays, and the picture is the same to the byte. */
 static void off(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-// y = y * scale + what each kind of binding holds for i. TABLE is packed tightly, as only the standard layout has it.
+// y = y * scale + what each kind of binding holds for i. TABLE is packed tightly, which only the standard layout
+// permits.
 #version 450
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require

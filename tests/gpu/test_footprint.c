@@ -341,7 +341,7 @@ static void test_bands(void **state)
     qsort(t.errors, (size_t)t.n, sizeof *t.errors, by_value);
     print_message("beside the ends of bands: %d crossings, median %.1e, 90 %% %.1e, 99 %% %.1e, worst %.1e\n", t.n,
                   t.errors[t.n / 2], t.errors[t.n * 9 / 10], t.errors[t.n * 99 / 100], t.errors[t.n - 1]);
-    /* Fading by footprint would show a line where it is wrong by a tenth. */
+    /* Fading by footprint would show a line where a footprint is wrong by a tenth. */
     assert_true(t.n > 1000 && t.errors[t.n / 2] < 0.01 && t.errors[t.n * 9 / 10] < 0.04);
     test_free(a);
     test_free(b);

@@ -102,8 +102,8 @@ static void test_engines_agree(void **state)
     (void)state;
     static const struct {
         int engine, precision;
-        /* bound of the medians: single precision is used on one side or on both; the Kerr-Schild engine's start in
-         * single precision costs more */
+        /* bound of the medians. Single precision is used on one side or on both, and the start of the Kerr-Schild
+         * engine in single precision costs more. */
         double bound;
         int stray; /* largest number of rays of 1440 that may differ, all at the rim of the shadow */
     } engines[] = {

@@ -424,7 +424,7 @@ static void test_published(void **state)
     }
 }
 
-/* If nothing else shines there are a flux and layers in physical units; otherwise there is no flux, and they are
+/* If nothing else shines there are a flux and layers in physical units. Otherwise there is no flux, and such layers are
  * refused. */
 static void test_alone(void **state)
 {

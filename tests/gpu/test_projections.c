@@ -85,8 +85,8 @@ static double apart(const struct ks_path *a, double u, double phi)
     return hypot(u - a->u, sqrt(fmax(0, 1 - a->u * a->u)) * remainder(phi - a->sky_phi, 2 * M_PI));
 }
 
-/* Errors of the directions of escape, over 1 + their sensitivity to the ray; fates are the oracle's wherever a
- * neighbouring ray has the same. */
+/* Errors of the directions of escape are divided by 1 + their sensitivity to the ray. Fates are the oracle's wherever a
+ * neighbouring ray has the same fate. */
 static void map(const struct kd_scene *scene, enum kd_lens_path path)
 {
     static float planes[PLANES * RAYS];

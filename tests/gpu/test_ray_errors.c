@@ -141,7 +141,7 @@ static void test_series(void **state)
     }
 }
 
-/* The worst error that `error` refers to. */
+/* The largest error of the numbers for which the stated `error` is a bound. */
 static double off_by(const struct series_path *p, const struct kd_ray_end *e, const struct kd_ray_crossing *c)
 {
     double off = 0;

@@ -63,8 +63,8 @@ static uint32_t crossings(const struct map *m, size_t i)
 
 struct tally {
     uint64_t rays, other_fate, other_order, other_side, same;
-    /* errors of w over the condition: between in the interpolated map, followed in the traced one; sky: the angles
-     * between the directions of both */
+    /* errors of w over the condition: `between` in the interpolated map, `followed` in the traced one; `sky`: the
+     * angles between the directions of both */
     double *between, *followed, *sky;
     size_t n, n_sky;
 };

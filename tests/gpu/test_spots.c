@@ -387,7 +387,7 @@ static void test_many(void **state)
     off(all.spots.x, x / sum, 10, 1e-6, "their centroid");
 }
 
-/* Only the difference of azimuths counts, on either side of each seam; the picture's aim does not. */
+/* Only the difference of azimuths counts, on either side of each seam. The picture's aim has no effect. */
 static void test_seams(void **state)
 {
     (void)state;

@@ -570,8 +570,8 @@ static bool was_run(const struct kd_frame *frame, const char *pass)
 }
 
 /* The light of stars is cached with the lens map. A frame that reuses the map after one change equals a frame with a
- * map of its own. Another number of rays at the curve forces the latter; it changes no pixel, because the curve is out
- * of view. */
+ * map of its own. The second frame has another number of rays at the curve, which forces a new map; this changes no
+ * pixel, because the curve is out of view. */
 static void kept_and_made_anew(void **state)
 {
     (void)state;

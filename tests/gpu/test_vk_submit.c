@@ -95,7 +95,7 @@ static void nothing_and_discarded(void **state)
     assert_int_equal(kd_vk_allocated(vk), 0);
 }
 
-/* A printed figure without bound; validation is off. */
+/* Prints the cost of a submission, and tests no bound; validation is off. */
 static void cost(void **state)
 {
     (void)state;

@@ -519,8 +519,8 @@ class OpenApi(daemon.Case):
                     self.assertTrue(status in (200, 201, 202) if good else status == 422, status)
 
     def test_what_is_refused_for_its_form_is_told(self):
-        """For each operation, whatever its path refers to: if a malformed request gets a status, the document lists
-        that status."""
+        """For each operation, whatever its path refers to, the document lists each status that a malformed request
+        gets."""
         lines = {
             "a length of 26 digits": "Content-Length: " + 26 * "9",
             "a length that is none": "Content-Length: x",

@@ -35,7 +35,7 @@ class Zamo:
         )
 
     def hole(self):
-        """The direction from which light comes that moves outwards along the principal null direction, k = ((r^2 +
+        """The direction in which light is seen that moves outwards along the principal null direction, k = ((r^2 +
         a^2)/Delta, 1, 0, a/Delta)."""
         t = (self.r**2 + self.a**2) / self.delta
         local = self.lapse * t

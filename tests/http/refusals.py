@@ -217,7 +217,7 @@ class Refusals(daemon.Case):
         for name, request in kinds:
             status = [self.daemon.request(*request).status for _ in range(WARM)][0]
             if not 400 <= status < 500:
-                continue  # one that this route takes
+                continue  # this route accepts the request
             refused += 1
             self.daemon.get("/v1/assets")  # the last request is over when the next one is answered
             before = memory.held(self.daemon)

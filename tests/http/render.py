@@ -30,7 +30,7 @@ class Render(daemon.Case):
         self.assertEqual(len(answer.body), int(answer.header("Content-Length")))
 
     def test_pictures_for_web_pages(self):
-        """The format by name or by Accept, the quality, and how long caches may keep the answer."""
+        """Tests the format by name or by Accept, the quality, and how long caches may keep the answer."""
         kinds = {"image/jpeg": b"\xff\xd8\xff", "image/webp": b"RIFF", "image/png": b"\x89PNG"}
         jpeg, webp, png = kinds
         tags = set()

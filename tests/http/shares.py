@@ -540,7 +540,7 @@ class Connections(Case):
         return answer.status == 429
 
     def test_a_client_that_has_all_its_connections_shuts_nobody_else_out(self):
-        """This holds for connections that have begun a request, and for those that are kept alive after one."""
+        """Others are served whether the client's connections have begun a request or are kept alive after one."""
         for begin in (b"GET /v1/presets HTTP/1.1\r\nHost: loc", b"GET /v1/presets HTTP/1.1\r\nHost: localhost\r\n\r\n"):
             with self.subTest(begin):
                 before = self.daemon.open_files()

@@ -187,7 +187,8 @@ class Proxies:
         return False
 
     def test_the_richest_scene(self):
-        """The headers of its answers fit into a proxy's default buffers: for a picture and for live frames."""
+        """The headers of answers for the richest scene fit into a proxy's default buffers: for a picture and for live
+        frames."""
         status, headers, body = self.ask("POST", "/v1/render", RICHEST["gas"], Authorization=f"Bearer {TOKEN}")
         self.assertEqual((status, body[:4]), (200, b"\x89PNG"), body[:300])
         status, _, body = self.ask("POST", "/v1/sessions", RICHEST["gas"], Kerrd_Access=TOKEN)

@@ -270,7 +270,7 @@ static void judge(const struct state *s, struct hole hole, enum ks_field field, 
     }
     memcpy(before[2], b, sizeof b);
     across(g, before[2], before, 2);
-    /* The component of any vector outside their span; the longest of four. */
+    /* The direction outside their span: of the components of four vectors outside it, the longest. */
     double most = 0;
     for (int n = 0; n < 4; n++) {
         double v[4] = { 0 };

@@ -1,5 +1,5 @@
-/* Two threads that never sleep, on one core, wait half of the time each: tests the kernel's figure of waiting, which
- * is subtracted from the measured costs of passes. */
+/* Tests the kernel's figure of waiting, which is subtracted from the measured costs of passes: two threads that never
+ * sleep, on one core, wait half of the time each. */
 #include "base/cpu_pressure.h"
 
 #include <pthread.h>

@@ -159,7 +159,8 @@ static void from_nearby(void **state)
     }
 }
 
-/* A small hole, one of which only the edge is in the picture, one that fills it, and one outside it. */
+/* Tests a small hole, a hole of which only the edge is in the picture, one that fills the picture, and one outside
+ * it. */
 static void sizes(void **state)
 {
     (void)state;

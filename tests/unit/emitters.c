@@ -67,7 +67,8 @@ static void names_are_short_and_differ(void **state)
         check_name(one.name, all);
 }
 
-/* What only a rendered picture shows is said where the report counts it, after the sentences of the plan. */
+/* An approximation that only a rendered picture shows has a sentence where the report counts it, after the sentences of
+ * the plan. */
 static void what_a_report_counts_is_said(void **state)
 {
     (void)state;

@@ -497,7 +497,7 @@ static void what_refinement_measured_is_believed(void **state)
     change(&s, true);
     frame(&s);
     assert_true(s.last.final);
-    /* and a first estimate that is much too low */
+    /* a first estimate that is much too low is corrected, too */
     begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 180, .reused = 6, .pixels = 4 });
     change(&s, true);
     /* Nothing was rendered while the camera moved. The governor learns that frames trace from one that misses its

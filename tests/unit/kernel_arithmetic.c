@@ -1,5 +1,5 @@
-/* Freedom that a kernel leaves to the driver. Vulkan 1.2 lets it fuse, reorder and expand floating-point operations
- * unless they are decorated NoContraction, and behave as if NaN and infinity did not exist (no kernel uses
+/* Tests how much freedom kernels leave to the driver. Vulkan 1.2 lets it fuse, reorder and expand floating-point
+ * operations unless they are decorated NoContraction, and behave as if NaN and infinity did not exist (no kernel uses
  * SignedZeroInfNanPreserve). A driver that does neither cannot show this in pictures, so the SPIR-V is inspected: as
  * glslangValidator wrote it, with its functions, and as drivers get it, without (shaders/compile.py). */
 #include <stdint.h>

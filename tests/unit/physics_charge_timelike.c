@@ -117,8 +117,9 @@ static struct kd_orbit_place followed(const struct kd_orbit *o, const struct kd_
     return kd_orbit_path_place(&path);
 }
 
-/* A radial period and a bit: closed form and both integrators. An orbit closer to the separatrix than to 0 magnifies
- * the errors of all; so do the rounded constants of the oracle's start. */
+/* Bound orbits are followed for a radial period and a bit, by the closed form and by both integrators. An orbit closer
+ * to the separatrix than to 0 magnifies the errors of all of them, and so do the rounded constants of the oracle's
+ * start. */
 static void bound_orbits(void **state)
 {
     (void)state;

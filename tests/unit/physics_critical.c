@@ -210,8 +210,8 @@ static void synges_angle(void **state)
         }
 }
 
-/* Light from directions just outside the edge leaves, just inside it falls in; for observers at any distance, also
- * where the edge is behind them. */
+/* Light from directions just outside the edge escapes, and light from directions just inside it falls in. This holds
+ * for observers at any distance, also where the edge is behind them. */
 static void the_edge_from_nearby(void **state)
 {
     (void)state;

@@ -191,8 +191,8 @@ static void wave(bool even, double period, double latitude, int level, double *a
     free(words);
 }
 
-/* At 86 degrees 32 texels are as wide as 2.2 at the equator: nothing of that wave is left at the level whose texels
- * are as wide as 4 of them; at level 0, or next to the equator, it is there. */
+/* At 86 degrees 32 texels are as wide as 2.2 at the equator. So nothing of that wave is left at the level whose texels
+ * are as wide as 4 texels of level 0. At level 0, or next to the equator, the wave is there. */
 static void poles(void **state)
 {
     (void)state;

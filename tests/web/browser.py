@@ -230,8 +230,8 @@ class Browser(unittest.TestCase):
         )
 
     def quiet(self, page, ms=1500):
-        """Waits until a page has requested nothing for that long. By default this is longer than the 600 ms for which
-        a picture's request waits that was sent while something moved (flight.js): its end is a request more."""
+        """Waits until a page has requested nothing for that long. A request for a picture that was sent while something
+        moved waits for 600 ms, and then another one follows (flight.js). The default is longer than that."""
 
         def still():
             before = len(self.requests)

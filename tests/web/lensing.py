@@ -673,7 +673,7 @@ class Lensing(Browser):
         self.open_groups(page)
         page.fill('[data-path="spacetime.spin"] input[type=number]', "2")
         page.keyboard.press("Enter")
-        page.wait_for_timeout(300)  # nothing removes it
+        page.wait_for_timeout(300)  # meanwhile nothing removes it
         self.assertEqual(
             (self.field(page, "spacetime.spin"), page.locator('[data-path="spacetime.spin"] input:invalid').count()),
             ("2", 1),
