@@ -55,7 +55,7 @@ def class_of(name):
 
 
 def write(name, node, out):
-    """The class of an object, after the classes of its members."""
+    """Writes the class of an object, after the classes of its members."""
     rows = []
     for key, field in node["properties"].items():
         if field.get("deprecated") or "const" in field:
@@ -138,17 +138,17 @@ TOLD = (
     "Job",
     "Asset",
 )
-COLUMNS = {"OrbitSeries": "Columns"}  # what the client converts
+COLUMNS = {"OrbitSeries": "Columns"}  # schemas whose answers the client converts
 
 
 class Answers:
-    """TypedDicts of answers, from the schemas in /openapi.json: each after those of its members."""
+    """TypedDicts of answers, from the schemas in /openapi.json. Each stands after the classes of its members."""
 
     def __init__(self, schemas):
         self.schemas, self.out, self.done = schemas, [], set()
 
     def type_of(self, node, name):
-        """The type of a schema; name: of the class that an inline object becomes."""
+        """The type of a schema. name: name of the class, if the schema is an inline object."""
         if "$ref" in node:
             known = node["$ref"].rsplit("/", 1)[-1]
             if known == "Scene":

@@ -4,14 +4,14 @@
 
 #include "base/buffer.h"
 
-/* Characters that are escaped in content, and in attributes and content. */
+/* Characters to escape: in content only; in attributes as well as in content. */
 #define KD_MARKUP_CONTENT "&<>"
 #define KD_MARKUP_ATTRIBUTE "&<>\"'"
 
 /* Appends text with these characters as references; a NUL follows. KD_ENOMEM. */
 enum kd_status kd_markup_escape(const char *text, const char *characters, struct kd_buffer *out);
 
-/* Replaces such references by their characters, in place. */
+/* Replaces the references that kd_markup_escape writes by their characters, in place. */
 void kd_markup_unescape(struct kd_buffer *text);
 
 #endif

@@ -16,7 +16,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#define PIPE_BYTES (1 << 20) /* capacity of the pipe; what is written between two polls should fit */
+#define PIPE_BYTES (1 << 20) /* capacity of the pipe; the bytes written between two polls should fit into it */
 #define NICE 10              /* lower priority, because pictures that users wait for come first */
 
 extern char **environ;
@@ -157,8 +157,8 @@ size_t kd_program_write(struct kd_program *program, const void *data, size_t siz
 
 void kd_program_hang_up(struct kd_program *program) { shut(&program->in); }
 
-/* Reads the program's standard error. Its beginning is kept, which mostly has the reason of a failure, and its end,
- * where a full disk is reported. Closes the pipe at the end of file. */
+/* Reads the program's standard error. Keeps its beginning, which mostly has the reason for a failure, and its end,
+ * which reports a full disk. Closes the pipe at the end of file. */
 static void listen_to(struct kd_program *p)
 {
     char part[256];

@@ -33,16 +33,16 @@ bool kd_program_known(const char *name);
  * descriptors, and its standard output goes to /dev/null. KD_EABSENT: there is no such program. KD_EIO. */
 enum kd_status kd_program_start(const char *const argv[], int out, uint64_t most, struct kd_program *program,
                                 struct kd_error *error);
-/* Returns how many bytes the pipe took. 0: it is full at present, or the program has closed it; kd_program_over tells
- * which. */
+/* Returns how many bytes the pipe took. 0: the pipe is full at present, or the program has closed it;
+ * kd_program_over tells which. */
 size_t kd_program_write(struct kd_program *program, const void *data, size_t size);
 void kd_program_hang_up(struct kd_program *program);
 /* Whether the program has ended. *code: its exit code, or -1 if a signal ended it. This call also reads the program's
  * standard error, and kills children that it has left behind. */
 bool kd_program_over(struct kd_program *program, int *code);
-/* Milliseconds for which the program has been idle at now_ms. It is idle while it uses no processor time and the caller
- * sees no output of it (moved: there was some). Call it regularly. A gap between two calls counts as at most one
- * second, because the machine may have been suspended. */
+/* Milliseconds for which the program has been idle at now_ms. It is idle while it uses no processor time and
+ * produces no output. moved: the caller has seen output since the last call. Call it regularly. A gap between two
+ * calls counts as at most one second, because the machine may have been suspended. */
 double kd_program_idle_ms(struct kd_program *program, bool moved, double now_ms);
 /* Gets the first line of the program's standard error in a form that can be shown: without control characters, and
  * without paths and addresses of this machine. "" if the program has printed nothing. */

@@ -24,14 +24,14 @@ void kd_canvas_darken(const struct kd_canvas *canvas, uint32_t x, uint32_t y);
 void kd_canvas_fill(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
                     struct kd_map_colour colour);
 
-/* Writes a text in the letters of image/font.h, with `dot` pixels a dot, from x on; letters that would end beyond `end`
- * are left out. kd_canvas_text_width: the width of a text. */
+/* kd_canvas_write writes a text from x on in the letters of image/font.h, with `dot` pixels for each dot of a
+ * letter. Letters that would end beyond `end` are left out. kd_canvas_text_width returns the width of a text. */
 void kd_canvas_write(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t end, uint32_t dot,
                      const char *text);
 uint32_t kd_canvas_text_width(uint32_t dot, const char *text);
 
-/* The number of pixels a dot: the largest for which `width` dots fit the picture's width and `height` dots take at most
- * a seventh of its height, but at least 1. */
+/* Returns the number of pixels for each dot: the largest with which `width` dots fit the picture's width and
+ * `height` dots take at most a seventh of its height, but at least 1. */
 uint32_t kd_canvas_dot(const struct kd_canvas *canvas, uint32_t width, uint32_t height);
 
 #endif

@@ -3,8 +3,7 @@
  *
  *   SEQUENTIAL   L* from 8 to 94 at a constant rate, violet, blue, green, yellow: also ordered in grey
  *   HEAT         L* from 0 to 100 at a constant rate, black, red, orange, white: for brightness
- *   DIVERGING    L* from 36 up to 94 at 1/2 and down again, red, white, blue: for values with a middle, such as 1 for
- *   g;
+ *   DIVERGING    L* from 36 at both ends to 94 at x = 1/2, red, white, blue: for values with a middle, such as 1 for g;
  *                red is below the middle
  *   CYCLIC       L* 70 throughout, hue once round: for angles; both ends have the same colour
  *   CATEGORICAL  hues by the golden angle: x is the number of a class, 0, 1, 2, ... */

@@ -155,8 +155,9 @@ void kd_zlib_head(int level, uint8_t to[2])
 
 uint32_t kd_zlib_sum(const void *data, size_t size) { return libdeflate_adler32(1, data, size); }
 
-/* Adler-32 (RFC 1950, 8.2): a is 1 plus the sum of all bytes, b the sum of a after each byte, modulo a prime. If other
- * data precede, a is larger by its value after these data minus the initial 1, and so is each a that b sums. */
+/* Adler-32 (RFC 1950, 8.2): a is 1 plus the sum of all bytes, b the sum of a after each byte, modulo a prime. If
+ * other data precede, every a is larger by a constant: the value of a after the preceding data, minus the initial
+ * 1. b contains this constant once for each byte. */
 uint32_t kd_zlib_sum_join(uint32_t sum, uint32_t other, size_t size)
 {
     enum { PRIME = 65521 };

@@ -9,7 +9,8 @@ enum {
     VALUE = 10,
     PIECE = 67,
     ROOM = 20
-}; /* column at which a value starts; most characters of a text between quotes together with a "&"; width of a number */
+}; /* VALUE: column at which a value starts. PIECE: most characters between the quotes of a text, including a "&". ROOM:
+      width of a number */
 
 static enum kd_status put_card(struct kd_buffer *cards, const char *text)
 {

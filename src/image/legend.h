@@ -15,9 +15,9 @@ struct kd_legend {
     const char *const *names; /* names of the classes; NULL: their numbers */
 };
 
-/* A legend is 144 x 37 dots. A dot is a whole number of pixels, such that the legend takes at most a seventh of the
- * picture's height, but at least 1. False if the picture is too small (narrower than KD_LEGEND_LEAST_WIDTH or lower
- * than KD_LEGEND_LEAST_HEIGHT); nothing was drawn. */
+/* A legend is 144 x 37 dots. A dot is a whole number of pixels: the largest with which the legend takes at most a
+ * seventh of the picture's height, but at least 1. Returns false, and draws nothing, if the picture is narrower
+ * than KD_LEGEND_LEAST_WIDTH or lower than KD_LEGEND_LEAST_HEIGHT. */
 enum { KD_LEGEND_LEAST_WIDTH = 160, KD_LEGEND_LEAST_HEIGHT = 90 };
 uint32_t kd_legend_dot(const struct kd_canvas *canvas); /* pixels */
 bool kd_legend_draw(const struct kd_canvas *canvas, const struct kd_legend *legend);

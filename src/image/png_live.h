@@ -6,7 +6,7 @@
  *     for each frame:
  *         struct kd_buffer png = { 0 };
  *         if (kd_png_live_encode(live, width, height, pixels, &png, &error)) ...
- *         hand png over; its last user calls kd_buffer_finish
+ *         pass png on; its last user calls kd_buffer_finish
  *     kd_png_live_destroy(live);
  *
  * One thread at a time uses a struct kd_png_live: one for each encoder thread. Frames may differ in size; working
@@ -29,9 +29,9 @@ struct kd_png_live;
 enum kd_status kd_png_live_create(enum kd_deflate_engine engine, struct kd_png_live **out, struct kd_error *error);
 void kd_png_live_destroy(struct kd_png_live *live); /* accepts NULL */
 
-/* Appends one file. pixels: rows from the top, three bytes a pixel, no padding, as in a kd_frame of 8 bits.
- * KD_EINVAL for a side outside 1 to 32768 pixels, KD_ETOOBIG over KD_PNG_LIVE_MAX, KD_ENOMEM; on error out->size is
- * unchanged, and the next frame may be tried. */
+/* Appends one file. pixels: rows from the top, three bytes a pixel, no padding, as in a kd_frame of 8 bits. Returns
+ * KD_EINVAL if a side is outside 1 to 32768 pixels, KD_ETOOBIG if the filtered rows exceed KD_PNG_LIVE_MAX,
+ * KD_ENOMEM. On error out->size is unchanged, and the next frame may be encoded. */
 enum kd_status kd_png_live_encode(struct kd_png_live *live, uint32_t width, uint32_t height, const uint8_t *pixels,
                                   struct kd_buffer *out, struct kd_error *error);
 

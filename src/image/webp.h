@@ -1,5 +1,5 @@
-/* Writes WebP: lossy pictures for web pages, 8-bit RGB, by libwebp. Any thread. At the same quality as seen, a file is
- * about a third smaller than a JPEG. Colours always have half the width and height (4:2:0). */
+/* Writes WebP: lossy pictures for web pages, 8-bit RGB, by libwebp. Any thread. At the same visible quality, a file
+ * is about a third smaller than a JPEG. Colours always have half the width and height (4:2:0). */
 #ifndef KD_IMAGE_WEBP_H
 #define KD_IMAGE_WEBP_H
 
@@ -10,10 +10,10 @@
 
 #define KD_WEBP_SIDE_MAX 16383 /* pixels; the format has 14 bits for a side */
 
-/* Appends one file. quality: 1 to 100. pixels: rows from the top, three bytes a pixel, no padding. Memory while it
- * runs: kd_webp_bytes.
- * KD_EINVAL for another quality, or a side outside 1 to KD_WEBP_SIDE_MAX; KD_ETOOBIG for a picture of too much detail
- * for the format at this quality; KD_ENOMEM; on error out->size is unchanged. */
+/* Appends one file. quality: 1 to 100. pixels: rows from the top, three bytes a pixel, no padding. Memory during
+ * the call: kd_webp_bytes. Returns KD_EINVAL if quality is outside 1 to 100 or a side is outside 1 to
+ * KD_WEBP_SIDE_MAX, KD_ETOOBIG if the picture has more detail than the format can hold at this quality, KD_ENOMEM. On
+ * error out->size is unchanged. */
 enum kd_status kd_webp_encode(uint32_t width, uint32_t height, const uint8_t *pixels, unsigned quality,
                               struct kd_buffer *out, struct kd_error *error);
 
@@ -25,7 +25,7 @@ uint64_t kd_webp_bytes(uint32_t width, uint32_t height);
 enum kd_status kd_webp_add_xmp(const struct kd_buffer *file, const void *xmp, size_t size, struct kd_buffer *out,
                                struct kd_error *error);
 
-/* Appends the XMP packet of a file. KD_EINVAL if the file is no WebP or has none; KD_ENOMEM. */
+/* Appends the XMP packet of a file. KD_EINVAL if the file is not a WebP file or has no packet; KD_ENOMEM. */
 enum kd_status kd_webp_xmp(const void *data, size_t size, struct kd_buffer *out, struct kd_error *error);
 
 #endif

@@ -46,7 +46,8 @@ struct kd_job_spec {
         unsigned samples;
         double shutter;
     } blur; /* samples 0: no blur */
-    /* The common exposure in stops. NAN: each frame has its own, or it is not measured yet (job/exposure.h). */
+    /* The common exposure in stops. NAN: each frame has its own, or the common one is not measured yet
+     * (job/exposure.h). */
     double exposure;
 };
 

@@ -51,7 +51,7 @@
 #define KD_PARAMETER_CHARGE(P) \
     P(charge, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, \
       .help = "charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1")
-/* The hole given by both, for use as an argument: kd_kerr_isco(KD_QUANTITY_HOLE(p)). */
+/* The hole given by the parameters spin and charge, for use as an argument: kd_kerr_isco(KD_QUANTITY_HOLE(p)). */
 #define KD_QUANTITY_HOLE(p) ((const struct kd_hole[]) { kd_hole_charged((p)->spin, (p)->charge) })
 #define KD_PARAMETER_MASS(P) \
     P(mass_msun, .unit = "solar masses", .typed = "1e8", .least = 1e-3, .most = 1e12, .help = "mass of the hole")
@@ -83,9 +83,9 @@
 /* KD_EINVAL at "/name". The message is "r is 1.2, " and the reason, which should end with what is allowed. */
 enum kd_status kd_quantity_outside(struct kd_error *error, const char *name, double value, const char *reason, ...)
     __attribute__((format(printf, 4, 5)));
-/* Checks that r is at or outside the hole's horizon; otherwise that error. */
+/* Checks that r is at or outside the hole's horizon; otherwise returns the error of kd_quantity_outside. */
 enum kd_status kd_quantity_outside_horizon(const struct kd_hole *hole, double r, struct kd_error *error);
-/* Checks that the observer exists; otherwise an error at /observer_r or at the invalid number. */
+/* Checks that the observer exists; otherwise returns an error at /observer_r or at the invalid number. */
 enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                                            struct kd_error *error);
 

@@ -51,7 +51,8 @@ static const char *const approximations[] = {
     NULL,
 };
 
-struct orbit { double total, unit_s, unit_m; /* total mass in solar masses; one M of it in seconds and in metres */ };
+/* total: the mass in solar masses; unit_s, unit_m: one M of it in seconds and in metres */
+struct orbit { double total, unit_s, unit_m; };
 
 static struct orbit orbit_of(const struct parameters *p)
 {

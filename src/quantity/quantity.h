@@ -1,7 +1,7 @@
 /* Quantities: the numbers that GET /v1/physics/NAME and `kerrd physics NAME` give, listed in
  * docs/physics-quantities.md. Each is a table of parameters and outputs, and one function. Requests, JSON, CSV,
- * options, OpenAPI and the reference page are generated from it. To add one: a file like kerr.c, and a line in
- * table.c.
+ * options, OpenAPI and the reference page are generated from the table. To add a quantity, write a file like kerr.c,
+ * and add a line to table.c.
  *
  * A parameter may be a range first:last:count of evenly spaced values including both ends. The answer then has a
  * point for each value. With several ranges it has a point for each combination; the last parameter of the table
@@ -33,8 +33,8 @@ enum {
     KD_QUANTITY_POINTS = KD_RANGE_MOST, /* maximum for one answer */
 };
 
-/* A parameter is a row of numbers, whole or not, with a word that is INFINITY for the function, or a row of words,
- * which are given as their index. Its default is `typed`. */
+/* A parameter is a row whose value is a number or a word. A number may be limited to whole numbers, and may have a
+ * word that the function gets as INFINITY. Of words the function gets the index. The default is `typed`. */
 
 /* An output is NaN where it is undefined (help says when): null in JSON, an empty field in CSV. */
 struct kd_output {
@@ -44,7 +44,7 @@ struct kd_output {
 
 struct kd_quantity {
     const char *name, *summary;
-    /* The last `along` ones follow a curve: outputs that are `fixed` do not depend on them. */
+    /* The last `along` parameters vary along a curve: outputs that are `fixed` do not depend on them. */
     const struct kd_row *parameters;
     size_t n_parameters, along;
     const struct kd_output *outputs;
@@ -121,7 +121,8 @@ enum kd_status kd_quantity_json(const struct kd_quantity_answer *answer, struct 
 /* Writes a line of names, then one line a point: all parameters, all outputs. */
 enum kd_status kd_quantity_csv(const struct kd_quantity_answer *answer, struct kd_buffer *out);
 
-/* Write all quantities with their parameters and outputs as JSON; and docs/physics-quantities.md. */
+/* Both write all quantities with their parameters and outputs: the first as JSON, the second as the document
+ * docs/physics-quantities.md. */
 enum kd_status kd_quantity_list_json(struct kd_buffer *out);
 enum kd_status kd_quantity_reference(struct kd_buffer *out);
 

@@ -179,7 +179,7 @@ static bool media_type_fault(const struct kd_request *request, bool patch, struc
     return true;
 }
 
-/* Whether the announced body must be refused. *problem may point into *told. */
+/* Whether the body that the header announces must be refused. *problem may point into *told. */
 static bool body_fault(const struct kd_request *request, struct told *told, struct kd_problem *problem)
 {
     bool patch = !strcmp(request->method, "PATCH");
@@ -325,8 +325,9 @@ static void read_trace(struct kd_request *request)
     kd_buffer_finish(&value);
 }
 
-/* Handles the complete header. If the announced body must be refused, it is refused here. libmicrohttpd closes the
- * connection after an answer at this point, so requests without a body are answered in the next call. */
+/* Handles the complete header. If the body that the header announces must be refused, it is refused here.
+ * libmicrohttpd closes the connection after an answer at this point, so requests without a body are answered in the
+ * next call. */
 static enum MHD_Result begin(struct kd_request *request, const char *version)
 {
     struct kd_server *server = request->server;

@@ -318,7 +318,7 @@ void kd_server_stop(struct kd_server *server)
     uint64_t one = 1;
     atomic_compare_exchange_strong(&server->phase, &serving, KD_DRAINING);
     if (write(server->stop_fd, &one, sizeof one) < 0) {
-        /* The write failed because the counter is full; then the reaper has been woken already. */
+        /* The write fails only if the counter is full; then the reaper has been woken already. */
     }
 }
 

@@ -13,8 +13,8 @@ struct kd_vk_cache {
     atomic_bool grown; /* pipelines have been made since the data were read or written; set by any thread */
 };
 
-/* dir: see kd_vk_params.cache_dir. It is no error if the file is missing, damaged or of another device: the cache then
- * starts empty. */
+/* dir: see kd_vk_params.cache_dir. If the file is missing, damaged or of another device, the cache starts empty,
+ * without an error. */
 enum kd_status kd_vk_cache_init(struct kd_vk_cache *cache, const struct kd_vk_core *core, const char *dir,
                                 struct kd_error *error);
 /* If the cache has grown, writes it back atomically. Frees it. A failure to write is logged at debug level only. */

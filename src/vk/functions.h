@@ -108,7 +108,7 @@ struct kd_vk_functions {
 #undef KD_VK_MEMBER
 };
 
-/* The three steps of loading, in this order. KD_EDEVICE names what is missing. */
+/* The three steps of loading, in this order. With KD_EDEVICE the message names what is missing. */
 enum kd_status kd_vk_functions_load(struct kd_vk_functions *fn, struct kd_error *error);
 enum kd_status kd_vk_functions_instance(struct kd_vk_functions *fn, VkInstance instance, struct kd_error *error);
 enum kd_status kd_vk_functions_device(struct kd_vk_functions *fn, VkDevice device, struct kd_error *error);

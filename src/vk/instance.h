@@ -11,8 +11,8 @@ struct kd_vk_instance {
     struct kd_vk_debug debug;
 };
 
-/* If validate is true and no layer is installed it returns KD_EDEVICE, because the absence of messages would be taken
- * for success. Afterwards the struct must not move, because the messenger refers to it. */
+/* If validate is true and no layer is installed it returns KD_EDEVICE, because otherwise the absence of messages
+ * would be taken for success. After the call the struct must not move, because the messenger refers to it. */
 enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validate, struct kd_error *error);
 void kd_vk_instance_finish(struct kd_vk_instance *instance);
 

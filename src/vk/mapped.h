@@ -7,7 +7,7 @@
 #include "vk/core.h"
 #include "vk/memory.h"
 
-/* What a buffer has for this. */
+/* Member of a buffer in mapped memory. */
 struct kd_vk_mapped {
     struct kd_vk_mapped *next;
     const struct kd_vk_slice *slice;

@@ -134,9 +134,9 @@ static void read_1_2(const struct kd_vk_functions *fn, struct kd_vk_physical *de
         lacks(info, "uniform buffers of standard layout");
 }
 
-/* Mesa's llvmpipe keeps all memory of a device in one anonymous file, and does not check whether that grows: beyond
- * `ulimit -f` the first access is a SIGBUS. Seen with Mesa 25.0, and not with 22.3; the versions between count as those
- * that do. Its version is in driver_info alone, as "Mesa 25.0.7-2 (LLVM 19.1.7)". */
+/* Mesa's llvmpipe keeps all memory of a device in one anonymous file, and does not check whether the file can grow:
+ * beyond `ulimit -f` the first access is a SIGBUS. Mesa 25.0 does this and 22.3 does not; the versions between are
+ * treated like 25.0. Only driver_info has Mesa's version, as in "Mesa 25.0.7-2 (LLVM 19.1.7)". */
 static void read_file_limit(struct kd_vk_physical *device)
 {
     struct rlimit limit;

@@ -86,7 +86,8 @@ static enum kd_status poll_timeline(struct kd_vk *vk, struct kd_error *error)
     return reached(vk, value < vk->submitted ? value : vk->submitted, error);
 }
 
-/* Time added to a deadline. When a virtual machine was stopped, the wait may end before the result has been checked. */
+/* Time added to a deadline. After a virtual machine was stopped, the wait may time out although the work has
+ * finished. */
 #define GRACE_NS 1000000000u
 #define STARVED 8 /* number of deadlines after which a software device with little processor time is given up */
 
@@ -97,9 +98,9 @@ static uint64_t processor_ns(void)
     return clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t) ? 0 : (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
 }
 
-/* Waits once. The threads of a software device belong to this process, so that on a busy machine it may need more than
- * a deadline to compile a kernel. Therefore a deadline does not count if the process had the processor for less than
- * half of it. That happens at most STARVED times. */
+/* Waits once. The threads of a software device belong to this process, so that on a busy machine it may need more
+ * than a deadline to compile a kernel. Therefore a deadline does not count if the process had the processor for
+ * less than half of it. At most STARVED deadlines are ignored in this way. */
 static VkResult wait_for(struct kd_vk *vk, const VkSemaphoreWaitInfo *info, uint64_t timeout)
 {
     VkResult result = VK_TIMEOUT;

@@ -36,7 +36,7 @@ void kd_vk_timing_end(const struct kd_vk_core *core, struct kd_vk_stamps *stamps
 /* Adds a finished submission to the totals. */
 void kd_vk_timing_collect(struct kd_vk_timing *timing, const struct kd_vk_core *core, struct kd_vk_stamps *stamps);
 void kd_vk_timing_finish(const struct kd_vk_core *core, struct kd_vk_stamps *stamps);
-/* The totals above 0, as kd_vk_times; and sets all to 0. */
+/* Returns the totals above 0, as kd_vk_times does, and resets all totals to 0. */
 size_t kd_vk_timing_totals(const struct kd_vk_timing *timing, struct kd_vk_time out[KD_VK_MAX_PASSES]);
 void kd_vk_timing_reset(struct kd_vk_timing *timing);
 

@@ -82,10 +82,10 @@ uint64_t kd_vk_compiled_id(const struct kd_vk *vk);
  * malloc'd. NULL if there is no such directory. Any thread. */
 char *kd_vk_cache_file(const struct kd_vk *vk, const char *suffix);
 
-/* Buffers are suballocated from a few large allocations. Each can be bound as any kind, and copied from and to. UPLOAD
- * and READBACK are host-visible and persistently mapped. A submission sees what the host has written to an UPLOAD
- * buffer before kd_vk_submit. The host sees after kd_vk_wait what the device has written to either. Both also hold if
- * the memory is not coherent. Only the device may write a READBACK buffer. */
+/* Buffers are suballocated from a few large allocations. Each can be bound as any kind, and copied from and to.
+ * UPLOAD and READBACK are host-visible and persistently mapped. A submission sees what the host has written to an
+ * UPLOAD buffer before kd_vk_submit. After kd_vk_wait the host sees what the device has written to an UPLOAD or
+ * READBACK buffer. Both hold even if the memory is not coherent. Only the device may write a READBACK buffer. */
 enum kd_vk_memory { KD_VK_DEVICE, KD_VK_UPLOAD, KD_VK_READBACK };
 enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_memory memory, const char *name,
                                    struct kd_vk_buffer **out, struct kd_error *error);
@@ -168,9 +168,9 @@ enum kd_status kd_vk_wait(struct kd_vk *vk, uint64_t ticket, struct kd_error *er
 /* Drops what was recorded but not submitted. */
 void kd_vk_discard(struct kd_vk *vk);
 
-/* Device time by the name of the pass, since the last reset, of finished submissions: those that kd_vk_submit or
- * kd_vk_wait has found finished. pass: a copy of the caller's name, valid while the device lives. Beyond
- * KD_VK_MAX_PASSES names, the others are added up as "other". There are none if the device has no timestamps. */
+/* Device time by the name of the pass, since the last reset, of those submissions that kd_vk_submit or kd_vk_wait
+ * has found finished. pass: a copy of the caller's name, valid while the device lives. Beyond KD_VK_MAX_PASSES
+ * names, the others are added up as "other". There are none if the device has no timestamps. */
 struct kd_vk_time {
     const char *pass;
     double ms;

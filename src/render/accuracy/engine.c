@@ -98,7 +98,7 @@ static struct kd_setting by_profile(const struct kd_accuracy_request *asked_accu
     s.precision = asked_accuracy->precision >= 0         ? (enum kd_precision)asked_accuracy->precision
                   : s.engine == KD_ENGINE_CLOSED || fine ? KD_PRECISION_F64
                                                          : KD_PRECISION_F32;
-    /* A precision and an engine that come from the profile may be replaced. */
+    /* A precision and an engine that come from the profile, not from the request, may be replaced. */
     if (s.precision == KD_PRECISION_F64 && !float64 && asked_accuracy->precision < 0 && asked_accuracy->engine < 0 &&
         !asked_accuracy->steps)
         s.engine = KD_ENGINE_CLOSED;

@@ -44,8 +44,8 @@ struct kd_accuracy_request {
     int engine;     /* enum kd_engine; -1: any */
     int precision;  /* enum kd_precision; -1: any */
     uint32_t steps; /* per half period, a multiple of 4; 0: as many as the profile or the engine has */
-    /* largest relative error of the crossing radii, by the table; INFINITY: no tolerance was asked for, and the profile
-     * decides */
+    /* largest relative error of the crossing radii, by the table; INFINITY: no tolerance was requested, so the
+     * profile decides */
     double tolerance;
 };
 
@@ -53,7 +53,7 @@ struct kd_setting {
     enum kd_engine engine;
     enum kd_precision precision;
     uint32_t steps; /* 0 for the closed form */
-    /* relative error of the crossing radii that the table gives for this setting; NaN: no tolerance was asked for */
+    /* relative error of the crossing radii that the table gives for this setting; NaN: no tolerance was requested */
     double holds;
 };
 
@@ -68,13 +68,13 @@ struct kd_accuracy_request kd_accuracy_request_of(const struct kd_scene *scene);
 /* Whether the result depends on the device. False: the closed form can serve the request on any device. */
 bool kd_accuracy_request_needs_device(const struct kd_accuracy_request *asked_accuracy);
 
-/* Without a tolerance, each of engine, precision and steps that is not named comes from the profile; without a profile
- * it is the closed form in double precision. With a tolerance, picks the fastest row of the table that meets it, among
- * the permitted engines and precisions; steps must not be named.
- * float64: whether the device has double precision. If it has not, a profile that needs double precision falls back to
- * the closed form. A tolerance that no row meets also falls back to it.
- * KD_EINVAL at /accuracy/... for a contradiction, a tolerance that cannot be met, or what this device cannot do. table
- * may be NULL if no tolerance is asked for. */
+/* Without a tolerance, each of engine, precision and steps that the request does not name comes from the profile;
+ * without a profile the setting is the closed form in double precision. With a tolerance, picks the fastest row of
+ * the table that meets it, among the permitted engines and precisions; the request must then not name steps.
+ * float64: whether the device has double precision. If it has not, a profile that needs double precision falls back
+ * to the closed form. A tolerance that no row meets also falls back to it. KD_EINVAL at /accuracy/... for a
+ * contradiction, a tolerance that cannot be met, or what this device cannot do. table may be NULL if no tolerance
+ * is requested. */
 enum kd_status kd_setting_of(const struct kd_accuracy_request *asked_accuracy, const struct kd_accuracy_table *table,
                              bool float64, struct kd_setting *out, struct kd_error *error);
 

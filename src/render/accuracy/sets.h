@@ -1,13 +1,14 @@
-/* Named, fixed sets of rays on which engines are compared, so that tables of different days and devices are comparable.
+/* Named, fixed sets of rays on which engines are compared, so that tables of different days and devices are
+ * comparable.
  *
  * A set has one or more views; a view is one hole seen by one observer at infinity. Positions come from a
- * low-discrepancy sequence (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences": multiples of
- * 1/g and 1/g^2 modulo 1, g the plastic number), so that none lies on an axis of symmetry. Positions are not rounded:
- * if an engine rounds them to single precision, that counts as the engine's error.
+ * low-discrepancy sequence (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences": multiples
+ * of 1/g and 1/g^2 modulo 1, g the plastic number), so that none lies on an axis of symmetry. Positions are not
+ * rounded: if an engine rounds them to single precision, that counts as the engine's error.
  *
- * Rays within 5 % of the critical curve belong to the near-critical set only, with all their crossings of order 2:
- * there the error of any method is that of the arithmetic times a condition number of hundreds. rho is measured from
- * the centre of physics/null/critical.h. Pure; any thread. */
+ * Rays within 5 % of the critical curve, which have all crossings of order 2, belong to the near-critical set only.
+ * There the error of any method is that of the arithmetic times a condition number of hundreds. rho is measured
+ * from the centre of physics/null/critical.h. Pure; any thread. */
 #ifndef KD_RENDER_ACCURACY_SETS_H
 #define KD_RENDER_ACCURACY_SETS_H
 

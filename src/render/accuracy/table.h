@@ -48,7 +48,7 @@ struct kd_accuracy_table {
     char skipped[400];              /* what this device cannot do; "" if nothing */
     uint32_t cores;                 /* cores that the device computes on; 0 if it is not a CPU */
     bool device_clock, quick;
-    double seconds; /* device time of one speed measurement; less where a million rays need less */
+    double seconds; /* device time of one speed measurement; less if a million rays take less */
     uint32_t n;
     struct kd_accuracy_row rows[KD_ACCURACY_ROWS];
 };

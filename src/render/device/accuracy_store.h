@@ -11,8 +11,8 @@ char *kd_accuracy_path(const struct kd_renderer *renderer);
 /* Replaces the stored table atomically. */
 enum kd_status kd_accuracy_save(const struct kd_accuracy_table *table, const char *path, struct kd_error *error);
 
-/* KD_EIO if the file is missing or cannot be read, KD_EINVAL if it is damaged or of another format; the message says
- * how to make one. path may be NULL. Any thread. */
+/* KD_EIO if the file is missing or cannot be read, KD_EINVAL if it is damaged or of another format; the message
+ * says how to make a table. path may be NULL. Any thread. */
 enum kd_status kd_accuracy_load(const char *path, struct kd_accuracy_table *out, struct kd_error *error);
 
 /* Appends the document of GET /v1/accuracy; errors as kd_accuracy_load. Any thread. */

@@ -48,7 +48,7 @@ struct kd_renderer {
         enum kd_precision precision;
         uint32_t steps, orders, size;
     } rays_pace;
-    bool passing; /* this and the next two as in kd_renderer_params */
+    bool passing; /* this member and the next two have the meaning of those in kd_renderer_params */
     bool (*lacks)(void *user, struct kd_compilation *compilation, bool background);
     void *lacks_user;
     struct kd_emit_state *emit; /* numbers and tables of the emitters, as of the last frame */

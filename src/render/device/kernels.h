@@ -101,7 +101,7 @@ struct kd_kernels {
 enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum kd_kernel kernel,
                               const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out,
                               struct kd_error *error);
-/* As kd_kernels_get, for a kernel that is not in the list, such as an emitter's (render/emit/own.h). */
+/* Like kd_kernels_get, for a kernel that is not in the list, such as an emitter's (render/emit/own.h). */
 enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
                                  const struct kd_vk_pipeline_params *source, const uint32_t *constants, size_t n,
                                  const struct kd_vk_pipeline **out, struct kd_error *error);
@@ -119,8 +119,9 @@ void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct 
 /* Whether a device reads the radiance of this many pixels as texels of four floats. Software devices take a third of
  * the time for texels, but differ in how many they bind. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
-bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes); /* as above, for this many bytes of anything */
-/* as above, for any lens map, with one number a texel: software devices take less than half the time */
+/* like kd_kernels_texels, for this many bytes of any data */
+bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes);
+/* like kd_kernels_texels, for any lens map, with one number a texel: software devices take less than half the time */
 bool kd_kernels_map_as_texels(const struct kd_vk *vk);
 bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom);
 static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom, bool heat)

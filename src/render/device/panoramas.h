@@ -41,8 +41,8 @@ struct kd_panoramas {
     const struct kd_assets *assets; /* NULL: there are none */
     char *file; /* file for the first Milky Way, for later processes; NULL: none, or already written */
     bool blank; /* makes black panoramas of a Milky Way's size at no cost, for a device that only compiles */
-    void (*made)(
-        void *user); /* called by the thread, without holding the lock, after each success or failure; may be NULL */
+    void (*made)(void *user); /* called by the thread, without the lock, after each panorama that was made or failed;
+                                 may be NULL */
     void *user;
 };
 void kd_panoramas_init(struct kd_panoramas *panoramas, const struct kd_assets *assets, void (*made)(void *user),
@@ -56,11 +56,11 @@ void kd_panoramas_keep_at(struct kd_panoramas *panoramas, char *path);
  * that was evicted meanwhile is made once more. */
 bool kd_panorama_begin(struct kd_panoramas *panoramas, const struct kd_scene *scene);
 /* Starts reading an asset that may become a sky, if a slot is free and nothing else is in progress, so that later
- * requests wait less. Such a panorama is evicted first, and errors are reported to whoever requests it. */
+ * requests wait less. Such a panorama is evicted first, and errors are reported to the caller that requests it. */
 void kd_panorama_ahead(struct kd_panoramas *panoramas, const char *hash);
-/* The panorama of a scene that has one. Waits for it if necessary: some tenths of a second for a Milky Way, a second
- * for a large picture. Valid until the next call. Render thread only. KD_EINVAL at /sky/image: the asset is gone or is
- * not a valid picture; KD_ENOMEM. */
+/* Gets the panorama of a scene that has one. Waits for it if necessary: some tenths of a second for a Milky Way, a
+ * second for a large picture. Valid until the next call. Render thread only. KD_EINVAL at /sky/image: the asset is
+ * gone or is not a valid picture; KD_ENOMEM. */
 enum kd_status kd_panorama_of(struct kd_panoramas *panoramas, const struct kd_scene *scene,
                               const struct kd_panorama **out, struct kd_error *error);
 /* Waits for the panorama in progress and drops other requests: `made` is not called any more until a new request. */

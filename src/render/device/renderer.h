@@ -1,5 +1,5 @@
-/* A renderer: one device and what is cached on it between pictures. One thread at a time has a struct kd_renderer,
- * and hands it on under a lock. Meanwhile other threads may call kd_renderer_capacity only. */
+/* A renderer: one device, and what is cached on it between pictures. One thread at a time owns a struct
+ * kd_renderer, and passes it on under a lock. Other threads may then call only kd_renderer_capacity. */
 #ifndef KD_RENDER_DEVICE_RENDERER_H
 #define KD_RENDER_DEVICE_RENDERER_H
 
@@ -79,14 +79,15 @@ uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer);
  * sampled is 0 if no error can be measured: the picture is too large to keep its lens map, or has no crossings. */
 struct kd_accuracy_report {
     uint64_t undecided; /* rays of the whole picture that were given up; shown in magenta */
-    /* for an interpolated lens map: number of rays that were traced for it (nodes shared by slices count twice); number
-     * of the pixels' rays in smooth cells. 0: not interpolated */
+    /* for an interpolated lens map. traced: number of rays that were traced for it (nodes shared by slices count
+     * twice); interpolated: number of the pixels' rays in smooth cells. 0: not interpolated */
     uint64_t traced, interpolated;
-    uint32_t sampled, crossings; /* rays that were traced again; crossings that were compared */
+    uint32_t sampled, crossings; /* sampled: rays that were traced again; crossings: crossings that were compared */
     uint32_t differ;             /* number of crossings that only one of the two has, plus rays with different fates */
     double median, worst;        /* relative error of the radius */
-    uint64_t followed;           /* rays traced beyond the plan's, by refinement, on */
-    /* pixels with more rays, traced or interpolated; only with image.samples "auto", as the next three */
+    uint64_t followed;           /* rays that refinement traced beyond those of the plan */
+    /* pixels with more rays. refined: traced; between: interpolated. These two and the next three: only with
+     * image.samples "auto" */
     uint64_t refined, between;
     uint32_t pixel_sampled; /* pixels compared with 64 rays each */
     /* difference of displayed values at these pixels, as a fraction of white: root mean square for the picture; worst

@@ -89,8 +89,8 @@ static void give_back(struct kd_renderer *r)
     kd_panoramas_rest(&r->panoramas, KD_REST_PANORAMAS);
 }
 
-/* Closes the device and reopens it. If the process has grown even so, the growth is reported, but not attributed to the
- * device, and is no reason to reopen the device again. */
+/* Closes the device and reopens it. If the process is still larger afterwards, the growth is reported, but not
+ * attributed to the device, and does not cause another reopening. */
 static enum kd_status open_again(struct kd_renderer *r, struct kd_error *error)
 {
     enum kd_status status = kd_renderer_reopen(r, error);

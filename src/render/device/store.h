@@ -20,7 +20,7 @@ struct kd_bands {
     uint64_t band_bytes;
 };
 
-/* Everything besides the lens map that the light of points depends on. The light stays valid while only time
+/* Everything besides the lens map on which the light of stars depends. The light stays valid while only time
  * advances. */
 struct kd_star_key {
     char lens[65];
@@ -36,8 +36,8 @@ struct kd_lens_map {
     struct kd_bands
         critical; /* the lens maps of the pixels at the critical curve, part by part, each followed by its list */
     struct kd_critical_pixels pixels;
-    /* for each pixel of a band KD_STAR_LIGHT words: the points of light seen through this map; none: no frame had
-     * any */
+    /* for each pixel of a band KD_STAR_LIGHT words: the light of stars seen through this map; none: no frame had
+     * stars */
     struct kd_bands star_light;
     struct kd_rim rim; /* the rim of the map's camera, for images of stars of high orders, if there is a rim and it was
                           requested */
@@ -57,7 +57,7 @@ struct kd_store {
     struct kd_lens_map maps[KD_LENS_MAPS_KEPT];
     uint64_t clock;
     struct kd_bands radiance;
-    struct kd_bands layers; /* the layers of numbers in sequence, kd_plan_layer_bytes each; none: no frame had any */
+    struct kd_bands layers; /* the layers of numbers in sequence, kd_plan_layer_bytes each; none: no frame had layers */
     struct kd_vk_buffer *words, *readback; /* packed pixels of one band, on the device and on the host */
     /* parameters and tables, read at each crossing: in device memory, uploaded through `staging` */
     struct kd_vk_buffer *transfer, *staging;
@@ -73,16 +73,16 @@ struct kd_store {
     struct kd_bands beamed;                       /* radiance after the telescope's beam; none: the plan has no beam */
     struct kd_vk_buffer *beam_lines, *beam_grids; /* intermediate rows of cells, and grids of them; NULL: never made */
     struct kd_vk_buffer *palette;    /* colours of style.palette, KD_MAP_ENTRIES of four floats; NULL: never made */
-    struct kd_vk_buffer *star_pairs; /* pairs of a ray and a star that it may see; NULL: no frame had points of light */
+    struct kd_vk_buffer *star_pairs; /* pairs of a ray and a star that it may see; NULL: no frame had stars */
     struct kd_vk_buffer *star_rays;  /* rays whose stars are searched one by one */
     struct kd_vk_buffer *listed;     /* lens map of listed pixels, overwritten part by part */
     /* for a sampled map (frame/sample.c): its lists, index and nodes; NULL: no frame had any */
     struct kd_vk_buffer *sample, *sample_index, *nodes;
-    uint32_t alone;                   /* offset in the lists of the rays that are traced singly */
-    int32_t alone_x, alone_y;         /* the ray from which the places of those rays count */
-    struct kd_vk_buffer *sample_head; /* head of the lists, on the host */
-    struct kd_vk_buffer
-        *undecided; /* rays that the kernels leave open: a counter, then the places of at most kd_plan_open_most rays */
+    uint32_t alone;                      /* offset in the lists of the rays that are traced singly */
+    int32_t alone_x, alone_y;            /* the ray from which the places of those rays count */
+    struct kd_vk_buffer *sample_head;    /* head of the lists, on the host */
+    struct kd_vk_buffer *undecided;      /* rays that the kernels leave undecided (frame/settle.c): a counter, then the
+                                            places of at most kd_plan_open_most rays */
     struct kd_vk_buffer *undecided_host; /* the same on the host */
 };
 

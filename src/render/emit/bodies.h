@@ -20,7 +20,7 @@ struct kd_bodies_view {
     struct kd_hole hole;
     double azimuth, peak_k;
     const struct kd_illumination *lit;
-}; /* lit: NULL if the disk does not illuminate them */
+}; /* lit: NULL if the disk does not illuminate the bodies */
 
 /* kd_illumination_of: prepares the disk as a light source for bodies (bodies_illumination.c). False if the scene has no
  * thin disk. */

@@ -34,7 +34,7 @@ _Static_assert(sizeof(struct kd_emit_tables) == sizeof(kd_table_row) * (0 KD_EMI
                "no gaps: the kernels count rows");
 #undef KD_T
 
-/* No two variants share a bit of a word: otherwise their sum would exceed their bitwise or. */
+/* Checks that no two traits share a bit of a word: if they did, their sum would exceed their bitwise or. */
 #define ADDED(trait) +(uint64_t)KD_TRAIT_##trait
 #define JOINED(trait) | KD_TRAIT_##trait
 #define DISJOINT(number, name) \

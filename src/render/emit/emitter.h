@@ -68,9 +68,9 @@ struct kd_emitter {
     struct kd_scene_part depends[KD_EMITTER_PARTS]; /* ends at the first part of size 0 */
     const struct kd_sentence *sentences;
     size_t n_sentences;
-    const struct kd_emitter *kind; /* an emitter whose sentences apply to this one as well; NULL: none */
-    /* an emitter whose numbers and tables this one reads besides its own, including those which that one reads; NULL:
-     * none */
+    const struct kd_emitter *kind; /* an emitter whose approximations apply to this one as well; NULL: none */
+    /* an emitter whose numbers and tables this one reads besides its own, including all those that the other
+     * emitter reads; NULL: none */
     const struct kd_emitter *reads;
     const struct kd_emitter *replaces; /* an emitter that is left out where this one is present; NULL: none */
 };
@@ -89,10 +89,10 @@ extern const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT];
 bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter);
 /* Computes the words of the specialisation constants; 0 for emitters that the scene does not have. */
 void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]);
-/* Sets KD_TRAIT_TEXELS in the words of those that read a buffer of quads, for a device that reads it as texels. */
+/* Sets KD_TRAIT_TEXELS in the words of emitters that read a buffer of quads, for a device that reads it as texels. */
 void kd_emit_as_texels(uint32_t traits[KD_EMITTER_COUNT]);
-/* What the scene's emitters need: quantities of the lens map; whether there is light at crossings of the plane, at the
- * ends of rays, light with separate luminance, or light from points. */
+/* What the scene's emitters need. kd_emit_needs: quantities of the lens map. The others: whether there is light at
+ * crossings of the plane, at the ends of rays, light with separate luminance, or light from points. */
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
 bool kd_emit_along(const struct kd_scene *scene);      /* whether there are volumes */
@@ -141,12 +141,12 @@ uint32_t kd_disk_traits(const struct kd_scene *scene);
 /* What emitters with the disk's light need of the lens map. For rays that are not on a grid, Q is computed from their
  * slope. */
 uint32_t kd_disk_needs(const struct kd_scene *scene);
-/* Radii of the smooth disk's edges. kd_disk_sentence: a sentence such as "A thin disk from the ISCO to 22 M." for the
- * noun "thin disk". */
+/* kd_disk_reach: radii of the smooth disk's edges. kd_disk_sentence: a sentence such as "A thin disk from the ISCO
+ * to 22 M." for the noun "thin disk". */
 void kd_disk_reach(const struct kd_scene *scene, double radii[2]);
 void kd_disk_tell(const struct kd_scene *scene, const char *noun, char out[KD_EMIT_TOLD]);
-/* Common to emitters on orbits: KD_TRAIT_... for Doppler shift and redshift; what they need of the lens map; what
- * changes them. */
+/* Functions shared by emitters on orbits: KD_TRAIT_... for Doppler shift and redshift; quantities of the lens map
+ * that they need; what changes their light. */
 uint32_t kd_orbit_traits(const struct kd_scene *scene);
 uint32_t kd_orbit_needs(const struct kd_scene *scene);
 unsigned kd_orbit_varies(const struct kd_scene *scene);

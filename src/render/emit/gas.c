@@ -92,8 +92,8 @@ static void place(double at, float *part, float *whole)
     *part = (float)(at - floor(at));
 }
 
-/* Factors from each ring's plane to the next ring's. In the next plane the same place is rotated and shrunk, that is,
- * multiplied by this complex factor. */
+/* Computes, for each ring, the complex factor by which a place in its plane is multiplied to give the same place in
+ * the next ring's plane: a rotation and a shrinking. */
 static void next_rings(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     for (int j = 0; j + 1 < KD_GAS_RINGS; j++) {

@@ -255,7 +255,8 @@ static double theta_at(const struct kd_matter_reader *r, size_t row, size_t colu
     return r->theta[(r->theta_rows > 1 ? row * r->grid.columns : 0) + column];
 }
 
-/* The columns at the bounds of a table's cells, by lines between the columns' angles. */
+/* Computes the column, as a number with a fraction, at each bound of a table's cells, by linear interpolation
+ * between the columns' angles. */
 static void columns_at(const double *theta, size_t columns, uint32_t steps, float *out, size_t stride)
 {
     size_t below = 0;
@@ -342,7 +343,7 @@ static enum kd_status refuse_number(const struct kd_matter_grid *g, const char *
     return kd_matter_refuse(at, what, error);
 }
 
-/* Stores a number in its place of a node, scaled so that it varies little with r. */
+/* Stores a number of a node at its place, scaled so that it varies little with r. */
 static enum kd_status take_number(struct kd_matter_reader *r, size_t i, struct kd_error *error)
 {
     struct kd_matter_grid *g = &r->grid;

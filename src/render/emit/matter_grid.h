@@ -2,11 +2,11 @@
  * describes the file. Pure, any thread.
  *
  *   header        JSON: {"format": "kerrd-grid", "version": 1, "spin": a, "azimuth": "boyer-lindquist" or
- *                 "kerr-schild", "units": {array: unit}, and optionally "packed": true or false; true in a grid of
- *                 more than 2^21 nodes}
- *   r theta phi   coordinates of rows, columns and layers. r is evenly spaced in log r, and phi in phi. theta is
- *                 that of each column, or, of the shape (rows, columns), that of each node. phi covers one turn or
- *                 a whole fraction of it, and may be missing
+ *                 "kerr-schild", "units": {array: unit}, and optionally "packed": true or false; it is true in a grid
+ *                 of more than 2^21 nodes}
+ *   r theta phi   coordinates of rows, columns and layers. r is evenly spaced in log r, and phi in phi. theta has an
+ *                 angle for each column, or, with the shape (rows, columns), for each node. phi covers a turn or 1/k
+ *                 of a turn with a whole k, and may be missing
  *   density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi
  *                 arrays of the shape (rows, columns) or (rows, columns, layers)
  *   u_con_t       optional; if present, the velocity must be a unit vector
@@ -35,9 +35,10 @@ enum {
 struct kd_matter_grid {
     uint32_t rows, columns, layers; /* layers 1: axisymmetric */
     double spin;
-    double r[2], theta[2]; /* r of the first and the last row, in M; theta of the first and the last column, if they are
-                            * even */
-    /* phi of the first layer; angle covered by all layers, radians: a turn or a whole fraction of it */
+    double r[2], theta[2]; /* r of the first and the last row, in M; theta of the first and the last column, if columns
+                              are evenly spaced */
+    /* phi: of the first layer; turn: the angle covered by all layers, in radians: a turn, or 1/k of it with a whole
+     * k */
     double phi, turn;
     bool ingoing; /* phi is the ingoing Kerr-Schild azimuth; otherwise the Boyer-Lindquist one */
     double field; /* the largest component of the field, gauss; 1 if there is no field */
@@ -45,13 +46,14 @@ struct kd_matter_grid {
      * sin^2 theta), then b^r, r b^theta and b_phi/(r sin^2 theta), each divided by `field`. These numbers vary
      * little from node to node and are finite on the axis. */
     float *nodes;
-    /* Packed nodes are four words: density and Theta as parts of their ranges in 16 bits, then six halves in the order
-     * above, u over `speed` and b times KD_MATTER_FIELD. least, range: of log2 of density and Theta. */
+    /* A packed node has four words: density and Theta as fractions of their ranges in 16 bits, then six halves in the
+     * order above: u divided by `speed`, and b times KD_MATTER_FIELD. least, range: of log2 of density and Theta. */
     bool packed, whole; /* whole: the file asks for nodes that are not packed */
     double least[2], range[2], speed;
-    /* Where columns are not even: the column at theta as a number with a fraction, bilinear between the numbers of a
-     * table of `steps` cells in theta from 0 to pi, for each two rows next to each other, or one for all. A cell has
-     * four floats: at its begin and its end in the one row, and in the next. NULL: the columns are even. */
+    /* For columns that are not evenly spaced: a table that gives the column at theta, as a number with a fraction,
+     * by bilinear interpolation. It has `steps` cells in theta from 0 to pi for each pair of adjacent rows, or once
+     * for all rows. A cell has four floats: the column at its beginning and at its end, in one row and in the next.
+     * NULL: the columns are evenly spaced. */
     float *places;
     uint32_t steps, place_rows;
 };
@@ -68,7 +70,8 @@ enum kd_status kd_matter_grid_look(const void *data, size_t size, uint32_t nodes
 /* Bytes of the nodes on the device. */
 size_t kd_matter_grid_bytes(const struct kd_matter_grid *grid);
 void kd_matter_grid_told(const struct kd_matter_grid *grid, uint32_t nodes[3], double *spin);
-size_t kd_matter_grid_places(const struct kd_matter_grid *grid); /* floats of `places`; 0: the columns are even */
+/* floats of `places`; 0: the columns are evenly spaced */
+size_t kd_matter_grid_places(const struct kd_matter_grid *grid);
 void kd_matter_grid_finish(struct kd_matter_grid *grid);
 
 /* Reads a file in pieces of some milliseconds, none of which unpacks more than one array. The file's bytes must remain

@@ -14,7 +14,7 @@
 struct kd_renderer;
 struct kd_scene;
 
-/* What an emitter works with. A long picture that lends the device has a copy of `own` for itself
+/* The working set of an emitter. A long picture that lends the device has its own copy of `own`
  * (kd_render_in_background). */
 struct kd_emitter_buffers_work {
     struct kd_renderer *renderer;
@@ -37,8 +37,8 @@ struct kd_emitter_buffers {
     void (*finish)(void *own, struct kd_vk *vk);
     /* Starts slow work of the host on a thread; `tell` and `prepare` wait for it. NULL: there is none. */
     void (*begin)(struct kd_renderer *renderer, const struct kd_scene *scene);
-    /* Completes the emitter's numbers after `fill` with what the scene does not contain, and writes the credit of
-     * the picture's sources. NULL: neither. */
+    /* Completes the emitter's numbers after `fill` with those that the scene does not contain, and writes the
+     * credit of the picture's sources. NULL: the emitter needs neither. */
     enum kd_status (*tell)(struct kd_renderer *renderer, const struct kd_scene *scene, struct kd_emission *out,
                            char *credit, size_t size, struct kd_error *error);
 };

@@ -1,15 +1,16 @@
-/* The particles that fall from the ISCO. All follow one curve (physics/orbit/plunge.h), again and again. Their part of
- * it begins at 1/32 of the way between ISCO and horizon and stops 1/64 before the horizon: at its very ends the curve
- * takes for ever. At the start gas falls at 1e-3 without spin and at 7e-4 for a = 0.9. That is about the drift of a
- * disk of alpha = 0.1 and h/r = 0.1, alpha (h/r)^2 v_phi (Shakura & Sunyaev 1973). A particle orbits the hole 3 times
- * (a = 0), 7 times (0.9) or 38 times (0.998) before its end; W. J. Potter 2021, arXiv:2104.09951, finds 4 to 17 for
- * turbulent gas. At the end light that escapes has g < 0.02 and less than 1e-6 of its brightness.
+/* The particles that fall from the ISCO. All follow one curve (physics/orbit/plunge.h), again and again. They
+ * follow it from 1/32 of the way between ISCO and horizon to 1/64 of the way before the horizon, because the curve
+ * takes infinite time at both ends. At the start gas falls at 1e-3 without spin and at 7e-4 for a = 0.9. That is
+ * about the drift of a disk of alpha = 0.1 and h/r = 0.1, alpha (h/r)^2 v_phi (Shakura & Sunyaev 1973). A particle
+ * orbits the hole 3 times (a = 0), 7 times (0.9) or 38 times (0.998) before its end; W. J. Potter 2021,
+ * arXiv:2104.09951, finds 4 to 17 for turbulent gas. At the end light that escapes has g < 0.02 and less than 1e-6
+ * of its brightness.
  *
- * A steady stream is uniform in time, so a particle's first coordinate is its phase, the fraction of the curve's time
- * that has passed. The second is its azimuth at the ISCO, in the frame that rotates with that orbit. A parcel of gas is
- * at rest in both coordinates. On such a grid each cell is a parcel that is stretched as it falls. Its surface density
- * is 1/(r |u^r|) times a conserved quantity (mass: I. D. Novikov & K. S. Thorne 1973). Double precision, pure, any
- * thread. */
+ * A steady stream is uniform in time, so a particle's first coordinate is its phase, the fraction of the curve's
+ * time that has passed. The second is its azimuth at the ISCO, in the frame that rotates with that orbit. A parcel
+ * of gas is at rest in both coordinates. On such a grid each cell is a parcel that is stretched as it falls. Its
+ * surface density is 1/(r |u^r|) times a conserved quantity (mass: I. D. Novikov & K. S. Thorne 1973). Double
+ * precision, pure, any thread. */
 #ifndef KD_RENDER_EMIT_PLUNGING_H
 #define KD_RENDER_EMIT_PLUNGING_H
 
@@ -29,8 +30,8 @@ struct kd_plunging {
 };
 struct kd_plunging kd_plunging_of(const struct kd_scene *scene);
 
-/* Place at start >= r >= end: phase from 0 to 1; azimuth in turns, minus the turns of the orbit at the ISCO since
- * the start. */
+/* Place at start >= r >= end. phase: from 0 to 1; turns: azimuth in turns, minus the turns of the orbit at the ISCO
+ * since the start. */
 struct kd_plunging_place { double phase, turns; };
 struct kd_plunging_place kd_plunging_at(const struct kd_plunging *plunging, double r);
 

@@ -10,11 +10,13 @@
 /* Specific intensity of light 1: 2 nu^2 k T/c^2, W m^-2 Hz^-1 sr^-1. */
 double kd_radio_unit(const struct kd_scene *scene);
 
-/* Flux in Jy of light times solid angle as in kd_light_report: in M^2 of the image plane, or in sr for a camera at a
- * finite radius. The latter is taken as the same picture seen from spacetime.distance_pc (kd_scene_width_uas). */
+/* Converts a flux of kd_light_report to Jy. That flux is light times solid angle: in M^2 of the image plane, or,
+ * for a camera at a finite radius r, in sr. A flux in sr is multiplied by r^2, as if the picture had the same width
+ * at the hole and were seen from spacetime.distance_pc (kd_scene_width_uas). */
 double kd_radio_jansky(const struct kd_scene *scene, double flux);
 
-/* Jy from one pixel of light 1, seen from infinity: all pixels cover the same area of the image plane. */
+/* Flux in Jy of one pixel of light 1, for an observer at infinity: all pixels cover the same area of the image
+ * plane. */
 double kd_radio_jansky_pixel(const struct kd_scene *scene);
 
 #endif

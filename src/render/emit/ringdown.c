@@ -15,8 +15,8 @@ static bool present(const struct kd_scene *scene)
     return scene->style.ringdown > 0 && (kd_emit_at_crossings(scene) || kd_emit_along(scene));
 }
 
-/* Whether the rings still change with time. Beyond a = 0.99 the fit decays up to a fifth too fast. What then remains
- * when they are taken as still is a third of a step. */
+/* Whether the rings still change with time. Beyond a = 0.99 the fit decays up to a fifth too fast, so when the
+ * rings are considered still, a change of a third of a step may remain. */
 static unsigned varies(const struct kd_scene *scene)
 {
     double since = scene->top.time - scene->style.ringdown_time;

@@ -52,7 +52,8 @@ static enum kd_status find_crossings(struct kd_explained *x, struct kd_error *er
         struct kd_ray_crossing *c = &x->crossings[n];
         c->phi = kd_ray_path_phi(&x->frame, c->phi);
         c->delay = kd_ray_path_delay(&x->frame, c->delay);
-        c->g /= x->label.energy; /* for light whose energy at infinity is negative, both numbers are negative */
+        /* for light whose energy at infinity is negative, c->g and the energy are both negative */
+        c->g /= x->label.energy;
     }
     x->end.phi = kd_ray_path_phi(&x->frame, x->end.phi);
     return status;

@@ -15,7 +15,7 @@
 
 struct kd_explained {
     const struct kd_probed_pixel *pixel;
-    const struct kd_probed_ray *told; /* the ray that this is about */
+    const struct kd_probed_ray *told; /* the picture's report of the ray that is explained */
     double weight;                    /* factor of its light in the pixel's light: 0, or 1 over the number of rays */
     const char *eye;                  /* "left" or "right"; NULL: not a pair */
     struct kd_scene scene;            /* scene of this eye */
@@ -32,8 +32,8 @@ struct kd_explained {
     char why[240];           /* where the ray ends and why, one sentence */
 };
 
-/* Explain the middle ray, or one of the rays whose mean is the pixel's light; the latter without its path. KD_EINVAL
- * for a ray that has no closed form. Call kd_explained_finish in any case. */
+/* kd_explain explains the middle ray. kd_explain_each explains, without its path, one of the rays whose mean is the
+ * pixel's light. KD_EINVAL for a ray that has no closed form. Call kd_explained_finish in any case. */
 enum kd_status kd_explain(const struct kd_picture *picture, struct kd_explained *out, struct kd_error *error);
 enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number, struct kd_explained *out,
                                struct kd_error *error);

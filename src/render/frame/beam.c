@@ -55,7 +55,7 @@ static enum kd_status gather(struct kd_frame_job *j)
     const struct kd_plan *p = j->plan;
     const uint64_t pixels = (uint64_t)p->picture.width * p->picture.band_rows, bytes = kd_post_radiance_bytes(pixels);
     enum kd_status status = KD_OK;
-    if (j->lit < p->picture.height) /* rows that are not written */
+    if (j->lit < p->picture.height) /* clears the rows that are not written */
         KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BEAM].name, j->store->beam_lines, 0,
                           kd_beam_lines_bytes(&p->picture.beam), 0, j->error));
     for (uint32_t i = 0; i < p->picture.bands && kd_frame_band_lit(j, i); i++)

@@ -50,7 +50,7 @@ static enum kd_status brighten(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
     enum kd_status status = KD_OK;
-    if (j->lit < p->picture.height) /* blocks that are not written */
+    if (j->lit < p->picture.height) /* clears the blocks that are not written */
         KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BLOOM].name, j->store->bloom, p->picture.bloom.blocks,
                           16 * kd_bloom_blocks(&p->picture.bloom), 0, j->error));
     for (uint32_t band = 0; band < p->picture.bands && kd_frame_band_lit(j, band); band++) {

@@ -34,7 +34,7 @@ struct kd_blurred {
     const struct kd_preview_hook *preview;
     void *user;
 };
-/* Errors as kd_render, and those of the callback. */
+/* Returns the errors of kd_render and of the callback. */
 enum kd_status kd_render_blurred(const struct kd_blurred *blurred, struct kd_frame *out, struct kd_error *error);
 
 #endif

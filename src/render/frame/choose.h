@@ -36,8 +36,8 @@ void kd_choice_finish(struct kd_choice *choice);
 enum kd_status kd_choose_bent(const struct kd_shown *now, double pixel_error, struct kd_choice *out,
                               struct kd_error *error);
 
-/* Chooses the neighbours of pixels in n lists, namely of those that changed by pixel_error or more: a feature missed by
- * one ray a pixel may continue there. before: the earlier picture, as now->pixels. KD_ENOMEM. */
+/* For the pixels in n lists that changed by pixel_error or more, chooses their neighbours: a feature that one ray a
+ * pixel missed may continue there. before: the earlier picture, as now->pixels. KD_ENOMEM. */
 enum kd_status kd_choose_beside(const struct kd_shown *now, const uint16_t *before,
                                 const struct kd_critical_pixels *lists, size_t n, double pixel_error,
                                 struct kd_choice *out, struct kd_error *error);

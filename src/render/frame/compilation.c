@@ -10,7 +10,7 @@
 
 struct kd_compilation {
     struct kd_renderer *renderer;
-    bool picture; /* the kernels of a whole picture, which is rendered: the scene by its plan */
+    bool picture; /* the kernels are those of a whole picture, so the scene is rendered by its plan */
     struct kd_scene scene;
     struct kd_dynamic_bodies *dynamic; /* the scene's bodies of a playground, by a reference of our own: the requester
                                         * may be gone by then */
@@ -115,7 +115,7 @@ static void *rehearse(void *user)
     if (own && kd_renderer_hangs(own))
         return NULL; /* a hanging device can never be closed */
     if (c->status == KD_EDEVICE)
-        c->status = KD_EIO; /* this is not KD_EDEVICE, because the picture's own device may be in order */
+        c->status = KD_EIO; /* this is not KD_EDEVICE, because the picture's own device may be working */
     if (own)
         kd_renderer_sky_stop(own);
     kd_renderer_destroy(own);

@@ -15,8 +15,8 @@ struct kd_compilation;
 /* Requests kernels exactly as the work that needs them will (kd_kernels_note). */
 typedef enum kd_status (*kd_kernels_ask_fn)(struct kd_renderer *renderer, const void *user);
 
-/* A compilation of those requested kernels that the device lacks; NULL if it has all of them. Only the thread that has
- * the device. */
+/* Makes a compilation of the requested kernels that the device lacks; NULL if it has all of them. Only the thread
+ * that has the device. */
 struct kd_compilation *kd_compilation_of(struct kd_renderer *renderer, kd_kernels_ask_fn ask, const void *user);
 /* As kd_compilation_of, for the kernels of a picture that take long to compile. */
 struct kd_compilation *kd_compilation_begin(struct kd_renderer *renderer, const struct kd_scene *scene,
@@ -35,7 +35,8 @@ enum kd_status kd_frame_await_kernels(struct kd_frame_job *job, kd_kernels_ask_f
 
 void kd_compilation_drop(struct kd_compilation *compilation); /* frees a compilation that was not run; any thread */
 
-/* Whether compiling ahead is of use with this device. If it is not, and that can be changed, the log says why. */
+/* Whether compiling in advance helps with this device. If it does not, but the user can change that, the log says
+ * why. */
 bool kd_compilation_helps(const struct kd_renderer *renderer);
 
 #endif

@@ -27,7 +27,8 @@ struct kd_frame {
     struct kd_light_report light;
     double density_scale;         /* factor applied to the density (volume.normalise_to_jy); 1: none */
     struct kd_probed_pixel *told; /* light of the pixel that the plan names (frame/probe.h); NULL: none */
-    /* passes that ran, by the names of plan/pass.h; "upload" and "fill"; "kernels" if some had to be made; "total" */
+    /* times of the passes that ran, by the names of plan/pass.h; of "upload" and "fill"; of "kernels" if some had
+     * to be made; and "total" */
     struct kd_timing timings[KD_FRAME_MAX_TIMINGS];
     size_t n_timings;
 };
@@ -48,8 +49,8 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
  * rows. */
 struct kd_preview_hook {
     bool (*wanted)(void *user);
-    /* frame: of full size, black from row `rows` on, with an exposure of its own if that is "auto", without timings
-     * and accuracy. Its layers are valid only during the call. */
+    /* frame: has full size, is black from row `rows` on, has an exposure of its own if that is "auto", and has
+     * neither timings nor accuracy. Its layers are valid only during the call. */
     void (*seen)(void *user, const struct kd_frame *frame, uint32_t rows);
 };
 

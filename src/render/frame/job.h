@@ -26,14 +26,14 @@ struct kd_frame_job {
     bool stars_kept;               /* whether that light is cached */
     uint64_t undecided;            /* rays of the lens map that were given up */
     uint64_t traced, interpolated; /* as in kd_accuracy_report */
-    double listed_ms, audit_ms;    /* the host's time for tracing listed rays; for the audit */
-    double kernels_ms;             /* the host's time for making missing kernels before they first run */
+    double listed_ms, audit_ms; /* the host's time in ms: listed_ms for tracing listed rays, audit_ms for the audit */
+    double kernels_ms;          /* the host's time for making missing kernels before they first run */
     kd_progress_fn progress;
     const struct kd_preview_hook *preview;
     void *user;
-    double done, weight; /* rows done so far, over all passes; rows in total */
-    /* the rows that refinement counts for and that are not yet reported; the rays that refinement is expected to
-     * trace */
+    double done, weight; /* done: rows done so far, over all passes; weight: rows in total */
+    /* refine_rows: the rows that represent refinement in the progress and are not reported yet; refine_rays: the
+     * rays that refinement is expected to trace */
     double refine_rows, refine_rays;
     uint32_t lit;                   /* rows of pixels from the top whose light is complete */
     bool looking;                   /* a preview is being made */
@@ -108,7 +108,7 @@ struct kd_frame_list {
     bool layers;      /* layers of light are computed as well, not only the picture */
     const char *pass; /* pass to which the time of these pixels counts; NULL: the usual passes */
 };
-/* needed: the lens map must be made first. */
+/* Computes the light of a list. needed: the lens map must be made first. */
 enum kd_status kd_frame_light_list(struct kd_frame_job *job, const struct kd_frame_list *list, bool needed);
 /* Footprints for rows of rays of a buffer, or for a range of rays on listed pixels; all of these and their
  * neighbours must be traced. Recorded, not submitted. Does nothing if the plan has no footprints. */
@@ -118,16 +118,17 @@ struct kd_footprint_area {
     struct kd_footprint_push push;
 };
 enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_footprint_area *area);
-/* As above, for a sampled map whose rows from `traced` on have just been sampled; row0: the picture's row of rays at
- * the buffer's first row. Covers rays that were traced singly, and earlier rays marked as incomplete. */
+/* Like the function above, for a sampled map whose rows from `traced` on have just been sampled; row0: the
+ * picture's row of rays at the buffer's first row. Covers rays that were traced singly, and earlier rays marked as
+ * incomplete. */
 enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *job, const struct kd_footprint_area *area, uint32_t row0,
                                           uint32_t traced);
 /* The kernel of footprints. lattice: of listed pixels; NULL: the grid. *out is NULL if no light needs footprints. */
 enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice,
                                          const struct kd_vk_pipeline **out);
-/* Spreads points of light over the pixels of a band: those seen by its rays and, if the whole map is cached, by rays
- * of adjacent rows. Does nothing if that light is cached. The band's map must be complete. Call for the bands of a
- * frame from first to last. */
+/* Spreads the light of stars over the pixels of a band: of stars that the band's rays see and, if the whole map is
+ * cached, that rays of adjacent rows see. Does nothing if that light is cached. The band's map must be complete.
+ * Call for the bands of a frame from first to last. */
 enum kd_status kd_frame_stars(struct kd_frame_job *job, uint32_t band);
 /* Gets all kernels of kd_frame_stars. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *job);
@@ -153,8 +154,8 @@ enum kd_status kd_frame_probe_ask(struct kd_frame_job *job);
 enum kd_status kd_frame_sample_march(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_march_error(struct kd_frame_job *job);
 
-/* The first sums the light of all bands and copies the sums to the host. The second waits for the sums and computes the
- * frame's flux and centroid. */
+/* kd_frame_add_light sums the light of all bands and copies the sums to the host. kd_frame_read_light waits for the
+ * sums and computes the frame's flux and centroid. */
 enum kd_status kd_frame_add_light(struct kd_frame_job *job);
 enum kd_status kd_frame_read_light(struct kd_frame_job *job);
 /* Replaces the light of all bands by the mean with j->others; waits for the device. */

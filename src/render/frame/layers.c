@@ -53,8 +53,8 @@ static enum kd_status read_all(struct kd_frame_job *j)
     return status;
 }
 
-/* The least and the largest value; on a logarithmic scale only values above 0 count. If there are none, 0 and 1, or 1
- * and 10. */
+/* Returns the least and the largest value; on a logarithmic scale only values above 0 count. If there are no
+ * values: 0 and 1, or 1 and 10 if logarithmic. */
 static struct kd_map_scale extent_of(const float *values, size_t n, bool logarithmic)
 {
     struct kd_map_scale extent = { INFINITY, -INFINITY, false };

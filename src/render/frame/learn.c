@@ -16,7 +16,7 @@ static void learn(struct kd_capacity *c, const struct kd_frame_job *job, const s
     if (pass->figure == KD_NS_NONE)
         return;
     if (pass->figure == KD_NS_RAY_MARCH && job->scene->volume.model == KD_VOLUME_GRID)
-        return; /* depends on the grid's cells */
+        return; /* the time of this pass depends on the grid's cells */
     double *figure = &c->ns[pass->figure];
     *figure = job->r->probing ? fmin(*figure, ns) : kd_cost_mean(*figure, ns);
 }

@@ -83,7 +83,7 @@ static bool is_layer_of(const struct kd_plan_picture *picture, int makes, enum k
     return makes >= 0 && kd_layer_kinds[picture->layers[makes].kind].of == of;
 }
 
-/* Whether the march makes this light or layer. Layers of a crossing need the march because a body may hide the
+/* Whether the march makes this light or layer. Layers of a crossing need the march too, because a body may hide the
  * crossing. */
 static bool marches(const struct kd_plan *p, int makes)
 {
@@ -133,7 +133,7 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
-/* Rows of pixels of a band that are traced and lit together. */
+/* Rows of pixels of a band whose rays are traced, and whose light is computed, in one step. */
 struct slice { uint32_t band, first, count; };
 
 /* Whether the transfer kernel processes columns of pixels, and leaves pixels without light as they are. */
@@ -285,8 +285,8 @@ static struct slice complete(const struct kd_frame_job *j, const struct slice *s
     return (struct slice) { s->band, from, (end == first + kd_frame_band_rows(j, s->band) ? end : to) - from };
 }
 
-/* s: rows that can be completed; traced: those of them that were traced just now. In a sampled map the footprints are
- * those of rays traced singly and, in rows that were held back, of marked rays. */
+/* Makes footprints. s: rows that can be completed; traced: those of them that were just traced. In a sampled map
+ * the footprints are those of rays traced singly and, in rows that were held back, of marked rays. */
 static enum kd_status footprint_slice(struct kd_frame_job *j, const struct slice *s, const struct slice *traced)
 {
     const struct kd_plan *p = j->plan;
@@ -304,7 +304,7 @@ static enum kd_status footprint_slice(struct kd_frame_job *j, const struct slice
     return kd_frame_footprint_sampled(j, &area, first * p->lens.side, (traced->first - first) * p->lens.side);
 }
 
-/* Traces a slice, settles the rays left open, and completes the rows that are then ready. */
+/* Traces a slice, settles the undecided rays, and completes the rows that are then ready. */
 static enum kd_status map_slice(struct kd_frame_job *j, const struct slice *traced, const struct slice *whole)
 {
     const struct kd_vk_pipeline *trace;

@@ -5,8 +5,8 @@
 #include "render/frame/job.h"
 #include "render/view/camera.h"
 
-/* What a kernel makes: light of rays that continue in pieces, a description of one ray, the lens map, the picture's
- * light, or (from 0) the plan's layer of that number. */
+/* What a kernel makes, in this order: the light of rays that continue in pieces; a description of one ray; the lens
+ * map; the picture's light. Numbers from 0 on are the plan's layers. */
 enum { KD_MAKES_PIECES = -4, KD_MAKES_TOLD = -3, KD_MAKES_RAYS = -2, KD_MAKES_PICTURE = -1 };
 
 /* Rows of pixels in one submission, given nanoseconds a row. */
@@ -21,8 +21,8 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *job, const struct kd_c
 /* Number of dispatches for the light of a pixel with `rays` rays. The march follows one ray at a time, and needs a
  * dispatch for each kd_slice.ray. */
 uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes);
-/* The dispatches of both kernels, without their size: from rays of a camera (view/layout.h) to a lens map, and from
- * there to the radiance of a band. */
+/* The dispatches of both kernels, without their size. kd_frame_trace: from rays of a camera (view/layout.h) to a
+ * lens map. kd_frame_transfer: from the lens map to the radiance of a band. */
 struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *job, const struct kd_vk_pipeline *pipeline,
                                      struct kd_vk_buffer *lens, int camera);
 struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *job, const struct kd_vk_pipeline *pipeline,
@@ -48,8 +48,7 @@ struct kd_frame_part {
 };
 struct kd_frame_part kd_frame_part_of(const struct kd_frame_job *job, const struct kd_frame_list *list,
                                       uint64_t number);
-/* The range of the part's pixels, counted from its first, that lies in a band: from *from up to but not including
- * *to. */
+/* Finds which of the part's pixels lie in a band: those from *from to *to - 1, counted from the part's first pixel. */
 void kd_frame_part_in_band(const struct kd_frame_job *job, const struct kd_frame_part *part, uint32_t band,
                            uint64_t *from, uint64_t *to);
 /* Uploads the places of the part's pixels, which follow the planes. */
@@ -58,10 +57,11 @@ enum kd_status kd_frame_upload_pixels(struct kd_frame_job *job, const struct kd_
 /* Describes the light of the plan's pixel again, if it is in a part that has just been lit. */
 enum kd_status kd_frame_probe_listed(struct kd_frame_job *job, const struct kd_frame_part *part);
 
-/* Rays that the kernels leave open, in a band of the grid or a part of a list (part: NULL for the band).
- * kd_frame_forget_open empties the list of open rays; call it before rays are traced. kd_frame_settle then traces the
- * rays on the list again (settle.c): it submits what is recorded, waits, and records the writes to the map. Rays that
- * stay open are counted in job->undecided. */
+/* Rays that the kernels leave undecided because single precision does not determine their fate or their number of
+ * crossings, in a band of the grid or a part of a list (part: NULL for the band). kd_frame_forget_open empties the
+ * list of these rays; call it before rays are traced. kd_frame_settle then traces the rays on the list again in
+ * double (settle.c): it submits what is recorded, waits, and records the writes to the map. Rays that stay
+ * undecided are counted in job->undecided. */
 enum kd_status kd_frame_forget_open(struct kd_frame_job *job, const struct kd_frame_part *part);
 enum kd_status kd_frame_settle(struct kd_frame_job *job, const struct kd_frame_part *part, uint32_t band);
 

@@ -118,7 +118,7 @@ done:
     return status;
 }
 
-/* Traces a part by the kernel, and settles the rays that the kernel leaves open. */
+/* Traces a part by the kernel, and settles the rays that the kernel leaves undecided. */
 static enum kd_status trace_and_settle(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
     struct kd_vk_dispatch d = kd_frame_trace(j, NULL, part->lens, part->list->camera);

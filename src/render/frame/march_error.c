@@ -7,7 +7,7 @@
 
 static uint32_t pixels_of(const struct kd_march_sample *s) { return s->columns * s->rows; }
 
-/* Number of the lattice's rows above a row of the picture. */
+/* Number of rows of the lattice that lie above a row of the picture. */
 static uint32_t above(const struct kd_march_sample *s, uint32_t row)
 {
     const uint32_t n = row > s->first[1] ? (row - s->first[1] + s->every[1] - 1) / s->every[1] : 0;

@@ -7,8 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { FIRST = 48, CLOSE = 128, MOST = 60 }; /* pixels along a side, at first and later; largest number of pictures */
-#define NEAR 1e-3 /* relative to the flux: the fluxes of pictures of 48 and of 128 pixels differ by less than this */
+/* FIRST, CLOSE: pixels along a side, at first and later; MOST: largest number of pictures */
+enum { FIRST = 48, CLOSE = 128, MOST = 60 };
+#define NEAR 1e-3 /* the fluxes of pictures of 48 and of 128 pixels differ by less than this, relative to the flux */
 #define HELD 5e-5 /* remaining relative error; a flux is a sum of floats, accurate to 1e-6 */
 /* First guess of d ln(flux)/d ln(scale). Light is proportional to density times field, and the field grows at least as
  * the square root of the density, so that the slope is at least 1.5. */
@@ -20,7 +21,7 @@ enum { FIRST = 48, CLOSE = 128, MOST = 60 }; /* pixels along a side, at first an
 struct search {
     struct kd_renderer *r;
     struct kd_scene scene; /* the scene to be rendered; each picture sets its density and size */
-    double target, most;   /* Jy; ln of the largest scale */
+    double target, most;   /* target: the requested flux, Jy; most: ln of the largest scale */
     double slope;          /* d ln flux / d ln scale, from the last pictures */
     kd_progress_fn progress;
     void *user;

@@ -5,11 +5,11 @@
 
 #include "render/frame/frame.h"
 
-/* Multiplies the density of a scene that requests a flux; *scale is the factor, or 1. The factor is the same, bit for
- * bit, for any size in pixels, colours and time. It takes about ten pictures of 48 pixels and two or three of 128, in
- * the renderer's own buffers; progress is called between these pictures. KD_EINVAL naming the field if there is no
- * light, or if no density is bright enough. With plan->light.reuse_normalisation a density found earlier for the same
- * matter is reused, whatever its viewpoint. */
+/* Multiplies the density of a scene that requests a flux; *scale is the factor, or 1. The factor does not depend on
+ * size in pixels, colours and time, not even in its last bit. It takes about ten pictures of 48 pixels and two or
+ * three of 128, in the renderer's own buffers; progress is called between these pictures. KD_EINVAL naming the
+ * field if there is no light, or if no density is bright enough. With plan->light.reuse_normalisation a density
+ * found earlier for the same matter is reused, whatever its viewpoint. */
 enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene *scene, const struct kd_plan *plan,
                                   kd_progress_fn progress, void *user, double *scale, struct kd_error *error);
 /* Requests, for kd_kernels_note, the kernels of the pictures that kd_frame_normalise will render. */

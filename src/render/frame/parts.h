@@ -29,7 +29,7 @@ enum kd_status kd_frame_render_part(const struct kd_parted *parted, const struct
                                     struct kd_frame *out, struct kd_error *error);
 
 /* Merges the report of another part (times, accuracy, whether its lens map was cached) into that of a part: counts
- * are added, and the larger error is kept. */
+ * are added, and of two errors the larger is kept. */
 void kd_frame_probe_both(struct kd_frame *to, const struct kd_frame *from);
 
 enum kd_status kd_frame_pair(const struct kd_parted *parted, struct kd_frame *out, struct kd_error *error);

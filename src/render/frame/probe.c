@@ -243,7 +243,7 @@ done:
     return status;
 }
 
-/* Index of the pixel in the list, or the list's end. */
+/* Index of the pixel in the list; the list's length if the pixel is not in it. */
 static uint64_t listed_at(const struct kd_frame_part *part, const struct kd_probed_pixel *told)
 {
     uint64_t i = 0;

@@ -25,11 +25,11 @@ struct kd_probed_glow {
 struct kd_probed_place {
     uint32_t order;                 /* image order of the crossing */
     float w, phi, slope, footprint; /* from the lens map; 0 if the map does not hold the quantity */
-    /* The next three are of gas at the place, whether there is any gas or not. g: redshift factor; temperature: K;
-     * angle: between light and normal in the frame of the gas, radians */
+    /* Three properties that gas at the place has or would have. g: redshift factor; temperature: in K; angle:
+     * between light and normal in the frame of the gas, in radians */
     float g, temperature, angle;
     float through;  /* transmission of everything in front */
-    bool polarized; /* whether the light is polarised; then the next members are Stokes Q and U over I */
+    bool polarized; /* whether the light is polarised; then the next members are Q/I and U/I */
     float stokes[2];
     struct kd_probed_glow glows[KD_PLAN_EMITTERS];
     size_t n_glows;
@@ -57,9 +57,9 @@ struct kd_probed_volume {
 /* An opaque surface. */
 struct kd_probed_met {
     bool met;
-    uint32_t emitter, which; /* index in kd_emitters; index in the emitter's list */
+    uint32_t emitter, which; /* emitter: index in kd_emitters; which: index in the emitter's list */
     uint32_t order;          /* number of crossings of the plane before the surface */
-    /* 1/r, cos(theta), azimuth (source minus observer), redshift factor, cosine of the emission angle */
+    /* w: 1/r; u: cos(theta); phi: azimuth (source minus observer); g: redshift factor; cosine: of the emission angle */
     float w, u, phi, g, cosine;
     float light[3], through; /* light: without absorption in front; through: transmission of everything in front */
 };
@@ -94,8 +94,8 @@ struct kd_probed_pixel {
     uint32_t rays;
     struct kd_rays_steps *steps; /* malloc'd: engine steps of the middle ray; NULL: not requested, or not available */
     char no_steps[200];          /* the reason why `steps` is NULL, a sentence */
-    bool whole;                  /* complete: renders of this job that follow are not part of this picture */
-    float radiance[3];           /* light of the pixel, before bloom, beam and tone curve */
+    bool whole;        /* the description is complete: later renders of this job are not part of this picture */
+    float radiance[3]; /* light of the pixel, before bloom, beam and tone curve */
 };
 void kd_probed_destroy(struct kd_probed_pixel *told);
 

@@ -13,7 +13,8 @@
 enum { AT_CURVE, ELSEWHERE, PLACES };
 enum { OF_EACH = KD_PLAN_SAMPLED_OF_EACH, KINDS = KD_REFINED_KINDS };
 
-/* Sampled pixels at the critical curve or elsewhere, row by row, and the number of pixels that each represents. */
+/* Sampled pixels, either at the critical curve or elsewhere, row by row, and the number of pixels that each
+ * represents. */
 struct sample {
     struct kd_pixel pixels[KINDS * OF_EACH];
     double weights[KINDS * OF_EACH];
@@ -73,8 +74,8 @@ static int by_size(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Chooses from n things, in order: places of a lattice with the golden ratio as its step, which coincides with no
- * regular grid. */
+/* Chooses some of n pixels, in order. The chosen indices are those of a lattice with the golden ratio as its step,
+ * which coincides with no regular grid. */
 static size_t chosen(uint64_t n, uint64_t at[OF_EACH])
 {
     const size_t k = n < OF_EACH ? (size_t)n : OF_EACH;

@@ -1,6 +1,6 @@
-/* Settles rays that the kernels leave open because single precision cannot determine their end or number of
- * crossings. There are few; they are traced again in closed form, in double on the host, and written into the lens
- * map before anything reads it. */
+/* Settles rays that the kernels leave undecided, because single precision cannot determine their fate or their
+ * number of crossings. There are few such rays. They are traced again in closed form, in double on the host, and
+ * written into the lens map before anything reads it. */
 #include "render/frame/lens.h"
 
 #include "render/lens/listed.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rays left open in a band of the grid, or in a part of a list. */
+/* The undecided rays in a band of the grid, or in a part of a list. */
 struct open_rays {
     struct kd_vk_buffer *lens;
     uint32_t n, stride;
@@ -36,7 +36,7 @@ static uint32_t places_of(const struct kd_frame_job *j)
     return (uint32_t)(kd_vk_buffer_size(j->store->undecided) / 4 - 1);
 }
 
-/* Reads the list of open rays: first its counter and the first indices, which are enough for most maps. */
+/* Reads the list of undecided rays: first its counter and the first indices, which are enough for most maps. */
 static enum kd_status read_list(struct kd_frame_job *j, uint32_t places)
 {
     enum kd_status status;
@@ -48,8 +48,8 @@ done:
     return status;
 }
 
-/* Traces the open rays, and uploads the results to their places. words: the buffer, which begins with the indices and
- * continues with the planes. */
+/* Traces the undecided rays, and uploads the results to their places. words: the buffer, which begins with the
+ * indices and continues with the planes. */
 static enum kd_status follow(struct kd_frame_job *j, const struct open_rays *open, const char *pass,
                              struct kd_vk_buffer *host, struct kd_vk_buffer *device)
 {
@@ -101,7 +101,7 @@ static void label(const struct kd_frame_job *j, struct open_rays *open, const st
     }
 }
 
-/* Settles the open rays. found: their number; rays beyond the list's capacity are not listed. */
+/* Settles the undecided rays. found: their number; rays beyond the list's capacity are not in the list. */
 static enum kd_status settle(struct kd_frame_job *j, const struct kd_frame_part *part, uint32_t band, uint32_t found)
 {
     const struct kd_plan *p = j->plan;

@@ -1,5 +1,5 @@
-/* The stars pass: finds points of light through a band's lens map, and spreads them over its pixels before these are
- * lit. */
+/* The stars pass: finds the images of stars through a band's lens map, and spreads their light over the band's
+ * pixels before the transfer pass. */
 #include "render/frame/job.h"
 
 #include "base/cores.h"
@@ -276,7 +276,7 @@ static enum kd_status grid_of(struct kd_frame_job *j, const struct kd_rim_grid *
 static enum kd_status rim_of(struct kd_frame_job *j, uint32_t to)
 {
     const struct kd_rim_grids *grids = &j->lens->rim_grids;
-    uint32_t rays = 0; /* recorded but not submitted */
+    uint32_t rays = 0; /* number of rays whose commands are recorded but not submitted */
     enum kd_status status = KD_OK;
     for (uint32_t i = 0; has_rim(j) && i < grids->n; i++) {
         KD_TRY(grid_of(j, &grids->of[i], to));

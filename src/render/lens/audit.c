@@ -13,7 +13,7 @@
 enum { ROWS = 16, COLUMNS = KD_AUDIT_RAYS / ROWS };
 
 struct sample {
-    uint32_t rows, columns, width, height; /* rows and columns of the sample; width and height of the grid of rays */
+    uint32_t rows, columns, width, height; /* rows, columns: of the sample; width, height: of the grid of rays */
     uint32_t planes;                       /* planes of the map that are compared: radii, and the fate */
     struct kd_vk_buffer *host;             /* the sampled rows on the host: all planes of the first row, then of the
                                             * next */

@@ -16,15 +16,16 @@ struct kd_lens_rows {
 };
 
 /* Writes plan->lens.planes planes as lens_map.comp does, with three differences: -1 stands for a crossing that the
- * engine did not complete, delays come before the slopes, and for a ring alpha comes before the sky. *undecided grows
- * by the number of rays given up. Submits the upload and waits for it. */
+ * engine did not complete; the planes of delays precede those of slopes; and for the ring projection a plane of
+ * alpha precedes those of the sky. *undecided grows by the number of rays given up. Submits the upload and waits
+ * for it. */
 enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               const struct kd_lens_rows *rows, uint64_t *undecided, struct kd_error *error);
 
 struct kd_camera_label;
-/* Fills plan->lens.planes planes of n numbers each, except footprints, by tracing rays in double on the host: in closed
- * form, or by steps for an observer inside the horizon. *undecided grows by the number of rays that are on the
- * critical curve to the last digit. */
+/* Fills plan->lens.planes planes of n numbers each, except footprints, by tracing rays in double on the host: in
+ * closed form, or by steps for an observer inside the horizon. *undecided grows by the number of rays that are on
+ * the critical curve to the last digit, so that even double precision does not decide their fate. */
 enum kd_status kd_lens_again(const struct kd_scene *scene, const struct kd_plan *plan,
                              const struct kd_camera_label *labels, size_t n, float *planes, uint64_t *undecided,
                              struct kd_error *error);

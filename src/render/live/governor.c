@@ -11,15 +11,16 @@
 /* OVER, FAR_OVER, CLIMB_BELOW: fractions of the budget. CLIMB_BELOW is far enough below OVER that noise does not
  * cause a move down and up again. */
 static const double OVER = 1.1, FAR_OVER = 1.5, CLIMB_BELOW = 0.8;
-static const double MORE =
-    1.1; /* factor by which a target must change to count as another target: shares of a device fluctuate a little */
-static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* least budget, as a fraction: of the target; of the fixed
-                                                           * part */
+static const double MORE = 1.1; /* factor by which a target must change to count as another target, because shares of a
+                                   device fluctuate a little */
+static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* least budget: LEAST_ROOM as a fraction of the target,
+                                                             LEAST_SHARE as a fraction of the fixed part */
 static const double COOLDOWN_MS = 1000;                   /* least time on a rung before a climb */
 /* time before climbing again to a rung that was too slow; doubled at each failure */
 static const double RETRY_MS = 3000;
-static const double SETTLE_MS = 50;                    /* reaction time: from a frame to the user's next change */
-static const double HOLD_MS = 400, HOLD_MAX_MS = 2000; /* longest pause within a drag; between drags */
+static const double SETTLE_MS = 50; /* reaction time: from a frame to the user's next change */
+/* HOLD_MS: longest pause within a drag; HOLD_MAX_MS: its upper limit */
+static const double HOLD_MS = 400, HOLD_MAX_MS = 2000;
 /* time for which no lens map counts as cached; doubled each time */
 static const double BLIND_MS = 2000;
 /* fraction of the requested width, whatever kd_governor_least says */
@@ -30,7 +31,7 @@ enum {
     MOVING_AUDIT = 4, /* frames that will be refined audit one of this many rays */
     /* image.critical_factor for a picture that is replaced before the eye can examine it: 4 rays instead of 16 */
     DRAGGED_CRITICAL = 2,
-    FEW = 4,    /* this many slow frames in a row are load, not a spike */
+    FEW = 4,    /* this many slow frames in a row show load, not a spike */
     ENOUGH = 8, /* among this many frames two spikes are outside the middle half */
     MISSES = 3, /* one lens map may be missing when the rung changes */
 };
@@ -200,7 +201,7 @@ static bool may_climb(const struct kd_governor *g, const struct kd_pace *pace, c
            traceable(g, pace, &rungs[to], CLIMB_BELOW * g->share * g->params.stall_ms);
 }
 
-/* A rung that is known to be in time with the present target; the present rung if there is none. */
+/* Returns a rung on which frames are known to be in time with the present target; the present rung if there is none. */
 static uint32_t known_good(const struct kd_governor *g, const struct kd_pace *pace)
 {
     bool enough = pace->held_target > 0 && MORE * target(g) >= pace->held_target;
@@ -210,7 +211,7 @@ static uint32_t known_good(const struct kd_governor *g, const struct kd_pace *pa
                : pace->rung;
 }
 
-/* The rung that may not be climbed to, because it was too slow with at least the present target. */
+/* The rung to which the pace may not climb, because it was too slow with at least the present target. */
 static uint32_t ceiling_of(const struct kd_governor *g, const struct kd_pace *pace, double now)
 {
     return now - pace->failed_at < pace->retry_ms && target(g) <= MORE * pace->failed_target ? pace->ceiling : 0;

@@ -12,11 +12,11 @@
  *         kd_quality_apply(&decision.quality, &asked, &scene); plan, render and encode `scene`; show it
  *         kd_governor_frame(&governor, now, &decision, &cost);
  *
- * One frame is in flight: ask for the next decision after the last was reported by kd_governor_frame, or was given up.
- * A frame that was cancelled or failed is not reported, and is offered again. Cancel a frame with decision.refining as
- * soon as the scene changes: it may take long, and nobody waits for it any more.
+ * One frame is in flight at a time: ask for the next decision after the last frame was reported by kd_governor_frame,
+ * or was given up. A frame that was cancelled or failed is not reported, and is offered again. Cancel a frame with
+ * decision.refining as soon as the scene changes: it may take long, and nobody waits for it any more.
  *
- * decision.quality is the quality to report as in force. While nothing is rendered, it is that of the newest frame
+ * decision.quality is the quality to report to viewers. While nothing is rendered, it is that of the newest frame
  * shown.
  *
  * The cost of a frame has a fixed part, a part for each ray, and a part for each pixel. Only the parts that depend on
@@ -61,10 +61,10 @@
  * take, and only reduce the rays a pixel. A change of the scene's motion alone does not change the picture: it is
  * rendered once more, as at rest.
  *
- * After rest_ms without a change: one frame for each step of the ladder upwards, without those that are less than
- * what is shown; then nothing until the next change. On a shared device a frame may itself wait for rest_ms, so the
- * rest is counted from when it was shown, and a client that waited longer for a frame has 50 ms for its next change.
- * A scene whose time advances with each frame does not rest. */
+ * After rest_ms without a change, one frame is rendered for each step of the ladder upwards, except steps below the
+ * quality that is shown. Then nothing is rendered until the next change. On a shared device a frame may itself wait for
+ * rest_ms, so the rest is counted from when it was shown, and a client that waited longer for a frame has 50 ms for its
+ * next change. A scene whose time advances with each frame does not rest. */
 #ifndef KD_RENDER_LIVE_GOVERNOR_H
 #define KD_RENDER_LIVE_GOVERNOR_H
 
@@ -86,9 +86,9 @@ struct kd_governor_params {
     .target_ms = 33, .rest_ms = 150, .stall_ms = 500, .sparse_ms = 60, .bounds = KD_LADDER_BOUNDS_DEFAULT,
 #define kd_governor_params(...) (&(struct kd_governor_params) { KD_GOVERNOR_DEFAULTS __VA_ARGS__ })
 
-/* Where a frame's time went. total_ms is compared with the target: the longest stage if stages overlap, otherwise the
- * sum of all stages. Time that is in none of the parts (waiting and submitting) may or may not shrink with the picture.
- * With all parts 0 this holds for the whole time. */
+/* The parts of a frame's time. total_ms is compared with the target: it is the longest stage if stages overlap,
+ * otherwise the sum of all stages. Time that is in none of the parts (waiting and submitting) may or may not shrink
+ * with the picture. If all parts are 0, this is the whole time. */
 struct kd_frame_cost {
     double fixed_ms;  /* independent of the picture's size: particles, audit */
     double rays_ms;   /* passes over rays: trace, transfer */
@@ -113,19 +113,21 @@ enum { KD_PACE_FRAMES = 32 };
 
 /* Measurements and rung of one kind of frames: those that trace a lens map, or those that reuse one. */
 struct kd_pace {
-    uint32_t rung, ceiling; /* indices of rungs: 0 is the requested quality; never climb above `ceiling` */
-    uint32_t count;         /* frames since the last change of rung */
+    /* indices of rungs, where 0 is the requested quality; the pace never climbs above `ceiling` */
+    uint32_t rung, ceiling;
+    uint32_t count; /* frames since the last change of rung */
     struct kd_frame_cost costs[KD_PACE_FRAMES];
     /* changed_at: time of the last change of rung; -INFINITY until the first change for a kind of scene */
     double changed_at, failed_at, retry_ms;
-    double widest, failed_target; /* largest target since the last change; target when failed_at was set */
-    bool climbed;                 /* the last change was upwards */
-    uint32_t held;                /* a rung that was left because other sessions began */
-    double held_target;           /* the target at which frames of that rung were in time; 0: there is no such rung */
-    struct kd_rung other;         /* the rung before; no rays: unknown, or already used */
-    double other_ms;              /* time of the rays of frames on that rung */
-    double stays;                 /* estimated fraction of the rays' time that does not depend on size */
-    bool tried;                   /* the fraction `stays` is measured; no trial of another rung is needed */
+    /* widest: largest target since the last change; failed_target: target when failed_at was set */
+    double widest, failed_target;
+    bool climbed;         /* the last change was upwards */
+    uint32_t held;        /* a rung that was left because other sessions began */
+    double held_target;   /* the target at which frames of that rung were in time; 0: there is no such rung */
+    struct kd_rung other; /* the rung before; no rays: unknown, or already used */
+    double other_ms;      /* time of the rays of frames on that rung */
+    double stays;         /* estimated fraction of the rays' time that does not depend on size */
+    bool tried;           /* the fraction `stays` is measured, so no trial of another rung is needed */
 };
 
 /* All members are private. */
@@ -136,21 +138,23 @@ struct kd_governor {
     struct kd_work work; /* what frames cost, besides their size, when measurements began */
     struct kd_ladder ladder;
     uint32_t ladders, revision;
-    struct kd_pace paces[2]; /* for frames that reuse their lens map; for frames that trace it */
-    /* time of the last change; of the last change of the lens; how long the latter counts as recent */
+    struct kd_pace paces[2]; /* [0]: for frames that reuse their lens map; [1]: for frames that trace it */
+    /* changed_at: time of the last change; lens_at: of the last change of the lens; hold_ms: how long a change of
+     * the lens counts as recent */
     double changed_at, lens_at, hold_ms;
-    struct kd_frame_cost traced;  /* latest average of frames that trace */
-    struct kd_rung traced_on;     /* the rung of these frames; no rays: none yet */
-    double blind_until, blind_ms; /* blind_until: until this time lens maps are taken as not cached, whatever changes */
-    uint32_t missed;              /* successive frames that traced although the lens was unchanged */
-    bool rings;                   /* only brightness changes, nothing moves */
-    double least, patience_ms;    /* arguments of kd_governor_least */
-    bool gave_way, slow;          /* frames may be narrower than `least`; index of the pace that was too slow and caused
-                                   * this */
-    double wide_ms;               /* varying time of frames on that pace's rung; 0: unknown */
-    struct kd_rung wide;          /* the rung of that pace */
-    /* fraction of the time of narrow frames that does not depend on size, measured on a rung with this many rays; 0:
-     * unknown */
+    struct kd_frame_cost traced; /* latest average of frames that trace */
+    struct kd_rung traced_on;    /* the rung of these frames; no rays: none yet */
+    /* blind_until: until this time lens maps are assumed not to be cached, whatever changes */
+    double blind_until, blind_ms;
+    uint32_t missed;           /* successive frames that traced although the lens was unchanged */
+    bool rings;                /* only brightness changes, nothing moves */
+    double least, patience_ms; /* arguments of kd_governor_least */
+    bool gave_way, slow; /* gave_way: frames may be narrower than `least`; slow: index of the pace that was too slow and
+                            caused this */
+    double wide_ms;      /* varying time of frames on that pace's rung; 0: unknown */
+    struct kd_rung wide; /* the rung of that pace */
+    /* stays: fraction of the time of narrow frames that does not depend on size; stays_of: number of rays of the
+     * rung on which it was measured; 0: unknown */
     double stays, stays_of;
     struct kd_quality shown;
     uint32_t shown_revision; /* 0: none */
@@ -182,8 +186,8 @@ void kd_governor_changed(struct kd_governor *governor, double now, const struct 
 
 /* Sets the expected cost of a frame at the requested quality, for example from its plan. The cost chooses the first
  * rung; without it frames start on the top rung or stay on the one in force. It is ignored once frames of this kind
- * were measured, so it may be called after each change. A frame that traced while few of its kind were measured, as a
- * step of refinement does, has the same effect with better data. */
+ * were measured, so it may be called after each change. A frame that traced while few of its kind were measured,
+ * such as a step of refinement, has the same effect with better data. */
 void kd_governor_expect(struct kd_governor *governor, const struct kd_frame_cost *cost);
 
 /* Decides what to do now. Call after kd_governor_changed. */

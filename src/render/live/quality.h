@@ -28,7 +28,8 @@ void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *a
 
 struct kd_rung {
     struct kd_quality quality;
-    double rays, pixels; /* the work of a rung: rays, weighted by the cost of one ray; pixels */
+    /* the work of a rung. rays: their number, weighted by the cost of one ray; pixels: their number */
+    double rays, pixels;
 };
 
 /* Limits for the lowest rung. */
@@ -44,11 +45,11 @@ enum { KD_LADDER_RUNGS = 20, KD_LADDER_STEPS = 8 };
 struct kd_ladder {
     /* The ladder downwards from the requested quality. It reduces samples first, because a moving picture needs its
      * pixels more than smooth edges; then resolution; then orders (not for the projection "ring"); then the steps
-     * along a ray; and last, for volumes, the steps through them. Each rung is less work than the one before. */
+     * along a ray; and last, for volumes, the steps through them. Each rung takes less work than the one before. */
     struct kd_rung rungs[KD_LADDER_RUNGS];
     size_t n_rungs;
-    /* The ladder upwards for a scene at rest: full resolution with one ray a pixel, then more rays, all with at most
-     * the profile "balanced"; last, the requested quality. Each step is more work than the one before. */
+    /* The ladder upwards for a scene at rest: full resolution with one ray a pixel, then more rays, all with at
+     * most the profile "balanced"; last, the requested quality. Each step takes more work than the one before. */
     struct kd_rung steps[KD_LADDER_STEPS];
     size_t n_steps;
 };

@@ -57,7 +57,8 @@ done:
     return status;
 }
 
-/* The Stokes parameter of all light that a layer is; NULL: the layer is none. */
+/* The Stokes parameter that the layer of this name contains, for all light; NULL: the layer contains no Stokes
+ * parameter. */
 static const char *stokes_of(const char *name)
 {
     static const char *const known[][2] = { { "intensity", "I" },    { "specific_intensity", "I" },

@@ -8,7 +8,7 @@
 #include "base/buffer.h"
 #include "render/frame/frame.h"
 
-#define KD_QUALITY 90      /* of lossy formats, unless another is asked for */
+#define KD_QUALITY 90      /* quality of lossy formats if no other is requested */
 #define KD_QUALITY_MAX 100 /* the smallest is 1 */
 
 /* A frame and how it was made. */
@@ -28,7 +28,7 @@ enum kd_effort {
     KD_EFFORT_KEEP,  /* a file that is kept: smaller */
 };
 
-/* Bits: what a frame must carry for a format. */
+/* Bits for the parts that a frame must carry for a format. */
 enum {
     KD_CARRIES_PICTURE = 1 /* layer "rgb" */,
     KD_CARRIES_LIGHT = 2 /* frame->light */,
@@ -80,7 +80,7 @@ const struct kd_format *kd_format_live(void);                              /* th
 /* Whether the format can hold the scene's picture; errors of the format as kd_format_plan. */
 enum kd_status kd_format_holds(const struct kd_format *format, const struct kd_scene *scene, struct kd_error *error);
 
-/* Plans a frame that carries what the format needs. Settings that neither show in the file nor are recorded in it
+/* Plans a frame that carries what the format needs. Settings that neither affect the file nor are recorded in it
  * (auto exposure and layers) are removed from the scene. Errors as kd_plan_make and the format's `draws`, and
  * KD_EINVAL at /image/layers if there are more layers than the format holds. */
 enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *scene,

@@ -18,10 +18,10 @@ void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_p
 void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median,
                          const char *worst);
 
-/* The approximation of this index that only a rendered picture shows, such as rays that were given up. report: NULL:
- * all that there are. Returns false if there are fewer. */
+/* Gets, by index, an approximation that is known only after the picture is rendered, such as rays that were given
+ * up. report NULL: all such approximations that exist. Returns false if there are fewer. */
 bool kd_measured_approximation(const struct kd_accuracy_report *report, size_t index, struct kd_approximation *out);
-/* The same of all approximations of a picture: first those of its plan, then the measured ones. */
+/* Gets, by index, an approximation of a picture: first those of its plan, then those of kd_measured_approximation. */
 bool kd_picture_approximation(const struct kd_plan_report *plan, const struct kd_accuracy_report *report, size_t index,
                               struct kd_approximation *out);
 
@@ -42,7 +42,7 @@ struct kd_notes {
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error);
 void kd_notes_finish(struct kd_notes *notes);
 
-/* The notes of a picture as named texts, for formats that hold such; those that are empty are left out. The texts
+/* The notes of a picture as named texts, for formats that hold such texts. Empty texts are left out. The texts
  * belong to `notes` and `picture`. Returns how many there are. */
 enum { KD_NOTES = 11 };
 struct kd_note { const char *name, *text; /* "kerrd:scene"; "Software" and "Copyright", which other programs know */ };

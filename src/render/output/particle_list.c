@@ -17,7 +17,7 @@ static const char *const names[] = {
 #undef COLUMN
 };
 
-/* The guiding orbit of the last row. Particles are in order of radius, and many share an orbit. */
+/* Cache of the guiding orbit of the previous row, because particles are in order of radius and many share an orbit. */
 struct guide {
     uint32_t number; /* UINT32_MAX: none yet */
     struct kd_particle_orbit orbit;

@@ -17,12 +17,12 @@ struct kd_table_format {
 };
 
 struct kd_series {
-    const char *name;              /* "light-curve": value of a job's "output" */
-    const char *noun;              /* "light curve": for sentences */
-    const char *each;              /* "the rows of a light curve": the series' frames, for sentences */
-    const struct kd_format *frame; /* format of each frame; for a table it is the format of a row, which is not offered
-                                    * by itself */
-    size_t row_bytes;              /* size of a row; 0: the frames are files */
+    const char *name; /* "light-curve": value of a job's "output" */
+    const char *noun; /* "light curve": for sentences */
+    const char *each; /* "the rows of a light curve": the series' frames, for sentences */
+    /* format of each frame; for a table, the format of a row, which cannot be requested by itself */
+    const struct kd_format *frame;
+    size_t row_bytes;                     /* size of a row; 0: the frames are files */
     const struct kd_table_format *tables; /* formats of the table; the first is the default */
     size_t n_tables;
     /* formats for gathering files, the first is the default; ends with NULL */

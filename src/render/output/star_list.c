@@ -94,8 +94,9 @@ static void name_stars(struct list *list)
     }
 }
 
-/* Solid angle in the picture of the square of four rays, by the stencil that measured the solid angle of the sky: in
- * the ratio of both the projection cancels. NAN at infinity, where parallel rays have no solid angle. */
+/* Solid angle in the picture of the square between four rays. It uses the stencil that measured the solid angle of
+ * the sky, so that the projection cancels in the ratio of the two. NAN at infinity, where parallel rays have no
+ * solid angle. */
 static double pixel_angle(const struct kd_camera_exact *camera, const struct kd_star_stencil *by)
 {
     const double h = 1e-3, x0 = by->x, y0 = by->y;

@@ -9,8 +9,8 @@
 
 struct kd_wcs_axis {
     const char *type, *unit; /* "RA---SIN", "deg" */
-    /* reference pixel, counted from 1, from the left or from the lowest row; the coordinate there; its increment from
-     * pixel to pixel */
+    /* pixel: the reference pixel, counted from 1, from the left or from the lowest row; value: the coordinate
+     * there; step: its increment from pixel to pixel */
     double pixel, value, step;
 };
 

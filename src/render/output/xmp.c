@@ -45,7 +45,7 @@ enum kd_status kd_xmp_put(const struct kd_picture *picture, const struct kd_note
     }
     for (size_t i = 0; i < n_notes; i++) {
         if (strncmp(notes[i].name, PREFIX, sizeof PREFIX - 1))
-            continue; /* said above, by a property that other programs know */
+            continue; /* written above as a property that other programs know */
         KD_TRY(kd_buffer_printf(out, "<%s>", notes[i].name));
         KD_TRY(kd_markup_escape(notes[i].text, KD_MARKUP_CONTENT, out));
         KD_TRY(kd_buffer_printf(out, "</%s>\n", notes[i].name));

@@ -1,13 +1,13 @@
-/* XMP: metadata of a JPEG or WebP, and of a panorama in any picture. The packet has the notes of the picture, the scene
- * among them, in kerrd's own namespace, and for a 360-degree picture the properties of GPano, by which viewers of
- * photographs turn it into a view all round
- * (https://developers.google.com/streetview/spherical-metadata). Any thread. */
+/* XMP: metadata of a JPEG or WebP, and of a panorama in any picture. The packet has the notes of the picture,
+ * including the scene, in kerrd's own namespace. For a 360-degree picture it also has the properties of GPano, by
+ * which viewers recognise a panorama (https://developers.google.com/streetview/spherical-metadata). Any thread. */
 #ifndef KD_RENDER_OUTPUT_XMP_H
 #define KD_RENDER_OUTPUT_XMP_H
 
 #include "render/output/notes.h"
 
-/* Appends a packet. notes: 0: only GPano; then nothing is appended for other projections. KD_ENOMEM. */
+/* Appends a packet. n_notes 0: only the properties of GPano are written, and nothing for other projections.
+ * KD_ENOMEM. */
 enum kd_status kd_xmp_put(const struct kd_picture *picture, const struct kd_note *notes, size_t n_notes,
                           struct kd_buffer *out);
 

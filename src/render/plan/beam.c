@@ -4,7 +4,8 @@
 
 /* full width at half maximum of a Gaussian over its standard deviation, 2 sqrt(2 ln 2) */
 #define FWHM 2.3548200450309493
-#define LEAST 0.1   /* pixels: a narrower beam gives the next pixel less than exp(-50) of the weight of its own */
+/* pixels: a narrower beam gives a neighbouring pixel less than exp(-50) of the weight of the pixel itself */
+#define LEAST 0.1
 #define SPLINES 0.5 /* variance of both splines, in cells */
 
 static uint32_t cells(uint32_t pixels, uint32_t cell) { return cell > 1 ? (pixels + cell - 1) / cell + 2 : pixels; }

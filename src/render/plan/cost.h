@@ -20,7 +20,7 @@ struct kd_plan_cost {
     uint64_t making_bytes;
     struct kd_plan_pass passes[KD_PASS_COUNT];
     size_t n_passes;
-    double estimate_ms, trace_ns; /* estimated time of all passes; of tracing one ray */
+    double estimate_ms, trace_ns; /* estimate_ms: estimated time of all passes; trace_ns: of tracing one ray */
     uint64_t class;               /* cost class of the passes (cost_class.h) */
     /* additional time for compiling missing kernels, estimated by server/render/queue.h; 0: none are missing, or it
      * is not known */

@@ -25,8 +25,8 @@ struct kd_layer_kind {
     enum kd_layer_of { KD_OF_PICTURE, KD_OF_LIGHT, KD_OF_CROSSING, KD_OF_RAY } of;
     uint32_t needs; /* KD_LENS_... quantities of the lens map that it reads */
     enum kd_colour_map map;
-    struct kd_map_scale scale;  /* the scale of its colours; an end that is NAN is the least or largest value of the
-                                 * picture */
+    /* the scale of its colours; an end that is NAN is replaced by the picture's least or largest value */
+    struct kd_map_scale scale;
     const char *const *classes; /* for CATEGORICAL: names of the values 0, 1, ...; NULL: their numbers */
     uint32_t n_classes;         /* 0: given by the largest value */
 };
@@ -48,8 +48,9 @@ uint32_t kd_layers_needs(const struct kd_scene *scene);
 /* Whether jy_per_pixel is defined: only a volume at a radio frequency emits light, and all pixels cover the same
  * part of the sky. */
 bool kd_layers_have_flux(const struct kd_scene *scene);
-/* KD_EINVAL at a field for an impossible request: a layer of the disk without a disk, of coordinates that the
- * projection does not have, of an order that is not traced; or invalid ends of a scale. */
+/* Returns KD_EINVAL at a field for an impossible request: a layer of the disk in a scene without a disk, a layer of
+ * coordinates that the projection does not have, a layer of an order that is not traced, or invalid ends of a
+ * scale. */
 enum kd_status kd_layers_check(const struct kd_scene *scene, struct kd_error *error);
 
 /* "g" or "g_1". */

@@ -40,7 +40,7 @@ struct kd_plan_lens {
     char key[65];   /* hash of everything that the lens map depends on */
 };
 
-#define KD_AUDIT_RAYS 768 /* at most, on a grid of 16 x 48 */
+#define KD_AUDIT_RAYS 768 /* largest number of audited rays, on a grid of 16 x 48 */
 
 /* Number of buffers for the lens map of the pixels at the critical curve. kd_plan_critical_bytes: bytes of one. */
 static inline uint32_t kd_plan_critical_parts(const struct kd_plan_lens *lens)
@@ -89,9 +89,10 @@ static inline uint64_t kd_plan_rays(const struct kd_plan_lens *lens)
     return lens->rays + lens->critical * lens->critical_pixels;
 }
 
-/* If the map is interpolated, this many times the square root of the number of the grid's rays are traced: those along
- * edges of orders and fates, and in between the fewer, the denser the rays are. Measured on four presets, one of them
- * from 320 x 180 to 4K (docs/accuracy.md): 117 to 154. */
+/* If the map is interpolated, the number of traced rays is this many times the square root of the number of the
+ * grid's rays. The traced rays lie along edges of orders and fates, and between these edges at nodes, of which
+ * there are fewer per ray the denser the rays are. Measured on four presets, one of them from 320 x 180 to 4K
+ * (docs/accuracy.md): 117 to 154. */
 #define KD_PLAN_FOLLOWED 130
 static inline uint64_t kd_plan_followed(const struct kd_plan_lens *lens)
 {

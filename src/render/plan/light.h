@@ -18,8 +18,8 @@ struct kd_plan_light {
     bool points;                       /* some emitter consists of points of light */
     bool bright;                       /* only bright images of points are made, and none next to the critical curve */
     bool apart;                        /* the luminance of some emitter is kept beside the radiance */
-    /* numbers a pixel after the radiance: Stokes Q, U and V, if polarised light is measured or marched layers need
-     * them; Q and U of the separate luminance. 0: none */
+    /* numbers stored for a pixel after its radiance: Stokes Q, U and V, if polarised light is measured or marched
+     * layers need them; and Q and U of the separate luminance. 0: none */
     uint32_t stokes_words;
     struct kd_march march; /* the march for volumes and bodies; all 0: the scene has none, and light follows from the
                             * lens map alone */
@@ -30,11 +30,12 @@ struct kd_plan_light {
     bool reuse_normalisation;
     struct {
         uint32_t width, height;
-    } shape; /* shape of the picture for which that density is found; 0: this picture's own shape, which is
-              * subject to rounding to pixels */
+    } shape; /* shape of the picture for which that density is found. 0: this picture's own shape, whose aspect ratio is
+                rounded to whole pixels */
 };
 
-/* Whether something emits light wherever a ray ends. */
+/* Whether every ray that escapes meets light, such as that of a grid or of the Milky Way (KD_TRAIT_SPREAD), and not
+ * only points of light such as stars. */
 bool kd_plan_is_spread(const struct kd_plan_light *light);
 
 /* The pass that computes the light of rays, and its time for one ray, ns. */
@@ -52,7 +53,7 @@ static inline double kd_plan_light_ns(const struct kd_plan_light *light, const s
     return (light->march.steps ? light->march.weight : 1) * c->ns[kd_plan_light_figure(light)];
 }
 
-/* Bytes a pixel of linear light, including everything stored after the radiance. */
+/* Bytes of a pixel of linear light, including everything stored after the radiance. */
 #define KD_PLAN_STOKES 3
 static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan_light *light)
 {

@@ -10,7 +10,7 @@
 enum { LEAST = 2, BALANCED = 4, MOST = 64, SKETCH = 2 };
 
 #define UNSEEN 0.05 /* octaves of less than this amplitude contribute less than 1e-4 to the light */
-/* as UNSEEN, for a sketch: the octaves left out include some that a ray's footprint mostly averages out */
+/* like UNSEEN, for a sketch: it also leaves out octaves that a ray's footprint mostly averages out */
 #define SKETCH_UNSEEN 0.15
 
 static bool is_stirred(const struct kd_scene *scene)
@@ -26,8 +26,8 @@ static double error_of(const struct kd_scene *scene)
 }
 
 #define PIXEL \
-    0.36 /* distance of rays, M over disk.gas.scale: below it, more and more of the fine noise is resolved as the rays \
-            get closer */
+    0.36 /* distance of rays in M, divided by disk.gas.scale, below which more of the fine noise is resolved as \
+          * the rays get closer */
 #define CLOSER 0.08 /* change of the exponent in fine_of each time the distance halves */
 #define CLOSEST 3   /* number of halvings after which all octaves are resolved */
 

@@ -4,10 +4,10 @@
 
 #include "render/accuracy/engine.h"
 
-/* The relative error of light that each profile aims at, met by nine of ten rays: draft, interactive, balanced, high,
- * reference. accuracy.tolerance is such an error. Light has 32 bits, whose rounding leaves an error of 5e-6 where light
- * is smooth. Turbulence has targets of its own, because its error falls as the third power of the cost instead of the
- * sixth; rounding leaves an error of 5e-5 of its noise. */
+/* The target of each profile for the relative error of light, met by nine of ten rays: draft, interactive,
+ * balanced, high, reference. accuracy.tolerance is such a target. Light has 32 bits, whose rounding leaves an error
+ * of 5e-6 where light is smooth. Turbulence has targets of its own, because its error falls as the third power of
+ * the cost instead of the sixth; rounding leaves an error of 5e-5 of its noise. */
 #define KD_MARCH_ERRORS { 2e-3, 1e-3, 1e-4, 1e-5, 5e-6 }
 #define KD_MARCH_STIRRED_ERRORS { 2e-2, 1e-2, 1e-3, 1e-4, 5e-5 }
 
@@ -20,7 +20,8 @@ struct kd_march {
     /* quarters of a stretch per grain, 2 to 64. Where light is smooth, the error falls at least as the fourth power of
      * this */
     uint32_t fine;
-    /* a ray ends where less than this fraction of the light behind is transmitted: a tenth of the error aimed at */
+    /* a ray ends where less than this fraction of the light from behind is transmitted: a tenth of the target for
+     * the error */
     double opaque;
     /* octaves of noise are left out whose amplitude, reduced by the local gas and the ray's footprint, is less than
      * this fraction of the first octave's */
@@ -29,7 +30,7 @@ struct kd_march {
     struct kd_march_sample
         sample; /* pixels whose rays are followed twice more, to measure the error (frame/march_error.c) */
 };
-/* the error that a sketch aims at, besides the error due to the octaves that it leaves out */
+/* the target of a sketch for the error, without the error due to the octaves that it leaves out */
 #define KD_MARCH_SKETCHED 0.05
 #define KD_MARCH_HOLDS 5e-5  /* an error that is met even in turbulence; smaller tolerances are refused */
 #define KD_MARCH_SAMPLED 256 /* pixels of the sample, at most */

@@ -48,7 +48,7 @@ static enum kd_status make_pair(const struct kd_scene *scene, const struct kd_ne
     KD_TRY(kd_plan_make_for(&right, needs, capacity, &next, error));
     add(&plan, &next);
     plan.cost.host_bytes =
-        2 * (plan.cost.host_bytes + next.cost.host_bytes); /* memory for each picture, and for both together */
+        2 * (plan.cost.host_bytes + next.cost.host_bytes); /* for each picture alone, and for both side by side */
     plan.picture.eyes = 2;
     kd_plan_say(&plan, scene);
     KD_TRY(name_lens(&plan, scene, error));
@@ -151,8 +151,8 @@ static enum kd_status make_strips(const struct kd_scene *scene, const struct kd_
     return KD_ETOOBIG;
 }
 
-/* Whether some number of strips may fit. Judged without the list of pixels at the critical curve, and by the first
- * strip, than which no strip has more rows. */
+/* Whether some number of strips may fit. The check leaves out the list of pixels at the critical curve. It uses the
+ * first strip, because no strip has more rows. */
 static enum kd_status check_strips(const struct kd_scene *scene, const struct kd_needs *needs,
                                    const struct kd_capacity *capacity, struct kd_error *error)
 {

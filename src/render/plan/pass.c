@@ -55,7 +55,7 @@ static struct kd_pass_cost transfer(const struct kd_plan *plan, const struct kd_
                                    kd_plan_light_figure(&plan->light) };
 }
 
-/* One figure serves all volumes. It is measured only on volumes of the usual weight. */
+/* All volumes share one figure, which is measured only on volumes of the usual weight. */
 static struct kd_pass_cost march(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const bool usual = fabs(plan->light.march.weight - 1) < 1e-9;

@@ -22,18 +22,20 @@ struct kd_plan_picture {
     /* 2: a pair, with a picture for each eye, side by side. The plan's passes, times and cost.host_bytes are then for
      * both pictures, cost.device_bytes for the larger one, all else for the left one. 0: a single picture */
     uint32_t eyes;
-    uint32_t band_rows, bands; /* rows of pixels for which one set of buffers has room; number of such sets */
-    bool no_image;             /* no pixels are made of the radiance */
-    bool numbers;              /* the frame is for a file of numbers: no processing after the light is part of it */
-    bool rgb;                  /* image.layers contains the picture */
-    bool radiance;             /* linear light is copied to the host, too */
+    /* band_rows: rows of pixels for which one set of buffers has room; bands: number of such sets */
+    uint32_t band_rows, bands;
+    bool no_image; /* no pixels are made of the radiance */
+    bool numbers;  /* the frame is for a file of numbers: no processing after the light is part of it */
+    bool rgb;      /* image.layers contains the picture */
+    bool radiance; /* linear light is copied to the host, too */
     struct kd_plan_layer layers[KD_WORDS_MOST]; /* layers besides the picture */
     size_t n_layers;
     struct kd_beam_grid beam; /* the telescope's beam with which light is convolved */
     struct kd_bloom bloom;    /* glare of the lens */
-    /* The remaining settings come from the caller and not from the scene. The next two are for showing successive
-     * frames. If style.exposure is "auto", the exposure moves by the fraction exposure_share from exposure_from towards
-     * the picture's own. exposure_share is 0, as set by kd_plan_make: the picture's own exposure. */
+    /* The remaining settings come from the caller and not from the scene. These two are for showing successive
+     * frames. If style.exposure is "auto", the exposure moves by the fraction exposure_share from exposure_from
+     * towards the picture's own exposure. With exposure_share 0, which kd_plan_make sets, the picture has its own
+     * exposure. */
     double exposure_from, exposure_share;
     struct {
         unsigned samples;
@@ -71,7 +73,7 @@ static inline bool kd_plan_is_map(const struct kd_plan_picture *picture)
     return picture->n_layers == 1 && !picture->rgb;
 }
 
-/* Bytes of fixed-point numbers for a band of pixels, onto which points of light are spread (frame/stars.c). */
+/* Bytes of the fixed-point numbers of a band of pixels, in which the light of stars is summed (frame/stars.c). */
 static inline uint64_t kd_plan_star_bytes(const struct kd_plan_picture *picture)
 {
     return 24ull * picture->width * picture->band_rows;

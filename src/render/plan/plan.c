@@ -382,10 +382,10 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.light.bright = plan.light.points && needs->bright;
     plan.lens.quantities = needs->quantities;
     plan.lens.quantities |= plan.lens.quantities & KD_LENS_SHAPE ? KD_LENS_FOOTPRINT : 0;
-    /* footprints are differences of azimuths, too */
+    /* footprints need azimuths, because they are differences of radii and azimuths */
     plan.lens.quantities |= plan.lens.quantities & KD_LENS_FOOTPRINT ? KD_LENS_PHI : 0;
     plan.lens.quantities |= plan.lens.quantities & KD_LENS_SKY_FOOTPRINT ? KD_LENS_SKY : 0;
-    /* Without a disk a ray still passes from crossing to crossing in long strides before it escapes. */
+    /* Even without a disk a ray is followed from crossing to crossing in long strides before it escapes. */
     plan.lens.orders = needs->quantities ? (uint32_t)scene->accuracy.orders : 0;
     plan.lens.ends = kd_emit_at_ends(scene) && kd_plan_holds(&plan.lens, KD_LENS_SKY);
     plan.picture.n_layers = kd_layers_of(scene, plan.picture.layers, &plan.picture.rgb);
@@ -444,7 +444,7 @@ enum kd_status kd_plan_one(const struct kd_scene *scene, const struct kd_needs *
         KD_TRY(kd_plan_bands(&plan, scene, capacity, error));
     plan.lens.audit = plan.lens.cacheable && plan.lens.orders && !within_horizon(scene)
                           ? KD_AUDIT_RAYS
-                          : 0; /* used outside by the closed form's test */
+                          : 0; /* outside the horizon used by the closed form's test */
     passes(&plan, scene, capacity);
     kd_plan_say(&plan, scene);
     if (kd_plan_lens_key(&plan, scene))

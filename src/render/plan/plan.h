@@ -40,8 +40,9 @@ enum kd_status kd_plan_check(const struct kd_scene *scene, const struct kd_capac
  * with different keys may still share one, if two ways to request an accuracy have the same result. KD_ENOMEM. */
 enum kd_status kd_plan_lens_group(const struct kd_scene *scene, uint64_t *out);
 
-/* The most rays that one dispatch may leave open for the host. It is limited to KD_GIVEN_MOST, so that their list is no
- * larger than a band of the lens map. */
+/* The largest number of rays that one dispatch may leave undecided, for the host to trace again in double
+ * (frame/settle.c). It is at most KD_GIVEN_MOST, so that the list of these rays is no larger than a band of the
+ * lens map. */
 uint64_t kd_plan_open_most(const struct kd_plan *plan);
 
 /* Time of a ray of the grid's map, which may be traced or interpolated, ns. */
@@ -60,9 +61,8 @@ static inline uint32_t kd_plan_lost_most(const struct kd_plan *plan)
 }
 static inline uint64_t kd_plan_lost_bytes(uint64_t most) { return most ? 4 * (KD_LOST_RAYS - 1 + most) : 4; }
 
-/* Sizes of the buffers for spreading points of light, besides kd_plan_star_bytes: pairs of a ray and a point, and
- * rays, for one slice of KD_PLAN_STAR_RAYS rays or one row (frame/stars.c). A slice takes about 20 ms, and
- * its pairs fit. */
+/* Sizes of further buffers for the light of stars, besides kd_plan_star_bytes: pairs of a ray and a star, and rays,
+ * for one slice of KD_PLAN_STAR_RAYS rays or one row (frame/stars.c). A slice takes about 20 ms, and its pairs fit. */
 #define KD_PLAN_PAIRS (1u << 18)
 #define KD_PLAN_BRIGHT 8 /* searching only bright images is about this many times as fast as searching all */
 #define KD_PLAN_STAR_RAYS (1u << 17)
@@ -91,7 +91,7 @@ struct kd_needs {
     bool radiance;            /* make linear light a layer, if the picture is requested */
     bool followed;            /* trace every ray, even if the profile would interpolate */
     bool sketch;              /* march through volumes as coarsely as kd_march_sketch */
-    bool bright;              /* search points of light as kd_plan_light.bright says */
+    bool bright;              /* search stars as kd_plan_light.bright says */
     bool reuse_normalisation; /* for volume.normalise_to_jy, reuse the density found for the same matter from any
                                  viewpoint */
 };

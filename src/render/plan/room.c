@@ -10,7 +10,7 @@
 #include "render/view/layout.h"
 #include "render/view/rim_grid.h"
 
-/* Limits of the device: those that the capacity names, or else those that Vulkan 1.2 guarantees
+/* Limits of the device: those of the capacity if they are known, otherwise those that Vulkan 1.2 guarantees
  * (maxComputeWorkGroupCount, maxMemoryAllocationSize). */
 static uint64_t groups_x(const struct kd_capacity *c) { return c->max_groups_x ? c->max_groups_x : 65535; }
 static uint64_t groups_y(const struct kd_capacity *c) { return c->max_groups_y ? c->max_groups_y : 65535; }
@@ -29,9 +29,9 @@ uint64_t kd_plan_open_most(const struct kd_plan *plan)
     return least(band > part ? band : part, KD_GIVEN_MOST);
 }
 
-/* Rows of pixels that each pass can process in one dispatch. The trace pass has a row of groups for each row of rays.
- * The other passes take the pixels of a band in one line: light takes 64 an invocation, post takes 4. expose is far
- * below the limit, with a few hundred groups. */
+/* Rows of pixels that each pass can process in one dispatch. The trace pass has a row of groups for each row of
+ * rays. The other passes number the pixels of a band consecutively: the light pass takes 64 pixels for each
+ * invocation, the post pass 4. The expose pass has a few hundred groups, far below the limit. */
 static uint64_t rows_of_groups(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     uint64_t rows = groups_y(c) / plan->lens.side, in_line = groups_x(c) * KD_GROUP_SIZE;

@@ -7,12 +7,13 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Along the side of a block: the number of even places, and of cells of the last level. */
+/* Along the side of a block. EVEN: number of even places; LAST: number of cells of the last level. */
 enum { EVEN = KD_CELL_BLOCK / 2, LAST = KD_CELL_BLOCK / 8 };
 #define MOST_COLUMNS (1u << KD_PLACE_BITS)
 #define MOST_ROWS (1u << (32 - KD_PLACE_BITS))
 #define RAYS_AT_ONCE \
-    KD_GIVEN_MOST /* all may be open; one dispatch then has a quarter of the 65535 workgroups of any device */
+    KD_GIVEN_MOST /* all of these rays may be undecided; one dispatch then has a quarter of the 65535 workgroups of \
+                     any device */
 
 /* Bytes that every device can bind as one storage buffer (Vulkan 1.2, 42.1: maxStorageBufferRange). */
 #define BOUND_EVERYWHERE (UINT64_C(1) << 27)

@@ -69,8 +69,8 @@ enum kd_status kd_tile_check(const struct kd_scene *scene, const struct kd_needs
     return needs->radiance ? KD_OK : picture(scene, n == 1 && !shown, error);
 }
 
-/* Rows or columns from `from` up to but not including `to`, of `all`: widened by a margin, then up to a multiple of
- * `by`. */
+/* The rows or columns from `from` to `to` - 1, out of `all`. They are widened by a margin, and then up to a
+ * multiple of `by`. */
 struct range { uint32_t from, to; };
 static struct range widen(uint32_t from, uint32_t to, int32_t all, uint32_t margin, uint32_t by)
 {

@@ -27,10 +27,10 @@ struct kd_rays_answer {
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
     size_t undecided; /* this and the following members are set by kd_rays_answer_summarise */
-    /* With a tolerance: the number of rays that were traced again for it; the number that exceed it even so, including
-     * undecided rays. */
+    /* With a tolerance. followed_again: number of rays that were traced again to meet it; beyond: number of rays
+     * that exceed it nevertheless, including undecided rays. */
     size_t followed_again, beyond;
-    double worst_error, median_error; /* over the rays that have an error; NaN if none has */
+    double worst_error, median_error; /* over the rays that have an error; NaN if no ray has an error */
 };
 
 /* Allocates room for n rays; takes ownership of alpha_beta, also on failure. */

@@ -13,10 +13,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Sizes of slices, in rays. Between two slices other work may use the device. A slice has few rays at first, then as
- * many as take TARGET_MS. A ray's cost varies by a factor of a million: from the fastest engine to Tao's with the
- * largest number of steps, and from a GPU to one core. A slice is submitted in parts of at most CHUNK rays; the device
- * traces one part while the host unpacks the part before. */
+/* Sizes of slices, in rays. Between two slices other work may use the device. The first slice of a list has few
+ * rays, then as many as take TARGET_MS. A ray's cost varies by a factor of a million: from the fastest engine to
+ * Tao's with the largest number of steps, and from a GPU to one core. A slice is submitted in parts of at most
+ * CHUNK rays; the device traces one part while the host unpacks the part before. */
 #define LEAST 32u
 #define MOST (1u << 20)
 #define CHUNK 65536u
@@ -70,9 +70,9 @@ static double get(const struct work *w, const void *at, size_t i)
     return w->wide ? ((const double *)at)[i] : (double)((const float *)at)[i];
 }
 
-/* Radius from which a Cartesian ray from infinity starts. At more distant positions digits of b are lost, and phase in
- * Tao's method. A nearer start would be more accurate only because Mino time (start.c) would do the work: from 100 M
- * single precision has a sixth of the error that it has from here. */
+/* Radius from which a Cartesian ray from infinity starts. At more distant positions digits of b are lost, and phase
+ * in Tao's method. A nearer start would be more accurate (from 100 M single precision has a sixth of the error that
+ * it has from here), but only because Mino time (start.c) would then do the work of this engine. */
 #define FAR 1e3
 /* The radius at which a ray counts as escaped: there its momentum has reached its limit within M b/r^2. Further out the
  * direction in single precision does not become more accurate, and the copies of Tao's method diverge. */

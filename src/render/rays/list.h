@@ -9,7 +9,7 @@
 
 struct kd_rays_list {
     double *alpha_beta; /* malloc'd, 2 n numbers */
-    size_t n, capacity; /* number of rays; room for rays */
+    size_t n, capacity; /* n: number of rays; capacity: number of rays for which there is room */
 };
 
 enum kd_status kd_rays_list_add(struct kd_rays_list *list, double alpha, double beta, struct kd_error *error);

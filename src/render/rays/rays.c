@@ -32,7 +32,7 @@ static double angle(const struct kd_ray_end *a, const struct kd_ray_end *b)
     return 2 * asin(fmin(1, sqrt(s * s + sin(a->theta) * sin(b->theta) * t * t)));
 }
 
-/* Error of a ray against the true result, including the latter's own error. */
+/* Error of a ray against the reference result, including the reference's own error. */
 static double error_of(const struct kd_ray_crossing *found, const struct kd_ray_end *end,
                        const struct kd_ray_crossing *truth, const struct kd_ray_end *true_end)
 {

@@ -32,7 +32,8 @@ struct kd_rays_params {
     enum kd_precision precision; /* closed: F64 only */
     uint32_t steps;              /* per half period, a multiple of 4; 0: the engine's default; closed form: 0 */
     double tolerance;            /* > 0: rays whose own error exceeds it are traced again more finely; 0: none */
-    double holds; /* the tolerance that the setting meets by the table, for the answer; 0: no tolerance was asked for */
+    double holds; /* the tolerance that the setting meets according to the table, for the answer; 0: no tolerance was
+                     requested */
     /* 0: rays are labels, for any observer at this place. Otherwise 1 + enum kd_observer: rays are directions in
      * this observer's frame, with the parameters of kd_observer_motion: */
     int observer;
@@ -61,11 +62,11 @@ struct kd_ray_end {
     enum kd_ray_fate fate;
     uint32_t n_crossings; /* number of the requested orders that exist outside the horizon */
     double theta, phi;    /* direction of an escaping ray: polar angle and azimuth, source minus observer */
-    /* Estimated relative error of the worst crossing radius; for a ray without a crossing, the error of its direction
-     * in radians. It is an upper bound for at least 999 of 1000 rays. NaN for a ray that has neither, with every
-     * engine. A value of 1 or more means that the number of crossings may be wrong by one next to the horizon or very
-     * far out (Mino engines, closed form), or that the number or the fate differs from the closed form's (Kerr-Schild
-     * engines). */
+    /* Estimated relative error of the worst crossing radius; for a ray without a crossing, the error of its
+     * direction in radians. It is an upper bound for at least 999 of 1000 rays. NaN for a ray that has neither a
+     * crossing nor a direction, with every engine. A value of 1 or more means that the number of crossings may be
+     * wrong by one next to the horizon or very far out (Mino engines, closed form), or that the number or the fate
+     * differs from the closed form's (Kerr-Schild engines). */
     double error;
     /* energy at infinity, in units of the energy that the observer measures; only if the observer's motion is
      * given */

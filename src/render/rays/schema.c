@@ -69,7 +69,7 @@ static const char *precision(size_t i)
 }
 static const char *fate(size_t i) { return i <= KD_RAY_UNDECIDED ? kd_ray_fate_name((enum kd_ray_fate)i) : NULL; }
 
-/* Adds the schema of the observer, which is returned completely, as requested. */
+/* Adds the schema of the observer, which an answer repeats as it was requested, with all members. */
 static void add_observer(struct kd_json *json)
 {
     begin_strict(json, "RaysObserver");

@@ -19,7 +19,7 @@ enum kd_rays_stage {
  * own numbers and constants: their deviation from 0 is the error of steps and rounding. */
 struct kd_rays_step {
     enum kd_rays_stage stage;
-    unsigned order, number;        /* order of the next crossing; number of the step */
+    unsigned order, number;        /* order: of the next crossing; number: of the step */
     double time;                   /* Mino time since the observer; Kerr-Schild engines: their s, d(lambda) = r ds */
     double r, phi, delay;          /* delay: of a crossing only */
     double w, dw, u, du, n_x, n_y; /* Mino: M/r, cos(theta), their rates, the direction in the plane; u = n_z */
@@ -36,7 +36,7 @@ struct kd_rays_steps {
     struct kd_rays_params params; /* the ray's parameters, with the steps and other settings that were used */
     double alpha, beta;
     bool outward;               /* the ray starts away from the hole */
-    size_t n, lost;             /* records; records that did not fit */
+    size_t n, lost;             /* n: number of records; lost: number of records that did not fit */
     struct kd_rays_step *steps; /* malloc'd */
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
     struct kd_ray_end end;

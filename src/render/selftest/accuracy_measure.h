@@ -6,12 +6,13 @@
 #include "render/device/renderer.h"
 
 struct kd_accuracy_params {
-    bool quick;          /* fewer rays, shorter timing */
-    double seconds;      /* device time for each speed; less if a million rays take less; 0: 0.5, or 0.02 if quick */
+    bool quick;     /* fewer rays, shorter timing */
+    double seconds; /* device time of each measurement of speed; less if a million rays take less. 0 means 0.5, or 0.02
+                       if quick */
     const char *command; /* the command that requested it, stored with the table; NULL: none */
 };
 
-/* KD_ECANCELLED if progress returns false. What the device cannot do is left out and named in out->skipped. */
+/* KD_ECANCELLED if progress returns false. Rows that the device cannot compute are left out; out->skipped says why. */
 enum kd_status kd_accuracy_measure(struct kd_renderer *renderer, const struct kd_accuracy_params *params,
                                    kd_progress_fn progress, void *user, struct kd_accuracy_table *out,
                                    struct kd_error *error);

@@ -13,7 +13,8 @@
 /* Inverse of the curve of IEC 61966-2-1. */
 static double decode(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4); }
 
-/* A scene of one pixel with this ray, exposed to a luminance of 0.2: the deepest red of the gamut is then 0.94. */
+/* A scene of one pixel with this ray, exposed to a luminance of 0.2, at which the deepest red of the gamut has a
+ * red channel of 0.94. */
 static struct kd_scene pixel_scene(const struct kd_selftest_ray *ray, double brightness)
 {
     struct kd_scene scene;

@@ -186,8 +186,8 @@ struct kd_camera_block kd_camera_block(const struct kd_scene *scene)
     return o;
 }
 
-/* What determines the ray at a place of the picture. At infinity: (alpha, beta, 0). Otherwise: its direction, along
- * e_r, e_theta, e_phi, of any length. */
+/* The vector that determines the ray at a place of the picture. At infinity it is (alpha, beta, 0). Otherwise it is
+ * the ray's direction, along e_r, e_theta, e_phi, of any length. */
 static struct vec direction(const struct kd_camera_exact *c, double px, double py)
 {
     double x = px - c->middle_x, y = c->middle_y - py, ahead = kd_camera_ahead(c->sight, c->turn_x, c->turn_y, &x, &y);

@@ -18,10 +18,11 @@ struct tile { uint64_t rows[TILE]; }; /* a bit a pixel; the lowest bit is leftmo
 struct work {
     struct kd_critical curve;
     struct kd_camera_exact camera;
-    uint32_t width, height, across, down; /* size of the rendered part in pixels; in tiles */
-    uint32_t whole;                       /* columns of the whole picture */
-    struct tile **tiles;                  /* row by row; NULL: nothing is marked there */
-    size_t n;                             /* pixels that are marked */
+    /* size of the rendered part: width and height in pixels, across and down in tiles */
+    uint32_t width, height, across, down;
+    uint32_t whole;      /* columns of the whole picture */
+    struct tile **tiles; /* row by row; NULL: nothing is marked there */
+    size_t n;            /* pixels that are marked */
     bool no_memory;
 };
 
@@ -247,7 +248,7 @@ struct kd_scene kd_critical_camera(const struct kd_scene *scene, uint32_t rays)
     return camera;
 }
 
-/* Squared distance between the nearest points of the lattice, with the pixel repeated periodically. */
+/* Squared distance between the nearest two points of the lattice, where the pixel is repeated periodically. */
 static uint32_t apart(uint32_t rays, uint32_t generator)
 {
     uint32_t least = rays * rays;

@@ -23,8 +23,10 @@
 #define KD_RIM_LEAST 3e-5
 #define KD_RIM_NEAREST 1e-7     /* nearer than this, double precision loses 1e-6 rad and more */
 #define KD_RIM_BRIGHTEST 0.0235 /* flux in sr, of a star slightly brighter than Sirius: V = -1.5 (sky/star.h) */
-#define KD_RIM_SEEN 0.1         /* fraction of KD_STAR_LEAST; motion makes stars brighter */
-#define KD_RIM_PIXELS 14.0      /* width of the rim in pixels; within it neighbouring pixels end far apart on the sky */
+/* An image counts as visible from this fraction of KD_STAR_LEAST on. The fraction is below 1 because motion of the
+ * observer can make stars brighter. */
+#define KD_RIM_SEEN 0.1
+#define KD_RIM_PIXELS 14.0 /* width of the rim in pixels; within it neighbouring pixels end far apart on the sky */
 #define KD_RIM_NOISE \
     1.3e-3 /* The width of the rim is at least this times its radius in pixels: beyond that width the rounding of 32 \
             * bits, 7e-6 over the distance, is less than half a percent of the step from pixel to pixel. */
@@ -36,10 +38,10 @@ struct kd_rim {
      * alone; between them their light is shared */
     double none, full;
     double last; /* the least relative distance from the curve of the rim's rays */
-    /* rad, roughly: the most by which the sky shifts from one point of the curve to the next, from the first ray in
-     * to the last */
+    /* rough estimate in rad: the largest change, from one point of the curve to the next, of the shift of the sky
+     * between the outermost and the innermost ray */
     double winds;
-    double pixel; /* a pixel's step on the plane */
+    double pixel; /* size of a pixel on the plane */
     bool flat;
     double ahead[3], right[3],
         up[3]; /* axes of the plane in the observer's frame; at infinity `ahead` is (alpha, beta) of the middle */

@@ -19,8 +19,8 @@ enum { ROUND = 64, ACROSS = 20 };
 #define FEW 6.0    /* rad: if a rim's `winds` is less, the rim has too many rays in no picture */
 #define SPREAD 4.0 /* pixels: an image this far outside the picture may light some of it */
 
-/* by_u, by_l: shift of the sky along u and l; most_u, most_l: the largest such shift here and half way to the
- * neighbours; shown: solid angle of the sky that a pixel shows, sr. */
+/* by_u, by_l: shift of the sky along u and l; most_u, most_l: the largest of these shifts in this cell and half way
+ * to its neighbours; shown: solid angle of the sky that a pixel shows, sr. */
 struct cell {
     double by_u, by_l, most_u, most_l, shown;
     bool in_picture, wanted;
@@ -140,7 +140,7 @@ static bool is_near_picture(const struct layout *o, int i, int j, int apart)
 
 struct columns_of {
     struct layout *layout;
-    int apart; /* side of the block of cells that one measurement stands for */
+    int apart; /* side of the block of cells that one measurement represents */
 };
 
 static void measure_column(void *user, size_t item)

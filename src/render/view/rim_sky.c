@@ -104,7 +104,8 @@ static bool follow_on(const struct follower *f, bool along_u, double place, doub
     return along_u ? follow(f, place, line, out) : follow(f, line, place, out);
 }
 
-/* Whether n intervals are accurate enough along a line: 1 if they are, 0 if not, -1 if rays do not escape. */
+/* Tests whether n intervals are accurate enough along a line. Returns 1 if they are, 0 if not, -1 if rays do not
+ * escape. */
 static int serves(const struct follower *f, const struct side *s, int n, bool along_u, double line)
 {
     struct angles at[MOST + 1], want;

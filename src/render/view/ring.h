@@ -21,7 +21,7 @@ struct kd_ring {
 
 struct kd_ring kd_ring_of(const struct kd_scene *scene);
 
-/* The point of the critical curve for a column. kd_ring_distance: the distance d of a row. */
+/* kd_ring_column: the point of the critical curve for a column. kd_ring_distance: the distance d of a row. */
 struct kd_critical_point kd_ring_column(const struct kd_ring *ring, uint32_t x);
 double kd_ring_distance(const struct kd_ring *ring, uint32_t y);
 

@@ -1,5 +1,5 @@
-/* GET /v1/accuracy: the table that `kerrd bench accuracy` stores for this device. A worker reads the table, because a
- * disk may be slow. */
+/* GET /v1/accuracy: the table that `kerrd bench accuracy` stores for this device. A worker thread reads the table,
+ * because a disk may be slow. */
 #include "server/http/reply.h"
 #include "server/render/queue.h"
 #include "server/render/task.h"

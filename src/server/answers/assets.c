@@ -186,8 +186,8 @@ static enum MHD_Result put(struct kd_request *request)
     return p ? kd_task_submit(&p->task) : refused;
 }
 
-/* Answers with the number and size of assets and the limits. It does not list hashes, because whoever knows a hash may
- * download the asset. */
+/* Answers with the number and size of assets and the limits. It does not list hashes, because everybody who knows a
+ * hash may download the asset. */
 enum MHD_Result kd_handle_assets(struct kd_request *request)
 {
     if (!strcmp(request->method, "PUT"))

@@ -15,7 +15,7 @@
 #define OFFERED "application/json, application/x-ndjson, text/csv, " KD_NPY_TYPE
 /* unsent bytes of a stream at which the integration pauses; it continues when a quarter of this is left */
 #define FULL (1u << 20)
-#define BYTES_PER_SAMPLE 220 /* estimated sizes as text: of a sample, and of an orbit */
+#define BYTES_PER_SAMPLE 220 /* estimated size of a sample as text */
 #define BYTES_PER_ORBIT 2400
 
 static const char *const types[] = { [KD_ORBIT_JSON] = "application/json",

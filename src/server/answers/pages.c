@@ -14,8 +14,9 @@ static const struct kd_served *find(const char *name)
     return NULL;
 }
 
-/* Whether a file needs a Content-Security-Policy. A policy applies to documents (HTML, SVG), not to scripts and styles,
- * where it would add up to the size of the largest of them. */
+/* Whether a file needs a Content-Security-Policy. A policy applies to documents (HTML, SVG) only. Sent with scripts
+ * and styles it would have no effect, and all these headers together would have as many bytes as the largest of the
+ * files. */
 static bool document(const struct kd_served *file)
 {
     return strncmp(file->type, "text/javascript", strlen("text/javascript")) &&

@@ -8,8 +8,8 @@
 
 #define SLICE 2048 /* rays: some 18 to 25 ms on one core */
 
-/* Rays in one call on the device: few at first, then as many as take TURN_MS. The cost of a ray varies by a factor of a
- * million, from the fastest engine on a GPU to the slowest on one core. */
+/* Number of rays in one call on the device: FIRST_TURN at first, then as many as take TURN_MS. The cost of a ray
+ * varies by a factor of a million, from the fastest engine on a GPU to the slowest on one core. */
 #define FIRST_TURN 256
 #define TURN_MS 40.0
 

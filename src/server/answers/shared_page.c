@@ -1,6 +1,6 @@
-/* Handlers of /s/CODE and /embed/CODE. /s/CODE is a page for other sites, which read the title, description and picture
- * of a link from it (Open Graph, https://ogp.me; oEmbed). Its script opens the page with the scene; without scripts,
- * and for a visitor by a signed link, it shows the picture and a link. */
+/* Handlers of /s/CODE and /embed/CODE. /s/CODE is a page for other sites, which read the title, description and
+ * picture of a link from it (Open Graph, https://ogp.me; oEmbed). Its script opens the page with the scene. Without
+ * scripts, and for a visitor who came by a signed link, it shows the picture and a link. */
 #include "server/answers/share.h"
 
 #include "base/markup.h"
@@ -16,8 +16,8 @@
 /* STYLE, ICON and SEEN (the picture): queries that sign these files. URL: the address as the value of a parameter. */
 enum { TITLE, ABOUT, ADDRESS, PICTURE, HOME, CODE, URL, OPEN, STYLE, ICON, SEEN, TEXTS };
 
-/* Writes the elements that only visitors with access can use, or whom the server does not ask for it: other sites read
- * oEmbed, and the script opens the page with the live view. */
+/* Writes the elements that are useful only to visitors with access, or on a server that needs none: the link to
+ * oEmbed, which other sites read, and the script that opens the page with the live view. */
 static enum kd_status write_live(const char *const t[TEXTS], struct kd_buffer *page)
 {
     return kd_buffer_printf(

@@ -123,7 +123,7 @@ static void end_check(struct kd_asset_putting *p)
     p->reserved = 0;
 }
 
-/* Writes the files of an asset that is inserted already; it can then be found. */
+/* Writes the files of an asset that is inserted already. After this the asset can be found. */
 static enum kd_status settle(struct kd_asset_store *store, struct kd_asset *asset, struct kd_error *error)
 {
     enum kd_status status = store->folder >= 0 ? kd_asset_folder_write(store->folder, &asset->about, error) : KD_OK;

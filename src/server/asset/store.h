@@ -25,7 +25,7 @@ struct kd_asset;
 #define KD_ASSET_PIXELS ((uint64_t)1 << 28) /* most pixels of one picture */
 
 struct kd_asset_limits {
-    /* most: limit of the number of all assets; client_most: of the number of one client's assets */
+    /* most: largest number of assets; client_most: largest number of one client's assets */
     unsigned most, client_most;
     uint64_t bytes,
         /* bytes: total size of all assets, including the unpacked bytes of grids that are being checked; client_bytes:

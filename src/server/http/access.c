@@ -196,8 +196,8 @@ void kd_access_free(struct kd_access *access)
     free(access);
 }
 
-/* Cookies of our name that are checked. A browser sends several if paths are nested or an old cookie is left. The limit
- * keeps a request from testing many tokens at once. */
+/* How many cookies of our name are checked. A browser sends several if paths are nested or an old cookie is left.
+ * The limit prevents a request from testing many tokens at once. */
 enum { COOKIES = 4 };
 
 /* Tokens found in a request. */

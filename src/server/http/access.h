@@ -14,15 +14,16 @@
 #define KD_ACCESS_TOKEN_MIN 16   /* characters */
 #define KD_ACCESS_TOKEN_MAX 256
 #define KD_ACCESS_NAME_MAX 32
-#define KD_ACCESS_KEY_MIN 32   /* characters of a key; whoever has a link can try keys, so a key must be long */
+/* characters of a key; everybody who has a link can test guesses of its key, so a key must be long */
+#define KD_ACCESS_KEY_MIN 32
 #define KD_ACCESS_SIGNATURE 32 /* bytes of a signature, HMAC-SHA256 */
 
 struct kd_access;
 struct kd_request;
 struct kd_route;
 
-/* Roles. view: requests that store nothing on the server but a pupil's answer. render: all requests. link: whoever has
- * an address that is signed with this key may GET it (link.h); the key is no token. */
+/* Roles. view: requests that store nothing on the server except a pupil's answer. render: all requests. link: the
+ * entry is a key that signs addresses (link.h), not a token; everybody who has a signed address may GET it. */
 #define KD_ROLES(X) X(VIEW, "view") X(RENDER, "render") X(LINK, "link")
 enum kd_role {
 #define KD_ROLE_ENUM(name, word) KD_ROLE_##name,
@@ -44,8 +45,8 @@ struct kd_visitor {
 enum kd_status kd_access_read(const char *path, struct kd_access **out, struct kd_error *error);
 void kd_access_free(struct kd_access *access); /* accepts NULL */
 
-/* Returns the owner of a token, or NULL if no entry has it; a key for links is no token. Takes as long for a wrong
- * token as for a right one, whichever entry matches. Any thread. */
+/* Returns the owner of a token, or NULL if no entry has it. A key for links does not count as a token. Takes as
+ * long for a wrong token as for a right one, whichever entry matches. Any thread. */
 const struct kd_visitor *kd_access_find(const struct kd_access *access, const char *token);
 
 /* Signs a text with the key of this name; *owner: the key's entry. Returns false if the file has no such key. Any

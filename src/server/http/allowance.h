@@ -7,7 +7,8 @@
 #include "server/http/shares.h"
 
 #define KD_ALLOWANCE_CLIENTS \
-    256u /* buckets that are not full; when all places are taken, the fullest bucket is dropped */
+    256u /* number of buckets that can be stored; full ones are not stored. If all places are taken, the fullest \
+            bucket is dropped */
 
 struct kd_allowance {
     /* seconds of device time that a client may use in a minute; 0: no limit. Initialise all other members to 0 */

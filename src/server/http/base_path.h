@@ -9,7 +9,7 @@
 
 struct kd_base_path {
     char path[KD_BASE_PATH_MOST + 1];
-    /* Details of the two 404s: the path is outside the base path; no route has the path. */
+    /* Details of the two kinds of 404. outside: the path is outside the base path. unknown: no route has the path. */
     char outside[KD_BASE_PATH_MOST + 160], unknown[KD_BASE_PATH_MOST + 100];
 };
 
@@ -17,8 +17,8 @@ struct kd_base_path {
  * letters, digits and -._~@ and neither "." nor "..". */
 enum kd_status kd_base_path_init(struct kd_base_path *base, const char *text, struct kd_error *error);
 
-/* Returns the rest of the path behind the base path: "/v1/render" of "/some/prefix/v1/render", "" of "/some/prefix".
- * NULL if the path is not below the base path. */
+/* Returns the rest of the path behind the base path: "/v1/render" of "/some/prefix/v1/render", and "" of
+ * "/some/prefix". NULL if the path is not below the base path. */
 const char *kd_base_path_behind(const struct kd_base_path *base, const char *path);
 
 #endif

@@ -17,8 +17,8 @@
 
 #define IDLE_MS 60e3    /* longer than libmicrohttpd's idle timeout, so it ends only connections that trickle bytes */
 #define CROWDED_MS 2e3  /* time for the header of a connection that is accepted beyond the limit */
-#define REPLY_MS 30e3   /* time for reading an answer, ... */
-#define BYTES_PER_MS 32 /* ... and in addition the time for its bytes at 32 kB/s, a poor mobile line */
+#define REPLY_MS 30e3   /* time that a client has to read an answer, ... */
+#define BYTES_PER_MS 32 /* ... plus the time that its bytes take at 32 kB/s, the speed of a poor mobile line */
 
 #define STALL_MS 2e3  /* a client that reads takes some bytes within this time, on nearly any line */
 #define LINGER_MS 2e3 /* time for several round trips and a few MiB; a client that sends more is reset */

@@ -26,7 +26,8 @@ enum kd_stage {
     KD_STAGE_IDLE, /* kept alive between requests */
 };
 
-/* limit: of all connections; share: of the connections of one client. share = limit disables the limit per client. */
+/* limit: largest number of connections; share: largest number of one client's connections. share = limit disables
+ * the limit for one client. */
 struct kd_connections *kd_connections_create(unsigned limit, unsigned share, unsigned header_ms, unsigned body_ms);
 void kd_connections_destroy(struct kd_connections *all);
 

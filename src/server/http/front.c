@@ -20,7 +20,7 @@
 #define FULL_MS 10 /* pause between two checks for a free descriptor */
 #define BATCH 64   /* events handled, and connections accepted, in one iteration */
 
-/* A connection that is not handed on yet. It has the deadline of a header (connections.h). */
+/* A connection that is not handed to a daemon yet. It has the deadline of a header (connections.h). */
 struct guest {
     struct guest *previous, *next;
     struct kd_connection *connection;

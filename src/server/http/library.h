@@ -8,8 +8,8 @@
 
 #include <stdarg.h>
 
-/* Tells that the calling thread works on the connection of this socket from now on. Called in each callback of the
- * library. */
+/* Records that the calling thread works on the connection of this socket from now on. Called in each callback of
+ * the library. */
 void kd_library_works_on(int socket);
 
 /* Callback for MHD_OPTION_EXTERNAL_LOGGER. connections: the struct kd_connections of the server. */

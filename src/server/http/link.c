@@ -88,7 +88,8 @@ static bool read_signature(const char *text, uint8_t out[KD_ACCESS_SIGNATURE])
     return true;
 }
 
-/* Reads the terms. They are read before the signature is checked, so that a link that was cut off is told as such. */
+/* Reads the terms. They are read before the signature is checked, so that the error for a truncated link says that
+ * it is truncated. */
 static enum kd_status read_terms(const struct kd_target *target, struct kd_link *out, uint8_t signature[],
                                  struct kd_error *error)
 {
@@ -150,7 +151,8 @@ done:
     return status ? NULL : owner;
 }
 
-/* The link's place, or else one that is unused or whose link has expired; NULL: there is none. */
+/* Returns the link's place. If it has none, returns an unused place, or one whose link has expired; NULL: there is
+ * no such place. */
 static const struct kd_link_spent *place_of(const struct kd_link_budgets *all, const struct kd_link *link,
                                             uint64_t now_s)
 {

@@ -17,12 +17,12 @@
 #define KD_LINK_LATEST_S 253402300799 /* last second of the year 9999 */
 #define KD_LINK_BUDGET_MS 86400000u   /* largest budget */
 #define KD_SHARED_DAYS 30             /* days for which the link of a shared scene works */
-#define KD_LINK_BUDGETS 1024u         /* links with a budget that are remembered at once */
+#define KD_LINK_BUDGETS 1024u         /* largest number of links with a budget whose use is remembered */
 
-/* What a link permits. */
+/* What a link permits, and until when. */
 struct kd_link_terms {
     uint64_t expires_s; /* Unix time */
-    uint64_t budget_ms; /* device time of all its pictures together; 0: no limit */
+    uint64_t budget_ms; /* limit of the device time of all its pictures together; 0: no limit */
 };
 
 /* The link of a request. */
@@ -33,9 +33,9 @@ struct kd_link {
     uint64_t id; /* the first bytes of its signature */
 };
 
-/* Appends the parameters that make a link of an address, "signer=...&signature=...". path: below the base path;
- * decoded. target: its pairs are the address's parameters; may be NULL. KD_EINVAL if the token file has no key of this
- * name. Any thread. */
+/* Appends the parameters "signer=...&signature=..." that turn an address into a signed link. path: below the base
+ * path; decoded. target: its pairs are the address's parameters; may be NULL. KD_EINVAL if the token file has no
+ * key of this name. Any thread. */
 enum kd_status kd_link_sign(const struct kd_access *access, const char *name, const char *path,
                             const struct kd_target *target, const struct kd_link_terms *terms, struct kd_buffer *out,
                             struct kd_error *error);

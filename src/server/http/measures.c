@@ -3,7 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define CLASSES 6 /* classes of statuses, by their first digit; class 0: the connection was cut before a status */
+/* classes of statuses, by their first digit; class 0: the connection was cut before a status was sent */
+#define CLASSES 6
 
 struct kd_measures {
     size_t n; /* number of routes, plus one for requests without a route */

@@ -12,6 +12,6 @@
  * 1 */
 #define KD_ORDER_MAX 9007199254740992
 #define KD_SENTENCES_MAX 4294967295  /* largest value of the parameter sentences: 32 bits */
-#define KD_DEPRECATION "@1795910400" /* since when former names of parameters are such: 2026-11-29 */
+#define KD_DEPRECATION "@1795910400" /* since when the former names of parameters are deprecated: 2026-11-29 */
 
 #endif

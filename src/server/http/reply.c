@@ -148,7 +148,7 @@ static void add_quota(const struct kd_request *request, struct MHD_Response *res
     MHD_add_response_header(response, "RateLimit", text);
 }
 
-/* Says that the query has a former name of a parameter (RFC 9745). */
+/* Adds the header Deprecation if the query has the former name of a parameter (RFC 9745). */
 static void add_deprecation(const struct kd_request *request, struct MHD_Response *response)
 {
     char link[KD_BASE_PATH_MOST + 40];
@@ -177,7 +177,7 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
                             server->cross_site || request->link.on ? "cross-origin" : "same-site");
     if (!MHD_get_response_header(response, "Cache-Control"))
         MHD_add_response_header(response, "Cache-Control", "no-store");
-    /* so that a cached answer is used for the same token only */
+    /* ensures that a cached answer is used only for the same token */
     if (server->access && !request->link.on)
         MHD_add_response_header(response, "Vary", "Authorization, " KD_ACCESS_HEADER ", Cookie");
     kd_cors_add(request, response);

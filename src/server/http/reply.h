@@ -32,16 +32,17 @@ void kd_reply_location(const struct kd_request *request, struct MHD_Response *re
 /* Queues the response and drops the reference. response NULL: sends kd_reply_no_memory. */
 enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response);
 
-/* Send 503 when memory has run out, without allocating. Both close the connection. kd_reply_bare works without a
- * request. */
+/* kd_reply_bare and kd_reply_no_memory send 503 when memory has run out, without allocating, and close the
+ * connection. kd_reply_bare works without a request. */
 enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd);
 enum MHD_Result kd_reply_no_memory(struct kd_request *request);
 enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem);
 /* Sends the problem's status and headers with another body. */
 enum MHD_Result kd_reply_refuse(struct kd_request *request, const struct kd_problem *problem,
                                 struct MHD_Response *response);
-/* Evaluates If-Match against the ETag of the resource (RFC 9110 13.1.1); NULL: the resource has none. True without
- * If-Match. Handlers that change something call it before they do; for all others kd_reply_send checks it. */
+/* Evaluates If-Match against the ETag of the resource (RFC 9110 13.1.1); etag NULL: the resource has none. Returns
+ * true if there is no If-Match. Handlers that change something call it before the change; for all others
+ * kd_reply_send checks it. */
 bool kd_reply_matches(struct kd_request *request, const char *etag);
 enum MHD_Result kd_reply_unmatched(struct kd_request *request);
 /* Answers OPTIONS with 204 and these methods as Allow. */

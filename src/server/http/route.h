@@ -1,5 +1,5 @@
-/* The table of routes. A route is an object: all that is known of it stands in its line of server/http/routes.def, and
- * /openapi.json, docs/routes.md, the Allow header, roles and limits of bodies are made from that. */
+/* The table of routes. Each line of server/http/routes.def describes one route completely. From that line are made:
+ * /openapi.json, docs/routes.md, the Allow header, the required role, and the size limit of the body. */
 #ifndef KD_SERVER_HTTP_ROUTE_H
 #define KD_SERVER_HTTP_ROUTE_H
 
@@ -43,7 +43,7 @@ enum kd_takes {
     KD_TAKES_QUANTITY, /* the parameters, in the query, of the quantity that the path names */
 };
 
-/* What a kind of request is, in openapi/takes.c. */
+/* Description of each kind of request, in openapi/takes.c. */
 struct kd_json;
 struct cJSON;
 struct kd_route;
@@ -52,9 +52,10 @@ struct kd_taken {
     size_t most;                  /* limit of the body, bytes; 0: KD_BODY_MAX */
     const char *types;            /* media types of the body, "a/b c/d"; NULL: application/json. A PATCH may also be
                                    * a merge patch */
-    const char *schema, *changes; /* JSON Schema of a body, and of that of a PATCH, as text */
+    const char *schema, *changes; /* schema: JSON Schema of a body, as text; changes: the same for PATCH */
     bool may_lack;                /* the body may be missing */
-    /* Write the member "requestBody", instead of `schema`; and entries of "parameters". May be NULL. */
+    /* body writes the member "requestBody", instead of `schema`; parameters writes entries of "parameters". May be
+     * NULL. */
     void (*body)(struct kd_json *json, const struct kd_route *route);
     void (*parameters)(struct kd_json *json, unsigned method, const struct cJSON *scene_schema);
 };
@@ -68,8 +69,8 @@ enum kd_gives {
     KD_GIVES_RESULT,     /* every result of a job: job/formats.h */
 };
 
-/* In the next structs, methods 0 are all methods of the route. */
-struct kd_query {                     /* a parameter of the query that is no field of a scene */
+/* In the structs below, methods 0 means all methods of the route. */
+struct kd_query {                     /* a query parameter that is not a field of a scene */
     const char *name, *schema, *help; /* schema: JSON Schema as text; NULL: the names of the formats of jobs */
     unsigned methods;
     bool required;
@@ -81,18 +82,18 @@ struct kd_route {
     const char *answer, *summary; /* answer: media type (NULL: see `gives`); summary: a sentence for openapi.json */
     enum kd_takes takes;
     enum kd_gives gives;
-    const char *also;   /* further media types of answers, "a/b c/d"; NULL: none */
-    bool question;      /* the role view may send this POST: it renders nothing that stays, and stores nothing but a
-                         * pupil's answer (access.h) */
-    bool open;          /* needs no access token */
-    bool signable;      /* GET may come by a signed link instead of an access token (link.h) */
-    bool page;          /* a page of a browser: takes the access token in its address, and asks for it (access.h) */
-    bool once;          /* POST takes Idempotency-Key (once.h) */
-    bool parts;         /* GET may answer with a range, 206 (representation.h) */
-    bool folders;       /* the parameter at the end of the path may have slashes */
-    bool owner;         /* POST needs the token of the object, as PATCH and DELETE always do */
-    bool brief;         /* PATCH takes Prefer: return=minimal */
-    bool changes;       /* not every answer has an ETag, because unfinished ones change */
+    const char *also; /* further media types of answers, "a/b c/d"; NULL: none */
+    bool question; /* the role view may send this POST, because it leaves nothing on the server except a pupil's answer
+                      (access.h) */
+    bool open;     /* needs no access token */
+    bool signable; /* GET may come by a signed link instead of an access token (link.h) */
+    bool page;     /* a page of a browser: takes the access token in its address, and asks for it (access.h) */
+    bool once;     /* POST takes Idempotency-Key (once.h) */
+    bool parts;    /* GET may answer with a range, 206 (representation.h) */
+    bool folders;  /* the parameter at the end of the path may have slashes */
+    bool owner;    /* POST needs the token of the object, as PATCH and DELETE always do */
+    bool brief;    /* PATCH takes Prefer: return=minimal */
+    bool changes;  /* not every answer has an ETag, because unfinished ones change */
     unsigned status[2]; /* success statuses; { 0 }: 200; DELETE answers 204 */
     /* The handler. Called when the body is complete, and again when the work that it started is done. */
     enum MHD_Result (*handle)(struct kd_request *request);
@@ -112,9 +113,9 @@ struct kd_route {
 extern const struct kd_route kd_routes[];
 extern const size_t kd_n_routes;
 
-/* Whether an entry of a route that is for these methods is for this one. */
+/* Whether an entry with these methods applies to this method. */
 static inline bool kd_route_for(unsigned methods, unsigned method) { return !methods || methods & method; }
-/* Whether the query parameter is one of the route's own, also by its former name; route may be NULL. */
+/* Whether the route has a query parameter of this name or former name; route may be NULL. */
 bool kd_route_has_query(const struct kd_route *route, const char *name);
 
 /* Value of the route's own query parameter, or NULL: it is not given, or the route has no such parameter. *given: the

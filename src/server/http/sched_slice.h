@@ -1,4 +1,4 @@
-/* Shorter scheduling slices for threads that do little work but that others wait for. Such a thread then runs soon
+/* Shorter scheduling slices for threads that do little work but keep others waiting. Such a thread then runs soon
  * after it wakes, even when all cores are busy. */
 #ifndef KD_SERVER_HTTP_SCHED_SLICE_H
 #define KD_SERVER_HTTP_SCHED_SLICE_H

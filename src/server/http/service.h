@@ -22,7 +22,7 @@
 
 #define KD_BODY_MAX KD_SCENE_JSON_MAX     /* bytes of one body, except KD_RAYS_BODY_MAX and KD_ORBIT_BODY_MAX */
 #define KD_BODIES_MAX ((size_t)192 << 20) /* limit of bytes of all bodies being received */
-/* the most of these that one client may hold; leaves room for the largest body of another */
+/* limit of KD_BODIES_MAX for one client; leaves room for the largest body of another client */
 #define KD_BODIES_SHARE ((size_t)96 << 20)
 #define KD_BODIES_SMALL ((size_t)16 << 20) /* reserve beyond KD_BODIES_MAX for bodies of at most KD_BODY_MAX */
 /* limit of bytes of all answers not yet sent; a single answer may exceed it */

@@ -1,4 +1,4 @@
-/* Fair-queueing scheduler: picks the client whose work runs on the device next, and which work of the client that is.
+/* Fair-queueing scheduler: picks the client that uses the device next, and which of its work runs.
  * Pure: no clock, no thread, no allocation. One thread at a time.
  *
  * The device's time is shared equally among clients. Each client's time is shared among its classes of work by weight.
@@ -8,7 +8,7 @@
  * saved up nor punished. So a client with little to do waits for the slice that is under way, and then for at most the
  * others' shares, however much they ask for.
  *
- * Among the works of one class of one client, the one runs next that would end first if all ran side by side (Friedman
+ * Among the works of one class of one client, the one that would end first if all ran side by side is next (Friedman
  * & Henderson 2003). So short work goes first, and the longest still ends no later than with equal parts.
  *
  *     kd_shares_add(&shares, &work->claim);
@@ -25,10 +25,10 @@
 #define KD_CLIENT 48         /* size of the name of a client */
 #define KD_SHARE_CLIENTS 64u /* limit of clients that are tracked at once; beyond it, clients share an entry */
 
-/* Classes of work and their weights within a client. PIXEL is next as soon as it arrives, because a user points at the
- * picture and waits. While a view is moved by hand (LIVE), a job (JOB) gets a fifth. A view that animates by itself
- * (IDLE) and REFINEMENT give way to a job, which a user requested. They get a twentieth, so that they still visibly
- * advance. */
+/* Classes of work and their weights within a client. PIXEL runs as soon as it arrives, because a user points at the
+ * picture and waits. While a view is moved by hand (LIVE), a job (JOB) gets a fifth of the time. Beside a job,
+ * which a user requested, a view that animates by itself (IDLE) and REFINEMENT get a twentieth, so that they still
+ * visibly advance. */
 #define KD_CLASSES(X) X(PIXEL, 64) X(LIVE, 8) X(PICTURE, 4) X(RAYS, 4) X(JOB, 2) X(REFINEMENT, 0.1) X(IDLE, 0.1)
 enum kd_class {
 #define KD_CLASS_ENUM(name, weight) KD_CLASS_##name,
@@ -50,7 +50,8 @@ struct kd_claim {
 };
 
 struct kd_share_flow { /* work of one class of one client */
-    /* now: virtual time that each of the flow's works would have received if they ran side by side */
+    /* paid: virtual time charged to the flow. now: virtual time that each of the flow's works would have received
+     * if they ran side by side */
     double paid, now;
     unsigned claims;
     struct kd_claim *first; /* the flow's work, in order of arrival */

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_TARGET_PAIRS 384 /* more than a scene with full lists has fields */
+#define KD_TARGET_PAIRS 384 /* more than the number of fields of a scene with full lists */
 
 struct kd_target {
     char *text; /* buffer that the pointers below point into; owned */

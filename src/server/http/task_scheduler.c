@@ -14,9 +14,10 @@
 #define THREADS_MAX (4 * WORKERS_MAX) /* including threads that are suspended in a slice */
 #define PIECE_MS 15.                  /* time that a slice runs before other jobs go first */
 
-/* A suspended slice, on the stack of its thread. It is listed among the jobs, and is resumed when it is the first. */
+/* A suspended slice; the struct is on the stack of its thread. It is listed among the jobs, and is resumed when it
+ * is the first in the list. */
 struct paused {
-    struct kd_scheduler_job place; /* must be the first member; its turn is NULL */
+    struct kd_scheduler_job place; /* must be the first member; its callback `turn` is NULL */
     pthread_cond_t resumed;
 };
 

@@ -35,7 +35,7 @@ struct kd_scheduler_job {
 
 struct kd_scheduler;
 
-/* limit: the most unfinished jobs; share: the most of them that one client may have */
+/* limit: largest number of unfinished jobs; share: largest number of one client's unfinished jobs */
 enum kd_status kd_scheduler_create(unsigned limit, unsigned share, struct kd_scheduler **out, struct kd_error *error);
 /* All jobs must be finished. Accepts NULL. */
 void kd_scheduler_destroy(struct kd_scheduler *scheduler);

@@ -14,8 +14,9 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Limits of the cubes and films that are made at once: of all clients, and of one. Workers prepare much of each before
- * it is sent. The memory that this uses, some 400 bytes a scene for a cube, counts towards the budget of answers. */
+/* Largest numbers of cubes and films that are made at once: of all clients, and of one client. Workers prepare much
+ * of each before it is sent. The memory that this uses, some 400 bytes a scene for a cube, counts towards the
+ * budget of answers. */
 enum { CUBES = 8, CUBES_OF_ONE = 3 };
 
 struct kd_job_whole {

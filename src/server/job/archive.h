@@ -6,8 +6,8 @@
 #include "server/http/request.h"
 #include "server/job/jobs.h"
 
-/* Sends the archive and takes over the reference to the job. rate: frame rate of a film in 1/s. The handler is called
- * again with request->task set, and then calls that task's `answer`. */
+/* Sends the archive and takes over the reference to the job. rate: frame rate of a film in 1/s. When the workers
+ * have finished, the handler is called again with request->task set, and then calls that task's `answer`. */
 enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status,
                                   const struct kd_gather_format *format, unsigned rate);
 

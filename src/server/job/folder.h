@@ -27,7 +27,7 @@ bool kd_job_folder_read_film(const char *name, struct kd_job_film_name *out); /*
 /* Name of a film while it is written, before its hash is known: "film-024.mp4". */
 void kd_job_folder_new_film(const char *format, unsigned rate, char name[KD_JOB_FILM_NAME]);
 
-/* Opens a job's folder. Returns a descriptor, or -1 with errno; ELOOP or ENOTDIR if it is no folder. */
+/* Opens a job's folder. Returns a descriptor, or -1 with errno; ELOOP or ENOTDIR if it is not a folder. */
 int kd_job_folder_open(int jobs, const char *name);
 
 /* Removes at most `most` of a job's files; job.json goes last, because it identifies the job. Then removes the folder,

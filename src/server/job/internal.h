@@ -53,14 +53,15 @@ struct kd_job {
     struct kd_job_exposure exposure;
     bool unordered; /* after a restart the order of frames is being computed again (watch.c); no frame begins before */
     const struct kd_series *series;
-    unsigned frames, next, finished; /* next: all places in the order before this one are done or under way */
-    unsigned char *have;             /* one flag for each frame: its file exists */
-    double fraction;                 /* fraction of the present frame that is rendered */
-    double estimate_ms;              /* estimated time of all frames, from their plans */
-    double began_ms;                 /* when this server began the job; 0: it has not */
-    double due_ms;                   /* no frame begins before this time; on kd_clock_ms */
-    double delay_ms;                 /* length of the next delay after a shortage; 0: no shortage */
-    double counted_ms;               /* when the number of lens maps was last written to the record */
+    /* next: in the order of rendering, all frames before this place are done or under way */
+    unsigned frames, next, finished;
+    unsigned char *have; /* one flag for each frame: its file exists */
+    double fraction;     /* fraction of the present frame that is rendered */
+    double estimate_ms;  /* estimated time of all frames, from their plans */
+    double began_ms;     /* when this server began the job; 0: it has not */
+    double due_ms;       /* no frame begins before this time; on kd_clock_ms */
+    double delay_ms;     /* length of the next delay after a shortage; 0: no shortage */
+    double counted_ms;   /* when the number of lens maps was last written to the record */
     /* when the job ended; on kd_clock_ms, so that changes of the system clock have no effect */
     double ended_ms;
     char delayed[160]; /* why the job waits until due_ms */
@@ -151,8 +152,8 @@ struct kd_job *kd_job_of_frame(const void *render, unsigned *number);
 extern const struct kd_preview_hook kd_job_preview_hook;
 /* Handles the failure of a frame or its scene: delays the job if memory or disk space is short, else ends it. */
 void kd_job_give_up(struct kd_job *job, const struct kd_error *error);
-/* film.c: *out is the bodies that a frame of a film shows; the job owns them. NULL: the film is not moved that far yet,
- * or another film is being made; kd_jobs_pump is called when the bodies are there. KD_ENOMEM. */
+/* film.c: gets the bodies that a frame of a film shows; the job owns them. *out is NULL if the film has not reached
+ * the frame yet, or if another film is being made; kd_jobs_pump is called when the bodies exist. KD_ENOMEM. */
 enum kd_status kd_job_film_at(struct kd_job *job, unsigned frame, struct kd_dynamic_bodies **out,
                               struct kd_error *error);
 /* Frees the playground, except while a worker owns it, and lets another film begin. */

@@ -53,8 +53,9 @@ void kd_job_draft_finish(struct kd_job_draft *draft);
  * with a pointer into the request. */
 enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms,
                              struct kd_error *error);
-/* Makes a job from a checked draft, and empties the draft. The caller gets a reference to the job. text: the request;
- * client: who sent it. Returns KD_EBUSY at a limit; *quota is true if that is the limit of one client. */
+/* Makes a job from a checked draft, and empties the draft. The caller gets a reference to the job. text: the
+ * request; client: the client that sent it. Returns KD_EBUSY at a limit; *quota is true if that is the limit of one
+ * client. */
 enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length,
                             const char *client, bool *quota, struct kd_job **out, struct kd_error *error);
 struct kd_job *kd_jobs_find(struct kd_jobs *all, const char *id); /* returns a reference, or NULL */

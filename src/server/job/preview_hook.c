@@ -6,8 +6,8 @@
 #include <stdio.h>
 
 #define WANTED_MS 10000.0 /* time after a request during which previews are made */
-#define APART_MS 500.0    /* shortest interval between two previews; it is also ... */
-#define SHARE 20.0        /* ... at least this many times as long as making one takes */
+#define APART_MS 500.0    /* the interval between two previews is at least this, and ... */
+#define SHARE 20.0        /* ... at least this many times the time that one preview takes */
 
 static bool wanted(void *user)
 {

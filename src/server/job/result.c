@@ -198,7 +198,7 @@ static const struct kd_gather_format *whole_named(const struct kd_series *series
     return NULL;
 }
 
-/* Writes the refusal, such as "format must be fits, npz or zip for all frames; or fits or stream, optionally with
+/* Sends the refusal, such as "format must be fits, npz or zip for all frames; or fits or stream, optionally with
  * frame=NUMBER". */
 static enum MHD_Result unknown_format(struct kd_request *request, struct kd_job *job, const struct kd_series *series)
 {

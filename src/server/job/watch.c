@@ -3,7 +3,8 @@
 #include "base/clock.h"
 #include "server/job/internal.h"
 
-/* files removed in one check of all jobs; takes some milliseconds, so that the thread is not late for other work */
+/* limit of files removed in one check of all jobs; this takes some milliseconds, so the thread is not late for
+ * other work */
 #define FILES_A_SWEEP 200
 
 void kd_job_watch(struct kd_job_watcher *watcher)

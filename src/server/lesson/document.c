@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What a document is read into; a reader sets its member. */
+/* The struct into which a document is read; each reader sets one member. */
 struct target {
     struct kd_lesson_change *change;
     struct kd_hand *hand;

@@ -24,7 +24,7 @@
 #define KD_LESSON_SIZE(characters) (4 * (characters) + 1) /* bytes of UTF-8, and NUL */
 
 struct kd_question {
-    unsigned number; /* counts the questions of this lesson; 0: nothing has been asked */
+    unsigned number; /* counts the questions of this lesson; 0: no question has been asked */
     bool shown;      /* false: the question was withdrawn */
     bool open;       /* answers are accepted; when it closes, pupils see the tally and the right choice */
     char text[KD_LESSON_SIZE(KD_LESSON_TEXT)];
@@ -70,14 +70,14 @@ enum kd_status kd_lesson_open(struct kd_lessons *all, const char *client, bool *
 struct kd_lesson *kd_lesson_find(struct kd_lessons *all, const char *id);
 void kd_lesson_end(struct kd_lessons *all, struct kd_lesson *one);
 
-/* Finds or adds the pupil of this key, and marks it as present. If all places are taken, one that is away is
- * replaced: first those without an answer to the present question, and of these the one that is away for longest.
- * Returns NULL if all are present. */
+/* Finds or adds the pupil of this key, and marks it as present. If all places are taken, a pupil that is away is
+ * replaced: first one without an answer to the present question, and among these the one that has been away
+ * longest. Returns NULL if all are present. */
 struct kd_pupil *kd_lesson_pupil(struct kd_lesson *one, const char *key);
 
-/* Writes the lesson as JSON. teacher: with who chose what, and with the tally while the question is open. pupil: the
- * one that asks, whose own choice is written; NULL: none. copies: whether the pupil may open a session of its own.
- * token: with the teacher's token. */
+/* Writes the lesson as JSON. teacher: include each pupil's choice, and the tally even while the question is open.
+ * pupil: the pupil that sent the request, whose own choice is included; NULL: none. copies: whether the pupil may
+ * open a session of its own. token: include the teacher's token. */
 struct kd_lesson_view {
     bool teacher, token, copies;
     const struct kd_pupil *pupil;
@@ -87,9 +87,9 @@ enum kd_status kd_lesson_to_json(const struct kd_lesson *one, const struct kd_le
 /* A change of a lesson by its teacher. A member that is absent in the document is NULL or false. */
 struct kd_lesson_change {
     const char *session, *link, *about, *lang; /* point into the document */
-    bool asks, withdraws;                      /* question, or question null */
+    bool asks, withdraws;                      /* asks: "question" is given; withdraws: it is null */
     struct kd_question question;
-    bool moves, open; /* moves: "open" is given */
+    bool moves, open; /* moves: "open" is given; open: its value */
 };
 /* An answer of a pupil. */
 struct kd_hand {

@@ -197,7 +197,7 @@ done:
     return result;
 }
 
-/* Runs a handler while the reaper ends no lesson. */
+/* Runs a handler under the lock of all lessons, so that the reaper cannot end a lesson meanwhile. */
 static enum MHD_Result locked(struct kd_request *request, enum MHD_Result (*handle)(struct kd_request *))
 {
     kd_lessons_lock(request->server->lessons);

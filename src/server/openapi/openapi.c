@@ -119,7 +119,7 @@ static void add_queries(struct kd_json *json, const struct kd_route *route, unsi
 
 static void add_parameters(struct kd_json *json, const struct kd_route *route, unsigned method, const cJSON *schema)
 {
-    /* What is patched is given whole in the body. */
+    /* If a route has PATCH, a POST's body holds the whole object. */
     const struct kd_taken *taken = route->methods & KD_PATCH ? &kd_taken[KD_TAKES_NOTHING] : &kd_taken[route->takes];
     const bool in_path = strchr(route->path, '{');
     if (!in_path && !route->queries && !taken->parameters && !kd_openapi_is_asked_by_header(route, method))

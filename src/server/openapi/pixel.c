@@ -171,7 +171,7 @@ static void add_ends(struct kd_json *json)
     KD_OPENAPI_STRICT(json, "PixelAccuracy", accuracy);
 }
 
-/* Members of each ray that the pixel is the mean of. */
+/* Members of each ray of the pixel. The pixel's light is the mean of these rays. */
 #define RAY \
     { "ray_at", PAIR, false }, { "weight", NUMBER, false }, { "constants", REF("RayConstants"), false }, \
         { "radial", REF("RayRadial"), false }, { "polar", REF("RayPolar"), false }, \

@@ -16,7 +16,8 @@ struct kd_playground_session {
     /* all->lock protects the members from here on */
     struct kd_playground_session *next;
     unsigned references;
-    /* bytes: memory reserved; crowd_bytes: the part for the bodies of the picture, reserved while there is a picture */
+    /* bytes: memory reserved; dynamic_bytes: the part for the bodies of the picture, reserved while there is a
+     * picture */
     size_t bytes, dynamic_bytes;
     struct kd_once once; /* hashes of the request that created it */
     bool listed, stepping;
@@ -40,7 +41,7 @@ struct kd_playground_session {
     double looked_at_ms;                          /* when a frame was last requested */
     bool held;                                    /* a thread has taken the playground */
     struct kd_playground_session_waiter *waiters; /* jobs that wait to take the playground */
-    /* whoever has taken the playground (kd_playground_session_take) owns the members from here on */
+    /* the job that has taken the playground (kd_playground_session_take) owns the members from here on */
     struct kd_playground_session_waiter waiter; /* entry of the session's own job in the list of waiters */
     struct kd_playground *p;
     double looked_ms, goal, allowance; /* clock of its slices (run.c); looked_ms 0: the clock is stopped */
@@ -64,8 +65,8 @@ struct kd_playground_sessions {
 struct kd_playground_session *kd_playground_session_unref(
     struct kd_playground_session *play); /* drops a reference; returns the session if it was the last */
 void kd_playground_session_unlist(struct kd_playground_session *play, const char *why);
-bool kd_playground_session_awake(const struct kd_playground_session *play,
-                                 double now);                        /* whether a client watches, or was heard lately */
+/* whether there is a watcher or a viewer, or the last request came less than KD_PLAY_REST_MS ago */
+bool kd_playground_session_awake(const struct kd_playground_session *play, double now);
 void kd_playground_session_call(struct kd_playground_session *play); /* wakes the session's job */
 void kd_playground_session_wake(struct kd_playground_session *play,
                                 double now); /* resumes watchers that have news; in watch.c */

@@ -1,9 +1,9 @@
 /* Runs a playground session in slices.
  *
- * Its goal time advances with the clock, at the requested rate. The bodies follow in sub-steps until they have passed
- * the goal. They may lag behind it by LAG_S times the rate, which a busy machine makes up for later; a larger lag is
- * dropped. In each beat, a thirtieth of a second, at most as many sub-steps are computed as the setting `budget`
- * says. */
+ * Its goal time advances with the clock, at the requested rate. The bodies follow in sub-steps until they have
+ * passed the goal. They may lag behind it by LAG_S times the rate, which a busy machine makes up later; a larger
+ * lag is skipped. In each beat, a thirtieth of a second, at most as many sub-steps are computed as the setting
+ * `budget` says. */
 #include "base/clock.h"
 #include "playground/show.h"
 #include "server/playground/internal.h"

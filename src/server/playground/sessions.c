@@ -9,8 +9,8 @@
 
 #define COUNTS_MS 20.   /* how long a reader of counts waits for the lock */
 #define SLOWED_MS 1000. /* for how long the state reports skipped time */
-/* Memory of a session with a given debris capacity. The debris counts twice, because changes work on a copy; so does
- * all else. */
+/* Memory of a session with a given debris capacity. Changes work on a copy, so debris and all other state count
+ * twice. */
 #define BASE_BYTES ((size_t)6 << 20)
 #define BYTES(capacity) (BASE_BYTES + 2 * (size_t)(capacity) * sizeof(struct kd_debris_piece))
 

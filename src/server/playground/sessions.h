@@ -50,9 +50,9 @@ struct kd_playground_session_pace {
     bool paused;
 };
 
-/* Opens a session. It takes over *p and sets it to NULL. The caller gets a reference to the session, and counts as
- * having taken the playground. Returns KD_EBUSY at a limit of sessions or bytes; *quota is true if that is the limit of
- * one client. */
+/* Opens a session. It takes over *p and sets it to NULL. The caller gets a reference to the session, and has taken
+ * the playground (kd_playground_session_take). Returns KD_EBUSY at a limit of sessions or bytes; *quota is true if
+ * that is the limit of one client. */
 enum kd_status kd_playground_sessions_open(struct kd_playground_sessions *all, struct kd_playground **p,
                                            const struct kd_playground_session_pace *pace, const struct kd_scene *scene,
                                            const char *client, bool *quota, struct kd_playground_session **out,
@@ -88,8 +88,8 @@ struct kd_playground *kd_playground_session_take(struct kd_playground_session *p
                                                  struct kd_playground_session_waiter *waiter);
 void kd_playground_session_give(struct kd_playground_session *play, struct kd_playground *p);
 /* For the job that has taken the playground. kd_playground_session_log copies new events into the session's log.
- * kd_playground_session_moved tells that the playground has changed. kd_playground_session_pieces returns the number of
- * sub-steps to compute between two checks of the clock. */
+ * kd_playground_session_moved records that the playground has changed. kd_playground_session_pieces returns the
+ * number of sub-steps to compute between two checks of the clock. */
 void kd_playground_session_log(struct kd_playground_session *play, const struct kd_playground *p);
 void kd_playground_session_moved(struct kd_playground_session *play);
 uint32_t kd_playground_session_pieces(const struct kd_playground *p);

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define COMPILE_MS 2000.0 /* estimate before the first compilation: the time of some kernels on lavapipe */
-#define NICE 3            /* half the weight of live frames: compilations advance beside them, with the smaller share */
+#define NICE 3 /* half the weight of live frames, so that compilations advance beside them with a smaller share */
 
 /* limit of how often a job starts again for missing kernels; after that they are compiled while it owns the device */
 #define BEGINS_ANEW 8

@@ -2,7 +2,7 @@
 #include "base/clock.h"
 #include "server/render/internal.h"
 
-/* limit of the bytes of frames that are rendered and not yet encoded; a single frame may exceed it */
+/* limit of the bytes of all frames that are rendered and not yet encoded; a single frame may exceed it */
 #define FRAME_BYTES ((size_t)256 << 20)
 #define SHORT_BYTES ((size_t)64 << 20) /* room beyond FRAME_BYTES for frames that are encoded soon */
 #define BRIEF_MS 3000.0                /* estimated time of a picture that counts as brief */

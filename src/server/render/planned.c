@@ -33,7 +33,8 @@ static bool read_scene(struct kd_planned *p)
     return read || fail(p, error.status, &error, problem);
 }
 
-/* The first format of the request that can hold the scene; the first of all if none can. */
+/* Returns the first format that the request accepts and that can hold the scene; the first of all accepted formats
+ * if none can. */
 static const struct kd_format *format_of(const struct kd_request *request, const struct kd_scene *scene)
 {
     struct kd_error error;

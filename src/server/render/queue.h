@@ -159,8 +159,8 @@ double kd_render_queue_backlog_ms(struct kd_render_queue *queue);
 enum kd_status kd_render_queue_afford(struct kd_render_queue *queue, const char *client, struct kd_error *error);
 /* The client's quota, if there is a limit. Any thread. */
 struct kd_quota kd_render_queue_quota(struct kd_render_queue *queue, const char *client);
-/* Tests whether the client may submit another job: KD_OK, KD_EBUSY or KD_EDEVICE. *quota: the limit is the client's
- * own, of waiting jobs or of device time. Called by the thread that submits pictures. */
+/* Tests whether the client may submit another job: KD_OK, KD_EBUSY or KD_EDEVICE. *quota: true if the limit that
+ * was reached is the client's own, of waiting jobs or of device time. Called by the thread that submits pictures. */
 enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *client, bool *quota,
                                      struct kd_error *error);
 void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *job);

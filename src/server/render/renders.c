@@ -20,7 +20,7 @@ static const char *type_of(size_t i, const void *formats)
     return ((const struct kd_format *const *)formats)[i]->media_type;
 }
 
-/* The formats that may answer a request: all, or with a quality those that take one. */
+/* The formats that may answer a request: all, or if a quality is given those that have one. */
 struct offer {
     const struct kd_format *formats[KD_FORMATS_MAX];
     size_t n;
@@ -141,10 +141,10 @@ done:
 #define DAY_S 86400u
 enum { CACHING = 60 };
 
-/* Writes Cache-Control. Pictures of shared links may be cached publicly, unless the server requires access tokens. A
- * picture whose address names this version changes with the device alone, within its stated error, unless its scene
- * names an asset, whose name may later be given to another file. No cache keeps a picture for longer than its signed
- * link is valid. */
+/* Writes Cache-Control. Pictures of shared links may be cached publicly, unless the server requires access tokens.
+ * A picture whose address names this version changes only with the device, within its stated error. Scenes that
+ * name an asset are an exception, because the asset's name may later belong to another file. No cache keeps a
+ * picture for longer than its signed link is valid. */
 static void caching(const struct kd_request *request, const struct kd_scene *scene, char out[CACHING])
 {
     struct kd_error ignored;
@@ -362,7 +362,7 @@ static enum kd_status tag(struct kd_request *request, struct kd_planned *planned
     return status;
 }
 
-/* Tells the plan which pixel the query names. */
+/* Sets the plan's pixel to the one that the query names. */
 static enum kd_status name_pixel(const struct kd_request *request, struct kd_plan *plan, struct kd_error *error)
 {
     const char *at = kd_target_value(&request->target, "at"), *trace = kd_target_value(&request->target, "trace");

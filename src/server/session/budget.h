@@ -5,9 +5,9 @@
  * Shares and demands are milliseconds of the device for each millisecond of the clock, 0 to 1. A session's demand is
  * the share that it would use if it were alone: the device time of a frame, divided by the sum of that time and the
  * pause after the frame. The pause lasts until the next frame is requested. Time spent waiting for others is in neither
- * term, so that waiting changes no demand. The demand uses the mean cost of the last eight frames and the smallest of
- * the last eight pauses. So a single slow frame or late request changes little, and when a user drags again, the demand
- * is known from the second frame on.
+ * term, so that waiting changes no demand. The demand is computed from the mean cost of the last eight frames and the
+ * smallest of the last eight pauses. So a single slow frame or late request changes little, and when a user begins
+ * another drag, the demand is known from the second frame on.
  *
  * A session that has not requested a frame for its hold time demands nothing. The hold time is 400 ms. After a longer
  * pause it becomes twice that pause, at most 2 s. Otherwise, whenever a user's hand rests within a drag, the session's
@@ -53,7 +53,7 @@ void kd_budget_enter(struct kd_budget *budget, struct kd_budget_entry *entry);
 void kd_budget_leave(struct kd_budget *budget, struct kd_budget_entry *entry);
 
 void kd_budget_ask(struct kd_budget_entry *entry, double now);
-/* Tells that the frame has left the device. ms: device time that it used; 0: the frame was abandoned, and is no
+/* Records that the frame has left the device. ms: device time that it used; 0: the frame was abandoned, and is no
  * measurement. */
 void kd_budget_end(struct kd_budget_entry *entry, double now, double ms);
 

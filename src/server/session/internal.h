@@ -22,7 +22,7 @@ struct kd_session {
     struct kd_timeline path; /* path that the session has followed since since_ms; without keyframes: no path */
     struct kd_scene on_path; /* latest valid scene on the path */
     struct kd_dynamic_bodies *dynamic; /* bodies of a playground that are shown in the scene; NULL: none, or none yet */
-    /* crowded: the session shows such bodies; crowd_moved: they differ from those in the latest frame */
+    /* crowded: the session shows such bodies; dynamic_moved: they differ from those in the latest frame */
     bool crowded, dynamic_moved;
     double since_ms, used_ms;
     char lens_key[65]; /* key of the full scene, before quality is reduced */

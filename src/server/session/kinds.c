@@ -63,8 +63,9 @@ void kd_session_forget_pixels(struct kd_session *s, double now)
         kd_frame_finish(&s->latest->picture);
 }
 
-/* Sends a frame although a newer one has been published since it was requested. Viewers that waited for it in this
- * encoding still get it. If encoding takes longer than a frame, they would otherwise never get any. */
+/* Sends a frame in an encoding that was finished only after a newer frame had been published. Viewers that waited
+ * for the older frame in this encoding still get it. If encoding takes longer than a frame, they would otherwise
+ * never get any. */
 static void hand_out(struct kd_session *s, struct kd_live_frame *frame, unsigned lossy)
 {
     for (struct kd_viewer *v = s->viewers; v; v = v->next)

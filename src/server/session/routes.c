@@ -46,7 +46,7 @@ const char *kd_session_varies_word(size_t index)
     return index < sizeof varying / sizeof *varying ? varying[index].word : NULL;
 }
 
-/* Writes the list of what changes the picture, such as ["moves_with_time"]: a change of time, a change of azimuth. */
+/* Writes the list of the ways in which the picture depends on time and azimuth, such as ["moves_with_time"]. */
 static enum kd_status add_varies(const struct kd_scene *scene, struct kd_buffer *out)
 {
     const unsigned varies = kd_emit_varies(scene);

@@ -82,12 +82,13 @@ struct kd_session_state {
     struct kd_scene scene;
     unsigned revision, viewers;
     uint64_t frame;           /* number of the newest frame; 0: none yet */
-    uint64_t order;           /* order of the latest patch that had one; 0: no patch had */
+    uint64_t order;           /* order of the latest patch that had one; 0: no patch had an order */
     double path_at, path_end; /* seconds since the path began, and the path's length; both 0: no path */
     struct kd_session_progress {
-        /* true: the frame being made refines a scene at rest; false: it is the first frame of the present scene */
+        /* whether the frame being made refines a scene at rest; otherwise it is the first frame of the present scene */
         bool refines;
-        /* fraction that is done, and estimated time left; NAN: no frame is being made, or it is not known */
+        /* fraction that is done, and estimated time left in s; NAN: no frame is being made, or the value is not
+         * known */
         double fraction, left_s;
     } progress;
 };
@@ -119,13 +120,13 @@ struct kd_viewer {
     const struct kd_live_file *file; /* the frame's file in the encoding of this viewer; the frame owns the file */
     /* A frame whose encoding was finished only after a newer frame had replaced it; a counted reference. */
     struct kd_live_frame *owed;
-    unsigned patched; /* revision that this request has made, as a patch; 0: it is no patch */
+    unsigned patched; /* revision that this request has made, as a patch; 0: it is not a patch */
     /* Hash of the approximations that the client knows already, so that they are not sent again; above 32 bits: it
      * knows none. */
     uint64_t sentences;
     double begun_ms, deadline_ms; /* both on kd_clock_ms: start, and end of waiting; INFINITY: no end */
     bool waiting;                 /* its connection is suspended */
-    /* why the connection was resumed: the deadline has passed; the client has disconnected */
+    /* why the connection was resumed. late: the deadline has passed; gone: the client has disconnected */
     bool late, gone;
     struct kd_viewer *previous, *next;
 };

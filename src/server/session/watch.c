@@ -75,7 +75,7 @@ static void give(struct kd_viewer *viewer, struct kd_live_frame *frame, struct k
     *out = frame;
 }
 
-/* What viewers' calls of kd_viewer_next return. Called with the lock. */
+/* Determines what kd_viewer_next returns. Called with the lock. */
 static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame **frame, struct kd_error *error)
 {
     struct kd_session *s = viewer->session;

@@ -10,7 +10,7 @@ from . import grmhd
 from .importing import CODES, Imported, ImportProblem, scene_from
 from .importing.ipole import MODELS
 
-# Options for dumps, which are arguments of kerrd.matter: name, type, what it is.
+# Options for dumps, each an argument of kerrd.matter: name, type, description.
 DUMP_OPTIONS = (
     ("mass_msun", float, "mass of the hole, suns"),
     ("m_unit", float, "the code's unit of mass, g (default: the largest density is 1e6 cm^-3)"),
@@ -28,7 +28,7 @@ DUMP_OPTIONS = (
 
 
 def report(found: Imported, everything: bool) -> str:
-    """A line for each key that is not said; with everything, for each key."""
+    """A line for each key whose fate is "not said", or with everything for each key; then a line with the counts."""
     notes = found.notes if everything else found.not_said
     lines = []
     for note in notes:
@@ -40,7 +40,7 @@ def report(found: Imported, everything: bool) -> str:
 
 
 def import_dump(asked: argparse.Namespace) -> int:
-    """Writes the grid of a simulation's dump, and tells what was chosen on standard error."""
+    """Writes the grid of a simulation's dump, and prints the choices made for it on standard error."""
     given = {name: getattr(asked, name) for name, _, _ in DUMP_OPTIONS if getattr(asked, name) is not None}
     try:
         if asked.output is None or asked.output == "-":
@@ -62,7 +62,7 @@ def import_dump(asked: argparse.Namespace) -> int:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """The exit code: 0, or 1 if the file cannot be read or, with --strict, if something is not said."""
+    """The exit code: 0, or 1 if the file cannot be read or, with --strict, if the fate of a key is "not said"."""
     parser = argparse.ArgumentParser(prog="python3 -m kerrd", description="kerrd's Python client")
     commands = parser.add_subparsers(dest="command", required=True)
     one = commands.add_parser(

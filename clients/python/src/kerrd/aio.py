@@ -22,17 +22,17 @@ from .result import Sweep
 
 T = TypeVar("T")
 FRAME_WAIT_MS = 25_000
-AGAIN_S = 1  # before a request whose connection broke is sent again
+AGAIN_S = 1  # seconds before a request whose connection broke is sent again
 
 
 class AsyncClient:
     """A client of the server at an address such as "http://127.0.0.1:8080/", spoken to by one event loop.
 
     timeout: seconds without a byte after which a request fails. patience: seconds for which a request is repeated while
-    the server is busy (429, 503, 507), at the intervals that it asks for, before the refusal is raised. For as long a
-    job or a session is requested again if its connection breaks; it is created only once. headers: sent with each
-    request. access: the access token for a server with a token file. trust_env: whether the environment sets proxies
-    and certificates.
+    the server is busy (429, 503, 507), at the intervals that it asks for, before the refusal is raised. For the same
+    time, the request for a job or a session is sent again if its connection breaks; the server creates the job or
+    session only once. headers: sent with each request. access: the access token for a server with a token file.
+    trust_env: whether the environment sets proxies and certificates.
 
     Methods raise Problem for a refused request, Unreachable without a connection, and NoKerrd if another program
     answers.
@@ -354,7 +354,8 @@ class AsyncClient:
         form: Literal["uvfits", "csv"] = "uvfits",
         **settings: Any,
     ) -> bytes:
-        """The same as the bytes of a file: uvfits, for which the observation must be uvfits too, or the EHT's CSV."""
+        """The data of observe() as the bytes of a file: uvfits or the EHT's CSV. For uvfits the observation must be
+        uvfits too."""
         if form not in ("uvfits", "csv"):
             raise ValueError(f"form is {form!r}; it must be 'uvfits' or 'csv'")
         document = await self._observed(observation, scene, settings)
@@ -570,7 +571,7 @@ class AsyncSession:
 
     def _take(self, told: Mapping[str, Any]) -> None:
         if told["revision"] < self.revision:
-            return  # an answer that a later one has overtaken
+            return  # a later answer has arrived already
         self.scene = told["scene"]
         self.revision = told["revision"]
         self._scenes[self.revision] = self.scene

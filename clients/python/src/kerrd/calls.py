@@ -55,15 +55,15 @@ class Call(Generic[T_co]):
 
 
 def retry_after(answer: Answer) -> float | None:
-    """Seconds to wait before a request is repeated, if the server is busy, or still at work on the same request; None
-    if it is not, or does not say."""
+    """Seconds to wait before a request is repeated, if the server is busy or still works on the same request. None for
+    another answer, or one that names no time."""
     said = answer.headers.get("retry-after", "")
     return float(said) if answer.status in (409, 429, 503, 507) and said.replace(".", "", 1).isdigit() else None
 
 
 def may_be_sent_again(call: Call[Any], error: httpx.TransportError) -> bool:
-    """Whether the broken connection may have carried the request, and whether sending it again is safe, since it has an
-    Idempotency-Key."""
+    """Whether to send a request again after this error. The connection must have broken while the request was under
+    way, and the request must have an Idempotency-Key, which makes a second sending safe."""
     broken = httpx.ReadError, httpx.WriteError, httpx.RemoteProtocolError
     return ONCE in call.headers and isinstance(error, broken)
 
@@ -152,7 +152,7 @@ def _frame(answer: Answer) -> Frame:
 
 
 def shown(frame: Frame, scenes: Mapping[int, Document]) -> Frame:
-    """A session's frame with its scene: that of its revision, at the frame's own time and azimuth."""
+    """A session's frame with its scene: the scene of the frame's revision, at the frame's own time and azimuth."""
     if frame.revision not in scenes:
         return frame
     document: Document = copy.deepcopy(scenes[frame.revision])
@@ -188,7 +188,8 @@ def post(
     method: str = "POST",
     once: bool = False,
 ) -> Call[T]:
-    """A request with a JSON body. once: with an Idempotency-Key, so that it may be sent again (docs/http.md)."""
+    """A request with a JSON body. once: whether the request gets an Idempotency-Key, so that it may be sent again
+    (docs/http.md)."""
     key = {ONCE: f'"{uuid.uuid4()}"'} if once else {}
     headers = {"Content-Type": JSON, **({"Accept": accept} if accept else {}), **bearer(token), **key}
     return Call(
@@ -201,7 +202,8 @@ def bearer(token: str | None) -> dict[str, str]:
 
 
 def admitted(access: str | None) -> dict[str, str]:
-    """The access token, in its own header: Authorization carries the tokens of sessions, jobs and assets."""
+    """The access token in a header of its own, because Authorization carries the tokens of sessions, jobs and
+    assets."""
     return {"Kerrd-Access": access} if access else {}
 
 
@@ -229,12 +231,12 @@ TILED: Document = {
     "/image/legend": False,
     "/image/layer_min": 0,
     "/image/layer_max": 1,
-}  # the values that a tile can have, by the pointers of fields that it cannot have in full
+}  # fields that a tile supports at one value only: pointer and value
 
 
 def of_a_tile(problem: Problem, document: Document) -> Document | None:
-    """The document with the refused field set to what a tile can have. None if the field is not refused for being in a
-    tile."""
+    """The document with the refused field set to the value that a tile supports. None if the server refused it for
+    another reason than the tile."""
     if problem.pointer not in TILED:
         return None
     _, section, field = problem.pointer.split("/")
@@ -244,7 +246,7 @@ def of_a_tile(problem: Problem, document: Document) -> Document | None:
 
 
 def together(problems: Sequence[Problem]) -> Problem:
-    """One refusal for several; its pointer is that of the first."""
+    """Joins several refusals into one, whose pointer is that of the first."""
     first = problems[0]
     document = {
         "type": first.type,
@@ -282,7 +284,7 @@ def integral(name: str, document: Document) -> Call[Any]:
 
 
 def _comparison(answer: Answer) -> Any:
-    """Turns columns of words into arrays too, with "" for null."""
+    """Turns columns of words into arrays, as well as columns of numbers. In columns of words null becomes ""."""
     told = _table(answer)
     told["columns"] = {
         name: np.array(["" if part is None else part for part in column]) if isinstance(column, list) else column
@@ -323,7 +325,8 @@ def physics(name: str, parameters: Mapping[str, Any]) -> Call[answers.Quantity]:
 
 
 def _ranged(name: str, value: Any) -> str:
-    """A parameter in the form of a query. An array must be what numpy.linspace makes, and becomes first:last:count."""
+    """A parameter as it stands in a query. An array must be evenly spaced, as from numpy.linspace; it becomes
+    first:last:count."""
     if isinstance(value, str) or np.ndim(value) == 0:
         return str(value)
     listed = np.asarray(value, dtype=np.float64)

@@ -43,7 +43,8 @@ from .local import local
 
 class Servers(WorkerPlugin):
     """The plugin that runs one server for each worker, started with the worker's first scene. options: binary, build,
-    device, args, env, timeout and patience, as for kerrd.local. A cluster has one plugin for the same options."""
+    device, args, env, timeout and patience, as for kerrd.local. A cluster has one such plugin for each set of
+    options."""
 
     idempotent = True
 
@@ -69,8 +70,8 @@ class Servers(WorkerPlugin):
         return {"options": self.options, "name": self.name}
 
     def hole(self, *, other_than: local | None = None) -> local:
-        """The worker's server; a new one if the last has died. other_than: a server whose connection broke, which is
-        given a second to end."""
+        """The worker's server; a new one if the last has died. other_than: a server whose connection broke; if it ends
+        within a second, it counts as dead."""
         with self._lock:
             if self._hole is not None and self._hole is other_than:
                 try:
@@ -144,7 +145,7 @@ def _gather(cluster: Cluster, futures: Any) -> Any:
 
 
 def scenes_of(scene: SceneLike, axes: Mapping[str, Iterable[Any]]) -> list[Document]:
-    """One scene for each combination of the values of fields, by dotted path; the last axis is the fastest."""
+    """One scene for each combination of the axes' values; the last axis varies fastest. axes: values by dotted path."""
     return [scene_of(scene, dict(zip(axes, values))) for values in itertools.product(*axes.values())]
 
 
@@ -162,8 +163,9 @@ def sweep(
 ) -> Any:
     """Renders scenes on a cluster, in the order of the list.
 
-    client: a distributed.Client, by default the current one. preset: the scene that all scenes are applied to. Returns
-    a list of PNG bytes; with `layers`, of dicts of float32 arrays. options: of the workers' servers (Servers).
+    client: a distributed.Client, by default the current one. preset: name of the preset that all scenes are applied to.
+    Returns a list of PNG bytes; with `layers`, of dicts of float32 arrays. options: options of the workers' servers, as
+    for Servers.
 
     folder: a folder shared by all workers, for files 000000.png (or .npz) …; returns their paths. Existing files are
     kept, so that an interrupted sweep continues; sweep.json records the scene of each, and a file of another scene is

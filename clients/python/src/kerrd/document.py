@@ -16,7 +16,7 @@ from .scene import Scene
 
 Document: TypeAlias = dict[str, Any]
 SceneLike: TypeAlias = Scene | Mapping[str, Any] | None
-Open: TypeAlias = Any  # in types of keywords beside **changes: without it, type checkers refuse **{"camera.r": 60}
+Open: TypeAlias = Any  # type of keywords beside **changes; with a narrower one, checkers refuse **{"camera.r": 60}
 T = TypeVar("T")
 
 
@@ -78,7 +78,7 @@ def _place(here: Any, name: str, path: str) -> Any:
 
 
 def _size(value: Any) -> tuple[int, int]:
-    """Width and height in pixels. ValueError if that is not what the value is."""
+    """Width and height in pixels. ValueError if the value is anything else."""
     parts = value.split("x") if isinstance(value, str) else value
     if (
         not isinstance(parts, Sequence)
@@ -113,7 +113,7 @@ def tile_of(document: Document, window: Window) -> Document:
 
 
 def _widths(document: Document) -> tuple[Any, Any]:
-    """The width of the picture in its two units. If changes set one of them, that one holds, as in
+    """The picture's width in M and in microarcseconds. If changes set only one of the two, that one holds, as in
     src/scene/sky_scale.h of the server."""
     camera = document.get("camera") or {}
     return camera.get("field_m"), camera.get("field_uas")
@@ -151,7 +151,7 @@ def patch_of(scene: Document, changes: Mapping[str, Any]) -> Document:
 
 
 def dataclass_of(document: Mapping[str, Any], kind: type[T]) -> T:
-    """A document as dataclasses. What they have no field for, such as `version`, is left out."""
+    """A document as dataclasses. Keys without a field in the dataclasses, such as `version`, are left out."""
     types = typing.get_type_hints(kind)
     return kind(
         **{

@@ -43,8 +43,8 @@ class Problem(KerrdError):
     """A request that the server refused, or failed to serve (RFC 9457).
 
     status: the HTTP status. pointer: the field of the document, such as "/image/width", or None. detail: a sentence
-    with the field, its value and what it must be. allowed: the part of detail on what it must be, or None. type, title:
-    as in the problem document. retry_after: seconds after which another try may succeed, or None.
+    with the field, its value and what it must be. allowed: the part of detail that says what the value must be, or
+    None. type, title: as in the problem document. retry_after: seconds after which another try may succeed, or None.
     """
 
     def __init__(self, status: int, document: dict[str, Any], retry_after: float | None = None) -> None:

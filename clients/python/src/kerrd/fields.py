@@ -14,7 +14,7 @@ from .document import Document
 from .errors import KerrdError
 
 MOST_POSITIONS = 400
-DECADES = 30  # from this ratio of a range's ends on, its slider is logarithmic
+DECADES = 30  # a slider is logarithmic if the ratio of its ends is larger
 PER_DECADE = 40
 UNITS = re.compile(r"_(deg|k|uas|pc|msun|edd|m|jy|ghz|cm3)$")
 
@@ -25,7 +25,7 @@ class Field:
 
     kind: "number", "integer", "choice" or "switch"; or "other", such as a file or a list of words, which has no
     control. low, high: the range that the server accepts; span: the useful part of it. word: the word that may stand
-    instead of a number, such as "infinity"; first: the number to begin with after it.
+    instead of a number, such as "infinity"; first: the number to begin with when a number replaces the word.
     """
 
     path: str

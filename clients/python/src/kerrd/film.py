@@ -19,7 +19,7 @@ from .document import plain
 from .errors import KerrdError
 from .local import find_binary
 
-LOCK_WAIT_S = 120  # for the lock of a process that outlives its worker for a moment
+LOCK_WAIT_S = 120  # seconds to wait for the lock of a process that outlives its worker for a moment
 
 
 def _run(arguments: Sequence[str], request: bytes, binary: str | None) -> dict[str, Any]:
@@ -74,7 +74,7 @@ def film(
     common = ["--state", folder, *options]
     first = cluster.submit(
         _run, [*common, "--only", "0:0"], request, binary, retries=retries, pure=False
-    ).result()  # this task measures the exposure of the whole film, too
+    ).result()  # this task also measures the exposure of the whole film
     frames = int(first["frames"])
     ranges = [(k, min(k + batch, frames) - 1) for k in range(1, frames, batch)]
     n = len(ranges)

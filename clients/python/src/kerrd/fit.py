@@ -32,7 +32,7 @@ from .document import SceneLike
 
 Product = Literal["amplitude", "closure_phase", "log_closure_amplitude", "visibility"]
 Progress = Callable[[int, int, float], None]
-SETS = 256  # in a request, so that none takes too long
+SETS = 256  # parameter sets in a request; more would take too long
 
 
 def _needs(package: str, what: str) -> Any:
@@ -81,7 +81,8 @@ class Posterior:
     acceptance: float
 
     def samples(self, burn: float = 0.5) -> NDArray[np.float64]:
-        """All samples but those of the first share of the steps, (samples, parameters): corner.corner() takes them."""
+        """All samples except those of the first steps, of which `burn` is the share. Shape (samples, parameters), as
+        for corner.corner()."""
         return self.chain[round(burn * len(self.chain)) :].reshape(-1, len(self.names))
 
     def interval(self, name: str, share: float = 0.95, burn: float = 0.5) -> tuple[float, float, float]:
@@ -118,7 +119,7 @@ def _bounds_of(name: str, given: object) -> tuple[float, float]:
 
 
 def _kept(path: pathlib.Path) -> dict[str, NDArray[Any]]:
-    """What a chain's file has."""
+    """The arrays of a chain's file."""
     try:
         with np.load(path) as file:
             return {name: file[name] for name in ("fit", "chain", "log_probability", "accepted", "random")}
@@ -143,11 +144,12 @@ class Fit:
     client: a kerrd.Client. observation: a file (uvfits, or the EHT's CSV), its bytes, or the hash of an asset.
     parameters: name -> its bounds. A name is a field of the scene by its path, such as "spacetime.spin", or "size",
     "position_angle_deg" or "flux_jy". scene, preset: what the parameters change. products: data that are compared.
-    solve: what follows in closed form, or by a search, for each set: the flux by default unless it is given. settings:
-    further fields of the request, such as pixels, average_s, systematic, scattering (docs/comparing.md).
+    solve: quantities that the server finds for each set, in closed form or by a search; by default the flux, unless it
+    is given. settings: further fields of the request, such as pixels, average_s, systematic, scattering
+    (docs/comparing.md).
 
-    Amplitudes and log closure amplitudes are the same data twice, so that they are refused together; so
-    are visibilities beside any other product.
+    Amplitudes and log closure amplitudes together are the same data twice, so this combination is refused, as are
+    visibilities with any other product.
     """
 
     def __init__(

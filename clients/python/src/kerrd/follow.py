@@ -16,11 +16,11 @@ from .document import Document, SceneLike, patch_of, scene_of
 from .errors import KerrdError, Problem
 from .frame import Frame
 
-MOST_UNSHOWN = 2  # frames that were sent to the viewer and not acknowledged yet
-DEAF_S = 0.25  # after which a frame counts as shown while a cell runs, when the kernel hears no acknowledgement
-PRESENCE_S = 150  # without a message, a viewer is taken to have left: a hidden page sends one a minute
-AGAIN_S = 2.0  # between two attempts to reach the server
-REFRESH_S = 0.2  # between two requests for a scene that moves by itself
+MOST_UNSHOWN = 2  # frames sent to the viewer that it has not acknowledged yet
+DEAF_S = 0.25  # seconds after which a frame counts as shown while a running cell keeps acknowledgements away
+PRESENCE_S = 150  # seconds without a message after which a viewer has left; a hidden page sends one a minute
+AGAIN_S = 2.0  # seconds between two attempts to reach the server
+REFRESH_S = 0.2  # seconds between two requests for a scene that moves by itself
 
 
 def sentence(error: BaseException) -> str:
@@ -42,9 +42,9 @@ class Follower:
     somebody watches or waits.
 
     Callbacks: took(scene) when the scene has changed; show(frame, serial) to show a frame, which the viewer
-    acknowledges by shown(serial); complain(text) with an error, or with "" when it is over. At most MOST_UNSHOWN frames
-    are unacknowledged; of those that come meanwhile only the newest is kept. The callbacks run on any thread, `took` on
-    one at a time. The constructor raises Problem if the server refuses the scene.
+    acknowledges by shown(serial); complain(text) with an error, or with "" when the error is over. At most MOST_UNSHOWN
+    frames are unacknowledged; of those that come meanwhile only the newest is kept. The callbacks run on any thread,
+    `took` on one at a time. The constructor raises Problem if the server refuses the scene.
     """
 
     def __init__(

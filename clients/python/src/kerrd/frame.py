@@ -80,8 +80,8 @@ class Frame:
 
     data: bytes of the file; kind: its media type. layers: the layers that were requested, by name, float32 of shape
     (height, width), "rgb" of shape (height, width, 3). shows: the scene of a session's frame, whose file does not hold
-    it, else None. accuracy: numbers of the header Kerrd-Accuracy. timing: milliseconds of each pass. quality, number
-    and revision: of frames of a session only.
+    the scene; None for other frames. accuracy: numbers of the header Kerrd-Accuracy. timing: milliseconds of each pass.
+    quality, number and revision: of frames of a session only.
     """
 
     data: bytes

@@ -28,8 +28,8 @@ from .scene import Scene
 
 USUAL = ("spacetime.spin", "camera.inclination_deg", "disk.outer", "style.exposure")
 WIDTH = 640  # pixels, the default width of a picture
-PATIENCE_S = 60.0  # for a frame that is requested
-FINEST_S, SHOW_S = 2.0, 10.0  # for the finest frame, and for any, that is saved in the notebook with the widget
+PATIENCE_S = 60.0  # seconds to wait for a frame that is requested
+FINEST_S, SHOW_S = 2.0, 10.0  # seconds to wait for the finest frame, then for any, to save in the notebook
 
 _starting = threading.Lock()
 _own: local | None = None

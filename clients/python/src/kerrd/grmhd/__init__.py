@@ -47,11 +47,12 @@ def matter(
     field in gauss. Without m_unit the largest density is 1e6 cm^-3, and the scene's volume.grid_scale or
     volume.normalise_to_jy sets it. electrons: "ratio" of temperatures by r_low and r_high (Moscibrodzka et al. 2016),
     or the name of the stored entropy, such as "KEL". gamma_e, gamma_p: adiabatic indices of electrons and ions; None:
-    the file's, else 4/3 and 5/3. sigma_cut: no matter where b^2/rho is larger; None: everywhere. rho_floor: no matter
-    where the code's density is at most this, because the code has set it; None: everywhere. outer: rows beyond this r
-    are left out. code: "iharm3d" or "athena++"; None: found by the contents. spin, gamma: of the hole, and the gas's
-    adiabatic index: needed for Athena++, whose files have neither. DumpProblem, with file and name, for a file that
-    cannot be read; ValueError for another argument; ImportError without the package h5py.
+    the file's, else 4/3 and 5/3. sigma_cut: zones with a larger b^2/rho have no matter; None: no such cut. rho_floor:
+    zones whose density in the code's units is at most this have no matter, because the code has set that density; None:
+    no such cut. outer: rows beyond this r are left out. code: "iharm3d" or "athena++"; None: found by the contents.
+    spin, gamma: of the hole, and the gas's adiabatic index: needed for Athena++, whose files have neither. DumpProblem,
+    with file and name, for a file that cannot be read; ValueError for another argument; ImportError without the package
+    h5py.
     """
     if code is not None and code not in CODES:
         raise ValueError(f"code is {code!r}; it must be {', '.join(CODES)} or None")

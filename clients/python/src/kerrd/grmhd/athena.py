@@ -24,8 +24,8 @@ TURN = 1e-5
 
 @dataclass(frozen=True)
 class Mesh:
-    """Blocks of zones, of several levels of refinement. size: zones of a block along r, theta and phi; whole: of the
-    mesh at the finest level."""
+    """Blocks of zones, of several levels of refinement. size: zones of a block along r, theta and phi; whole: zones of
+    the whole mesh at the finest level."""
 
     file: DumpFile
     size: tuple[int, int, int]
@@ -35,7 +35,7 @@ class Mesh:
     finest: int
 
     def factor(self, block: int, axis: int) -> int:
-        """Zones of the finest level along an axis in one of the block."""
+        """Zones of the finest level, along an axis, in one zone of the block."""
         return 1 if self.whole[axis] == 1 else 1 << (self.finest - self.levels[block])
 
     def span(self, block: int, axis: int) -> slice:
@@ -45,8 +45,8 @@ class Mesh:
         return slice(first, first + width)
 
     def faces(self, axis: int) -> Numbers:
-        """Bounds of the zones of the finest level. Where only coarser zones are, these are divided evenly: in log r
-        along r."""
+        """Bounds of the zones of the finest level. Where the mesh has only coarser zones, these are divided evenly (r
+        in log r)."""
         name = f"x{axis + 1}f"
         read = self.file.part(name, self.file.array(name, (len(self.levels), self.size[axis] + 1)), slice(None))
         if not (np.isfinite(read).all() and (np.diff(read, axis=1) > 0).all() and (axis or (read > 0).all())):
@@ -103,7 +103,7 @@ def _wholes(file: DumpFile, name: str, shape: tuple[int, ...], high: int) -> NDA
 
 
 def _variables(file: DumpFile, mesh: Mesh) -> dict[str, tuple[str, Any, int]]:
-    """The dataset and the index in it of each variable."""
+    """For each variable, its dataset and its index there."""
     datasets = file.attribute_texts("DatasetNames", 64)
     counts = file.attribute_wholes("NumVariables", len(datasets), 1, 256)
     names = file.attribute_texts("VariableNames", 256)
@@ -167,7 +167,7 @@ def _coordinates(file: DumpFile, mesh: Mesh) -> tuple[Numbers, Numbers, Numbers 
 
 
 def read(file: DumpFile, spin: float | None, gamma: float | None, outer: float | None = None) -> Dump:
-    """The dump of an open file, whose blocks are all read."""
+    """The dump of an open file. All blocks are read at once."""
     for name, value, low, high in (("spin", spin, -1, 1), ("gamma", gamma, 1.0001, 3)):
         if value is None:
             raise ValueError(f"{name} is None; it must be given for a file of Athena++, which does not have it")

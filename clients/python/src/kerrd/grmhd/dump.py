@@ -16,7 +16,7 @@ Row = dict[str, NDArray[np.float64]]
 
 @dataclass(frozen=True)
 class Dump:
-    """What the readers have in common.
+    """A dump in the form that all readers return.
 
     r: of each row. theta: of each column, or of each node of a layer, (rows, columns). phi: of each layer, or None if
     the dump is axisymmetric. gamma: the gas's adiabatic index. gamma_e, gamma_p: those of electrons and ions, if the

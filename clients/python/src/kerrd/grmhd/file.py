@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..errors import KerrdError
 
 MAGIC = b"\x89HDF\r\n\x1a\n"
-NODES_MOST = 1 << 26  # of a dump; the server's limit is src/render/emit/matter_grid.h
+NODES_MOST = 1 << 26  # most nodes of a dump; the server's limit stands in src/render/emit/matter_grid.h
 SIDE_MOST = 65536
 
 

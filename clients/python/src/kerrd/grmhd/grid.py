@@ -34,8 +34,9 @@ KIND = "application/x-npz"
 
 @dataclass(frozen=True)
 class Matter:
-    """A grid of matter. spin: of the hole, which the scene's spacetime.spin must be. r, theta, phi: of the nodes.
-    arrays: each of the shape (rows, columns) or (rows, columns, layers). notes: what was chosen, cut and left out."""
+    """A grid of matter. spin: the hole's spin, which the scene's spacetime.spin must equal. r, theta, phi: of the
+    nodes. arrays: each of the shape (rows, columns) or (rows, columns, layers). notes: what was chosen, cut and left
+    out."""
 
     spin: float
     r: NDArray[np.float64]
@@ -78,7 +79,7 @@ class Matter:
             self._write(file)
 
     def to_bytes(self) -> bytes:
-        """The same file, for client.put_asset(matter.to_bytes(), "application/x-npz")."""
+        """The bytes of the same file, for client.put_asset(matter.to_bytes(), "application/x-npz")."""
         file = io.BytesIO()
         self._write(file)
         return file.getvalue()

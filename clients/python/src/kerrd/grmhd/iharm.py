@@ -105,7 +105,7 @@ def _reader(
 
 
 def read(file: DumpFile, outer: float | None = None) -> Dump:
-    """The dump of an open file, whose rows are read as they are asked for."""
+    """The dump of an open file. Its rows are read when they are requested."""
     metric = file.text("header/metric")
     if metric not in METRICS:
         raise file.must("header/metric", f'"{metric[:40]}"', "MKS, MMKS or FMKS")

@@ -1,4 +1,4 @@
-"""Units, temperature of electrons and cuts: what a simulation in scale-free units leaves open."""
+"""Units, temperature of electrons and cuts, which a simulation in scale-free units does not determine."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ C, K = 2.99792458e10, 1.380649e-16
 PROTON, ELECTRON = 1.67262192369e-24, 9.1093837015e-28
 GM_SUN = 1.3271244e26
 THETA_LEAST = 1e-3  # of k T/(m_e c^2), as in ipole
-PEAK = 1e6  # the largest density in cm^-3 where the unit is not known
+PEAK = 1e6  # the largest density in cm^-3 if the code's unit is unknown
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class Plasma:
         return np.maximum(PROTON / ELECTRON * theta, THETA_LEAST) * (ELECTRON * C**2 / K)
 
     def cut(self, rho: Numbers, b2: Numbers) -> NDArray[np.bool_]:
-        """Where there is no matter."""
+        """Whether each node is without matter because of a cut."""
         none = np.zeros(rho.shape, bool) if self.rho_floor is None else rho <= self.rho_floor
         return none if self.sigma_cut is None else none | (b2 > self.sigma_cut * rho)
 

@@ -67,7 +67,7 @@ METHOD_FLAGS = (
 )
 METHOD_TEXTS = ("output_file", "checkpoint_geodesic_file", "checkpoint_sample_file")
 
-# Flags that ask for more than light, and what kerrd has instead.
+# Flags for maps of other quantities than light, and what kerrd has instead.
 MAPS = {
     "image_time": "the layer delay has the time of arrival of light from the disk's plane alone",
     "image_length": "kerrd has no map of the length of rays",
@@ -197,7 +197,7 @@ def _method(sheet: Sheet) -> None:
 
 
 def _formula(sheet: Sheet) -> float:
-    """The model of Gold et al. 2020 (ApJ 897, 148), 3.2. Answers the spin."""
+    """The model of Gold et al. 2020 (ApJ 897, 148), section 3.2. Returns the spin."""
     spin = sheet.number("formula_spin")
     sheet.say("formula_spin", "spacetime.spin", spin)
     sheet.say("formula_mass", "spacetime.mass_msun", sheet.positive("formula_mass") / 100 / SUN_M)
@@ -259,7 +259,7 @@ def _simulation(sheet: Sheet) -> float:
 
 
 def _camera(sheet: Sheet, spin: float) -> Received:
-    """The camera. Answers what its observer receives."""
+    """Sets the camera. Returns what its observer receives."""
 
     def named(key: str) -> str:
         return next((old for old, new in OLD_NAMES.items() if new == key and old in sheet), key)

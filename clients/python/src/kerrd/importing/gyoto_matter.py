@@ -14,7 +14,7 @@ from .sheet import Draft, ImportProblem, shown
 from .units import Units
 
 OUTER_M = 1e6  # where GYOTO's disk has no outer edge
-# Kinds of matter that kerrd has none of.
+# Kinds of matter that kerrd does not have.
 OTHERS = (
     *"Blob DeformedTorus DirectionalDisk Disk3D Disk3D_BB DynamicalDisk DynamicalDisk3D DynamicalDiskBolometric".split(),
     *"FlaredDiskSynchrotron FreeStar InflateStar Jet NeutronStar NeutronStarAnalyticEmission".split(),
@@ -122,11 +122,11 @@ class Matter:
             self.draft.lacks("the scene is without its spots, which turn against the disk")
 
     def _full(self, name: str, most: int) -> str | None:
-        """Why a scene can have no more of these, if it cannot."""
+        """The reason why the scene can have no more of these objects, or None if it can."""
         return f"a scene has at most {most} {name}" if len(self.draft.document.get(name, [])) >= most else None
 
     def _generic(self, sheet: Section) -> tuple[bool, bool]:
-        """Whether light is shifted, and whether matter is seen through."""
+        """Whether light is redshifted, and whether matter is transparent."""
         for pair in GENERIC_SWITCHES:
             sheet.switch(*pair, default=False)
         for key in ("RMax", "DeltaMaxInsideRMax"):
@@ -221,7 +221,8 @@ class Matter:
             sheet.say(key, "disk.mdot_edd", rate * 1e-3 * efficiency(spin) / eddington_kg_s(self.units.mass_msun))
 
     def _path(self, sheet: Section, fixed: bool = False) -> Path:
-        """From Position t, r, theta, phi and Velocity dr/dt, dtheta/dt, dphi/dt, or in Kerr-Schild x, y, z."""
+        """The path from the keys Position (t, r, theta, phi) and Velocity (dr/dt, dtheta/dt, dphi/dt), or from the same
+        keys in Kerr-Schild x, y, z."""
         t, *place = [0.0, *sheet.numbers("Position", 3)] if fixed else sheet.numbers("Position", 4)
         velocity = sheet.numbers("Velocity", 3) if "Velocity" in sheet else [0.0, 0.0, 0.0]
         if self.coordinates == "KerrKS":

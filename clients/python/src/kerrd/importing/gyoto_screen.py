@@ -15,7 +15,7 @@ from .units import ANGLES, Units
 NEAREST_INFINITE_M = 1e5  # beyond it the camera is at infinity, with the same width at the hole
 DMAX_M = 1e7  # GYOTO traces rays from there if the screen is farther away
 FIELD_RAD = 0.1 * math.pi  # GYOTO's standard
-RESOLUTION = 1001  # the same
+RESOLUTION = 1001  # GYOTO's standard
 KINDS = ("ObserverAtInfinity", "KeplerianObserver", "ZAMO", "VelocitySpecified", "FullySpecified")
 OBSERVERS = {"KeplerianObserver": "keplerian", "ZAMO": "zamo"}
 PROJECTIONS = ("EquatorialAngles", "Rectilinear", "SphericalAngles")
@@ -199,7 +199,7 @@ def _field(screen: Section, camera: Camera, units: Units) -> None:
             raise screen.wrong(key, "below 179 degrees")
         draft.put("camera.r", camera.r)
         path, value = "camera.fov_deg", math.degrees(angle)
-    value = float(f"{value:.13g}")  # undoes what the units' factors round
+    value = float(f"{value:.13g}")  # removes rounding errors of the units' factors
     draft.put(path, value)
     if key in screen:
         screen.say(key, path, value)

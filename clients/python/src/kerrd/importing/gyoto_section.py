@@ -52,7 +52,7 @@ class Section(Sheet):
         return said
 
     def numbers(self, key: str, count: int) -> list[float]:
-        """As many numbers, with white space between them."""
+        """The count numbers of a key, with white space between them."""
         words = self.text(key).split()
         parts = [Sheet(self.draft, {key: Entry(word, self.entries[key].line)}, self.section) for word in words]
         if len(words) != count:
@@ -60,7 +60,7 @@ class Section(Sheet):
         return [part.number(key) for part in parts]
 
     def switch(self, on: str, off: str, default: bool) -> bool:
-        """Which of two empty elements is there."""
+        """Whether the empty element <on/> is present rather than <off/>; the default if neither is."""
         for key in (on, off):
             if self.entries.get(key, Entry("", 0)).value:
                 raise self.wrong(key, f"empty, as in <{key}/>")

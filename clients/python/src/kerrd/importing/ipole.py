@@ -36,7 +36,7 @@ METHOD_WHOLES = (
 )
 METHOD_NUMBERS = "eps refine_abs refine_rel refine_cut img_cadence restart_int".split()
 METHOD_TEXTS = "outfile trace_outf histo_outf".split()
-# Numbers that leave everything as it is at one value, and what they do otherwise.
+# Numbers that kerrd supports at one value only: that value, and what kerrd always does.
 OFF = {
     "counterjet": (0, "volumes shine in both hemispheres"),
     "target_nturns": (-1, "light of volumes is not divided by image order"),

@@ -47,8 +47,8 @@ def field_m(angle_rad: float, mass_msun: float, distance_pc: float) -> float:
 @dataclass(frozen=True)
 class Received:
     """What an observer receives. infinity: frequency at infinity over that at the observer, for the given photon.
-    still: whether it is at rest with respect to infinity. velocity: r, theta and phi components past the local observer
-    of zero angular momentum, c."""
+    still: whether it is at rest with respect to infinity. velocity: r, theta and phi components relative to the local
+    observer of zero angular momentum, c."""
 
     infinity: float
     still: bool
@@ -81,7 +81,7 @@ def received(
     square = (delta * kr * kr + 2 * a * kr * kp + kt * kt) / sigma + (kp * kp / (sigma * s * s) if kp else 0.0)
     k0 = (h * kr - math.sqrt(h * h * kr * kr + (1 + h) * square)) / (1 + h)
     local = -(k0 * u0 + kr * u1 + kt * u2 + kp * u3)
-    # In Boyer-Lindquist coordinates, past the observer of zero angular momentum.
+    # In Boyer-Lindquist coordinates, relative to the observer of zero angular momentum.
     t, phi = u0 - 2 * r / delta * u1, u3 - a / delta * u1
     area = (r * r + a * a) ** 2 - a * a * delta * s * s
     gamma = math.sqrt(sigma * delta / area) * t

@@ -173,7 +173,8 @@ class Sheet:
         return key in self.entries
 
     def known(self, keys: Iterable[str], what: str) -> None:
-        """Refuses a key that is none of these. what: names the file that has them, as in "an input file of ipole"."""
+        """Refuses an entry whose key is not in keys. what: names the file that has them, as in "an input file of
+        ipole"."""
         keys = set(keys)
         for key, entry in self.entries.items():
             if key not in keys:

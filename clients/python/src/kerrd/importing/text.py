@@ -54,7 +54,7 @@ def add(name: str, entries: dict[str, Entry], key: str, entry: Entry) -> None:
 
 
 def code_of(name: str, data: bytes) -> str:
-    """The code that the file is for, by its contents. ImportProblem if they tell nothing."""
+    """The code that the file is for, by its contents. ImportProblem if the contents fit none."""
     start = data.lstrip(b"\xef\xbb\xbf \t\r\n\f\v")
     if start.startswith((b"<", b"\xff\xfe", b"\xfe\xff")):
         return "gyoto"

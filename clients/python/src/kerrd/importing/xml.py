@@ -74,6 +74,6 @@ def parse(file: str, data: bytes) -> Element:
         parser.Parse(data, True)
     except expat.ExpatError as error:
         raise ImportProblem(file, error.lineno, None, f"is not XML: {expat.ErrorString(error.code)}") from None
-    except LookupError as error:  # of encodings
+    except LookupError as error:  # unknown encoding
         raise ImportProblem(file, 1, None, f"is not XML: {error}") from None
     return roots[0]
