@@ -89,8 +89,7 @@ static void judge(const struct view *v, const struct kd_ray_crossing *crossings,
             worst = fmax(worst, off), gain = fmax(gain, slope);
             e->r[e->n++] = off / (1 + slope);
             if (p->r[n] > far)
-                e->phi[e->n_phi++] =
-                    turn_of(c->phi - p->phi[n]) / (1 + turn_of(q->phi[n] - p->phi[n]) / 1e-6);
+                e->phi[e->n_phi++] = turn_of(c->phi - p->phi[n]) / (1 + turn_of(q->phi[n] - p->phi[n]) / 1e-6);
         }
         e->loose += worst > ends[k].error + 1e-10 * (1 + gain) * (1 + worst); /* the oracle's own error */
     }
@@ -125,8 +124,8 @@ static void measure(int set, enum kd_engine engine, enum kd_precision precision,
     qsort(e->phi, e->n_phi, sizeof *e->phi, by_size);
 }
 
-/* Bounds of the worst errors of r and phi, and of the rays that differ, of each set: some three times what was measured.
- * The first is the oracle's own error. */
+/* Bounds of the worst errors of r and phi, and of the rays that differ, of each set: some three times what was
+ * measured. The first is the oracle's own error. */
 static const struct row {
     enum kd_engine engine;
     enum kd_precision precision;
@@ -151,9 +150,10 @@ static bool markdown;
 static void tell(const struct row *row, int set, const struct errors *e)
 {
     if (markdown)
-        printf("| %s | %s | %s | %zu | %.0e | %.0e | %.0e | %.0e | %zu | %zu |\n", set ? "" : kd_engine_name(row->engine),
-               set ? "" : kd_precision_name(row->precision), sets[set].name, e->rays, e->r[e->n / 2], e->r[e->n - 1],
-               e->phi[e->n_phi / 2], e->phi[e->n_phi - 1], e->differ, e->loose);
+        printf("| %s | %s | %s | %zu | %.0e | %.0e | %.0e | %.0e | %zu | %zu |\n",
+               set ? "" : kd_engine_name(row->engine), set ? "" : kd_precision_name(row->precision), sets[set].name,
+               e->rays, e->r[e->n / 2], e->r[e->n - 1], e->phi[e->n_phi / 2], e->phi[e->n_phi - 1], e->differ,
+               e->loose);
     else
         print_message("%s %s, %s: %zu rays, r %.1e, worst %.1e; phi %.1e, worst %.1e; %zu differ, %zu loose\n",
                       kd_engine_name(row->engine), kd_precision_name(row->precision), sets[set].name, e->rays,

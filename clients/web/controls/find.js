@@ -1,5 +1,5 @@
-// A search through all settings by label, help, choice or name of the field, in the page's language and in English. Matching fields stay in
-// their groups, which open; all others are hidden until the search is empty.
+// A search through all settings by label, help, choice or name of the field, in the page's language and in English.
+// Matching fields stay in their groups, which open; all others are hidden until the search is empty.
 import { byId } from '../base/dom.js';
 import { english, t } from '../words/i18n.js';
 

@@ -7,7 +7,8 @@ const least_samples = 2;
 export const samples = scene =>
   scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples);
 
-// The document of a scene for a window of this size. part: the share of its width for which the server accepts a picture.
+// The document of a scene for a window of this size. part: the share of its width for which the server accepts a
+// picture.
 export function document(scene, { width, height }, part) {
   const over = {
     'image.width': Math.round(width * part),

@@ -24,8 +24,8 @@ export function sentences() {
 
 const names = header => (header ?? '').split(', ').filter(Boolean);
 
-// The approximations of a picture: names and sentences. The server sends their names only when the set differs from the one
-// whose number the request gave; the session keeps the sets by number.
+// The approximations of a picture: names and sentences. The server sends their names only when the set differs from
+// the one whose number the request gave; the session keeps the sets by number.
 export async function approximations(session, get) {
   session.told = get('Kerrd-Sentences');
   if (!session.sentences.has(session.told)) session.sentences.set(session.told, names(get('Kerrd-Approximations')));

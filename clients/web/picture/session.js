@@ -40,8 +40,8 @@ export function adopter(scene) {
   };
 }
 
-// Strikes the hole of a session. document: the one that was sent, which gets the strike too. wrong(sentence) is called on
-// a refusal.
+// Strikes the hole of a session. document: the one that was sent, which gets the strike too. wrong(sentence) is
+// called on a refusal.
 export async function strike(scene, session, document, headers, wrong) {
   const answer = await ask(session.url + '/ringdown', { method: 'POST', headers, body: '{}' }).catch(error => {
     if (!(error instanceof Problem) || error.status === 404) throw error;

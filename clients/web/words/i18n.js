@@ -1,5 +1,5 @@
-// What the page says in its language (language.js): numbers, units, names of fields and choices, and the sentences of the
-// server.
+// What the page says in its language (language.js): numbers, units, names of fields and choices, and the sentences of
+// the server.
 import { lang, locale, t } from './language.js';
 
 export { lang, t };
@@ -12,8 +12,8 @@ try {
   Object.defineProperty(navigator, 'language', { value: lang });
 }
 
-// A sentence of the server, and its name if it has one: translated if a translation is known, else marked as English for
-// screen readers.
+// A sentence of the server, and its name if it has one: translated if a translation is known, else marked as English
+// for screen readers.
 export function said(text, name) {
   const known = locale && text && (locale.server[name] ?? server.translated(text, locale.server));
   return { text: known || text, lang: known || !locale || !text ? null : 'en' };

@@ -1,5 +1,6 @@
-// Sentences of the server that have no name in its answers: an identifier of each, by which locale/LANGUAGE.json has its
-// translation, and how the identifier is found. Loaded for languages other than English. Approximations have names.
+// Sentences of the server that have no name in its answers: an identifier of each, by which locale/LANGUAGE.json has
+// its translation, and how the identifier is found. Loaded for languages other than English. Approximations have
+// names.
 const sentences = {
   'said.thin-disk': 'thin disk',
   'said.thick-disk': 'thick disk',
