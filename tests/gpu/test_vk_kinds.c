@@ -185,8 +185,8 @@ static void refused(void **state)
     bad = good, bad.bindings[2].buffer = crumb;
     FAILS(KD_EINTERNAL, "whole texels of 16 bytes", kd_vk_dispatch(vk, &bad, &error)); /* less than one texel */
     struct kd_vk_pipeline_params params = KINDS_PARAMS;
-    params.kinds[1] = (enum kd_vk_kind)6;
-    FAILS(KD_EINTERNAL, "binding 1 has the unknown kind 6", kd_vk_pipeline_create(vk, &params, &none, &error));
+    params.kinds[1] = (enum kd_vk_kind)7;
+    FAILS(KD_EINTERNAL, "binding 1 has the unknown kind 7", kd_vk_pipeline_create(vk, &params, &none, &error));
     kd_vk_buffer_destroy(vk, crumb);
     drop(vk, &set);
     kd_vk_pipeline_destroy(vk, pipeline);
