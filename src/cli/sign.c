@@ -90,23 +90,37 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* Writes the path below the server's base path: the longest end of the path that is a route for links. */
-static enum kd_status below_base(const char *path, struct kd_buffer *out, struct kd_error *error)
+/* Looks for the longest end of the path that is a route for links, with or without folders in its name. */
+static enum kd_status find_end(const char *path, bool folders, struct kd_buffer *out, bool *found)
 {
     enum kd_status status = KD_OK;
-    for (const char *at = strchr(path, '/'); at; at = strchr(at + 1, '/')) {
+    *found = false;
+    for (const char *at = strchr(path, '/'); at && !*found; at = strchr(at + 1, '/')) {
         const char *rest = "";
         char *copy = strdup(at);
         if (!copy)
-            return kd_error_set(error, KD_ENOMEM, "out of memory for a path");
+            return KD_ENOMEM;
         const struct kd_route *route = kd_route_of(copy, &rest);
-        const bool found = route && kd_role_may(KD_ROLE_LINK, route, KD_GET);
-        if (found)
+        *found = route && kd_role_may(KD_ROLE_LINK, route, KD_GET) && route->folders == folders;
+        if (*found)
             status = kd_route_path(route, rest, out);
         free(copy);
-        if (found)
-            return status ? kd_error_set(error, status, "out of memory for a path") : KD_OK;
     }
+    return status;
+}
+
+/* Writes the path below the server's base path. A base path may itself begin like a route whose name has folders, so
+ * these routes come last. */
+static enum kd_status below_base(const char *path, struct kd_buffer *out, struct kd_error *error)
+{
+    bool found;
+    enum kd_status status = find_end(path, false, out, &found);
+    if (!status && !found)
+        status = find_end(path, true, out, &found);
+    if (status)
+        return kd_error_set(error, status, "out of memory for a path");
+    if (found)
+        return KD_OK;
     struct kd_buffer list = { 0 };
     for (size_t i = 0; i < kd_n_routes && !status; i++)
         if (kd_routes[i].signable)
@@ -133,8 +147,6 @@ static enum kd_status sign(const struct arguments *a, struct kd_error *error)
     KD_TRY(kd_access_read(a->token_file, &access, error));
     KD_TRY(kd_target_parse(target, raw, error));
     KD_TRY(kd_target_distinct(target, error));
-    if (kd_link_is(target))
-        KD_TRY(kd_error_set(error, KD_EINVAL, "the address has a signature already; it must be the unsigned address"));
     KD_TRY(below_base(target->path, &path, error));
     KD_TRY(kd_link_sign(access, a->key, (const char *)path.data, target, &a->terms, &query, error));
     if (kd_buffer_printf(&line, "%s%s%s\n", a->address, strchr(a->address, '?') ? "&" : "?", (const char *)query.data))

@@ -67,7 +67,7 @@ static size_t more_sources(const struct kd_integral_request *r, const char *out[
     size_t n = 0;
     if (r->what == KD_INTEGRAL_SPECTRUM && r->returning)
         out[n++] = "C. T. Cunningham 1976, ApJ 208, 534 (returning light)";
-    if (r->scene && r->scene->spacetime.charge != 0)
+    if (r->charge != 0 || (r->scene && r->scene->spacetime.charge != 0))
         out[n++] = "E. T. Newman et al. 1965, J. Math. Phys. 6, 918 (the charged hole)";
     return n;
 }

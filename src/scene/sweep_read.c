@@ -90,9 +90,12 @@ static enum kd_status add(struct reader *r, const char *text, const char *at)
         free(copy);
         return no_memory(r);
     }
-    axis->values[axis->n++] =
-        (struct kd_sweep_value) { copy, value.kind == KD_VALUE_NUMBER && r->field->kind != KD_KIND_ASSET ? value.number
-                                                                                                         : NAN };
+    const bool numeric = value.kind == KD_VALUE_NUMBER && r->field->kind != KD_KIND_ASSET;
+    axis->values[axis->n++] = (struct kd_sweep_value) {
+        .text = copy,
+        .number = numeric ? value.number : NAN,
+        .grid_nodes = kd_scene_same_path(axis->path, "volume.grid") ? scene.grid_nodes : 0,
+    };
     return KD_OK;
 }
 

@@ -267,7 +267,7 @@ static bool query_fault(const struct kd_request *request, struct kd_error *error
 static bool choose(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_problem problem;
-    struct kd_error error;
+    struct kd_error error = { 0 };
     struct told told;
     char key[KD_ONCE_TEXT];
 

@@ -38,6 +38,8 @@ class Sign(Case):
             ("http://localhost:8080/v1/render?preset=jet&image.width=64", "/v1/render"),
             ("/v1/render?preset=jet&image.width=64", "/v1/render"),
             ("https://example.org/black/holes/v1/render?preset=jet", "/v1/render"),
+            ("https://example.org/web/v1/render?preset=jet", "/v1/render"),
+            ("https://example.org/x/web/share/shared.css", "/web/share/shared.css"),
             ("https://example.org/s/KyhKLU4tsS3Ozc8vyQAA", "/s/KyhKLU4tsS3Ozc8vyQAA"),
             ("https://example.org/v1/jobs/0123456789abcdef/result?format=mp4", "/v1/jobs/0123456789abcdef/result"),
             ("/v1/physics/kerr?spin=0.5&fields=a%20b+c%2Cd%C3%A9", "/v1/physics/kerr"),
@@ -108,7 +110,8 @@ class Sign(Case):
             (RENDER + "#x", "no fragment"),
             (RENDER + "&preset=riaf", "preset twice"),
             (RENDER + "&a=%zz", "two hexadecimal digits"),
-            (RENDER + "&signature=00", "has a signature already"),
+            (RENDER + "&expires=5", "has a parameter expires"),
+            (RENDER + "&signature=00", "has a parameter signature"),
         ):
             with self.subTest(address):
                 self.refused(words, *good, "-k", "website", address=address)

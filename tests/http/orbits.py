@@ -127,7 +127,7 @@ class Orbits(daemon.Case):
         ]:
             problem = self.assertProblem(self.post({**document, "seen": seen}), 422)
             self.assertEqual(problem.get("pointer", ""), pointer, problem)
-        self.assertProblem(self.daemon.post(ORBITS + "?spin=0", GENERIC), 422, "invalid-orbit")
+        self.assertProblem(self.daemon.post(ORBITS + "?spin=0", GENERIC), 422, "invalid-parameters")
         self.assertProblem(self.post(GENERIC, Accept="image/png"), 406, "not-acceptable")
         self.assertProblem(
             self.post({"orbits": [GENERIC["orbit"]]}, Accept="application/x-ndjson"), 422, "invalid-orbit", "/orbits"

@@ -178,7 +178,7 @@ def observations():
 
 def routes(document):
     """Requests that each operation of the document refuses."""
-    known = dict(name="nobody", id="0123456789abcdef", sha256="0" * 64, code="AwA")
+    known = dict(name="nobody", id="0123456789abcdef", sha256="0" * 64, code="AwA", file="nobody")
     bad = {
         "broken": b'{"a":',
         "not an object": b"[1]",

@@ -228,7 +228,7 @@ static enum kd_status take_angles(struct kd_matter_reader *r, struct kd_error *e
     struct kd_matter_array a = { 0 };
     enum kd_status status;
     char what[120];
-    KD_TRY(kd_matter_array_take(&r->zip, "theta", (size_t)g->rows * KD_MATTER_SIDE, &a, error));
+    KD_TRY(kd_matter_array_take(&r->zip, "theta", KD_MATTER_ANGLES, &a, error));
     r->theta_rows = a.dimensions == 2 ? g->rows : 1;
     g->columns = (uint32_t)(a.n / r->theta_rows);
     if (a.dimensions > 2 || g->columns > KD_MATTER_SIDE || (a.dimensions == 2 && a.shape[0] != g->rows)) {
@@ -241,8 +241,14 @@ static enum kd_status take_angles(struct kd_matter_reader *r, struct kd_error *e
     if (g->columns < 3)
         KD_TRY(kd_matter_refuse("theta", "must have at least 3 columns, so that one is off the axis", error));
     KD_TRY(copy(&a, &r->theta, error));
-    for (size_t row = 0; row < r->theta_rows; row++)
-        KD_TRY(check_angles(r->theta + row * g->columns, g->columns, row, r->theta_rows == 1, error));
+    for (size_t row = 0; row < r->theta_rows; row++) {
+        const double *at = r->theta + row * g->columns;
+        KD_TRY(check_angles(at, g->columns, row, r->theta_rows == 1, error));
+        /* the column beside one on the axis must lie off it (over_sine) */
+        if (sin(at[1]) * sin(at[1]) <= AXIS || sin(at[g->columns - 2]) * sin(at[g->columns - 2]) <= AXIS)
+            KD_TRY(kd_matter_refuse(
+                "theta", "must have its second and its last but one angle at least 3.2e-5 from the axis", error));
+    }
     g->theta[0] = r->theta[0];
     g->theta[1] = r->theta[g->columns - 1];
 done:

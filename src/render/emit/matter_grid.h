@@ -24,11 +24,12 @@
 #include <stdint.h>
 
 enum {
-    KD_MATTER_SIDE = 4096,     /* limit for rows, columns and layers */
-    KD_MATTER_NODES = 1 << 25, /* limit for nodes: 512 x 256 x 256 */
-    KD_MATTER_WHOLE = 1 << 21, /* grids of more nodes are packed */
-    KD_MATTER_FLOATS = 8,      /* floats a node, words of a packed one are half as many */
-    KD_MATTER_PLACES = 1 << 20 /* limit for the cells of `places`, of four floats each */
+    KD_MATTER_SIDE = 4096,      /* limit for rows, columns and layers */
+    KD_MATTER_NODES = 1 << 25,  /* limit for nodes: 512 x 256 x 256 */
+    KD_MATTER_WHOLE = 1 << 21,  /* grids of more nodes are packed */
+    KD_MATTER_FLOATS = 8,       /* floats a node, words of a packed one are half as many */
+    KD_MATTER_ANGLES = 1 << 21, /* limit for the numbers of theta, if it has one for each node of a row and column */
+    KD_MATTER_PLACES = 1 << 20  /* limit for the cells of `places`, of four floats each */
 };
 #define KD_MATTER_TYPE "application/x-npz"
 

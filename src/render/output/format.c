@@ -70,9 +70,13 @@ enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *s
     needs.light |= (format->carries & KD_CARRIES_LIGHT) != 0;
     needs.no_image = format->carries == KD_CARRIES_LIGHT;
     needs.radiance = (format->carries & KD_CARRIES_LAYERS) != 0;
-    status = kd_plan_make_for(scene, &needs, capacity, out, error);
-    if (!status && format->bytes)
-        out->cost.host_bytes += format->bytes(out->picture.width, kd_plan_shown_height(&out->picture));
+    KD_TRY(kd_plan_make_for(scene, &needs, capacity, out, error));
+    if (format->bytes) {
+        const uint64_t encoder = format->bytes(out->picture.width, kd_plan_shown_height(&out->picture));
+        KD_TRY(kd_plan_has_room(out, encoder, capacity, error));
+        out->cost.host_bytes += encoder;
+    }
+done:
     return status;
 }
 

@@ -44,6 +44,9 @@ enum kd_status kd_plan_lens_group(const struct kd_scene *scene, uint64_t *out);
  * (frame/settle.c). It is at most KD_GIVEN_MOST, so that the list of these rays is no larger than a band of the
  * lens map. */
 uint64_t kd_plan_open_most(const struct kd_plan *plan);
+/* Checks that there is memory for a finished plan, and for `more` bytes on the host. KD_ETOOBIG with the limit. */
+enum kd_status kd_plan_has_room(const struct kd_plan *plan, uint64_t more, const struct kd_capacity *capacity,
+                                struct kd_error *error);
 
 /* Time of a ray of the grid's map, which may be traced or interpolated, ns. */
 static inline double kd_plan_map_ns(const struct kd_plan *plan)

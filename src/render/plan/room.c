@@ -38,16 +38,15 @@ static uint64_t rows_of_groups(const struct kd_plan *plan, const struct kd_capac
     return least(rows, in_line * KD_POST_PIXELS / plan->picture.width);
 }
 
-/* Checks that everything fits. On the host a picture exists twice, as pixels and as the encoded file. */
-static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_band, const struct kd_capacity *c,
-                           struct kd_error *error)
+/* On the host a picture exists twice, as pixels and as the encoded file. */
+static uint64_t host_of(const struct kd_plan *plan) { return 2 * plan->cost.host_bytes + plan->cost.making_bytes; }
+
+enum kd_status kd_plan_has_room(const struct kd_plan *plan, uint64_t more, const struct kd_capacity *c,
+                                struct kd_error *error)
 {
     const char *where = "device", *by = c->memory_by ? c->memory_by : "the device";
-    uint64_t host = 2 * plan->cost.host_bytes + plan->cost.making_bytes, bytes = c->host_memory ? fixed + host : fixed,
-             most = c->memory_bytes;
-    plan->lens.cacheable = bytes + plan->cost.lens_bytes <= most;
-    plan->cost.device_bytes = fixed + (plan->lens.cacheable ? plan->cost.lens_bytes : one_band);
-    bytes += plan->cost.device_bytes - fixed;
+    const uint64_t host = host_of(plan) + more;
+    uint64_t bytes = plan->cost.device_bytes + (c->host_memory ? host : 0), most = c->memory_bytes;
     if (bytes <= most && !c->host_memory && c->host_bytes && host > c->host_bytes) {
         where = "host";
         by = "the free memory of the host";
@@ -60,6 +59,16 @@ static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_ba
                         "the picture needs %.2f GiB of %s memory; it must be at most %.2f GiB (limit: %s): lower "
                         "image.width, image.height or image.samples",
                         (double)bytes / (1 << 30), where, (double)most / (1 << 30), by);
+}
+
+/* Decides whether the whole lens map is kept, and checks that everything fits. */
+static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_band, const struct kd_capacity *c,
+                           struct kd_error *error)
+{
+    const uint64_t others = fixed + (c->host_memory ? host_of(plan) : 0);
+    plan->lens.cacheable = others + plan->cost.lens_bytes <= c->memory_bytes;
+    plan->cost.device_bytes = fixed + (plan->lens.cacheable ? plan->cost.lens_bytes : one_band);
+    return kd_plan_has_room(plan, 0, c, error);
 }
 
 /* Bytes of a beam: its rows of cells and its grids. */

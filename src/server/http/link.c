@@ -3,7 +3,6 @@
 #include "base/percent.h"
 
 #include <inttypes.h>
-#include <nettle/hmac.h>
 #include <nettle/memops.h>
 #include <stdio.h>
 #include <string.h>
@@ -36,6 +35,11 @@ static enum kd_status add_address(struct kd_buffer *text, const char *path, cons
     return status;
 }
 
+static bool is_of_link(const char *name)
+{
+    return !strcmp(name, SIGNER) || !strcmp(name, EXPIRES) || !strcmp(name, BUDGET) || !strcmp(name, SIGNATURE);
+}
+
 enum kd_status kd_link_sign(const struct kd_access *access, const char *name, const char *path,
                             const struct kd_target *target, const struct kd_link_terms *terms, struct kd_buffer *out,
                             struct kd_error *error)
@@ -47,6 +51,10 @@ enum kd_status kd_link_sign(const struct kd_access *access, const char *name, co
     enum kd_status status;
     snprintf(expires, sizeof expires, "%" PRIu64, terms->expires_s);
     snprintf(budget, sizeof budget, "%" PRIu64, terms->budget_ms);
+    for (size_t i = 0; target && i < target->n_pairs; i++)
+        if (is_of_link(target->pairs[i].name))
+            return kd_error_set(error, KD_EINVAL, "the address has a parameter %s; it must be an address without one",
+                                target->pairs[i].name);
     KD_TRY(add_address(&text, path, target));
     KD_TRY(add_pair(&text, SIGNER, name));
     KD_TRY(add_pair(&text, EXPIRES, expires));
@@ -72,11 +80,6 @@ done:
 }
 
 bool kd_link_is(const struct kd_target *target) { return kd_target_value(target, SIGNATURE); }
-
-static bool is_of_link(const char *name)
-{
-    return !strcmp(name, SIGNER) || !strcmp(name, EXPIRES) || !strcmp(name, BUDGET) || !strcmp(name, SIGNATURE);
-}
 
 static bool read_signature(const char *text, uint8_t out[KD_ACCESS_SIGNATURE])
 {

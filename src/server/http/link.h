@@ -17,7 +17,7 @@
 #define KD_LINK_LATEST_S 253402300799 /* last second of the year 9999 */
 #define KD_LINK_BUDGET_MS 86400000u   /* largest budget */
 #define KD_SHARED_DAYS 30             /* days for which the link of a shared scene works */
-#define KD_LINK_BUDGETS 1024u         /* largest number of links with a budget whose use is remembered */
+#define KD_LINK_BUDGETS 16384u        /* largest number of links with a budget whose use is remembered */
 
 /* What a link permits, and until when. */
 struct kd_link_terms {

@@ -46,6 +46,7 @@
     X(ABSENT, 501, "not-installed", "This server lacks a program that the request needs") \
     X(NO_MEMORY, 503, "out-of-memory", "Memory ran out") \
     X(QUEUE_FULL, 503, "queue-full", "Too many requests are waiting") \
+    X(LINKS_FULL, 503, "links-full", "Too many signed links with a budget are in use") \
     X(CROWDED, 503, "too-many-connections", "Too many connections are open") \
     X(STOPPING, 503, "stopping", "The server is stopping") \
     X(DISK_FULL, 507, "disk-full", "The disk is full") \

@@ -1,5 +1,6 @@
 #include "server/render/scene_source.h"
 
+#include "scene/table.h"
 #include "server/asset/store.h"
 
 #include <stdio.h>
@@ -39,12 +40,18 @@ static enum kd_status refuse_name(const struct kd_route *route, const char *name
 enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, const struct kd_route *route,
                                     struct kd_error *error)
 {
+    struct {
+        const struct kd_row *row;
+        size_t index;
+    } at[KD_TARGET_PAIRS]; /* row NULL: the name is no field */
     char pointer[sizeof error->pointer];
     for (size_t i = 0; i < target->n_pairs; i++) {
         const char *name = target->pairs[i].name;
         pointer_of(name, pointer, sizeof pointer);
+        if (!fields || kd_field_at(name, &at[i].row, &at[i].index, NULL))
+            at[i].row = NULL;
         for (size_t k = 0; k < i; k++)
-            if (fields ? kd_scene_same_path(target->pairs[k].name, name) : !strcmp(target->pairs[k].name, name))
+            if (at[i].row ? at[k].row == at[i].row && at[k].index == at[i].index : !strcmp(target->pairs[k].name, name))
                 return kd_error_field(error, pointer, "the query has %.100s twice", name);
         if (!fields && strcmp(name, "preset") && !kd_route_has_query(route, name))
             return refuse_name(route, name, pointer, error);
