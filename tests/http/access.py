@@ -386,18 +386,29 @@ class Browser(Access):
             self.assertEqual("does not know this token" in text, "wrong" in path)
             self.assertNotIn("<script", text)
             self.assertIn("default-src 'none'", answer.header("Content-Security-Policy"))
+        signs = {
+            "en": ("This server needs an access token.", "does not know this token."),
+            "it": ("Questo server richiede un token d’accesso.", "non conosce questo token."),
+            "de": ("Dieser Server verlangt ein Zugangstoken.", "kennt dieses Token nicht."),
+        }
         for languages, tag in (
             ("it-IT,it;q=0.9,en;q=0.8", "it"),
             ("fr, it;q=0.5", "it"),
+            ("de-AT,de;q=0.9,en;q=0.8", "de"),
+            ("fr, de;q=0.5", "de"),
+            ("de,it;q=0.9", "de"),
+            ("it,de;q=0.9", "it"),
             ("en-GB,it;q=0.9", "en"),
             ("fr", "en"),
             ("ita", "en"),
+            ("deu", "en"),
         ):
-            self.assertIn(
-                f'<html lang="{tag}">'.encode(),
-                self.ask("GET", "/some/prefix/", headers={**browser, "Accept-Language": languages}).body,
-                languages,
-            )
+            wrong = self.ask(
+                "GET", "/some/prefix/?access=wrong", headers={**browser, "Accept-Language": languages}
+            ).body.decode()
+            self.assertIn(f'<html lang="{tag}">', wrong, languages)
+            for said in signs[tag]:
+                self.assertIn(said, wrong, languages)
         for path, headers in (
             ("/some/prefix/", {}),
             ("/some/prefix/", {"Accept": "*/*"}),

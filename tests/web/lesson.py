@@ -323,19 +323,29 @@ class Lesson(Browser):
 
     def test_a_pupils_page_is_small(self):
         teacher = self.teach()
-        self.requests.clear()
-        self.follow(self.link(teacher))
-        own = {request.url.removeprefix(self.base) for request in self.requests if "/web/" in request.url}
-        self.assertLessEqual(
-            own,
-            {
-                "web/lesson/pupil.js",
-                "web/words/language.js",
-                "web/base/link.js",
-                "web/lesson/lesson.css",
-                "web/icon.svg",
-            },
-        )
+        own = {
+            "web/lesson/pupil.js",
+            "web/words/language.js",
+            "web/base/link.js",
+            "web/lesson/lesson.css",
+            "web/icon.svg",
+        }
+        for browser, words in (("en-US", set()), ("de-DE", {"web/locale/pupil-de.json"})):
+            self.requests.clear()
+            self.follow(self.link(teacher), locale=browser)
+            loaded = {request.url.removeprefix(self.base) for request in self.requests if "/web/" in request.url}
+            self.assertLessEqual(loaded, own | words)
+            self.assertLessEqual(words, loaded)
+
+    def test_a_pupil_without_the_words_reads_english(self):
+        self.expected = "404"
+        teacher = self.teach()
+        context = self.context(locale="de-DE", viewport={"width": 390, "height": 780})
+        context.route("**/web/locale/pupil-de.json", lambda route: route.fulfill(status=404))
+        pupil = self.page(context)
+        pupil.goto(self.link(teacher))
+        self.there(pupil, "Your teacher’s picture", "h1")
+        self.assertEqual(pupil.get_attribute("html", "lang"), "en")
 
     def test_a_link_to_nothing(self):
         self.expected = "404"

@@ -1,4 +1,5 @@
-"""Tests that each language of the page is complete: messages.py FOLDER, which is clients/web.
+"""Tests that each language of the page is complete: messages.py FOLDER, which is clients/web. With --write it writes the
+files of a pupil's page instead, locale/pupil-LANGUAGE.json, from those of the languages.
 
 A message is t('module.what-it-says', 'The English') in a script, or data-t="..." and data-t-label="..." in index.html;
 sentences of the server have their identifiers in words/server.js, approximations in docs/approximations.md. The file
@@ -49,6 +50,24 @@ def messages(folder):
         yield name, html.unescape(english), "index.html"
 
 
+def locales(folder):
+    """The words of each language but English by its name."""
+    files = [file for file in sorted((folder / "locale").glob("*.json")) if not file.stem.startswith("pupil-")]
+    return {file.stem: json.loads(file.read_text()) for file in files}
+
+
+def pupils(folder, words):
+    """The words of a language that a pupil's page shows."""
+    shown = {name for name, _, place in messages(folder) if place in ("lesson/pupil.js", "lesson/questions.js")}
+    return {"page": {name: said for name, said in words["page"].items() if name in shown}}
+
+
+def write(folder):
+    for language, words in locales(folder).items():
+        said = json.dumps(pupils(folder, words), indent=2, ensure_ascii=False)
+        (folder / f"locale/pupil-{language}.json").write_text(said + "\n")
+
+
 def sentences(folder, approximations):
     """The English of each sentence of the server by its identifier; None for approximations, which have a name."""
     listed = approximations.read_text().partition("## lists of rays")[0]
@@ -68,7 +87,7 @@ def faults(folder, approximations):
         elif english.setdefault(name, said) != said:
             yield f"{place}: {name} has two English texts"
     server = sentences(folder, approximations)
-    languages = {file.stem: json.loads(file.read_text()) for file in sorted((folder / "locale").glob("*.json"))}
+    languages = locales(folder)
     for language, words in languages.items():
         for part, stated in (("page", english), ("server", server)):
             # sentences that only words/server.js has
@@ -86,6 +105,11 @@ def faults(folder, approximations):
                 yield f"{language}: {name} has other values than the English: {words['server'][name]}"
         empty = [name for part in ("page", "server") for name, said in words[part].items() if not said]
         yield from (f"{language}: {name} is empty" for name in empty)
+        file = folder / f"locale/pupil-{language}.json"
+        own, wanted = json.loads(file.read_text())["page"] if file.exists() else {}, pupils(folder, words)["page"]
+        for name in sorted(own.keys() | wanted.keys()):
+            if own.get(name) != wanted.get(name):
+                yield f"pupil-{language}: {name} is not as in {language}.json (messages.py FOLDER --write)"
     # Names of fields, units and choices are the server's: each language has the same ones.
     for part in ("fields", "units", "values", "natures", "presets", "playgrounds"):
         every = set().union(*(words[part] for words in languages.values()))
@@ -105,7 +129,7 @@ class Messages(unittest.TestCase):
         self.assertEqual(list(faults(FOLDER, APPROXIMATIONS)), [])
 
     def test_each_language_can_be_chosen(self):
-        files = {file.stem: json.loads(file.read_text())["language"] for file in (FOLDER / "locale").glob("*.json")}
+        files = {name: words["language"] for name, words in locales(FOLDER).items()}
         listed = re.search(r"export const languages = \{(.*?)\}", (FOLDER / "words/language.js").read_text())[1]
         names = dict(re.findall(r"(\w+): '([^']*)'", listed))
         self.assertEqual(names, {"en": "English"} | files)
@@ -121,7 +145,7 @@ class Messages(unittest.TestCase):
         """Each kind of fault, in a folder made for it."""
         whole = {part: {} for part in ("fields", "units", "values", "natures", "presets", "playgrounds")}
         german = {
-            "page": {"a.move": "Bewege {0}", "a.old": "Alt", "page.see": ""},
+            "page": {"a.move": "Bewege {0}", "a.old": "Alt", "page.see": "", "pupil.no": "Nein", "pupil.yes": "Ja"},
             "server": {"disk.thin": "dünn", "refusal.range": "{0}", "refusal.strips": "{0}", "said.sky": "{0}"},
             **whole,
             "fields": {"a": ["A", "Hilfe"]},
@@ -135,6 +159,9 @@ class Messages(unittest.TestCase):
                 "words/server.js": "const sentences = {\n  'said.sky': 'sky',\n};\n  ['refusal.x', '{} is {}'],\n",
                 "locale/de.json": json.dumps(german),
                 "locale/it.json": json.dumps(italian),
+                "lesson/pupil.js": "t('pupil.no', 'No'); t('pupil.yes', 'Yes');",
+                "locale/pupil-de.json": json.dumps({"page": {"pupil.no": "Nein", "pupil.yes": "Ja"}}),
+                "locale/pupil-it.json": json.dumps({"page": {"pupil.no": "No", "a.move": "Bewege {0}"}}),
                 "a.md": "| `disk.thin` | disk: thin | always |\n## lists of rays\n| `rays.x` | x |\n",
             }.items():
                 (folder / name).parent.mkdir(exist_ok=True)
@@ -154,6 +181,10 @@ class Messages(unittest.TestCase):
                 "a.js: a call of t has no identifier and English text as literals",
                 "a.js: a.move has two English texts",
                 *(f"{language}: {fault}" for language in ("de", "it") for fault in of_each),
+                *(
+                    f"pupil-it: {name} is not as in it.json (messages.py FOLDER --write)"
+                    for name in ("pupil.no", "pupil.yes", "a.move")
+                ),
                 "de: fields has no b",
                 "fields: a has a help text in some languages alone",
             ],
@@ -162,5 +193,7 @@ class Messages(unittest.TestCase):
 
 if __name__ == "__main__":
     FOLDER = pathlib.Path(sys.argv.pop(1))
+    if "--write" in sys.argv:
+        sys.exit(write(FOLDER))
     APPROXIMATIONS = FOLDER.parents[1] / "docs/approximations.md"
     unittest.main()

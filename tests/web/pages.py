@@ -65,6 +65,16 @@ class Pages(Browser):
                 self.assertEqual(loaded, set() if lang == "en" else {lang + ".json"})
                 self.assertEqual(page.get_attribute("html", "lang"), lang)
 
+    def test_without_its_words_the_page_is_in_english(self):
+        self.expected = "404"
+        context = self.context(locale="de-DE")
+        context.route("**/web/locale/de.json", lambda route: route.fulfill(status=404))
+        page = self.page(context)
+        page.goto(self.base + "#preset=default&pace=fast")
+        page.wait_for_selector(AT_REST, timeout=PATIENCE_MS, state="attached")
+        self.assertEqual(page.get_attribute("html", "lang"), "en")
+        self.assertEqual(page.inner_text("nav [aria-current]"), "See")
+
     def words(self, lang):
         return self.daemon.get(f"/web/locale/{lang}.json").json()
 
@@ -171,6 +181,12 @@ class Pages(Browser):
                 self.assertNotRegex(text, r"must|\{|undefined| is | of |degrees|masses", detail)
             unknown = "what is this; it must be none"
             self.assertEqual(self.said(lang, [unknown]), [[unknown, "en"]])
+            # a unit is translated, and not its letters in a name
+            bits = self.words(lang)["server"]["amount.bits"]
+            [[text, marked]] = self.said(lang, ['volume.orbits is "two bits"; it must be "orbits" or 8 bits'])
+            self.assertIsNone(marked)
+            for kept in ("volume.orbits ", '"two bits"', '"orbits"', f" 8 {bits}"):
+                self.assertIn(kept, text)
 
     def test_what_shines_is_told_in_each_language(self):
         """Every emitter has a name, a description of what is visible, and a name of its button."""

@@ -1,6 +1,7 @@
 // The language of the page, and its messages. A message is a call of t with an identifier and the English text:
 // t('tour.the-shadow', 'The shadow'). locale/LANGUAGE.json has the text of each identifier in another language, with {0}
-// and so on for the values that follow. Only the file of the page's own language is loaded.
+// and so on for the values that follow. Only the file of the page's own language is loaded; if it cannot be had, the
+// page is in English.
 import * as link from '../base/link.js';
 
 export const languages = { en: 'English', it: 'Italiano', de: 'Deutsch' };
@@ -9,18 +10,25 @@ export const languages = { en: 'English', it: 'Italiano', de: 'Deutsch' };
 const known = wanted =>
   wanted.map(name => name?.slice(0, 2).toLowerCase()).find(name => Object.hasOwn(languages, name)) ?? 'en';
 
-export const lang = known([
+const wanted = known([
   link.get('lang'),
   new URLSearchParams(location.search).get('lang'),
   ...(navigator.languages ?? [navigator.language]),
 ]);
 
-// All words of a language but English.
+// All words of a language but English that this page needs: a page may name a smaller file of its own. Null for
+// English, and where the file cannot be had.
 async function words(name) {
   if (name === 'en') return null;
-  const answer = await fetch(new URL(`../locale/${name}.json`, import.meta.url));
-  if (!answer.ok) throw new Error(`locale/${name}.json: HTTP ${answer.status}`);
-  return answer.json();
+  const file = `locale/${document.documentElement.dataset.locale ?? ''}${name}.json`;
+  try {
+    const answer = await fetch(new URL(`../${file}`, import.meta.url));
+    if (!answer.ok) throw new Error(`HTTP ${answer.status}`);
+    return await answer.json();
+  } catch (error) {
+    console.warn(`${file}: ${error.message}; its texts are in English`);
+    return null;
+  }
 }
 
 // The function t of a language.
@@ -31,7 +39,8 @@ const speaker =
     return values.length ? text.replace(/\{(\d)\}/g, (_, i) => values[i]) : text;
   };
 
-export const locale = await words(lang);
+export const locale = await words(wanted);
+export const lang = locale ? wanted : 'en';
 export const t = speaker(locale);
 
 // The function t of any language; throws if the page does not have it.

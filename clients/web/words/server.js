@@ -393,6 +393,11 @@ const amounts = {
   'amount.days': 'days',
 };
 
+const named = new Map(Object.entries(amounts).map(([id, english]) => [english, id]));
+// Whole words alone, and none within quotes or a dotted name: neither "orbits" nor image.bits holds bits.
+const whole = english => `${/^\w/.test(english) ? '(?<![\\w./-])' : ''}${english}(?![\\w/-]|\\.\\w)`,
+  measured = new RegExp(['"[^"]*"', ...[...named.keys()].map(whole)].join('|'), 'g');
+
 const value =
   '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc|microarcseconds|GiB|s))?)';
 const remark =
@@ -430,9 +435,7 @@ export function translated(text, words) {
     if (values)
       return fill(
         id,
-        values.map(part =>
-          Object.entries(amounts).reduce((known, [amount, en]) => known.replace(en, words[amount] ?? en), part),
-        ),
+        values.map(part => part.replace(measured, found => words[named.get(found)] ?? found)),
       );
   }
 }

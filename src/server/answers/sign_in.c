@@ -1,6 +1,6 @@
 /* Sign-in page for browsers without a valid access token. It works without scripts: its form passes the token in the
  * page's address. The form has no action, because only then the browser keeps the fragment of the address, which names
- * a lesson or a scene. In Italian or English, by Accept-Language. */
+ * a lesson or a scene. In one of the page's languages, by Accept-Language; else in English. */
 #include "server/http/reply.h"
 
 #include <string.h>
@@ -18,6 +18,10 @@ static const struct {
       "Il server non conosce questo token.",
       "Dal tuo indirizzo sono arrivati troppi token sbagliati. Riprova tra qualche secondo.", "Token d’accesso",
       "Entra" },
+    { "de", "kerrd: Zugangstoken", "Dieser Server verlangt ein Zugangstoken. Frag den Betreiber danach.",
+      "Der Server kennt dieses Token nicht.",
+      "Von deiner Adresse sind zu viele falsche Token gekommen. Versuche es in einigen Sekunden noch einmal.",
+      "Zugangstoken", "Eintreten" },
 };
 enum { LANGUAGES = sizeof words / sizeof *words };
 

@@ -2,7 +2,7 @@
 import { el } from '../../base/dom.js';
 import { number, preset as titled, t } from '../../words/i18n.js';
 
-// English names of the presets; it-playground.js has the Italian ones.
+// English names of the presets; locale/ has those of other languages.
 const english = {
   disruption: 'Torn star',
   'white-dwarf': 'White dwarf',
