@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compare the passes of two builds by processor time, on a machine where other programs run.
 
-    bench/paired.py OLD NEW [--pairs 8] [--frames 3] [--markdown FILE] PRESET ...
+    bench/paired.py OLD NEW [--pairs 8] [--frames 3] PRESET ...
 
 OLD and NEW are build folders; the presets are those of NEW's kerrd. Both builds render each scene in turn, many times, on
 one lavapipe thread; NEW's clock of processor time (cpu_clock.c) is loaded into both. The ratio of a pass is that of the
