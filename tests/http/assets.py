@@ -7,7 +7,6 @@ import io
 import json
 import math
 import os
-import pathlib
 import shutil
 import struct
 import tempfile
@@ -110,10 +109,6 @@ class LongDirectories(Case):
         ends += b"PK\5\6" + bytes(4) + struct.pack("<HHIIH", 0xFFFF, 0xFFFF, 0xFFFFFFFF, 0, 0)
         return b"PK\3\4" + bytes(26) + (b"PK\1\2" + bytes(42)) * self.MANY + ends  # begins with a member
 
-    def processor_s(self):
-        fields = pathlib.Path(f"/proc/{self.daemon.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
-        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-
     def put_when_there_is_room(self, data):
         """A client may send two such bodies at once: the others wait."""
         while (answer := self.put(data, "application/x-npz")).status in (429, 503):
@@ -122,7 +117,7 @@ class LongDirectories(Case):
 
     def cost(self, data, words):
         """Processor time of the server for five such files at once. Meanwhile another client gets a picture."""
-        before = self.processor_s()
+        before = self.daemon.processor_s()
         with concurrent.futures.ThreadPoolExecutor(5) as pool:
             puts = [pool.submit(self.put_when_there_is_room, data) for _ in range(5)]
             picture = self.daemon.get("/v1/render?image.width=320&image.height=180", **{"X-Forwarded-For": "192.0.2.7"})
@@ -130,7 +125,7 @@ class LongDirectories(Case):
         self.assertEqual(picture.status, 200, picture.body)
         for detail in refused:
             self.assertIn(words, detail)
-        return self.processor_s() - before
+        return self.daemon.processor_s() - before
 
     def test_they_cost_no_more_than_their_bytes(self):
         many = self.directory()

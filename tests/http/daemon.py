@@ -5,6 +5,7 @@ import http.client
 import importlib
 import json
 import os
+import pathlib
 import re
 import shutil
 import signal
@@ -110,6 +111,11 @@ class Daemon:
         sent."""
         if not eventually(lambda: self.metrics()["kerrd_" + gauge] >= least):
             raise AssertionError(f"kerrd_{gauge} does not reach {least}")
+
+    def processor_s(self):
+        """Processor time that the server has used, in seconds."""
+        fields = pathlib.Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
     def open_files(self):
         return len(os.listdir(f"/proc/{self.process.pid}/fd"))

@@ -168,8 +168,11 @@ class Scenes(daemon.Case):
         self.assertNotIn("spot1.r", [p["name"] for p in fields], "old names are read, and not offered")
         query = "&".join(f"{p['name']}={p['schema']['default']}" for p in fields) + "&" + daemon.SMALL
         self.assertEqual(self.daemon.get(f"{RENDER}?{query}").status, 200)
+        before = self.daemon.processor_s()
         answer = self.daemon.get(f"{RENDER}?" + "&".join(f"x{i}=1" for i in range(384)))
         self.assertProblem(answer, 422, "invalid-scene", "/x0")
+        # a suggestion is looked for once, for the name that is refused
+        self.assertLess(self.daemon.processor_s() - before, 1)
 
     def test_device_trouble_short_of_its_loss(self):
         self.assertProblem(self.daemon.get(RENDER + "?time=-2"), 503, "out-of-memory")

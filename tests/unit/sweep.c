@@ -56,6 +56,37 @@ static void the_last_axis_is_the_fastest(void **state)
     kd_sweep_free(s);
 }
 
+static bool find_grid(void *user, const char *name, struct kd_asset_found *out)
+{
+    (void)user;
+    const bool large = !strcmp(name, "large");
+    *out = (struct kd_asset_found) { .nodes = { 100, 50, large ? 60 : 1 }, .spin = 0.7 };
+    memset(out->hash, large ? 'b' : 'a', 64);
+    return true;
+}
+
+/* Each scene is planned with the nodes of its own grid. */
+static void grids_have_their_own_nodes(void **state)
+{
+    (void)state;
+    const struct kd_assets assets = { .find = find_grid, .allowed = "small or large" };
+    struct kd_error error = { 0 };
+    struct kd_sweep *sweep = NULL;
+    struct kd_scene base, scene;
+    cJSON *axes = cJSON_Parse("{\"volume.grid\": [\"small\", \"large\"], \"time\": [0, 1]}");
+    kd_scene_defaults(&base);
+    base.volume.model = KD_VOLUME_GRID;
+    base.spacetime.spin = 0.7;
+    if (kd_sweep_read(axes, &base, &assets, &sweep, &error))
+        fail_msg("%s", error.message);
+    for (unsigned i = 0; i < 4; i++) {
+        assert_int_equal(kd_sweep_scene(sweep, i, &scene, &error), KD_OK);
+        assert_int_equal(scene.grid_nodes, i < 2 ? 5000 : 300000);
+    }
+    kd_sweep_free(sweep);
+    cJSON_Delete(axes);
+}
+
 /* Values as they are typed, computed by hand. */
 static void ranges(void **state)
 {
@@ -290,6 +321,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_last_axis_is_the_fastest),
+        cmocka_unit_test(grids_have_their_own_nodes),
         cmocka_unit_test(ranges),
         cmocka_unit_test(what_is_refused),
         cmocka_unit_test(combinations),
