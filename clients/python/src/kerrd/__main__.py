@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import sys
+from typing import Any
 
 from . import grmhd
 from .importing import CODES, Imported, ImportProblem, scene_from
@@ -39,19 +41,25 @@ def report(found: Imported, everything: bool) -> str:
     return "\n".join(lines)
 
 
+def dump_options(asked: argparse.Namespace) -> dict[str, Any]:
+    """The options for dumps that are given."""
+    return {name: getattr(asked, name) for name, _, _ in DUMP_OPTIONS if getattr(asked, name) is not None}
+
+
 def import_dump(asked: argparse.Namespace) -> int:
     """Writes the grid of a simulation's dump, and prints the choices made for it on standard error."""
-    given = {name: getattr(asked, name) for name, _, _ in DUMP_OPTIONS if getattr(asked, name) is not None}
+    given = dump_options(asked)
     try:
         if asked.output is None or asked.output == "-":
             raise ValueError("-o is missing; it must be the grid's file, such as grid.npz")
         found = grmhd.matter(asked.file, code=asked.code, **given)
+    except (grmhd.DumpProblem, ImportError, ValueError) as problem:
+        print(f"python3 -m kerrd: {problem}", file=sys.stderr)
+        return 1
+    try:
         found.save(asked.output)
     except OSError as problem:
         print(f"python3 -m kerrd: {asked.output}: {problem.strerror}", file=sys.stderr)
-        return 1
-    except (grmhd.DumpProblem, ImportError, ValueError) as problem:
-        print(f"python3 -m kerrd: {problem}", file=sys.stderr)
         return 1
     rows, columns = found.arrays["density"].shape[:2]
     layers = 1 if found.phi is None else len(found.phi)
@@ -87,7 +95,13 @@ def main(arguments: list[str] | None = None) -> int:
         dumps.add_argument("--" + name.replace("_", "-"), type=kind, help=text)
     asked = parser.parse_args(arguments)
     if asked.code in grmhd.CODES or (asked.code is None and grmhd.is_hdf5(asked.file)):
+        for name in ("model", "all", "strict"):
+            if getattr(asked, name):
+                one.error(f"--{name} is given for {asked.file}, a dump; it must be for an input file")
         return import_dump(asked)
+    if dump_options(asked) and os.path.exists(asked.file):
+        name = next(iter(dump_options(asked))).replace("_", "-")
+        one.error(f"--{name} is given for {asked.file}, an input file; it must be for a dump, which is HDF5")
     try:
         found = scene_from(asked.file, code=asked.code, model=asked.model)
     except (ImportProblem, ValueError) as problem:

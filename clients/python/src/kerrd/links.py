@@ -3,12 +3,19 @@
 import datetime
 import hashlib
 import hmac
+import re
 import time
 from typing import Optional, Union
 from urllib.parse import parse_qsl, quote, unquote, urlsplit
 
-# What a path below the base path may begin with.
-_BEGINNINGS = ("/v1/render", "/v1/share/", "/v1/physics/", "/v1/jobs/", "/s/", "/web/")
+# The routes that take links, at the end of a path, below any base path. A file below /web/ may have folders, and a base
+# path may be /web.
+_ROUTES = re.compile(
+    r"/v1/render\Z|/v1/share/[^/]+/picture\.png\Z|/v1/physics/[^/]+\Z|/v1/jobs/[^/]+/result\Z|/s/[^/]+\Z"
+)
+_FILES = re.compile(r"/web/.+\Z")
+_BROKEN, _CONTROL = re.compile(r"%(?![0-9A-Fa-f]{2})"), re.compile(r"[\x00-\x1f\x7f]")
+_TERMS = ("signer", "expires", "budget_ms")
 
 
 def sign(
@@ -27,9 +34,11 @@ def sign(
     only when the link is used."""
     at = urlsplit(address)
     path = unquote(at.path)
-    begin = max((path.rfind(beginning) for beginning in _BEGINNINGS), default=-1)
-    if begin < 0 or at.fragment:
-        raise ValueError(f"address is {address!r}; it must be a picture, a shared scene, a quantity or a job's result")
+    route = _ROUTES.search(path) or _FILES.search(path)
+    if not route or "#" in address:
+        raise ValueError(
+            f"address is {address!r}; it must be a picture, a shared scene, a quantity, a job's result or a file of the page"
+        )
     if isinstance(expires, datetime.datetime):
         ends = expires.timestamp()
     else:
@@ -41,10 +50,18 @@ def sign(
     pairs = parse_qsl(at.query, keep_blank_values=True)
     if any(name == "signature" for name, _ in pairs):
         raise ValueError("the address has a signature already; it must be the unsigned address")
+    if _BROKEN.search(address) or _CONTROL.search("".join([path, *(text for pair in pairs for text in pair)])):
+        raise ValueError(f"address is {address!r}; it must be percent-encoded, without control characters")
+    names = [name for name, _ in pairs]
+    for name in names:
+        if name in _TERMS:
+            raise ValueError(f"address is {address!r}, which has {name}; a link must have it from `sign` alone")
+        if names.count(name) > 1:
+            raise ValueError(f"address is {address!r}, which has {name} twice; it must have each parameter once")
     terms = [("signer", signer), ("expires", str(int(ends)))]
     if budget is not None:
         terms.append(("budget_ms", str(round(budget * 1000))))
-    lines = [quote(path[begin:], safe="/")]
+    lines = [quote(route[0], safe="/")]
     lines += [f"{quote(name, safe='')}={quote(value, safe='')}" for name, value in pairs + terms]
     signature = hmac.new(key.encode(), "\n".join(lines).encode(), hashlib.sha256).hexdigest()
     query = "&".join(f"{name}={quote(value, safe='')}" for name, value in terms)

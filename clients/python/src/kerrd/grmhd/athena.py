@@ -13,12 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .dump import Dump, Row, check_count, rows_within
-from .file import NODES_MOST, SIDE_MOST, DumpFile
+from .file import SIDE_MOST, DumpFile
 
 Numbers = NDArray[np.float64]
 FIELDS = ("rho", "press", "vel1", "vel2", "vel3", "Bcc1", "Bcc2", "Bcc3")
 LEVELS_MOST = 12
-EVEN = 1e-3  # fraction of a step: tolerance for geometric radii
+BLOCKS_MOST = 1 << 20
+EVEN = 1e-3  # fraction of a step: tolerance for geometric radii and even azimuths
 TURN = 1e-5
 
 
@@ -65,7 +66,7 @@ class Mesh:
 def _mesh(file: DumpFile) -> Mesh:
     root = file.attribute_wholes("RootGridSize", 3, 1, SIDE_MOST)
     size = file.attribute_wholes("MeshBlockSize", 3, 1, SIDE_MOST)
-    (count,) = file.attribute_wholes("NumMeshBlocks", 1, 1, NODES_MOST)
+    (count,) = file.attribute_wholes("NumMeshBlocks", 1, 1, BLOCKS_MOST)
     (finest,) = file.attribute_wholes("MaxLevel", 1, 0, LEVELS_MOST)
     check_count(file, "NumMeshBlocks", (count, math.prod(size), 1))
     if root[0] < 2 or root[1] < 3:
@@ -78,25 +79,30 @@ def _mesh(file: DumpFile) -> Mesh:
     whole = tuple(n if n == 1 else n << finest for n in root)
     check_count(file, "RootGridSize and MaxLevel make", (whole[0], whole[1], whole[2]))
     mesh = Mesh(file, (size[0], size[1], size[2]), (whole[0], whole[1], whole[2]), levels.tolist(), places, finest)
-    for block in range(count):
-        for axis in range(3):
-            if mesh.span(block, axis).stop > whole[axis]:
-                raise file.must(
-                    f"LogicalLocations[{block}]",
-                    ", ".join(map(str, places[block].tolist())),
-                    f"within the mesh of {whole[0]} x {whole[1]} x {whole[2]} zones at the finest level",
-                )
+    widths = np.where(np.array(whole) == 1, 1, 1 << (finest - levels[:, None])) * np.array(size)
+    outside = np.flatnonzero(((places + 1) * widths > np.array(whole)).any(axis=1))
+    if len(outside):
+        raise file.must(
+            f"LogicalLocations[{outside[0]}]",
+            ", ".join(map(str, places[outside[0]].tolist())),
+            f"within the mesh of {whole[0]} x {whole[1]} x {whole[2]} zones at the finest level",
+        )
+    covered, zones = int(widths.prod(axis=1).sum()), math.prod(whole)
+    if covered != zones:
+        raise file.problem(
+            "LogicalLocations",
+            f"makes blocks overlap or leave a gap: they have {covered} zones of the finest level, and must have {zones}",
+        )
     return mesh
 
 
 def _wholes(file: DumpFile, name: str, shape: tuple[int, ...], high: int) -> NDArray[np.int64]:
     found = file.dataset(name)
-    if tuple(found.shape or ()) != shape or found.dtype.kind not in "iu":
+    if tuple(found.shape) != shape or found.dtype.kind not in "iu":
         raise file.problem(
-            name,
-            f"has the shape {tuple(found.shape or ())} and the type {found.dtype}; it must be {shape} of whole numbers",
+            name, f"has the shape {tuple(found.shape)} and the type {found.dtype}; it must be {shape} of whole numbers"
         )
-    values = np.asarray(found[()])
+    values = file.read(name, found)
     if int(values.min()) < 0 or int(values.max()) > high:
         raise file.must(name, f"{int(values.min())} to {int(values.max())}", f"from 0 to {high}")
     return values.astype(np.int64)
@@ -163,11 +169,17 @@ def _coordinates(file: DumpFile, mesh: Mesh) -> tuple[Numbers, Numbers, Numbers 
     centres = [0.5 * (of[1:] + of[:-1]) for of in faces]
     if mesh.whole[2] == 1:
         return centres[0], centres[1], None
+    even = np.linspace(faces[2][0], faces[2][-1], len(faces[2]))
+    worst = int(np.argmax(np.abs(faces[2] - even)))
+    if abs(faces[2][worst] - even[worst]) > EVEN * (even[1] - even[0]):
+        raise file.must(
+            "x3f", f"{faces[2][worst]:.7g} at zone {worst}", f"{even[worst]:.7g}: azimuths must be evenly spaced"
+        )
     return centres[0], centres[1], np.linspace(centres[2][0], centres[2][-1], mesh.whole[2])
 
 
 def read(file: DumpFile, spin: float | None, gamma: float | None, outer: float | None = None) -> Dump:
-    """The dump of an open file. All blocks are read at once."""
+    """The dump of an open file. All blocks are read when the first row is requested."""
     for name, value, low, high in (("spin", spin, -1, 1), ("gamma", gamma, 1.0001, 3)):
         if value is None:
             raise ValueError(f"{name} is None; it must be given for a file of Athena++, which does not have it")
@@ -180,10 +192,12 @@ def read(file: DumpFile, spin: float | None, gamma: float | None, outer: float |
     mesh = _mesh(file)
     r, theta, phi = _coordinates(file, mesh)
     keep = rows_within(file, r, outer)
-    fields = _gather(file, mesh)
+    fields: dict[str, NDArray[np.float32]] = {}
     inner_energy = 1 / (gamma - 1)
 
     def row(i: int) -> Row:
+        if not fields:
+            fields.update(_gather(file, mesh))
         of = {name: values[i].astype(np.float64) for name, values in fields.items()}
         return {
             "rho": of["rho"],

@@ -15,6 +15,13 @@ from ..errors import KerrdError
 MAGIC = b"\x89HDF\r\n\x1a\n"
 NODES_MOST = 1 << 26  # most nodes of a dump; the server's limit stands in src/render/emit/matter_grid.h
 SIDE_MOST = 65536
+TEXT_MOST = 256  # bytes of an element of a dataset or an attribute, as of a text of fixed length
+LIST_MOST = 4096  # elements of an attribute
+
+
+def printable(text: str) -> str:
+    """The text with escapes for characters that would control a terminal."""
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
 
 
 class DumpProblem(KerrdError, ValueError):
@@ -23,7 +30,7 @@ class DumpProblem(KerrdError, ValueError):
     def __init__(self, file: str, name: str | None, sentence: str) -> None:
         self.file, self.name = file, name
         self._made_of = (file, name, sentence)
-        super().__init__(f"{file}: {name + ' ' if name else ''}{sentence}")
+        super().__init__(printable(f"{file}: {name + ' ' if name else ''}{sentence}"))
 
     def __reduce__(self) -> tuple[type[DumpProblem], tuple[str, str | None, str]]:
         return DumpProblem, self._made_of
@@ -75,7 +82,17 @@ class DumpFile:
         return self.problem(name, f"is {value}; it must be {must}")
 
     def __contains__(self, name: str) -> bool:
-        return name in self.root
+        try:
+            return name in self.root
+        except (KeyError, OSError, RuntimeError) as error:
+            raise self.problem(name, f"cannot be read: {_reason(error)}") from error
+
+    def has_attribute(self, name: str) -> bool:
+        """Whether the file has an attribute."""
+        try:
+            return name in self.root.attrs
+        except (KeyError, OSError, RuntimeError) as error:
+            raise self.problem(name, f"cannot be read: {_reason(error)}") from error
 
     def dataset(self, name: str) -> Any:
         """A dataset, whose elements are not read yet."""
@@ -85,17 +102,32 @@ class DumpFile:
             raise self.problem(name, "is missing") from None
         if not isinstance(found, self.h5py.Dataset):
             raise self.problem(name, "is a group; it must be a dataset")
+        self._check_elements(name, found)
         return found
 
-    def _one(self, name: str, found: Any) -> Any:
-        """The only element of a dataset or of an attribute's array."""
-        count = math.prod(found.shape or ())
-        if count != 1:
-            raise self.problem(name, f"has the shape {tuple(found.shape)}; it must be a single value")
+    def _check_elements(self, name: str, found: Any) -> None:
+        """Refuses a dataset or an attribute without elements, or with elements of an unknown or a large type."""
         try:
-            return np.asarray(found[()]).reshape(-1)[0]
-        except (OSError, RuntimeError, ValueError) as error:
+            shape, kind = found.shape, found.dtype
+        except (OSError, RuntimeError, TypeError, ValueError):
+            raise self.problem(name, "has a type that cannot be read; it must be one of numbers or texts") from None
+        if shape is None:
+            raise self.problem(name, "has no elements; it must have at least one")
+        if kind.itemsize > TEXT_MOST:
+            raise self.problem(name, f"has elements of {kind.itemsize} bytes; they must have at most {TEXT_MOST}")
+
+    def read(self, name: str, found: Any, at: Any = ()) -> NDArray[Any]:
+        """Elements of a dataset, which `dataset` returned."""
+        try:
+            return np.asarray(found[at])
+        except (OSError, RuntimeError, TypeError, ValueError) as error:
             raise self.problem(name, f"cannot be read: {_reason(error)}") from error
+
+    def _one(self, name: str, found: Any) -> Any:
+        """The only element of a dataset."""
+        if math.prod(found.shape) != 1:
+            raise self.problem(name, f"has the shape {tuple(found.shape)}; it must be a single value")
+        return self.read(name, found).reshape(-1)[0]
 
     def number(self, name: str, low: float = -math.inf, high: float = math.inf) -> float:
         must = "a finite number"
@@ -132,34 +164,33 @@ class DumpFile:
         found = self.dataset(name)
         if found.ndim != 1 or not 1 <= found.shape[0] <= most:
             raise self.problem(name, f"has the shape {tuple(found.shape)}; it must be a list of 1 to {most} texts")
-        return [self._text(name, value) for value in found[()]]
+        return [self._text(name, value) for value in self.read(name, found)]
 
     def array(self, name: str, shape: tuple[int, ...]) -> Any:
         """A dataset of numbers of this shape; its elements are read by `part`."""
         found = self.dataset(name)
-        if tuple(found.shape or ()) != shape:
-            raise self.problem(name, f"has the shape {tuple(found.shape or ())}; it must be {shape}")
+        if tuple(found.shape) != shape:
+            raise self.problem(name, f"has the shape {tuple(found.shape)}; it must be {shape}")
         if found.dtype.kind != "f":
             raise self.must(name, f"of the type {found.dtype}", "of a float type")
         return found
 
     def part(self, name: str, found: Any, at: Any) -> NDArray[np.float64]:
         """Elements of a dataset that `array` returned."""
-        try:
-            values = np.asarray(found[at], dtype=np.float64)
-        except (OSError, RuntimeError, ValueError) as error:
-            raise self.problem(name, f"cannot be read: {_reason(error)}") from error
-        return values
+        return np.asarray(self.read(name, found, at), dtype=np.float64)
 
     def attribute(self, name: str) -> NDArray[Any]:
         """An attribute of the file as a list."""
         try:
-            found = self.root.attrs[name]
+            found = self.root.attrs.get_id(name)
         except KeyError:
             raise self.problem(name, "is missing") from None
         except (OSError, RuntimeError) as error:
             raise self.problem(name, f"cannot be read: {_reason(error)}") from error
-        return np.asarray(found).reshape(-1)
+        self._check_elements(name, found)
+        if math.prod(found.shape) > LIST_MOST:
+            raise self.problem(name, f"has the shape {tuple(found.shape)}; it must have at most {LIST_MOST} elements")
+        return self.read(name, self.root.attrs, name).reshape(-1)
 
     def attribute_wholes(self, name: str, count: int, low: int, high: int) -> list[int]:
         found = self.attribute(name)

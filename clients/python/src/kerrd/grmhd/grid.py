@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import math
 import os
 from dataclasses import dataclass, field
 from typing import Any
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .dump import Dump
-from .file import DumpProblem
+from .file import DumpProblem, printable
 from .kerr_schild import flow
 from .plasma import ELECTRON, PEAK, PROTON, Plasma, field_unit
 
@@ -30,6 +31,7 @@ UNITS = {
 }
 ARRAYS = tuple(UNITS)[2:]
 KIND = "application/x-npz"
+NODES_MOST, SIDE_MOST = 1 << 25, 4096  # of a grid, as in src/render/emit/matter_grid.h
 
 
 @dataclass(frozen=True)
@@ -50,27 +52,32 @@ class Matter:
         """The matter of a dump."""
         if plasma.electrons != "ratio" and plasma.electrons not in dump.electrons:
             names = " or ".join(f'"{name}"' for name in ("ratio", *dump.electrons))
-            raise ValueError(f'electrons is "{plasma.electrons}"; it must be {names} for {dump.file}')
+            raise ValueError(printable(f'electrons is "{plasma.electrons}"; it must be {names} for {dump.file}'))
+        _check_size(dump)
         arrays = {name: np.empty(dump.shape, np.float32) for name in ARRAYS}
         empty = 0
-        for i in range(dump.shape[0]):
-            row = dump.row(i)
-            _check(dump, i, row)
-            theta = dump.angles(i)[:, None]
-            moves = flow(
-                dump.spin, dump.r[i], theta, (row["U1"], row["U2"], row["U3"]), (row["B1"], row["B2"], row["B3"])
-            )
-            cut = plasma.cut(row["rho"], moves.b2)
-            empty += int(np.count_nonzero(cut))
-            values = (np.where(cut, 0, row["rho"]), plasma.kelvin(dump, row, moves.b2), *moves.u, *moves.b)
-            for name, of in zip(ARRAYS, values):
-                arrays[name][i] = of
+        with np.errstate(all="ignore"):  # _check_single finds what overflows
+            for i in range(dump.shape[0]):
+                row = dump.row(i)
+                _check(dump, i, row)
+                theta = dump.angles(i)[:, None]
+                moves = flow(
+                    dump.spin, dump.r[i], theta, (row["U1"], row["U2"], row["U3"]), (row["B1"], row["B2"], row["B3"])
+                )
+                cut = plasma.cut(row["rho"], moves.b2)
+                empty += int(np.count_nonzero(cut))
+                values = (np.where(cut, 0, row["rho"]), plasma.kelvin(dump, row, moves.b2), *moves.u, *moves.b)
+                for name, of in zip(ARRAYS, values):
+                    arrays[name][i] = of
+        if not arrays["density"].any():
+            raise _nothing(dump, plasma, empty == math.prod(dump.shape))
         _scale(arrays, plasma.density_unit)
+        _check_single(dump, plasma, arrays)
         if dump.phi is None:
             arrays = {name: of[..., 0] for name, of in arrays.items()}
         notes = (*dump.notes, *plasma.said(dump))
         if empty:
-            notes = (*notes, f"{empty} of {np.prod(dump.shape)} zones have no matter by this cut")
+            notes = (*notes, f"{empty} of {math.prod(dump.shape)} zones have no matter by this cut")
         return Matter(dump.spin, dump.r, dump.theta, dump.phi, arrays, notes)
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -105,11 +112,57 @@ def _check(dump: Dump, i: int, row: dict[str, NDArray[np.float64]]) -> None:
             raise DumpProblem(dump.file, f"{name}[{i}, {j}, {k}]", f"is {values[j, k]:g}; it must be {must}")
 
 
+def _check_size(dump: Dump) -> None:
+    """Refuses more nodes than a grid may have."""
+    if max(dump.shape) <= SIDE_MOST and math.prod(dump.shape) <= NODES_MOST:
+        return
+    rows, columns, layers = dump.shape
+    fewer = min(SIDE_MOST, NODES_MOST // (columns * layers))
+    remedy = ""
+    if max(columns, layers) <= SIDE_MOST and fewer >= 2:
+        remedy = f": an `outer` below {dump.r[fewer]:.6g} leaves out the other rows"
+    raise DumpProblem(
+        dump.file,
+        None,
+        f"has {rows} x {columns} x {layers} zones; it must have at most {SIDE_MOST} a side and {NODES_MOST} in all"
+        + remedy,
+    )
+
+
+def _nothing(dump: Dump, plasma: Plasma, by_cuts: bool) -> Exception:
+    """What is wrong where no zone has a density."""
+    if not by_cuts:
+        return DumpProblem(
+            dump.file, "rho", "is 0 in single precision wherever no cut applies; it must be above 1.4e-45"
+        )
+    cuts = (("sigma_cut", plasma.sigma_cut), ("rho_floor", plasma.rho_floor))
+    given = " and ".join(f"{name} is {value:g}" for name, value in cuts if value is not None)
+    return ValueError(f"{given}; at least one zone of {printable(dump.file)} must have matter by these cuts")
+
+
 def _scale(arrays: dict[str, NDArray[np.float32]], unit: float | None) -> None:
     """From the code's units to cm^-3 and gauss."""
     if unit is None:
-        most = float(arrays["density"].max())
-        unit = PEAK * (PROTON + ELECTRON) / most if most > 0 else 1.0
-    arrays["density"] *= np.float32(unit / (PROTON + ELECTRON))
-    for name in ("b_con_r", "b_con_theta", "b_cov_phi"):
-        arrays[name] *= np.float32(field_unit(unit))
+        unit = PEAK * (PROTON + ELECTRON) / float(arrays["density"].max())
+    gauss = field_unit(unit)
+    factors = {"density": unit / (PROTON + ELECTRON), "b_con_r": gauss, "b_con_theta": gauss, "b_cov_phi": gauss}
+    with np.errstate(all="ignore"):
+        for name, factor in factors.items():
+            np.multiply(arrays[name], factor, out=arrays[name], dtype=np.float64, casting="same_kind")
+
+
+def _check_single(dump: Dump, plasma: Plasma, arrays: dict[str, NDArray[np.float32]]) -> None:
+    """Refuses what single precision, the grid's, cannot express."""
+    for name, values in arrays.items():
+        bad = ~np.isfinite(values)
+        if not bad.any():
+            continue
+        i, j, k = (int(x) for x in np.argwhere(bad)[0])
+        if plasma.m_unit is not None and name not in ("temperature", "u_con_r", "u_con_theta", "u_cov_phi"):
+            raise ValueError(
+                f"m_unit is {plasma.m_unit:g}; it must make {name}[{i}, {j}, {k}] smaller than 3.4e38 {UNITS[name]}"
+            )
+        raise DumpProblem(dump.file, None, f"{name}[{i}, {j}, {k}] is infinite in single precision; it must be finite")
+    if not arrays["density"].any():
+        shown = "None" if plasma.m_unit is None else f"{plasma.m_unit:g}"
+        raise ValueError(f"m_unit is {shown}; it must make the largest density larger than 1.4e-45 cm^-3")

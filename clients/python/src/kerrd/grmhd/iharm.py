@@ -22,7 +22,8 @@ FIELDS = ("RHO", "UU", "U1", "U2", "U3", "B1", "B2", "B3")
 METRICS = ("MKS", "MMKS", "FMKS")
 PRIMS_MOST = 64
 R_LEAST, R_MOST = 0.1, 1e6  # as in src/render/emit/matter_grid.c
-BLOCK = 1 << 22  # numbers that are read at once
+BLOCK = 1 << 22  # numbers that are read at once, if a row has fewer
+ROW_MOST = 1 << 25  # numbers of a row
 GEOMETRY = "header/geom/"
 
 
@@ -112,6 +113,8 @@ def read(file: DumpFile, outer: float | None = None) -> Dump:
     n1, n2, n3 = (file.whole(f"header/n{axis}", low, SIDE_MOST) for axis, low in ((1, 2), (2, 3), (3, 1)))
     check_count(file, "header/n1 n2 n3", (n1, n2, n3))
     count = file.whole("header/n_prim", len(FIELDS), PRIMS_MOST)
+    if n2 * n3 * count > ROW_MOST:
+        raise file.must("header/n2 n3 n_prim", f"{n2} x {n3} x {count} numbers", f"at most {ROW_MOST} in a row")
     names = list(FIELDS)
     if "header/prim_names" in file:
         names = file.texts("header/prim_names", PRIMS_MOST)
