@@ -467,6 +467,25 @@ class Dumps(unittest.TestCase):
                 self.assertIn(f"{path}: {dataset} cannot be read: ", done.stderr)
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
 
+    def test_wrong_bytes(self):
+        """A file with a few wrong bytes anywhere is read, or refused with its name."""
+        dumps.write_iharm(self.path("a.h5"), "fmks", (6, 4, 3), dumps.torus_flow)
+        dumps.write_athdf(self.path("a.athdf"), (8, 8, 4), dumps.torus_flow)
+        chance = np.random.default_rng(3)
+        path, refused = self.path("wrong"), 0
+        for source, options in ((self.path("a.h5"), {}), (self.path("a.athdf"), ATHENA)):
+            whole = pathlib.Path(source).read_bytes()
+            for _ in range(600):
+                data = np.frombuffer(whole, np.uint8).copy()
+                data[chance.integers(len(data), size=3)] = chance.integers(256, size=3)
+                pathlib.Path(path).write_bytes(data.tobytes())
+                try:
+                    kerrd.matter(path, **options)
+                except (kerrd.DumpProblem, ValueError) as problem:
+                    self.assertIn(path, str(problem))
+                    refused += 1
+        self.assertGreater(refused, 100)
+
     def test_nothing_is_kept(self):
         """Neither memory nor an open file is left of dumps whose reading fails midway."""
 

@@ -16,7 +16,7 @@ CODES = ("iharm3d", "athena++")
 
 def _dump(file: DumpFile, code: str | None, spin: float | None, gamma: float | None, outer: float | None) -> Dump:
     if code is None:
-        code = "athena++" if "Coordinates" in file.root.attrs or "MeshBlockSize" in file.root.attrs else "iharm3d"
+        code = "athena++" if any(map(file.has_attribute, ("Coordinates", "MeshBlockSize"))) else "iharm3d"
     if code == "athena++":
         return athena.read(file, spin, gamma, outer)
     if spin is not None or gamma is not None:

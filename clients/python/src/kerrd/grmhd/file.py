@@ -82,7 +82,17 @@ class DumpFile:
         return self.problem(name, f"is {value}; it must be {must}")
 
     def __contains__(self, name: str) -> bool:
-        return name in self.root
+        try:
+            return name in self.root
+        except (KeyError, OSError, RuntimeError) as error:
+            raise self.problem(name, f"cannot be read: {_reason(error)}") from error
+
+    def has_attribute(self, name: str) -> bool:
+        """Whether the file has an attribute."""
+        try:
+            return name in self.root.attrs
+        except (KeyError, OSError, RuntimeError) as error:
+            raise self.problem(name, f"cannot be read: {_reason(error)}") from error
 
     def dataset(self, name: str) -> Any:
         """A dataset, whose elements are not read yet."""
@@ -97,12 +107,12 @@ class DumpFile:
 
     def _check_elements(self, name: str, found: Any) -> None:
         """Refuses a dataset or an attribute without elements, or with elements of an unknown or a large type."""
-        if found.shape is None:
-            raise self.problem(name, "has no elements; it must have at least one")
         try:
-            kind = found.dtype
-        except TypeError as error:
-            raise self.problem(name, f"has a type that cannot be read: {_reason(error)}") from error
+            shape, kind = found.shape, found.dtype
+        except (OSError, RuntimeError, TypeError, ValueError):
+            raise self.problem(name, "has a type that cannot be read; it must be one of numbers or texts") from None
+        if shape is None:
+            raise self.problem(name, "has no elements; it must have at least one")
         if kind.itemsize > TEXT_MOST:
             raise self.problem(name, f"has elements of {kind.itemsize} bytes; they must have at most {TEXT_MOST}")
 
