@@ -3104,8 +3104,8 @@ export interface Problem {
     | 'urn:kerrd:problem:idempotency-key-reused' | 'urn:kerrd:problem:quota' | 'urn:kerrd:problem:wrong-tokens'
     | 'urn:kerrd:problem:header-too-large' | 'urn:kerrd:problem:internal' | 'urn:kerrd:problem:device-lost'
     | 'urn:kerrd:problem:not-installed' | 'urn:kerrd:problem:out-of-memory' | 'urn:kerrd:problem:queue-full'
-    | 'urn:kerrd:problem:too-many-connections' | 'urn:kerrd:problem:stopping' | 'urn:kerrd:problem:disk-full'
-    | 'urn:kerrd:problem:assets-full' | 'urn:kerrd:problem:http-version';
+    | 'urn:kerrd:problem:links-full' | 'urn:kerrd:problem:too-many-connections' | 'urn:kerrd:problem:stopping'
+    | 'urn:kerrd:problem:disk-full' | 'urn:kerrd:problem:assets-full' | 'urn:kerrd:problem:http-version';
   title: string;
   /** 400 to 599. */
   status: number;

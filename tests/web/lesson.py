@@ -352,8 +352,7 @@ class Lesson(Browser):
         page = self.page(self.context(locale="en-US"))
         page.goto(self.base + "lesson")
         self.there(page, "This link leads to no lesson.", "#told")
-        page.goto(self.base + "lesson#0123456789abcdef")
-        page.reload()
+        page.goto(self.base + "lesson#0123456789abcdef")  # the page loads itself again for another link
         self.there(page, "The lesson has ended.", "#told")
 
     def test_a_message_goes_with_its_cause(self):
