@@ -65,15 +65,13 @@ done:
 static enum kd_status make_page(const struct kd_request *request, const struct kd_shared *shared,
                                 struct kd_buffer *page)
 {
-    struct kd_buffer url = { 0 }, open = { 0 }, style = { 0 }, icon = { 0 }, picture = { 0 }, seen = { 0 },
-                     escaped[TEXTS] = { 0 };
-    const char *texts[TEXTS];
+    struct kd_buffer url = { 0 }, open = { 0 }, style = { 0 }, icon = { 0 }, seen = { 0 }, escaped[TEXTS] = { 0 };
+    const char *texts[TEXTS], *query = strchr((const char *)shared->picture.data, '?');
     enum kd_status status;
     KD_TRY(kd_percent_append(shared->address.data, shared->address.size, "", &url));
     KD_TRY(kd_shared_sign(request, "/web/share/shared.css", &style));
     KD_TRY(kd_shared_sign(request, "/web/icon.svg", &icon));
-    KD_TRY(kd_buffer_printf(&picture, "/v1/share/%s/picture.png", (const char *)shared->code.data));
-    KD_TRY(kd_shared_sign(request, (const char *)picture.data, &seen));
+    KD_TRY(kd_buffer_printf(&seen, "%s", query ? query : ""));
     KD_TRY(kd_shared_fragment(shared, &open));
     const struct kd_buffer *const all[TEXTS] = {
         [TITLE] = &shared->title,
@@ -98,7 +96,6 @@ done:
     kd_buffer_finish(&open);
     kd_buffer_finish(&style);
     kd_buffer_finish(&icon);
-    kd_buffer_finish(&picture);
     kd_buffer_finish(&seen);
     for (int i = 0; i < TEXTS; i++)
         kd_buffer_finish(&escaped[i]);
