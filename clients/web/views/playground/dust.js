@@ -1,5 +1,5 @@
-// Debris as light: each piece is spread over four pixels of a picture of its own, and dense parts are brighter. This costs
-// less than as many drawn squares.
+// Debris as light: each piece is spread over four pixels of a picture of its own, and dense parts are brighter. This
+// costs less than as many drawn squares.
 const stages = ['violet', 'glow', 'green']; // leaving, bound, come back
 const gain = 0.9; // optical depth of one piece
 const whiter = 0.5; // share of white in the densest parts
