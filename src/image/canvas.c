@@ -3,18 +3,24 @@
 #include "image/font.h"
 
 #include <math.h>
-#include <string.h>
+
+void kd_canvas_mix(const struct kd_canvas *canvas, uint32_t x, uint32_t y, struct kd_map_colour colour, double share)
+{
+    const double c[3] = { colour.r, colour.g, colour.b };
+    const size_t at = 3 * ((size_t)y * canvas->width + x);
+    uint16_t *deep = canvas->pixels;
+    uint8_t *bytes = canvas->pixels;
+    for (int i = 0; i < 3; i++) {
+        if (canvas->bit_depth == 16)
+            deep[at + i] = (uint16_t)lround((1 - share) * deep[at + i] + share * 65535 * c[i]);
+        else
+            bytes[at + i] = (uint8_t)lround((1 - share) * bytes[at + i] + share * 255 * c[i]);
+    }
+}
 
 void kd_canvas_put(const struct kd_canvas *canvas, uint32_t x, uint32_t y, struct kd_map_colour colour)
 {
-    const double c[3] = { colour.r, colour.g, colour.b };
-    size_t at = 3 * ((size_t)y * canvas->width + x);
-    for (int i = 0; i < 3; i++) {
-        if (canvas->bit_depth == 16)
-            ((uint16_t *)canvas->pixels)[at + i] = (uint16_t)lround(65535 * c[i]);
-        else
-            ((uint8_t *)canvas->pixels)[at + i] = (uint8_t)lround(255 * c[i]);
-    }
+    kd_canvas_mix(canvas, x, y, colour, 1);
 }
 
 void kd_canvas_darken(const struct kd_canvas *canvas, uint32_t x, uint32_t y)
@@ -36,19 +42,29 @@ void kd_canvas_fill(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint
             kd_canvas_put(canvas, x + i, y + j, colour);
 }
 
+static void write_letter(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t dot, uint32_t letter)
+{
+    for (uint32_t j = 0; j < KD_FONT_HEIGHT * dot; j++)
+        for (uint32_t i = 0; i < KD_FONT_WIDTH * dot; i++) {
+            const double off = kd_font_distance(letter, (i + 0.5) / dot - 0.5, (j + 0.5) / dot - 0.5),
+                         share = (0.5 - off) * dot + 0.5; /* a stroke is a dot wide; its edge takes one pixel */
+            if (share > 0)
+                kd_canvas_mix(canvas, x + i, y + j, KD_CANVAS_INK, fmin(share, 1));
+        }
+}
+
 void kd_canvas_write(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t end, uint32_t dot,
                      const char *text)
 {
-    for (; *text && x + KD_FONT_WIDTH * dot <= end; text++, x += KD_FONT_ADVANCE * dot)
-        for (int j = 0; j < KD_FONT_HEIGHT; j++)
-            for (int i = 0; i < KD_FONT_WIDTH; i++)
-                if (kd_font_dot(*text, i, j))
-                    kd_canvas_fill(canvas, x + (uint32_t)i * dot, y + (uint32_t)j * dot, dot, dot, KD_CANVAS_INK);
+    for (; *text && x + KD_FONT_WIDTH * dot <= end; x += KD_FONT_ADVANCE * dot)
+        write_letter(canvas, x, y, dot, kd_font_next(&text));
 }
 
 uint32_t kd_canvas_text_width(uint32_t dot, const char *text)
 {
-    size_t n = strlen(text);
+    size_t n = 0;
+    for (; *text; n++)
+        kd_font_next(&text);
     return n ? (uint32_t)(n * KD_FONT_ADVANCE - 1) * dot : 0;
 }
 

@@ -15,8 +15,10 @@ struct kd_canvas {
 
 #define KD_CANVAS_INK ((struct kd_map_colour) { 0.92, 0.92, 0.92 })
 
-/* kd_canvas_put sets one pixel to encoded sRGB in [0, 1], rounded. kd_canvas_darken reduces it to a fifth of its value.
- * x and y must be inside the canvas. */
+/* kd_canvas_put sets one pixel to encoded sRGB in [0, 1], rounded; kd_canvas_mix to a mean of that and its old value,
+ * of which `share` is the new one's weight, 0 to 1. kd_canvas_darken reduces it to a fifth of its value. x and y must
+ * be inside the canvas. */
+void kd_canvas_mix(const struct kd_canvas *canvas, uint32_t x, uint32_t y, struct kd_map_colour colour, double share);
 void kd_canvas_put(const struct kd_canvas *canvas, uint32_t x, uint32_t y, struct kd_map_colour colour);
 void kd_canvas_darken(const struct kd_canvas *canvas, uint32_t x, uint32_t y);
 
@@ -24,8 +26,9 @@ void kd_canvas_darken(const struct kd_canvas *canvas, uint32_t x, uint32_t y);
 void kd_canvas_fill(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
                     struct kd_map_colour colour);
 
-/* kd_canvas_write writes a text from x on in the letters of image/font.h, with `dot` pixels for each dot of a
- * letter. Letters that would end beyond `end` are left out. kd_canvas_text_width returns the width of a text. */
+/* kd_canvas_write writes a text, UTF-8, from x on in the letters of image/font.h, with `dot` pixels for each dot of a
+ * letter, and smooth edges. Letters that would end beyond `end` are left out. kd_canvas_text_width returns the width of
+ * a text. */
 void kd_canvas_write(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t end, uint32_t dot,
                      const char *text);
 uint32_t kd_canvas_text_width(uint32_t dot, const char *text);

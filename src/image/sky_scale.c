@@ -23,7 +23,7 @@ static struct bar bar_of(const struct kd_sky_scale *scale, uint32_t width, uint3
 {
     struct bar bar;
     const double uas = kd_sky_scale_bar(scale, width);
-    snprintf(bar.text, sizeof bar.text, "%.6g uas", uas);
+    snprintf(bar.text, sizeof bar.text, "%.6g µas", uas);
     bar.length = (uint32_t)fmax(lround(uas / scale->pixel_uas), 1);
     bar.wide = kd_canvas_text_width(dot, bar.text);
     return bar;
@@ -48,9 +48,9 @@ static void draw_beam(const struct kd_canvas *c, double radius, double line, dou
     static const struct kd_map_colour grey = { 0.45, 0.45, 0.45 };
     for (uint32_t y = (uint32_t)fmax(floor(y0 - radius), 0); y < c->height && y < y0 + radius; y++)
         for (uint32_t x = (uint32_t)fmax(floor(x0 - radius), 0); x < c->width && x < x0 + radius; x++) {
-            const double r = hypot(x + 0.5 - x0, y + 0.5 - y0);
-            if (r <= radius)
-                kd_canvas_put(c, x, y, r > radius - line ? KD_CANVAS_INK : grey);
+            const double r = hypot(x + 0.5 - x0, y + 0.5 - y0), inside = fmin(fmax(radius - r + 0.5, 0), 1);
+            kd_canvas_mix(c, x, y, grey, inside);
+            kd_canvas_mix(c, x, y, KD_CANVAS_INK, inside * fmin(fmax(r - radius + line + 0.5, 0), 1));
         }
 }
 

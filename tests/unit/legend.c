@@ -28,9 +28,40 @@ static void letters_have_shapes(void **state)
         }
     }
     assert_false(kd_font_has('\n'));
-    assert_false(kd_font_has((char)0xc3));
-    assert_true(kd_font_dot((char)0xc3, 0, 0)); /* a box for an unknown character */
+    assert_false(kd_font_has(0xc3));
+    assert_true(kd_font_dot(0xc3, 0, 0)); /* a box for an unknown character */
     assert_true(kd_font_dot('L', 0, 0) && !kd_font_dot('L', 4, 0) && kd_font_dot('L', 4, 6));
+}
+
+/* Text is read letter by letter, also if it is no UTF-8. */
+static void text_has_letters(void **state)
+{
+    (void)state;
+    const uint32_t wanted[] = { '5', 0xb5, 'a', 0xb0, 0xfffd, 0xfffd, 'z' };
+    const char *text = "5µa°\xff→z";
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
+        assert_int_equal(kd_font_next(&text), wanted[i]);
+    assert_int_equal(*text, 0);
+    assert_int_equal(kd_canvas_text_width(2, "5µa"), 34);
+    assert_true(kd_font_has(0xb5) && kd_font_has(0xb0));
+}
+
+/* Strokes join neighbouring dots, across a corner only if no dot is there. */
+static void letters_are_strokes(void **state)
+{
+    (void)state;
+    const struct {
+        char letter;
+        double x, y, distance;
+    } points[] = {
+        { 'L', 0, 0, 0 },        { 'L', 0, 2.5, 0 },     { 'L', 0.5, 3, 0.5 },
+        { 'L', -0.75, 6, 0.75 }, { 'L', 4.6, 6.8, 1 },   { 'L', 0.5, 5.5, 0.5 }, /* not 0: the corner is not cut */
+        { 'X', 1.5, 2.5, 0 },                                                    /* between dots across */
+        { 'X', 2, 0, 1 },        { '.', 2.5, 5.5, 0.5 },
+    };
+    for (size_t i = 0; i < sizeof points / sizeof *points; i++)
+        assert_float_equal(kd_font_distance((uint32_t)points[i].letter, points[i].x, points[i].y), points[i].distance,
+                           1e-12);
 }
 
 static void check_labels(const struct kd_map_scale *scale, double room, const char *wanted)
@@ -201,6 +232,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(letters_have_shapes),
+        cmocka_unit_test(text_has_letters),
+        cmocka_unit_test(letters_are_strokes),
         cmocka_unit_test(numbers_are_round),
         cmocka_unit_test(numbers_fit),
         cmocka_unit_test(a_legend_stays_in_its_corner),

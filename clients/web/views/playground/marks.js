@@ -1,4 +1,4 @@
-// Marks in the playground's plane: the circles of the hole, the aim, and the scale bar.
+// Marks in the playground's plane: circles of equal distance, those of the hole, the aim, and the scale bar.
 import { t } from '../../words/i18n.js';
 
 const margin = 4; // pixels between a name and the picture's edge
@@ -7,6 +7,31 @@ function ring(c, plane, r) {
   const [x, y] = plane.project([0, 0, 0]);
   c.beginPath();
   c.ellipse(x, y, r * plane.scale, r * plane.scale * Math.cos(plane.tilt), 0, 0, 2 * Math.PI);
+}
+
+// A round length of at most `px` pixels, in M.
+function round(plane, px) {
+  const raw = px / plane.scale,
+    ten = 10 ** Math.floor(Math.log10(raw));
+  return ten * [1, 2, 5].filter(x => x * ten <= raw).at(-1);
+}
+
+const bar_px = plane => 0.2 * Math.min(plane.size[0], 500); // the longest bar
+
+// Circles about the hole, as far apart as the scale bar is long. Those outside the picture are left out.
+export function distances(c, plane, colours) {
+  const [w, h] = plane.size,
+    step = round(plane, bar_px(plane)),
+    [x, y] = plane.project([0, 0, 0]),
+    near = Math.hypot(Math.max(-x, 0, x - w), Math.max(-y, 0, y - h)),
+    far = Math.hypot(Math.max(x, w - x), Math.max(y, h - y)) / Math.max(Math.cos(plane.tilt), 0.1),
+    first = Math.max(Math.floor(near / plane.scale / step), 1);
+  c.strokeStyle = colours.rule;
+  c.lineWidth = 1;
+  for (let n = first; n < first + 40 && n * step * plane.scale < far; n++) {
+    ring(c, plane, n * step);
+    c.stroke();
+  }
 }
 
 export function circles(c, plane, colours) {
@@ -79,9 +104,7 @@ export function aim(c, plane, colours) {
 // The scale bar, of a round number of M.
 export function bar(c, plane, colours) {
   const [w, h] = plane.size;
-  const raw = (0.2 * Math.min(w, 500)) / plane.scale,
-    ten = 10 ** Math.floor(Math.log10(raw)),
-    length = ten * [1, 2, 5].filter(x => x * ten <= raw).at(-1);
+  const length = round(plane, bar_px(plane));
   c.strokeStyle = c.fillStyle = colours.ink;
   c.lineWidth = 1;
   c.beginPath();

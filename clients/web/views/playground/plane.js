@@ -1,6 +1,7 @@
 // The plane of the playground, from above or tilted: the hole and its circles, bodies with their trails, debris, and
 // the aim.
-import { aim, bar, circles } from './marks.js';
+import { aim, bar, circles, distances } from './marks.js';
+import { Dust } from './dust.js';
 import { physics } from '../../base/server.js';
 
 // past: points of a trail; up to `few` bodies have full trails, beyond `none` no body has one
@@ -8,16 +9,25 @@ const turns = { past: 160, few: 400, none: 1500 };
 const least_px = 2.5;
 const sample = 400; // pieces of debris by which the view is chosen
 const ease = 0.12; // share of the way to the wanted reach, in one update
-// The glow round the hole: its radius in radii of the horizon, and its colours from the horizon outwards.
+// The glow round the hole: its radius in radii of the horizon, at least some pixels, and its colours from the horizon
+// outwards.
 const glows = 2.4;
+const least_glow_px = 30;
 const glowing = [
   [0, '#ffd9a0e0'],
   [0.09, '#ffb35c70'],
   [0.4, '#ff9d3c22'],
   [1, '#ff9d3c00'],
 ];
+const halo = { wide: 5, least: 14, most: 90 }; // round a body: in its radii, and in pixels
 const hot = { least: 1000, most: 30000, n: 117 }; // kelvin, range and number of the table of colours
 const style = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+// A colour, as "#rrggbb" or "rgb(r g b)", of this opacity.
+function weaker(colour, percent) {
+  const byte = Math.round(2.55 * percent);
+  return colour[0] === '#' ? colour + byte.toString(16).padStart(2, '0') : colour.replace(')', ` / ${percent}%)`);
+}
 
 export class Plane {
   cx = 0;
@@ -40,6 +50,7 @@ export class Plane {
   #table = null;
   #colours;
   #labels = []; // places of names
+  #dust = new Dust();
 
   constructor(canvas) {
     this.#canvas = canvas;
@@ -242,13 +253,14 @@ export class Plane {
     c.fillStyle = '#050404';
     c.fillRect(0, 0, w, h);
     c.font = '12px system-ui, sans-serif';
+    distances(c, this, this.#colours);
     circles(c, this, this.#colours);
     this.#labels = [];
     const all = this.all(),
       behind = body =>
         body.x[2] * Math.cos(this.tilt) - body.x[1] * Math.sin(this.tilt) < 0 && Math.hypot(...body.x) < 1e4;
     this.#drawTrails(c);
-    this.#drawDebris(c, w, h);
+    if (this.debris) this.#dust.draw(c, this, this.#colours);
     for (const body of all.filter(behind)) this.#drawBody(c, body, w, h);
     this.#hole(c);
     for (const body of all.filter(body => !behind(body))) this.#drawBody(c, body, w, h);
@@ -259,14 +271,15 @@ export class Plane {
   #hole(c) {
     const [x, y] = this.project([0, 0, 0]),
       black = Math.max(this.radii.horizon * this.scale, least_px),
-      glow = c.createRadialGradient(x, y, black, x, y, glows * black);
+      wide = Math.max(glows * black, least_glow_px),
+      glow = c.createRadialGradient(x, y, black, x, y, wide);
     for (const [at, colour] of glowing) glow.addColorStop(at, colour);
     c.beginPath();
-    c.arc(x, y, glows * black, 0, 2 * Math.PI);
+    c.arc(x, y, wide, 0, 2 * Math.PI);
     c.fillStyle = glow;
     c.fill();
     c.beginPath();
-    c.arc(x, y, Math.max(this.radii.horizon * this.scale, least_px), 0, 2 * Math.PI);
+    c.arc(x, y, black, 0, 2 * Math.PI);
     c.fillStyle = '#000';
     c.fill();
     c.strokeStyle = this.#colours.edge;
@@ -305,24 +318,31 @@ export class Plane {
     c.bezierCurveTo(...at(before, 1), ...at(now, -1), ...there);
   }
 
-  #drawDebris(c, w, h) {
-    if (!this.debris) return;
-    const { n, words, f, u } = this.debris,
-      colours = ['dim', 'violet', 'glow', 'green'];
-    for (const stage of [1, 2, 3]) {
-      c.fillStyle = this.#colours[colours[stage]];
-      for (let i = 0, at = 0; i < n; i++, at += words) {
-        if (u[at + 3] >>> 16 !== stage) continue;
-        const [x, y] = this.project([f[at], f[at + 1], f[at + 2]]);
-        if (x >= 0 && y >= 0 && x < w && y < h) c.fillRect(x, y, 1.3, 1.3);
-      }
-    }
+  // Light round a body that shines.
+  #halo(c, x, y, size, colour) {
+    const wide = Math.min(Math.max(halo.wide * size, halo.least), size + halo.most),
+      light = c.createRadialGradient(x, y, 0.8 * size, x, y, wide);
+    c.save();
+    c.globalCompositeOperation = 'lighter';
+    c.globalAlpha = 0.45;
+    for (const [at, percent] of [
+      [0, 100],
+      [0.35, 25],
+      [1, 0],
+    ])
+      light.addColorStop(at, weaker(colour, percent));
+    c.fillStyle = light;
+    c.beginPath();
+    c.arc(x, y, wide, 0, 2 * Math.PI);
+    c.fill();
+    c.restore();
   }
 
   #drawBody(c, body, w, h) {
     const [x, y] = this.project(body.x),
       size = Math.max(body.radius * this.scale, least_px);
     if (x < -size || y < -size || x > w + size || y > h + size) return;
+    if (body.temperature_k > 0) this.#halo(c, x, y, size, this.#colour(body.temperature_k));
     c.beginPath();
     c.arc(x, y, size, 0, 2 * Math.PI);
     c.fillStyle = body.temperature_k > 0 ? this.#colour(body.temperature_k) : '#000';
