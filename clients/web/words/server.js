@@ -88,7 +88,7 @@ const sentences = {
   'playground.softening-length-in-m-of': "softening length in M of the bodies' mutual attraction",
   'playground.longest-sub-step-in-m': 'longest sub-step in M, and the interval at which debris is advanced',
   'playground.factor-c-of-the-limit':
-    'factor C of the limit C (r - 2) of the sub-step, and of the like limit for two bodies',
+    'factor C of the limit C (r - 2) of the sub-step, and of its limit for two close bodies',
   'playground.limit-of-the-sub-steps':
     'limit of the sub-steps of one advance; if it is reached, the advance is shorter than requested',
   'playground.bodies-that-touch-merge': 'bodies that touch merge',
