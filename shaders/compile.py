@@ -3,11 +3,11 @@
 
 compile.py GLSLANG SPIRV_OPT DEPFILE OUTPUT INPUT NAME [OPTION of glslangValidator ...]
 
-What glslangValidator writes keeps each variable in memory and each function by itself. A driver that makes a pipeline
-brings that into the form that compilers work on, one value a name, before it leaves out what the specialisation
-constants rule out: two thirds of the time that lavapipe takes for a pipeline. So it is done here, once. The passes
-neither reorder nor fold arithmetic, so that the numbers stay the same to the bit. With KD_SPIRV_PLAIN the file has
-NAME_plain, too: the module before these passes, with its functions and their names, for tests that read it.
+In the output of glslangValidator each variable is in memory, and each function is separate. A driver converts that to
+single assignment before it removes the code that the specialisation constants exclude. The conversion takes two thirds
+of the time that lavapipe needs for a pipeline, so it is done here, once. The passes neither reorder nor fold
+arithmetic, so that the numbers stay the same to the bit. With KD_SPIRV_PLAIN the file also has NAME_plain: the module
+before these passes, with its functions and their names, for tests that read it.
 """
 
 import pathlib
@@ -33,13 +33,13 @@ VALUES = [
     "--ssa-rewrite",
     "--eliminate-dead-code-aggressive",
 ]
-# Loops that a kernel asks to be unrolled, over arrays that then are values.
+# Loops that a kernel asks to be unrolled. The arrays in them become values afterwards.
 UNROLLED = ["--loop-unroll", *VALUES]
 PER_LINE = 8
 
 
 def array(name, spirv):
-    """A C array of the words of a module."""
+    """Return the words of a module as a C array."""
     words = [f"0x{word:08x}" for (word,) in struct.iter_unpack("<I", spirv)]
     lines = [",".join(words[i : i + PER_LINE]) for i in range(0, len(words), PER_LINE)]
     return f"const uint32_t {name}[] = {{\n" + ",\n".join(lines) + "\n};\n"
@@ -78,4 +78,4 @@ def main():
 try:
     main()
 except subprocess.CalledProcessError as error:
-    sys.exit(error.returncode or 1)  # glslangValidator and spirv-opt have said why
+    sys.exit(error.returncode or 1)  # glslangValidator and spirv-opt have already printed the error

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Write a kernel as its double-precision twin: one source for both.
+"""Write the double-precision twin of a kernel, so that both have one source.
 
 to_double.py INCLUDE_DIR INPUT OUTPUT DEPFILE
 
 Includes are expanded; float, vec3 and vec4 become double, dvec3 and dvec4; numbers with a point or an exponent get the
-suffix LF; KD_DOUBLE is defined. Kernels that go through here use math.glsl instead of built-in transcendental
+suffix LF; KD_DOUBLE is defined. Kernels that are converted here use math.glsl instead of built-in transcendental
 functions, which GLSL has in single precision only.
 """
 

@@ -169,14 +169,12 @@ export interface Scene {
      */
     emission_opacity?: number;
     /**
-     * height of the gas over its distance from the axis, at 10 M, where height is that at which the density has
-     * fallen to exp(-1/2); the optical depth from top to bottom is that of the thin disk; 0: a thin disk; 0 to 0.5;
-     * default 0.
+     * relative half height H/R at R = 10 M: H is the height above the plane at which the density has fallen to
+     * exp(-1/2), R the distance from the axis; the optical depth from top to bottom is that of the thin disk; 0: a
+     * thin disk; 0 to 0.5; default 0.
      */
     height?: number;
-    /**
-     * exponent: height over distance grows as the distance from the axis to this power; -0.5 to 0.5; default 0.
-     */
+    /** exponent p: H/R is proportional to R^p (disk.height); -0.5 to 0.5; default 0. */
     flare?: number;
     /**
      * temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd; default "peak".
@@ -195,9 +193,9 @@ export interface Scene {
     /** colour temperature over effective temperature; 1 to 3; default 1. */
     hardening?: number;
     /**
-     * light of the thin disk's surface by mu, the cosine of the angle to its normal in the gas's frame: isotropic;
-     * laor, as 1 + 2.06 mu; scattering, that of a deep atmosphere of free electrons, whose polarisation
-     * polarization.model "scattering" has; each radiates the disk's flux; default "isotropic".
+     * how the light of the thin disk's surface depends on mu, the cosine of the angle to its normal in the gas's
+     * frame. isotropic; laor: as 1 + 2.06 mu; scattering: as from a deep atmosphere of free electrons, which
+     * polarization.model "scattering" polarises. Each law has the disk's flux; default "isotropic".
      */
     atmosphere?: 'isotropic' | 'laor' | 'scattering';
     /**
@@ -217,8 +215,8 @@ export interface Scene {
      */
     seed?: number;
     /**
-     * the number of particles per area falls as r to minus this power; with 2 each octave of r has as many (model:
-     * particles); 0 to 4; default 2.
+     * p: the number of particles per area is proportional to r^-p; for p = 2 every octave of r has the same number
+     * (model: particles); 0 to 4; default 2.
      */
     density_index?: number;
     /**
@@ -232,8 +230,8 @@ export interface Scene {
      */
     plunging_temperature?: number;
     /**
-     * largest amplitude of oscillations: in latitude, in radians; in r over r, times (kappa/Omega)^2, which
-     * vanishes at the ISCO (model: particles); 0 to 0.2; default 0.02.
+     * largest amplitude of oscillations in latitude, in radians; times (kappa/Omega)^2, which vanishes at the ISCO,
+     * also that of the relative oscillations in r (model: particles); 0 to 0.2; default 0.02.
      */
     epicycles?: number;
     /**
@@ -285,7 +283,7 @@ export interface Scene {
     /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
     temperature_k?: number;
   }[];
-  /** bodies: luminous spheres in front of the hole, behind it and in the disk; up to 8; default []. */
+  /** bodies: luminous spheres round the hole; up to 8; default []. */
   bodies?: {
     /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
     radius?: number;
@@ -478,8 +476,8 @@ export interface Scene {
   /** stylised jets along the spin axis. */
   jets?: {
     /**
-     * light emitted along 1 M in the jet's frame, extrapolated to the inner edge, where it begins smoothly, in
-     * units of the disk's brightest; 0: no jets; in 1/M; 0 to 1000000000; default 0.
+     * light emitted along 1 M in the jet's frame, in units of the disk's brightest: the power law's value at the
+     * inner edge, from which the light rises smoothly; 0: no jets; in 1/M; 0 to 1000000000; default 0.
      */
     brightness?: number;
     /** half of the cone's opening angle; in degrees; 1 to 60; default 8. */
@@ -496,7 +494,7 @@ export interface Scene {
     falloff?: number;
     /** brightness across the jet: 0, a bright spine; 1, bright edges; 0 to 1; default 0.5. */
     sheath?: number;
-    /** brightness is proportional to the frequency shift to the power of 2 plus this; -10 to 10; default 0.7. */
+    /** index: brightness is proportional to g^(2 + index); -10 to 10; default 0.7. */
     spectral_index?: number;
     /** colour of a black body of this temperature, not shifted; in K; 300 to 1000000000; default 14000. */
     temperature_k?: number;
@@ -542,9 +540,9 @@ export interface Scene {
      */
     model?: 'none' | 'grid' | 'stars' | 'catalogue' | 'image';
     /**
-     * brightness of the sky in units of the disk's brightest surface brightness at g = 1: that of the grid, or of
-     * 21 magnitudes per square arcsecond for stars and the Milky Way, whose ratio is real; auto: 0.2, or 0.01 for
-     * stars and the Milky Way behind something that shines; 0 to 100; default "auto".
+     * brightness in units of the disk's brightest surface brightness at g = 1: of the grid, or, for stars and the
+     * Milky Way in their real ratio, of 21 magnitudes per square arcsecond; auto: 0.2, or 0.01 for stars and the
+     * Milky Way behind something that shines; 0 to 100; default "auto".
      */
     brightness?: 'auto' | number;
     /** spacing of the celestial grid; in degrees; 1 to 90; default 15. */
@@ -563,8 +561,8 @@ export interface Scene {
     seed?: number;
     /**
      * galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra,
-     * m87: seen from azimuth 0 the hole is in front of that source as seen from the Earth, with the galactic or the
-     * celestial pole above; default "galactic".
+     * m87: an observer at azimuth 0 sees the hole where the Earth sees that source, with the galactic pole (sgra)
+     * or the celestial pole (m87) above; default "galactic".
      */
     orientation?: 'galactic' | 'equatorial' | 'sgra' | 'm87';
     /**
@@ -694,8 +692,8 @@ export interface Scene {
     /** rate of coordinate time; in M per second; -1000000 to 1000000; default 0. */
     time_rate?: number;
     /**
-     * rate of the observer's proper time: the observer falls, to the last possible position, or orbits; coordinate
-     * time follows; in M per second; 0 to 1000000; default 0.
+     * rate of the observer's proper time: the observer moves along its path, a fall to the last possible position
+     * or an orbit; coordinate time follows; in M per second; 0 to 1000000; default 0.
      */
     proper_time_rate?: number;
   };
@@ -1982,7 +1980,7 @@ export interface Playground {
   softening?: number;
   /** longest sub-step in M, and the interval at which debris is advanced; 1e-06 to 1000000. */
   h_max?: number;
-  /** factor C of the limit C (r - 2) of the sub-step, and of the like limit for two bodies; 0.0001 to 0.2. */
+  /** factor C of the limit C (r - 2) of the sub-step, and of its limit for two close bodies; 0.0001 to 0.2. */
   safety?: number;
   /**
    * limit of the sub-steps of one advance; if it is reached, the advance is shorter than requested; 1 to
@@ -2040,7 +2038,7 @@ export interface PlaygroundChange {
   softening?: number;
   /** longest sub-step in M, and the interval at which debris is advanced; 1e-06 to 1000000. */
   h_max?: number;
-  /** factor C of the limit C (r - 2) of the sub-step, and of the like limit for two bodies; 0.0001 to 0.2. */
+  /** factor C of the limit C (r - 2) of the sub-step, and of its limit for two close bodies; 0.0001 to 0.2. */
   safety?: number;
   /**
    * limit of the sub-steps of one advance; if it is reached, the advance is shorter than requested; 1 to
@@ -3262,14 +3260,12 @@ export interface SceneQuery {
    */
   'disk.emission_opacity'?: number;
   /**
-   * height of the gas over its distance from the axis, at 10 M, where height is that at which the density has
-   * fallen to exp(-1/2); the optical depth from top to bottom is that of the thin disk; 0: a thin disk; 0 to 0.5;
-   * default 0.
+   * relative half height H/R at R = 10 M: H is the height above the plane at which the density has fallen to
+   * exp(-1/2), R the distance from the axis; the optical depth from top to bottom is that of the thin disk; 0: a
+   * thin disk; 0 to 0.5; default 0.
    */
   'disk.height'?: number;
-  /**
-   * exponent: height over distance grows as the distance from the axis to this power; -0.5 to 0.5; default 0.
-   */
+  /** exponent p: H/R is proportional to R^p (disk.height); -0.5 to 0.5; default 0. */
   'disk.flare'?: number;
   /**
    * temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd; default "peak".
@@ -3288,9 +3284,9 @@ export interface SceneQuery {
   /** colour temperature over effective temperature; 1 to 3; default 1. */
   'disk.hardening'?: number;
   /**
-   * light of the thin disk's surface by mu, the cosine of the angle to its normal in the gas's frame: isotropic;
-   * laor, as 1 + 2.06 mu; scattering, that of a deep atmosphere of free electrons, whose polarisation
-   * polarization.model "scattering" has; each radiates the disk's flux; default "isotropic".
+   * how the light of the thin disk's surface depends on mu, the cosine of the angle to its normal in the gas's
+   * frame. isotropic; laor: as 1 + 2.06 mu; scattering: as from a deep atmosphere of free electrons, which
+   * polarization.model "scattering" polarises. Each law has the disk's flux; default "isotropic".
    */
   'disk.atmosphere'?: 'isotropic' | 'laor' | 'scattering';
   /**
@@ -3310,8 +3306,8 @@ export interface SceneQuery {
    */
   'disk.seed'?: number;
   /**
-   * the number of particles per area falls as r to minus this power; with 2 each octave of r has as many (model:
-   * particles); 0 to 4; default 2.
+   * p: the number of particles per area is proportional to r^-p; for p = 2 every octave of r has the same number
+   * (model: particles); 0 to 4; default 2.
    */
   'disk.density_index'?: number;
   /**
@@ -3325,8 +3321,8 @@ export interface SceneQuery {
    */
   'disk.plunging_temperature'?: number;
   /**
-   * largest amplitude of oscillations: in latitude, in radians; in r over r, times (kappa/Omega)^2, which
-   * vanishes at the ISCO (model: particles); 0 to 0.2; default 0.02.
+   * largest amplitude of oscillations in latitude, in radians; times (kappa/Omega)^2, which vanishes at the ISCO,
+   * also that of the relative oscillations in r (model: particles); 0 to 0.2; default 0.02.
    */
   'disk.epicycles'?: number;
   /**
@@ -4256,8 +4252,8 @@ export interface SceneQuery {
   /** frequency of that flux; observed: volume.frequency_ghz; in GHz; 1e-06 to 1e+12; default "observed". */
   'volume.normalise_ghz'?: 'observed' | number;
   /**
-   * light emitted along 1 M in the jet's frame, extrapolated to the inner edge, where it begins smoothly, in
-   * units of the disk's brightest; 0: no jets; in 1/M; 0 to 1000000000; default 0.
+   * light emitted along 1 M in the jet's frame, in units of the disk's brightest: the power law's value at the
+   * inner edge, from which the light rises smoothly; 0: no jets; in 1/M; 0 to 1000000000; default 0.
    */
   'jets.brightness'?: number;
   /** half of the cone's opening angle; in degrees; 1 to 60; default 8. */
@@ -4274,7 +4270,7 @@ export interface SceneQuery {
   'jets.falloff'?: number;
   /** brightness across the jet: 0, a bright spine; 1, bright edges; 0 to 1; default 0.5. */
   'jets.sheath'?: number;
-  /** brightness is proportional to the frequency shift to the power of 2 plus this; -10 to 10; default 0.7. */
+  /** index: brightness is proportional to g^(2 + index); -10 to 10; default 0.7. */
   'jets.spectral_index'?: number;
   /** colour of a black body of this temperature, not shifted; in K; 300 to 1000000000; default 14000. */
   'jets.temperature_k'?: number;
@@ -4314,9 +4310,9 @@ export interface SceneQuery {
    */
   'sky.model'?: 'none' | 'grid' | 'stars' | 'catalogue' | 'image';
   /**
-   * brightness of the sky in units of the disk's brightest surface brightness at g = 1: that of the grid, or of
-   * 21 magnitudes per square arcsecond for stars and the Milky Way, whose ratio is real; auto: 0.2, or 0.01 for
-   * stars and the Milky Way behind something that shines; 0 to 100; default "auto".
+   * brightness in units of the disk's brightest surface brightness at g = 1: of the grid, or, for stars and the
+   * Milky Way in their real ratio, of 21 magnitudes per square arcsecond; auto: 0.2, or 0.01 for stars and the
+   * Milky Way behind something that shines; 0 to 100; default "auto".
    */
   'sky.brightness'?: 'auto' | number;
   /** spacing of the celestial grid; in degrees; 1 to 90; default 15. */
@@ -4335,8 +4331,8 @@ export interface SceneQuery {
   'sky.seed'?: number;
   /**
    * galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra,
-   * m87: seen from azimuth 0 the hole is in front of that source as seen from the Earth, with the galactic or the
-   * celestial pole above; default "galactic".
+   * m87: an observer at azimuth 0 sees the hole where the Earth sees that source, with the galactic pole (sgra)
+   * or the celestial pole (m87) above; default "galactic".
    */
   'sky.orientation'?: 'galactic' | 'equatorial' | 'sgra' | 'm87';
   /**
@@ -4451,8 +4447,8 @@ export interface SceneQuery {
   /** rate of coordinate time; in M per second; -1000000 to 1000000; default 0. */
   'motion.time_rate'?: number;
   /**
-   * rate of the observer's proper time: the observer falls, to the last possible position, or orbits; coordinate
-   * time follows; in M per second; 0 to 1000000; default 0.
+   * rate of the observer's proper time: the observer moves along its path, a fall to the last possible position
+   * or an orbit; coordinate time follows; in M per second; 0 to 1000000; default 0.
    */
   'motion.proper_time_rate'?: number;
   /**
@@ -6675,7 +6671,9 @@ export interface Operations {
       '': undefined;
     };
   };
-  /** Strikes the hole: sets style.ringdown, with style.ringdown_time now; the answer is the session's scene. */
+  /**
+   * Strikes the hole: sets style.ringdown, and style.ringdown_time to the present time; the answer is the scene.
+   */
   'POST /v1/sessions/{id}/ringdown': {
     takes: {
       path: {

@@ -1,6 +1,6 @@
 /**
- * A refusal of the server (problem+json, RFC 9457), or an answer that is not kerrd's. `message` is the sentence: field,
- * value, what it must be.
+ * A refusal of the server (problem+json, RFC 9457), or an answer that is not kerrd's. `message` names the field, its
+ * value and what it must be.
  */
 export class Problem extends Error {
     /**
@@ -11,15 +11,15 @@ export class Problem extends Error {
     constructor(status: number, document: Record<string, unknown>, retryAfter: number | null);
     /** The status of the answer. */
     status: number;
-    /** What kind of refusal it is: 'urn:kerrd:problem:invalid-scene'; '' if the answer is not kerrd's. */
+    /** The kind of refusal, such as 'urn:kerrd:problem:invalid-scene'; '' if the answer is not kerrd's. */
     type: string;
     /** The kind in words. */
     title: string;
     /** The sentence. */
     detail: string;
-    /** The field of the body that is wrong (RFC 6901): '/image/width'; undefined if it is none. */
+    /** The wrong field of the body as a JSON pointer (RFC 6901), such as '/image/width'; undefined if there is none. */
     pointer: string | undefined;
-    /** Seconds after which the server may be asked again; null if it does not say. */
+    /** Seconds to wait before another attempt; null if the answer does not say. */
     retryAfter: number | null;
     /** The whole document. */
     document: Record<string, unknown>;
@@ -28,7 +28,7 @@ export class Problem extends Error {
 export class JobFailed extends Error {
     /** @param {JobStatus} job */
     constructor(job: JobStatus);
-    /** How it stood at last. */
+    /** Its last known state. */
     job: JobStatus;
 }
 /**
@@ -39,7 +39,7 @@ export class JobFailed extends Error {
  * @property {number} status 200 to 299
  * @property {string} type the media type, without parameters; '' without a body
  * @property {Headers} headers `kerrd-accuracy`, `etag`, … (docs/http.md)
- * @property {Data} data the value of JSON; text; the bytes of all else; undefined without a body
+ * @property {Data} data a parsed value for JSON, a string for text, otherwise bytes; undefined without a body
  */
 /** A picture, as bytes and as a Blob. */
 export class Picture {
@@ -49,7 +49,7 @@ export class Picture {
      * @param {Headers} headers
      */
     constructor(bytes: Uint8Array<ArrayBuffer>, type: string, headers: Headers);
-    /** The file: PNG or JPEG. A PNG of render() holds its scene. */
+    /** The file: PNG or JPEG. A PNG from render() contains its scene. */
     bytes: Uint8Array<ArrayBuffer>;
     /** 'image/png' or 'image/jpeg'. */
     type: string;
@@ -61,23 +61,24 @@ export class Picture {
     get approximations(): string[];
     /** Engine, rays and measured relative errors: `{ engine: 'mino-rkn6', median: 1.6e-7, … }` (docs/http.md). */
     get accuracy(): Record<string, string | number>;
-    /** Of a session's frame: its number, from 1; else 0. */
+    /** Number of a session's frame, from 1; 0 for other pictures. */
     get number(): number;
-    /** Of a session's frame: the revision of the scene that it shows; else 0. */
+    /** Revision of the scene in a session's frame; 0 for other pictures. */
     get revision(): number;
-    /** Of a session's frame: coordinate time in M; else null. */
+    /** Coordinate time of a session's frame, in M; null for other pictures. */
     get time(): number | null;
-    /** Of a session's frame: whether no finer one of this scene follows. A picture of render() is final. */
+    /** Whether a session's frame is the finest one of its scene. A picture from render() is final. */
     get final(): boolean;
 }
 /** A kerrd server. */
 export class Client {
     /**
-     * @param {string | URL} url where its page is, with a base path if it has one; in a page it may be relative
+     * @param {string | URL} url address of the server's page, with its base path if it has one; in a browser it may be
+     *   relative
      * @param {object} [options]
-     * @param {string} [options.access] an access token, of a server that has a token file; it is sent as `Kerrd-Access`
-     * @param {number} [options.patience] seconds for which a busy server (409, 429, 503 and 507 with `Retry-After`) is asked
-     *   again before its refusal is thrown; 60 without it, 0: never
+     * @param {string} [options.access] access token for a server that has a token file; it is sent as `Kerrd-Access`
+     * @param {number} [options.patience] seconds for which a request to a busy server (409, 429, 503 and 507 with
+     *   `Retry-After`) is repeated before its refusal is thrown; default 60; 0: no repetition
      */
     constructor(url: string | URL, { access, patience }?: {
         access?: string | undefined;
@@ -86,12 +87,13 @@ export class Client {
     /** The server's address, with a slash at its end. */
     get url(): string;
     /**
-     * Any request of /openapi.json: `await hole.request('GET /v1/jobs/{id}', { path: { id } })`. The body is JSON, or with
-     * another `type` bytes. A POST of a job, a session or a playground has an `Idempotency-Key`: if its connection breaks it
-     * is sent again, up to three times, and makes one thing. Nothing else is sent twice.
+     * Sends any request of /openapi.json, such as `await hole.request('GET /v1/jobs/{id}', { path: { id } })`. The body
+     * is JSON, or bytes if `type` is another media type. A POST of a job, a session or a playground has an
+     * `Idempotency-Key`: if its connection breaks, the request is sent again, up to three times, and creates only one
+     * job, session or playground. Other requests are not sent again when a connection breaks.
      *
-     * Throws Problem for a refusal; TypeError if the server is not reached, or for a parameter without a meaning in JSON,
-     * such as NaN; the signal's reason when it is aborted.
+     * Throws Problem for a refusal; TypeError if the server cannot be reached, or for a parameter that JSON cannot
+     * express, such as NaN; the signal's reason when the signal is aborted.
      *
      * @template {Operation} O
      * @template {MediaOf<O>} [M=MediaOf<O>]
@@ -101,8 +103,8 @@ export class Client {
      */
     request<O extends Operation, M extends MediaOf<O> = MediaOf<O>>(operation: O, ...rest: Options<O, M>): Promise<Answer<DataOf<O, M>>>;
     /**
-     * The same, and the answer as fetch has it, with its body unread: for streams, for large files, and for headers that
-     * change what the answer is (`Range`, `If-None-Match`; 304 is no error here).
+     * Like request(), but returns the Response of fetch with its body unread. It is for streams, for large files, and for
+     * headers that change the answer (`Range`, `If-None-Match`; here 304 is not an error).
      *
      * @template {Operation} O
      * @param {O} operation
@@ -111,7 +113,7 @@ export class Client {
      */
     send<O extends Operation>(operation: O, ...rest: Options<O>): Promise<Response>;
     /**
-     * The picture of a scene, as PNG. Fields that it leaves out are at their defaults, or at those of the preset.
+     * Renders a scene as a PNG. Fields that the scene omits have the values of the preset, or their defaults.
      *
      * @param {Scene} [scene] lengths in M, angles in degrees (docs/scene.md)
      * @param {{ preset?: PresetName } & Pick<Sending, 'signal' | 'patience'>} [options]
@@ -121,12 +123,12 @@ export class Client {
         preset?: PresetName;
     } & Pick<Sending, "signal" | "patience">): Promise<Picture>;
     /**
-     * A live view of a scene. It ends by close(), or when nobody has asked for its frames for a minute.
+     * Opens a live view of a scene. It ends by close(), or when nobody has requested its frames for a minute.
      *
      * @param {Scene} [scene]
-     * @param {{ preset?: PresetName, minScale?: number, least?: number } & Pick<Sending, 'signal' | 'patience'>} [options]
-     *   minScale: part of the width that frames keep while the scene changes, 0.25 to 1 (docs/live.md); least: its former
-     *   name
+     * @param {{ preset?: PresetName, minScale?: number, least?: number } & Pick<Sending, 'signal' | 'patience'>}
+     *   [options] minScale: smallest width of a frame while the scene changes, as a fraction of image.width, 0.25 to 1
+     *   (docs/live.md); least: former name of minScale
      * @returns {Promise<Session>}
      */
     session(scene?: Scene, { preset, least, minScale, ...sending }?: {
@@ -135,9 +137,10 @@ export class Client {
         least?: number;
     } & Pick<Sending, "signal" | "patience">): Promise<Session>;
     /**
-     * A job: a long picture, a film, a sweep (docs/jobs.md). It goes on without this client.
+     * Starts a job: a long picture, a film, a sweep (docs/jobs.md). It continues without this client.
      *
-     * @param {Operations['POST /v1/jobs']['takes']['body']} document `{ scene, keyframes }`, `{ scenes }`, `{ scene, axes }`
+     * @param {Operations['POST /v1/jobs']['takes']['body']} document `{ scene, keyframes }`,
+     *   `{ scenes }`, `{ scene, axes }`
      * @param {{ preset?: PresetName } & Pick<Sending, 'signal' | 'patience'>} [options]
      * @returns {Promise<Job>}
      */
@@ -146,23 +149,24 @@ export class Client {
     } & Pick<Sending, "signal" | "patience">): Promise<Job>;
     #private;
 }
-/** A live view. Client.session() makes it. */
+/** A live view, opened by Client.session(). */
 export class Session {
     /**
      * @param {Client} client
      * @param {SessionStatus} opened
      */
     constructor(client: Client, opened: SessionStatus);
-    /** Everybody with the id may watch. */
+    /** Anybody with the id may watch. */
     id: string;
-    /** Everybody with the token may change the scene and end the session. */
+    /** Anybody with the token may change the scene and end the session. */
     token: string;
-    /** The scene, whole, as it was at this revision. */
+    /** The whole scene at this revision. */
     scene: Scene;
     /** The number of the scene's last change. */
     revision: number;
     /**
-     * Changes the scene by a merge patch (RFC 7396), and returns its revision; frames of it have that or a higher one.
+     * Changes the scene by a merge patch (RFC 7396), and returns the new revision. Frames that show the change have this
+     * revision or a higher one.
      *
      * @param {Patch<Scene>} change
      * @param {Pick<Sending, 'signal' | 'patience'>} [sending]
@@ -170,18 +174,19 @@ export class Session {
      */
     patch(change: Patch<Scene>, sending?: Pick<Sending, "signal" | "patience">): Promise<number>;
     /**
-     * Asks for the scene as it is now, which goes on by itself while `motion` is in it, and which others may change.
+     * Requests the present scene. It changes by itself while its `motion` moves time or camera, and others may change it.
      *
      * @param {Pick<Sending, 'signal' | 'patience'>} [sending]
      * @returns {Promise<Scene>}
      */
     refresh(sending?: Pick<Sending, "signal" | "patience">): Promise<Scene>;
     /**
-     * The newest frame with a number above `after`; null if there is none within `wait` seconds, as when the scene rests.
+     * Returns the newest frame with a number above `after`; null if there is none within `wait` seconds, for example
+     * because the scene is at rest.
      *
      * @param {{ after?: number, wait?: number, quality?: number } & Pick<Sending, 'signal' | 'patience'>} [options] wait:
-     *   0 to 60, 25 without it; quality: 1 to 100, of the JPEG as which frames come that are not the last; without it all
-     *   are PNG
+     *   0 to 60, default 25; quality: 1 to 100, for frames before the last of a scene, which are then JPEG; default: all
+     *   frames are PNG
      * @returns {Promise<Picture | null>}
      */
     frame({ after, wait, quality, ...sending }?: {
@@ -190,47 +195,48 @@ export class Session {
         quality?: number;
     } & Pick<Sending, "signal" | "patience">): Promise<Picture | null>;
     /**
-     * The newest frames, each once; who takes long for one misses those between. They go on until close(), `break` or the
-     * signal, with untilFinal until the finest frame of a scene that rests. A scene that moves has no such frame.
+     * Yields the newest frames, each once. While the caller handles a frame, others may be skipped. It ends at close(),
+     * `break` or the signal, with untilFinal also at the finest frame of a scene at rest. A moving scene has no finest
+     * frame.
      *
-     * @param {{ quality?: number, untilFinal?: boolean } & Pick<Sending, 'signal' | 'patience'>} [options] quality: as of
-     *   frame()
+     * @param {{ quality?: number, untilFinal?: boolean } & Pick<Sending, 'signal' | 'patience'>} [options] quality: as
+     *   for frame()
      * @returns {AsyncGenerator<Picture, void, undefined>}
      */
     frames({ quality, untilFinal, signal, patience }?: {
         quality?: number;
         untilFinal?: boolean;
     } & Pick<Sending, "signal" | "patience">): AsyncGenerator<Picture, void, undefined>;
-    /** Whether the scene goes on by itself, so that no frame of it is the last. */
+    /** Whether the scene changes by itself, so that it has no last frame. */
     get moves(): boolean;
-    /** Ends it, and all frames() of it. One that has ended already is no error. */
+    /** Ends the session and its frames(). It is not an error if the session has already ended. */
     close(): Promise<void>;
     #private;
 }
-/** A job. Client.job() makes it. */
+/** A job, started by Client.job(). */
 export class Job {
     /**
      * @param {Client} client
      * @param {JobStatus} opened
      */
     constructor(client: Client, opened: JobStatus);
-    /** Everybody with the id may watch and fetch. */
+    /** Anybody with the id may watch the job and fetch its files. */
     id: string;
-    /** Everybody with the token may remove the job. */
+    /** Anybody with the token may remove the job. */
     token: string;
     /**
-     * How far it is: state, fraction (0 to 1), remaining_s, finished of frames.
+     * Requests the job's progress: state, fraction (0 to 1), remaining_s, numbers of finished and of all frames.
      *
      * @param {Pick<Sending, 'signal' | 'patience'>} [sending]
      * @returns {Promise<JobStatus>}
      */
     status(sending?: Pick<Sending, "signal" | "patience">): Promise<JobStatus>;
     /**
-     * Waits until it is done, and returns how it stands then. Throws JobFailed if it fails. The signal ends the waiting
-     * and not the job.
+     * Waits until the job is done, and returns its status. Throws JobFailed if it fails. The signal ends the waiting, not
+     * the job.
      *
-     * @param {{ progress?: (status: JobStatus) => void, every?: number } & Pick<Sending, 'signal' | 'patience'>} [options]
-     *   progress: is called with each status; every: seconds between two, 0.25 without it
+     * @param {{ progress?: (status: JobStatus) => void, every?: number } & Pick<Sending, 'signal' | 'patience'>}
+     *   [options] progress: is called with each status; every: seconds between two requests for it, default 0.25
      * @returns {Promise<JobStatus>}
      */
     wait({ progress, every, ...sending }?: {
@@ -238,20 +244,20 @@ export class Job {
         every?: number;
     } & Pick<Sending, "signal" | "patience">): Promise<JobStatus>;
     /**
-     * The file that it made: a PNG, a ZIP of several, a film, a table; or one frame. Throws Problem, 409, before it is
-     * there.
+     * Fetches the job's file: a PNG, a ZIP of several, a film, a table; or one frame. Throws a Problem with status 409
+     * before the file is ready.
      *
      * @param {Operations['GET /v1/jobs/{id}/result']['takes']['query'] & Pick<Sending, 'signal' | 'patience'>} [options]
      *   format: 'mp4', 'csv', …; frame: from 0; rate: frames a second of a film
      * @returns {Promise<Blob>}
      */
     result({ signal, patience, ...query }?: Operations["GET /v1/jobs/{id}/result"]["takes"]["query"] & Pick<Sending, "signal" | "patience">): Promise<Blob>;
-    /** Ends it, and removes its files. One that is gone already is no error. */
+    /** Ends the job and removes its files. It is not an error if the job no longer exists. */
     close(): Promise<void>;
     #private;
 }
 /**
- * What operations take, whichever it is.
+ * Options of any operation.
  */
 export type Asked = {
     path?: Record<string, string>;
@@ -276,7 +282,7 @@ export type Answer<Data> = {
      */
     headers: Headers;
     /**
-     * the value of JSON; text; the bytes of all else; undefined without a body
+     * a parsed value for JSON, a string for text, otherwise bytes; undefined without a body
      */
     data: Data;
 };

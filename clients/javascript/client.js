@@ -1,19 +1,19 @@
 // @ts-self-types="./client.d.ts"
 // A client of a kerrd server by fetch, for browsers, Node.js from 18 on and Deno. It needs no other module. client.d.ts
-// is made of the comments here, by `tsc -p clients/javascript`; api.d.ts by generate.py.
+// is generated from the comments here by `tsc -p clients/javascript`, api.d.ts by generate.py.
 
 /** @import { DataOf, MediaOf, Operation, Operations, Options, Patch, PresetName, Scene, Sending } from './api.js' */
 /** @import { Job as JobStatus, Session as SessionStatus } from './api.js' */
 
-const busy = [409, 429, 503, 507]; // statuses after which the same request may succeed, if Retry-After says when
-const once = ['POST /v1/jobs', 'POST /v1/sessions', 'POST /v1/playground']; // those that take an Idempotency-Key
+const busy = [409, 429, 503, 507]; // statuses after which the same request may succeed later, if there is a Retry-After
+const once = ['POST /v1/jobs', 'POST /v1/sessions', 'POST /v1/playground']; // operations that take an Idempotency-Key
 const streams = ['text/event-stream', 'multipart/x-mixed-replace', 'application/x-kerrd-frames'];
-const most_broken = 3; // connections that break before a request with a key fails
-const frame_wait_s = 25; // for which the server holds a request for a frame
+const most_broken = 3; // limit of broken connections, after which a request with a key fails
+const frame_wait_s = 25; // time for which the server holds a request for a frame
 
 /**
- * A refusal of the server (problem+json, RFC 9457), or an answer that is not kerrd's. `message` is the sentence: field,
- * value, what it must be.
+ * A refusal of the server (problem+json, RFC 9457), or an answer that is not kerrd's. `message` names the field, its
+ * value and what it must be.
  */
 export class Problem extends Error {
   /**
@@ -26,15 +26,15 @@ export class Problem extends Error {
     this.name = 'Problem';
     /** The status of the answer. */
     this.status = status;
-    /** What kind of refusal it is: 'urn:kerrd:problem:invalid-scene'; '' if the answer is not kerrd's. */
+    /** The kind of refusal, such as 'urn:kerrd:problem:invalid-scene'; '' if the answer is not kerrd's. */
     this.type = String(document.type ?? '');
     /** The kind in words. */
     this.title = String(document.title ?? '');
     /** The sentence. */
     this.detail = this.message;
-    /** The field of the body that is wrong (RFC 6901): '/image/width'; undefined if it is none. */
+    /** The wrong field of the body as a JSON pointer (RFC 6901), such as '/image/width'; undefined if there is none. */
     this.pointer = typeof document.pointer === 'string' ? document.pointer : undefined;
-    /** Seconds after which the server may be asked again; null if it does not say. */
+    /** Seconds to wait before another attempt; null if the answer does not say. */
     this.retryAfter = retryAfter;
     /** The whole document. */
     this.document = document;
@@ -47,7 +47,7 @@ export class JobFailed extends Error {
   constructor(job) {
     super(job.error ?? `job ${job.id} is ${job.state}`);
     this.name = 'JobFailed';
-    /** How it stood at last. */
+    /** Its last known state. */
     this.job = job;
   }
 }
@@ -60,7 +60,7 @@ export class JobFailed extends Error {
  * @property {number} status 200 to 299
  * @property {string} type the media type, without parameters; '' without a body
  * @property {Headers} headers `kerrd-accuracy`, `etag`, … (docs/http.md)
- * @property {Data} data the value of JSON; text; the bytes of all else; undefined without a body
+ * @property {Data} data a parsed value for JSON, a string for text, otherwise bytes; undefined without a body
  */
 
 /** A picture, as bytes and as a Blob. */
@@ -71,7 +71,7 @@ export class Picture {
    * @param {Headers} headers
    */
   constructor(bytes, type, headers) {
-    /** The file: PNG or JPEG. A PNG of render() holds its scene. */
+    /** The file: PNG or JPEG. A PNG from render() contains its scene. */
     this.bytes = bytes;
     /** 'image/png' or 'image/jpeg'. */
     this.type = type;
@@ -94,23 +94,23 @@ export class Picture {
     return pairs(this.headers.get('kerrd-accuracy'));
   }
 
-  /** Of a session's frame: its number, from 1; else 0. */
+  /** Number of a session's frame, from 1; 0 for other pictures. */
   get number() {
     return Number(this.headers.get('kerrd-frame') ?? 0);
   }
 
-  /** Of a session's frame: the revision of the scene that it shows; else 0. */
+  /** Revision of the scene in a session's frame; 0 for other pictures. */
   get revision() {
     return Number(this.headers.get('kerrd-revision') ?? 0);
   }
 
-  /** Of a session's frame: coordinate time in M; else null. */
+  /** Coordinate time of a session's frame, in M; null for other pictures. */
   get time() {
     const time = this.headers.get('kerrd-time');
     return time == null ? null : Number(time);
   }
 
-  /** Of a session's frame: whether no finer one of this scene follows. A picture of render() is final. */
+  /** Whether a session's frame is the finest one of its scene. A picture from render() is final. */
   get final() {
     return this.number === 0 || pairs(this.headers.get('kerrd-quality')).final === 1;
   }
@@ -123,11 +123,12 @@ export class Client {
   #patience;
 
   /**
-   * @param {string | URL} url where its page is, with a base path if it has one; in a page it may be relative
+   * @param {string | URL} url address of the server's page, with its base path if it has one; in a browser it may be
+   *   relative
    * @param {object} [options]
-   * @param {string} [options.access] an access token, of a server that has a token file; it is sent as `Kerrd-Access`
-   * @param {number} [options.patience] seconds for which a busy server (409, 429, 503 and 507 with `Retry-After`) is asked
-   *   again before its refusal is thrown; 60 without it, 0: never
+   * @param {string} [options.access] access token for a server that has a token file; it is sent as `Kerrd-Access`
+   * @param {number} [options.patience] seconds for which a request to a busy server (409, 429, 503 and 507 with
+   *   `Retry-After`) is repeated before its refusal is thrown; default 60; 0: no repetition
    */
   constructor(url, { access, patience = 60 } = {}) {
     const base = new URL(url, globalThis.location?.href);
@@ -144,12 +145,13 @@ export class Client {
   }
 
   /**
-   * Any request of /openapi.json: `await hole.request('GET /v1/jobs/{id}', { path: { id } })`. The body is JSON, or with
-   * another `type` bytes. A POST of a job, a session or a playground has an `Idempotency-Key`: if its connection breaks it
-   * is sent again, up to three times, and makes one thing. Nothing else is sent twice.
+   * Sends any request of /openapi.json, such as `await hole.request('GET /v1/jobs/{id}', { path: { id } })`. The body
+   * is JSON, or bytes if `type` is another media type. A POST of a job, a session or a playground has an
+   * `Idempotency-Key`: if its connection breaks, the request is sent again, up to three times, and creates only one
+   * job, session or playground. Other requests are not sent again when a connection breaks.
    *
-   * Throws Problem for a refusal; TypeError if the server is not reached, or for a parameter without a meaning in JSON,
-   * such as NaN; the signal's reason when it is aborted.
+   * Throws Problem for a refusal; TypeError if the server cannot be reached, or for a parameter that JSON cannot
+   * express, such as NaN; the signal's reason when the signal is aborted.
    *
    * @template {Operation} O
    * @template {MediaOf<O>} [M=MediaOf<O>]
@@ -171,8 +173,8 @@ export class Client {
   }
 
   /**
-   * The same, and the answer as fetch has it, with its body unread: for streams, for large files, and for headers that
-   * change what the answer is (`Range`, `If-None-Match`; 304 is no error here).
+   * Like request(), but returns the Response of fetch with its body unread. It is for streams, for large files, and for
+   * headers that change the answer (`Range`, `If-None-Match`; here 304 is not an error).
    *
    * @template {Operation} O
    * @param {O} operation
@@ -184,7 +186,7 @@ export class Client {
   }
 
   /**
-   * The picture of a scene, as PNG. Fields that it leaves out are at their defaults, or at those of the preset.
+   * Renders a scene as a PNG. Fields that the scene omits have the values of the preset, or their defaults.
    *
    * @param {Scene} [scene] lengths in M, angles in degrees (docs/scene.md)
    * @param {{ preset?: PresetName } & Pick<Sending, 'signal' | 'patience'>} [options]
@@ -196,12 +198,12 @@ export class Client {
   }
 
   /**
-   * A live view of a scene. It ends by close(), or when nobody has asked for its frames for a minute.
+   * Opens a live view of a scene. It ends by close(), or when nobody has requested its frames for a minute.
    *
    * @param {Scene} [scene]
-   * @param {{ preset?: PresetName, minScale?: number, least?: number } & Pick<Sending, 'signal' | 'patience'>} [options]
-   *   minScale: part of the width that frames keep while the scene changes, 0.25 to 1 (docs/live.md); least: its former
-   *   name
+   * @param {{ preset?: PresetName, minScale?: number, least?: number } & Pick<Sending, 'signal' | 'patience'>}
+   *   [options] minScale: smallest width of a frame while the scene changes, as a fraction of image.width, 0.25 to 1
+   *   (docs/live.md); least: former name of minScale
    * @returns {Promise<Session>}
    */
   async session(scene = {}, { preset, least, minScale = least, ...sending } = {}) {
@@ -211,9 +213,10 @@ export class Client {
   }
 
   /**
-   * A job: a long picture, a film, a sweep (docs/jobs.md). It goes on without this client.
+   * Starts a job: a long picture, a film, a sweep (docs/jobs.md). It continues without this client.
    *
-   * @param {Operations['POST /v1/jobs']['takes']['body']} document `{ scene, keyframes }`, `{ scenes }`, `{ scene, axes }`
+   * @param {Operations['POST /v1/jobs']['takes']['body']} document `{ scene, keyframes }`,
+   *   `{ scenes }`, `{ scene, axes }`
    * @param {{ preset?: PresetName } & Pick<Sending, 'signal' | 'patience'>} [options]
    * @returns {Promise<Job>}
    */
@@ -223,7 +226,7 @@ export class Client {
   }
 
   /**
-   * Sends a request until there is an answer, and returns what take() makes of it.
+   * Sends a request, repeats it while the server is busy, and returns the result of take(answer).
    *
    * @template T
    * @param {Operation} operation
@@ -265,7 +268,7 @@ export class Client {
       filled = template.slice(1).replace(/\{(\w+)\}/g, (_, name) => {
         const value = path[name];
         if (value == null || ['', '.', '..'].includes(value))
-          // an address drops segments of dots
+          // URL removes the segments "." and ".."
           throw new TypeError(`${operation}: path.${name} is ${JSON.stringify(value)}; it must name what is meant`);
         return encodeURIComponent(value);
       }),
@@ -288,13 +291,13 @@ export class Client {
         headers: sent,
         signal,
         body: json ? JSON.stringify(finite(body, 'body')) : /** @type {BodyInit | undefined} */ (body),
-        keepalive: method === 'DELETE', // also from a page that is being left
+        keepalive: method === 'DELETE', // the request is sent even if the page is being closed
       },
     ];
   }
 }
 
-/** A live view. Client.session() makes it. */
+/** A live view, opened by Client.session(). */
 export class Session {
   #client;
   #closed = new AbortController();
@@ -305,18 +308,19 @@ export class Session {
    */
   constructor(client, opened) {
     this.#client = client;
-    /** Everybody with the id may watch. */
+    /** Anybody with the id may watch. */
     this.id = opened.id;
-    /** Everybody with the token may change the scene and end the session. */
+    /** Anybody with the token may change the scene and end the session. */
     this.token = /** @type {string} */ (opened.token);
-    /** The scene, whole, as it was at this revision. */
+    /** The whole scene at this revision. */
     this.scene = opened.scene;
     /** The number of the scene's last change. */
     this.revision = opened.revision;
   }
 
   /**
-   * Changes the scene by a merge patch (RFC 7396), and returns its revision; frames of it have that or a higher one.
+   * Changes the scene by a merge patch (RFC 7396), and returns the new revision. Frames that show the change have this
+   * revision or a higher one.
    *
    * @param {Patch<Scene>} change
    * @param {Pick<Sending, 'signal' | 'patience'>} [sending]
@@ -330,7 +334,7 @@ export class Session {
   }
 
   /**
-   * Asks for the scene as it is now, which goes on by itself while `motion` is in it, and which others may change.
+   * Requests the present scene. It changes by itself while its `motion` moves time or camera, and others may change it.
    *
    * @param {Pick<Sending, 'signal' | 'patience'>} [sending]
    * @returns {Promise<Scene>}
@@ -349,11 +353,12 @@ export class Session {
   }
 
   /**
-   * The newest frame with a number above `after`; null if there is none within `wait` seconds, as when the scene rests.
+   * Returns the newest frame with a number above `after`; null if there is none within `wait` seconds, for example
+   * because the scene is at rest.
    *
    * @param {{ after?: number, wait?: number, quality?: number } & Pick<Sending, 'signal' | 'patience'>} [options] wait:
-   *   0 to 60, 25 without it; quality: 1 to 100, of the JPEG as which frames come that are not the last; without it all
-   *   are PNG
+   *   0 to 60, default 25; quality: 1 to 100, for frames before the last of a scene, which are then JPEG; default: all
+   *   frames are PNG
    * @returns {Promise<Picture | null>}
    */
   async frame({ after = 0, wait = frame_wait_s, quality, ...sending } = {}) {
@@ -364,11 +369,12 @@ export class Session {
   }
 
   /**
-   * The newest frames, each once; who takes long for one misses those between. They go on until close(), `break` or the
-   * signal, with untilFinal until the finest frame of a scene that rests. A scene that moves has no such frame.
+   * Yields the newest frames, each once. While the caller handles a frame, others may be skipped. It ends at close(),
+   * `break` or the signal, with untilFinal also at the finest frame of a scene at rest. A moving scene has no finest
+   * frame.
    *
-   * @param {{ quality?: number, untilFinal?: boolean } & Pick<Sending, 'signal' | 'patience'>} [options] quality: as of
-   *   frame()
+   * @param {{ quality?: number, untilFinal?: boolean } & Pick<Sending, 'signal' | 'patience'>} [options] quality: as
+   *   for frame()
    * @returns {AsyncGenerator<Picture, void, undefined>}
    */
   async *frames({ quality, untilFinal = false, signal, patience } = {}) {
@@ -396,12 +402,12 @@ export class Session {
     }
   }
 
-  /** Whether the scene goes on by itself, so that no frame of it is the last. */
+  /** Whether the scene changes by itself, so that it has no last frame. */
   get moves() {
     return Object.values(this.scene.motion ?? {}).some(Boolean);
   }
 
-  /** Ends it, and all frames() of it. One that has ended already is no error. */
+  /** Ends the session and its frames(). It is not an error if the session has already ended. */
   async close() {
     this.#closed.abort();
     const { id, token } = this;
@@ -409,7 +415,7 @@ export class Session {
   }
 }
 
-/** A job. Client.job() makes it. */
+/** A job, started by Client.job(). */
 export class Job {
   #client;
 
@@ -419,14 +425,14 @@ export class Job {
    */
   constructor(client, opened) {
     this.#client = client;
-    /** Everybody with the id may watch and fetch. */
+    /** Anybody with the id may watch the job and fetch its files. */
     this.id = opened.id;
-    /** Everybody with the token may remove the job. */
+    /** Anybody with the token may remove the job. */
     this.token = /** @type {string} */ (opened.token);
   }
 
   /**
-   * How far it is: state, fraction (0 to 1), remaining_s, finished of frames.
+   * Requests the job's progress: state, fraction (0 to 1), remaining_s, numbers of finished and of all frames.
    *
    * @param {Pick<Sending, 'signal' | 'patience'>} [sending]
    * @returns {Promise<JobStatus>}
@@ -436,11 +442,11 @@ export class Job {
   }
 
   /**
-   * Waits until it is done, and returns how it stands then. Throws JobFailed if it fails. The signal ends the waiting
-   * and not the job.
+   * Waits until the job is done, and returns its status. Throws JobFailed if it fails. The signal ends the waiting, not
+   * the job.
    *
-   * @param {{ progress?: (status: JobStatus) => void, every?: number } & Pick<Sending, 'signal' | 'patience'>} [options]
-   *   progress: is called with each status; every: seconds between two, 0.25 without it
+   * @param {{ progress?: (status: JobStatus) => void, every?: number } & Pick<Sending, 'signal' | 'patience'>}
+   *   [options] progress: is called with each status; every: seconds between two requests for it, default 0.25
    * @returns {Promise<JobStatus>}
    */
   async wait({ progress, every = 0.25, ...sending } = {}) {
@@ -454,8 +460,8 @@ export class Job {
   }
 
   /**
-   * The file that it made: a PNG, a ZIP of several, a film, a table; or one frame. Throws Problem, 409, before it is
-   * there.
+   * Fetches the job's file: a PNG, a ZIP of several, a film, a table; or one frame. Throws a Problem with status 409
+   * before the file is ready.
    *
    * @param {Operations['GET /v1/jobs/{id}/result']['takes']['query'] & Pick<Sending, 'signal' | 'patience'>} [options]
    *   format: 'mp4', 'csv', …; frame: from 0; rate: frames a second of a film
@@ -466,7 +472,7 @@ export class Job {
     return (await this.#client.send('GET /v1/jobs/{id}/result', asked)).blob();
   }
 
-  /** Ends it, and removes its files. One that is gone already is no error. */
+  /** Ends the job and removes its files. It is not an error if the job no longer exists. */
   async close() {
     const { id, token } = this;
     await gone(this.#client.request('DELETE /v1/jobs/{id}', { path: { id }, token }));
@@ -474,7 +480,7 @@ export class Job {
 }
 
 /**
- * What operations take, whichever it is.
+ * Options of any operation.
  *
  * @typedef {{ path?: Record<string, string>, query?: object, body?: unknown, type?: string } & Sending} Asked
  */
@@ -502,7 +508,7 @@ async function read(answer, type) {
 }
 
 /**
- * The refusal in an answer.
+ * Makes a Problem from an answer that is a refusal.
  *
  * @param {Response} answer
  * @param {URL} url
@@ -518,7 +524,7 @@ async function refused(answer, url) {
 }
 
 /**
- * A document for an answer that kerrd does not give, such as a proxy's.
+ * Makes a document for an answer that is not kerrd's, such as that of a proxy.
  *
  * @param {Response} answer
  * @param {string} url
@@ -529,7 +535,8 @@ function strange(answer, url) {
 }
 
 /**
- * Seconds until a busy server may be asked again (RFC 9110 section 10.2.3: seconds or a date); null if it does not say.
+ * Seconds to wait before another attempt, from Retry-After (RFC 9110 section 10.2.3: seconds or a date); null without
+ * it.
  *
  * @param {Response} answer
  */
@@ -575,7 +582,7 @@ function pairs(text) {
 }
 
 /**
- * The same value; TypeError that names a number which JSON does not have, and would become null.
+ * Returns the value unchanged. Throws a TypeError for a number that JSON lacks, because it would become null.
  *
  * @template T
  * @param {T} value
@@ -590,8 +597,7 @@ function finite(value, name) {
   return value;
 }
 
-// A key of its own for each thing that is made. Node.js 18 has no global crypto; a key is no secret, so that random
-// numbers of another kind do.
+// A unique Idempotency-Key. Node.js 18 has no global crypto. A key is not secret, so Math.random() is sufficient there.
 function unique() {
   const words = new Uint32Array(4);
   if (globalThis.crypto) crypto.getRandomValues(words);

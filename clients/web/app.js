@@ -26,8 +26,8 @@ import { openSource } from './picture/source.js';
 import { buildStruck } from './time/struck.js';
 import { handle } from './controls/view.js';
 
-// The module of a view is loaded when the view is opened. Some browsers cache a failed import for good; the button "Try
-// again" therefore reloads the page.
+// The module of a view is loaded when the view is opened. Some browsers cache a failed import permanently; the button
+// "Try again" therefore reloads the page.
 const load = module =>
   module.catch(() => {
     throw Object.assign(new Error(t('common.the-server-does-not', 'The server does not answer')), {
@@ -66,7 +66,7 @@ function sayWrong(text) {
   status.dataset.wrong = true;
 }
 
-// An error of a view's first opening is shown in that view.
+// An error when a view is first opened is shown in that view.
 function opener(view) {
   const fault = el('p', { class: 'fault', role: 'status' });
   if (views[view]) byId(view).prepend(fault);
@@ -110,7 +110,7 @@ async function watch(scene) {
   const carry = buildCarry(stage, scene);
   let told_ms = -Infinity,
     any = false, // a picture has been shown
-    drift = () => {}, // told of each picture
+    drift = () => {}, // called with each picture
     built,
     seen;
   const parts = new Promise(resolve => (built = resolve)),
@@ -149,12 +149,12 @@ async function watch(scene) {
   async function rests(whether) {
     resting = whether;
     if (whether && stage.dataset.final !== 'true') (await parts).drawOverlays();
-    stage.dataset.final = resting; // the scene may have changed since
+    stage.dataset.final = resting; // the scene may have changed meanwhile
     if (resting) followFiner(false), followMeasured();
     else if (!scene.goesOn()) followFiner(true);
   }
 
-  // The panel of flux and centroid is loaded when an emitter is first photometred separately.
+  // The panel of flux and centroid is loaded when the scene first has an emitter with separate photometry.
   let light = null;
   function followLight() {
     const wanted = Boolean(apart(scene));
@@ -214,14 +214,15 @@ async function watch(scene) {
     integrals.then(choose => choose(target.value)).catch(error => ((integrals = null), sayWrong(error.message)));
   });
 
-  // A second hole beside the first.
+  // Shows a second hole beside the first.
   const compare = () =>
     load(import('./views/pair/pair.js'))
       .then(({ besides }) => besides(stage, scene))
       .catch(error => sayWrong(error.message));
   byId('pair-begin').addEventListener('click', compare);
 
-  // A lesson is begun by the card "Share". It goes on after a reload; a pupil's copy has the way back to it.
+  // The card "Share" begins a lesson. The lesson continues after a reload; in a pupil's copy this module shows the way
+  // back to it.
   const teach = begins =>
     load(import('./lesson/lesson.js'))
       .then(({ teach }) => teach(scene, () => source.address(), begins))
@@ -253,7 +254,7 @@ async function watch(scene) {
 
   const source = openSource(scene, size, show, refuse, rests);
   const followFiner = buildRefining(source.address, words => status.dataset.wrong || (status.textContent = words));
-  followFiner(true); // once the view is visible
+  followFiner(true); // when the view is visible
   if (!byId('lensing').hidden) {
     source.refresh();
     await Promise.race([first, new Promise(resolve => setTimeout(resolve, patience_ms))]);

@@ -9,13 +9,14 @@
 //   label                       its alternative text
 //   server                      address of the server, with a slash at its end; by default where this file came from
 const here = new URL('..', import.meta.url);
-const most_live = 2; // live sessions of one page; a further one ends the oldest
+const most_live = 2; // limit of live sessions on one page; another one ends the oldest
 const most_posters = 2; // posters that are requested at once
-const idle_ms = 60000; // without input for so long, a live hole becomes a picture again
+const idle_ms = 60000; // a live hole becomes a picture again after this time without input
 const retry_ms = 3000;
 const degrees_per_width = 180; // by which a drag across the element turns the camera
 const key_deg = 5;
-const least_part = 0.5; // of the width: until it is touched, smaller live pictures do not replace the still one
+// fraction of the width: before the first touch, smaller live pictures do not replace the still one
+const least_part = 0.5;
 const widest = 960; // largest width of a live picture, pixels
 
 const words = {
@@ -94,7 +95,7 @@ class KerrHole extends HTMLElement {
   #first = ''; // the query that the poster shows
   #again = 0; // number of the newest request for a poster; older ones are dropped
   #begun = 0; // number of the newest request for a session; the sessions of older ones are dropped
-  #late = false; // attributes have changed while a session was requested
+  #late = false; // attributes have changed during the request for a session
   #watch = new IntersectionObserver(entries => this.#look(entries.at(-1).isIntersecting), { rootMargin: '200px' });
   #leave = () => this.#end();
 
@@ -181,7 +182,7 @@ class KerrHole extends HTMLElement {
     if (this.hasAttribute('live') && !matchMedia('(prefers-reduced-motion: reduce)').matches) this.#begin(true);
   }
 
-  // Shows the poster, and the button if there is to be one.
+  // Shows the poster, and the button if the element is interactive.
   #rest() {
     const { stage, button } = this.#parts,
       own = this.#words;
@@ -229,7 +230,7 @@ class KerrHole extends HTMLElement {
     this.dispatchEvent(new Event('load'));
   }
 
-  // byItself: without a touch. It then takes no focus, and stays a picture if the server is busy.
+  // byItself: begins without a touch. The element then takes no focus, and stays a picture if the server is busy.
   async #begin(byItself = false) {
     if (live.includes(this)) return;
     const mine = ++this.#begun;
@@ -320,7 +321,7 @@ class KerrHole extends HTMLElement {
     }
   }
 
-  // Shows what the attributes say now.
+  // Applies the present attributes.
   #change() {
     const { change, camera } = this.#session,
       query = this.#query,
@@ -339,7 +340,7 @@ class KerrHole extends HTMLElement {
     this.#send(this.#session);
   }
 
-  // One patch is under way at a time; the next one has the newest values.
+  // One patch is sent at a time; the next one has the newest values.
   async #send(session) {
     session.moved = performance.now();
     session.pending = session.touched = true;

@@ -1,7 +1,7 @@
-/* Kernel: converts rows of light to rows of cells (render/plan/beam.h). An invocation makes one cell of one row. Its
- * light is the mean of the adjacent pixels of the row, weighted by a quadratic B-spline of the cells' width; or, if a
- * cell is a pixel, the pixel itself. Light that is NaN, or 10^30 and more, counts as 0, because it would spread over
- * the whole picture. */
+/* Kernel: converts rows of light to rows of cells (render/plan/beam.h). An invocation makes one cell of one row. If
+ * cells are larger than pixels, the cell's light is the mean of the row's adjacent pixels, weighted by a quadratic
+ * B-spline of the cells' width; otherwise it is the light of its pixel. Light that is NaN, or 10^30 and more, counts as
+ * 0, because it would spread over the whole picture. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -21,8 +21,8 @@ vec3 cell(int i) { return lines[i].rgb; }
 #endif
 layout(set = 0, binding = 1) writeonly buffer Light { vec4 light[]; };
 
-/* Light of the band's pixel n. If n is beyond the band's end, it stands for the last pixel. The quotient as a float is
- * wrong by at most one (post.comp). */
+/* Light of the band's pixel n; beyond the band's end, of its last pixel. The quotient as a float is wrong by at most
+ * one (post.comp). */
 vec3 pixel(int n)
 {
     int width = int(push.pixels_x);

@@ -1,17 +1,17 @@
-/* Kernel: makes the lens map of a square grid of rays on listed pixels, by interpolation in the map of the picture's
- * grid, which has one ray in the middle of each pixel. It saves the tracing of rays, and gives the source across the
- * pixel, as the ray bundle of James, von Tunzelmann, Franklin & Thorne 2015 (Class. Quantum Grav. 32, 065001, appendix
- * A.2) does to first order.
+/* Kernel: makes the lens map of a square grid of rays on listed pixels. It interpolates in the map of the picture's
+ * grid, which has one ray in the middle of each pixel. Interpolated rays need no tracing, and they give the source
+ * across the pixel, as the ray bundle of James, von Tunzelmann, Franklin & Thorne 2015 (Class. Quantum Grav. 32,
+ * 065001, appendix A.2) does to first order.
  *
  * One biquadratic polynomial through a pixel and its eight neighbours interpolates w and each other quantity of a
- * crossing; for directions in the sky it interpolates the unit vector. At (x, y) sides of a pixel from the middle its
+ * crossing. For directions in the sky it interpolates the unit vector. At (x, y) sides of a pixel from the middle its
  * error is x(x^2 - 1)/6 of the third difference along x, at most 1/17 of it, and likewise along y.
  *
- * MARK: instead writes for each listed pixel whether interpolation is accurate, 1 or 0, in its word after the list. All
- * nine rays must have crossings of the same orders and the same fate. In the metric of the source the second
- * differences must be less than BENT of the first. For crossings the third differences must be less than TWISTED of the
- * first: the error is then below 0.004 of a pixel. The word is 0 at the edges of the picture, and of the band in the
- * buffer. */
+ * MARK: the kernel interpolates nothing, and writes 1 for each listed pixel where interpolation is accurate, otherwise
+ * 0, in the pixel's word after the list. All nine rays must have crossings of the same orders and the same fate. In the
+ * metric of the source the second differences must be less than BENT of the first. For crossings the third differences
+ * must be less than TWISTED of the first: the error is then below 0.004 of a pixel. The word is 0 at the edges of the
+ * picture, and of the band in the buffer. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -92,9 +92,9 @@ bool straight(kd_biquadratic p, vec3 m)
 }
 
 /* Whether the error of the polynomial of crossing n is small relative to the polynomial's slopes. The error is the
- * third difference along x and y. Each of the four rays two pixels away provides one, if that ray has such a crossing.
- * The second difference alone would not do: it is 0 at a pixel where the map bends in opposite directions on both
- * sides. */
+ * third difference along x and y, which needs a ray two pixels away; each of the four such rays that has the crossing
+ * gives one. The second difference alone would not be enough: it is 0 at a pixel where the map bends in opposite
+ * directions on both sides. */
 bool even(uint n, uint quantity, uint at, kd_biquadratic p, vec3 m, uint x, uint y)
 {
     vec3 own = crossing(n, quantity, at), i = m * p.slope_x, j = m * p.slope_y;
@@ -154,7 +154,7 @@ bool may(uint x, uint y, uint at)
     return yes;
 }
 
-/* An invocation processes a pixel; the pixel's polynomials serve all of its rays. */
+/* Each invocation processes one pixel; all rays of the pixel use the same polynomials. */
 float along(uint k) { return (float(k) + 0.5) / float(SIDE) - 0.5; }
 
 /* Writes w of crossing n, and a second quantity. */

@@ -1,11 +1,11 @@
 /* Kernel: sums the light that a lens removes from its place (shared/bloom.glsl) over blocks of BLOCK_X times BLOCK_Y
- * pixels, which are smaller than the cells of the finest grid. An invocation processes four columns of pixels, or one
+ * pixels. Blocks are smaller than the cells of the finest grid. An invocation processes four columns of pixels, or one
  * block if a block is wider.
  *
  * A block's rows may be in two or more bands. Each band adds its rows to the sum of earlier bands, in order, so that
  * the result does not depend on where bands end.
  *
- * This file is compiled to two kernels. With KD_TEXELS the radiance is read as texels of four floats, three of which
+ * This file is compiled to two kernels. With KD_TEXELS the radiance is read as texels of four floats, and three texels
  * are four pixels; rows must then be multiples of four pixels. */
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,6 +1,6 @@
-/* Kernel: makes a grid of half as many cells along each side from the next finer one. The weights are 1, 3, 3, 1
- * over 8. Each fine cell gives away all its light, and a quadratic B-spline of the fine grid becomes one of the
- * coarse grid. */
+/* Kernel: makes a grid of half as many cells along each side from the next finer one, with the weights 1, 3, 3, 1 over
+ * 8. All light of a fine cell goes to coarse cells, and a quadratic B-spline of the fine grid becomes one of the coarse
+ * grid. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

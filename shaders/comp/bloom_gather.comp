@@ -1,7 +1,7 @@
 /* Kernel: spreads the light of blocks of pixels as a quadratic B-spline on the finest grid. A block contributes to its
- * own cell and the eight cells round it, weighted by the position of the block's centre in the cell, so that the spread
- * light moves and widens evenly with that position. Contributions beyond the edge are mirrored inside, or go to the
- * opposite edge. An invocation makes two cells along each side, which share what they read. */
+ * own cell and to the eight cells round it, weighted by the position of the block's centre in its cell. The spread
+ * light therefore moves with the block, and has the same width everywhere. Contributions beyond the edge are mirrored
+ * inside, or go to the opposite edge. An invocation makes two cells along each side, which share what they read. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -48,8 +48,8 @@ kd_tap tap_of(kd_bloom_axis axis, int within, float at)
     return kd_tap(clamp(within, 0, int(axis.blocks) - 1), scale * bloom_weight(at), scale * bloom_weight(at - 1));
 }
 
-/* Block k, which may be a mirror image beyond an edge. If the last block is narrower than the others, its centre is not
- * where that of a full block would be, but before; so is the centre of its mirror image. */
+/* Block k, which may be a mirror image beyond an edge. The last block may be narrower than the others. Its centre is
+ * then before the centre of a full block, and its mirror image is moved accordingly. */
 kd_tap tap(kd_bloom_axis axis, int i, int k)
 {
     int count = int(axis.blocks), behind = k - count, within = k < 0 ? -1 - k : behind < 0 ? k : count - 1 - behind;

@@ -8,14 +8,14 @@
  *   sigma^2 = (A + B)/2 + sqrt((A - B)^2/4 + C^2),   A = |J_x|^2, B = |J_y|^2, C = J_x.J_y .
  *
  * The derivative comes from differences to neighbouring rays of the same order or fate. Neighbours on both sides give
- * it to second order. So do two neighbours on one side, which are used at the edge of the picture or of the buffer. One
- * neighbour gives it to first order. Without a neighbour on either side, the ray is isolated at an edge, and its
- * footprint is KD_FOOTPRINT_EDGE. Half the second difference is included as well, because a map that turns back within
- * a step still has a size. It is of second order, too.
+ * it to second order. Two neighbours on one side, at the edge of the picture or of the buffer, do so too. One neighbour
+ * gives it to first order. A ray without neighbours is isolated at an edge, and its footprint is KD_FOOTPRINT_EDGE.
+ * Half the second difference is added, because a map that turns back within a step still has a size; this term is of
+ * second order, too.
  *
  * Rays on listed pixels are on a square grid, treated separately for each pixel, or on a lattice (ray/place.glsl). On a
  * lattice J is the least-squares fit to the differences to neighbours in this pixel and adjacent ones, for a step as
- * long as the side of the area of one ray; residuals of the fit are included like the second difference.
+ * long as the side of the area of one ray. Residuals of the fit are added like the second difference.
  *
  * Differences are between 32-bit numbers: a footprint below about 1e-6 of r, or 1e-6 radians, is noise. */
 #version 450
@@ -124,8 +124,8 @@ kd_oval on_grid(uint n, uint at, kd_grid grid)
     return KD_NO_OVAL;
 }
 
-/* Sums for the least-squares linear map: of v v^T, of d v^T, and of d.d; and how many neighbours lack a spot where the
- * ray has one. */
+/* Sums for the least-squares linear map: of v v^T, of d v^T, and of d.d; and the number of neighbours that lack the
+ * crossing or end that the ray has. */
 struct kd_fit {
     float xx, xy, yy;
     vec3 dx, dy;
@@ -187,8 +187,8 @@ kd_oval on_lattice(uint n, uint at)
         o.shape = kd_oval_of(area * (i.x * i.x + j.x * j.x) + left, area * (i.y * i.y + j.y * j.y) + left,
                              area * (i.x * i.y + j.x * j.y))
                       .shape;
-    /* If a pixel has four rays and no adjacent pixels, the rays are collinear: the change along their line is taken for
-     * all directions. */
+    /* The four rays of a pixel without adjacent pixels are collinear. The change along their line is then taken for all
+     * directions. */
     if (det < 0.5 * area * area)
         o = kd_oval(fit.lacks > 0.0 || fit.count == 0.0 ? KD_FOOTPRINT_EDGE
                                                         : kd_longest(area * fit.dd / (fit.xx + fit.yy), 0.0, 0.0),

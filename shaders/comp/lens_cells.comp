@@ -1,16 +1,15 @@
 /* Kernel: decides where a lens map is traced ray by ray and where it is interpolated. An invocation processes a cell
- * (ray/cells.glsl) of one level, all of whose nodes are traced. If the polynomials through the nodes predict two
- * further rays, the cell is smooth. Otherwise its four quarters become cells of the next level, whose nodes are listed;
- * the rays of a cell of the last level are traced singly.
+ * (ray/cells.glsl) of one level. All nodes of the cell are traced. If the polynomials through the nodes predict two
+ * further rays, the cell is smooth. Otherwise its four quarters become cells of the next level, and their nodes are
+ * listed. The rays of a cell of the last level are traced singly.
  *
  * The map is analytic in a cell except where orders or fates change. Such changes show in the states of the nodes, and
- * in R at the barrier, which vanishes where fates change. The decision depends on the cell's own rays only, so that a
- * tile has the same cells as its picture.
+ * in R at the turning point, which vanishes where fates change. The decision depends on the cell's own rays only, so
+ * that a tile has the same cells as its picture.
  *
  * The tolerance is relative, for w, angles and directions alike. Where the map is steep, the rounding of the camera's
- * directions to 32 bits moves the map by more than that, and a strict tolerance would be missed because of noise. The
- * tolerance is then multiplied by CONDITION times the change of ln w, or of the angle, for a direction twice as far
- * from the hole. */
+ * directions to 32 bits moves the map by more than the tolerance, and only noise would be measured. There the tolerance
+ * is multiplied by CONDITION times the change of ln w, or of the angle, for a direction twice as far from the hole. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -64,8 +63,8 @@ uvec2 check_of(uvec2 corner, uint side, uint i)
     return corner + (i == 0u ? uvec2(side / 8u, side / 2u) : uvec2(side / 2u, side / 8u));
 }
 
-/* New nodes when a cell is divided. Among 9 x 9 places there are 16 on the edge, which adjacent cells may list as well,
- * and 38 inside, which only this cell lists; two of the latter were the rays that checked the cell. */
+/* New nodes when a cell is divided. Among 9 x 9 places there are 16 on the edge, which adjacent cells may list as well.
+ * There are 38 inside, which only this cell lists; two of them are the rays that checked the cell. */
 uvec2 edge_of_nine(uint k)
 {
     uint along = 2u * (k % 4u) + 1u, far = 8u * (k / 4u & 1u);
@@ -124,8 +123,8 @@ void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
     }
 }
 
-/* A node of those that are compared with a cell's check. They are along the cell's middle row or middle column, and are
- * followed by the checking ray next to the first of them. */
+/* A node that is compared with a cell's check. Such nodes are along the cell's middle row or middle column. The
+ * checking ray is next to the first of them and follows them. */
 uint node_along(uvec2 corner, uint side, uint axis, uint i)
 {
     uint word = i < 5u       ? index_of_node(corner, side, axis == 0u ? i : 2u, axis == 0u ? 2u : i)
@@ -186,7 +185,7 @@ float steps_to_hole(uvec2 corner, uint side)
 
 /* Whether the nodes of a cell are so far apart that an island of another image order may lie between them. An observer
  * among the photon orbits or closer sees such islands, a few degrees wide, next to the horizon of a hole that spins
- * fast; no smooth function of the nodes tells of them. */
+ * fast. No smooth function of the nodes shows them. */
 bool islands_fit_in(uint side)
 {
     const float AMONG_ORBITS = 0.25, APART = 2.0 * KD_PI / 180.0;
@@ -199,7 +198,7 @@ bool islands_fit_in(uint side)
 }
 
 /* Whether the function that vanishes where fates change is nonzero between the nodes; `least` is its least value at
- * them. Between nodes a curve deviates by an eighth of its second difference; the margin is four times that, plus twice
+ * them. Between nodes a curve deviates by an eighth of its second difference. The margin is four times that, plus twice
  * the error of the polynomials. */
 bool curve_is_far(uvec2 corner, uint side, float least)
 {

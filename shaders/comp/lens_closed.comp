@@ -1,11 +1,12 @@
-/* Kernel: makes the lens map in closed form, for an observer at infinity or outside the photon orbits: radii of the
- * crossings and, if the scene requires them, their azimuths, radial slopes, the direction in which a ray escapes and
- * its fate. Planes: shared/lens.h, all except the delay and alpha.
+/* Kernel: makes the lens map in closed form, for an observer at infinity or outside the photon orbits. It computes the
+ * radii of the crossings and, if the scene requires them, their azimuths and radial slopes, the direction in which a
+ * ray escapes and its fate. It makes all planes of shared/lens.h except the delay and alpha.
  *
  * The times at which a ray crosses the plane are known (polar.glsl), and from them its radius (arc.glsl). The azimuth
- * by which the hole drags the ray is an integral over each half period, by Gauss-Legendre quadrature. The quadrature's
- * nodes are reached from the crossings at both ends. Their distances in time from these crossings are the same for all
- * half periods but the first. The ray escapes when w vanishes, which is known from w and w' at its last crossing. */
+ * by which the hole drags the ray is an integral over each half period, by Gauss-Legendre quadrature. The nodes of the
+ * quadrature are reached from the crossings at both ends. Their distances in time from these crossings are the same for
+ * all half periods but the first. The ray escapes when w vanishes, which is known from w and w' at its last
+ * crossing. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -66,8 +67,8 @@ bool goes_on(kd_leg leg, bool falls, float limit)
     return leg.tau < limit && (falls ? leg.next.dw > 0.0 : leg.last.dv > 0.0 || leg.next.dw <= 0.0);
 }
 
-/* Whether rounding may have created, or removed, the leg's next crossing. The drag takes half of the kernel's time, so
- * it is only used if something else needs it. */
+/* Whether rounding may have created, or removed, the leg's next crossing. The drag is needed for that only if something
+ * else needs it, because it takes half of the kernel's time. */
 bool is_open(kd_leg leg, kd_polar polar, kd_margins margins)
 {
     return (polar.crosses && kd_crossing_is_open(leg.next.w, margins)) || ((PHI || SKY) && !kd_is_finite(leg.drag));
@@ -88,10 +89,10 @@ void go_on(inout kd_leg leg, kd_arcs a, kd_drag_terms drag, kd_nodes nodes, kd_a
     leg.alive = leg.alive && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
 }
 
-/* Whether polar.first is a valid time. If A > 0 there is none for Q < 0, and where Q nearly vanishes, rounding decides
- * (polar.glsl). Then the plane is not reached sooner than at the greatest speed, which is s / 2 sqrt(e), because u'^2 =
- * Q + A u^2 - e u^4 is at most s^2/4e. If A < 0 and Q = 0, in the plane, half periods are counted as usual, though
- * nothing is crossed. */
+/* Whether polar.first is a valid time. If A > 0 and Q < 0 there is no such time, and where Q nearly vanishes, rounding
+ * decides (polar.glsl). The ray then does not reach the plane sooner than at the greatest speed, s / 2 sqrt(e), because
+ * u'^2 = Q + A u^2 - e u^4 is at most s^2/4e. If A < 0 and Q = 0, the ray stays in the plane; half periods are counted
+ * as usual, though nothing is crossed. */
 bool first_is_known(kd_geodesic m, kd_polar polar, float u, float ae)
 {
     return m.a2 <= 0.0 || (m.q > 0.0 && polar.first * polar.s > 1.98 * abs(u * ae));
@@ -110,7 +111,7 @@ void keep(uint at, uint n, bool any, kd_leg leg, kd_drag_terms drag)
         lens[at + kd_plane(KD_LENS_SLOPE) * slice.stride] = any ? leg.next.dw : 0.0;
 }
 
-/* Stores where the ray ends; returns whether that is certain. nodes, z: of the leg that the ray does not complete;
+/* Stores where the ray ends; returns whether that is certain. nodes, z: of the leg that the ray does not complete.
  * before: time from the last crossing to the start, if the leg begins with the start. */
 bool keep_end(uint at, kd_geodesic m, kd_ray ray, kd_arcs a, kd_azimuth azimuth, kd_drag_terms drag, kd_leg leg,
               kd_arc middle, float leg_z, float before, bool decided)
@@ -182,8 +183,8 @@ void main()
     leg.alive = known && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
     leg.side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     leg.crossed = leg.alive;
-    /* Far out, the scale of w is E over the larger of E and |(l, p)|; the larger one is at least a.scale / sqrt(3), or
-     * 1. The scale is at most that of the horizon. */
+    /* Far out, the scale of w is E over the larger of E and |(l, p)|. The larger one is at least a.scale / sqrt(3), and
+     * at least 1. The scale is at most that of the horizon. */
     const kd_margins margins = kd_margins_of(barrier, barrier.noise, max(1.74 * cam.size_e, cam.horizon), edge);
     bool open = !kd_is_decided(barrier, start, kd_start_noise(m, start, rounding)) || is_open(leg, polar, margins);
     keep(at, 0, leg.alive && polar.crosses, leg, drag);

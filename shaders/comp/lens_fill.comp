@@ -1,8 +1,8 @@
-/* Kernel: fills a lens map from the nodes of its smooth cells (ray/cells.glsl), by the polynomials through the nodes:
- * w, azimuth and slope of each ray's crossings, or where in the sky it ends; and the footprints, from the polynomials'
- * derivatives. An invocation processes a column of rays of a cell: 25 nodes are reduced to five numbers for the column,
- * and these to one number for each ray. All values are relative to the cell's middle node, so that rounding is relative
- * to the change within the cell.
+/* Kernel: fills a lens map from the nodes of its smooth cells (ray/cells.glsl). The polynomials through the nodes give
+ * w, azimuth and slope of each ray's crossings, or where in the sky it ends. Their derivatives give the footprints. An
+ * invocation processes a column of rays of a cell: it reduces 25 nodes to five numbers for the column, and these to one
+ * number for each ray. All values are relative to the cell's middle node, so that rounding is relative to the change
+ * within the cell.
  *
  * The map is already initialised: the planes of w are 0, and all fates are captured. */
 #version 450
@@ -89,8 +89,8 @@ kd_lines lines_of(kd_column c, uint n, vec3 middle)
     return l;
 }
 
-/* Stores through max because of lavapipe: it computes a value that is only stored lane by lane, in the loop that stores
- * it, but not a result of max. */
+/* Stores through max because of lavapipe. It computes a value that is only stored lane by lane, in the loop that stores
+ * it. A result of max is computed for all lanes at once. */
 void put(uint at, uint plane, float value) { lens[at + plane * push.stride] = max(value, -KD_FOOTPRINT_EDGE); }
 
 /* The cell's polynomials at a ray: the value, and its change from ray to ray. */
@@ -122,7 +122,7 @@ void put_end(uint at, kd_patch_at s)
         put(at, kd_plane(KD_LENS_SKY_FOOTPRINT), kd_longest(dot(s.i, s.i), dot(s.j, s.j), dot(s.i, s.j)));
 }
 
-/* The rays of a column: the first one's index in a plane and place in quarters of the cell; their number; their
+/* The rays of a column: index of the first one in a plane, and its place in quarters of the cell; number of rays; their
  * spacing. */
 struct kd_rows {
     uint at, n;

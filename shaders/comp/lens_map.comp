@@ -1,12 +1,12 @@
-/* Kernel: makes the lens map by integration, for an observer at any radius: radii of the crossings and, if the scene
- * requires them, their azimuths, radial slopes, the direction in which a ray escapes and its fate.
+/* Kernel: makes the lens map by integration, for an observer at any radius. It computes the radii of the crossings and,
+ * if the scene requires them, their azimuths and radial slopes, the direction in which a ray escapes and its fate.
  *
  * The times at which a ray crosses the plane are known in closed form (polar.glsl), so steps end exactly on the
- * crossings: each half period is STEPS equal steps of the radial equation, the same for every ray, without a search and
+ * crossings. Each half period is STEPS equal steps of the radial equation, the same for every ray, without a search and
  * without divergence. From its last crossing on, a ray that escapes is followed by the full vector equation of the
  * angles.
  *
- * Planes: shared/lens.h, all except the delay and alpha. */
+ * It makes all planes of shared/lens.h except the delay and alpha. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -39,14 +39,14 @@ float kd_boole(uint k) { return k == 0 || k == 4 ? 7.0 : k == 2 ? 12.0 : 32.0; }
 /* A group of four steps in which a ray turns back to the horizon. */
 struct kd_turning {
     kd_state start;
-    float part, drag; /* part: the steps before the turn, 0 to 4; drag: the group's result by Boole's rule, which is
+    float part, drag; /* part: the steps before the turn, 0 to 4. drag: the group's result by Boole's rule, which is
                        * replaced */
     float w;          /* w where the ray turns */
     bool any, last;   /* last: the last group of its half period */
 };
 
-/* Frame dragging over a group of steps in which the ray turns, in two parts: in ingoing coordinates up to the turn and
- * in outgoing ones after it. On their part these coordinates are smooth and have no pole. */
+/* Frame dragging over a group of steps in which the ray turns. It has two parts: in ingoing coordinates up to the turn,
+ * and in outgoing ones after it. On its part each of these coordinates is smooth and has no pole. */
 float kd_drag_about_turn(kd_geodesic m, float e, float h, inout kd_turning t)
 {
     kd_state z = t.start;
@@ -165,7 +165,7 @@ void main()
         }
         if (y.w > -cam.horizon && y.w < deepest) /* error of the steps up to this crossing; a clamped w has none */
             lost = max(lost, abs(y.dw * y.dw - kd_radial_potential(m, y.w, ray.e, cam.spin, cam.root)));
-        float passes = barrier.r < 0.0 ? 2.0 : 1.0; /* a ray that turns passes the barrier twice */
+        float passes = barrier.r < 0.0 ? 2.0 : 1.0; /* a ray that turns passes the turning point twice */
         kd_margins margins = kd_margins_of(barrier, barrier.noise + passes * lost, min(far, cam.horizon), cam.horizon);
         open = open || kd_crossing_is_open(y.w, margins) || !kd_is_finite(y.w + sum);
         alive = low >= 0.0 && high < cam.horizon && y.w > 0.0;

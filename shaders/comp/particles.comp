@@ -1,10 +1,10 @@
-/* Kernel: computes the particles of the disk at one time, each from its number in closed form, and adds them to the
- * grid or writes them to a list (src/render/emit/particles.h).
+/* Kernel: computes the particles of the disk at one time, each from its number in closed form. It adds them to the grid
+ * or writes them to a list (src/render/emit/particles.h).
  *
- * Phases are 32-bit fractions of a turn, so that sums wrap exactly. A particle's weight is divided among the four
- * nodes around it. A word of the grid holds 16 bits for its node, from particles to the right of it, and 16 bits for
- * its right neighbour, so that two additions suffice. Falling particles are on a grid of phase and azimuth at the
- * ISCO (src/render/emit/plunging.h). */
+ * Phases are 32-bit fractions of a turn, so that sums wrap exactly. A particle's weight is divided among the four nodes
+ * around it. A word of the grid has 16 bits for its own node, to which particles on its right contribute, and 16 bits
+ * for the node on its right. Two additions therefore suffice for a particle. Falling particles are on a grid of phase
+ * and azimuth at the ISCO (src/render/emit/plunging.h). */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"

@@ -3,7 +3,7 @@
  *
  * As in lens_map.comp, each half period is STEPS steps that end on the crossing. Here u is integrated together with w,
  * because the smooth parts of azimuth and delay need u. A second integration of w with half the steps gives the error
- * of the steps; the variation of w with its start gives that of rounding. (An embedded pair is cheaper, but its
+ * of the steps. The variation of w with its start gives the error of rounding. (An embedded pair is cheaper, but its
  * estimate is a hundred times looser: docs/rays.md.)
  *
  * Azimuth: psi + chi. polar_azimuth.glsl integrates the peak of psi' = L/(1 - u^2) near the axis exactly; the rest is L
@@ -11,11 +11,11 @@
  *
  * Delay: t' = E/w^2 + 2E/w + [E (4 + a^2 - 2a^2 w + a^4 w^2 - q^2 (1 + 2w)) - a L (1 + a^2 w^2)] / Delta_w + a (L - a E
  * (1 - u^2)), Delta_w = 1 - 2w + (a^2 + q^2) w^2. The first two terms grow without bound towards infinity, on the way
- * in and on the way out; but
+ * in and on the way out. But
  *
  *   E^2/w^2 = (-w'/w)' + K w - D w^2   and   E/w = -(ln((E + w')/w))' + w^2 (K - D w)/(E + w'),
  *
- * so that the remaining integrand is smooth, and subtracting r_o + 2 ln r_o for an observer at infinity is exact.
+ * so that the remaining integrand is smooth, and for an observer at infinity r_o + 2 ln r_o can be subtracted exactly.
  *
  * t' has a pole at the horizon. A ray that falls in therefore uses ingoing time: with D = Delta_w and W as in
  * radial_step.glsl
@@ -88,8 +88,8 @@ kd_rates rates(kd_geodesic m, kd_full p, float b, float way)
     return o;
 }
 
-/* The terms that are integrated in closed form, at a point: their integral is the difference between both ends. 0 at
- * infinity. */
+/* The terms that are integrated in closed form, at one point: their integral is the difference between both ends. At
+ * infinity they are 0. */
 float delay_edge(kd_geodesic m, kd_state y, float way)
 {
     if (!(y.w > 0.0))
@@ -100,8 +100,8 @@ float delay_edge(kd_geodesic m, kd_state y, float way)
     return -y.dw / y.w - 2.0 * kd_log(0.5 * energy_and_fall(m, y.w, y.dw) / y.w);
 }
 
-/* Estimated error of w where the first integral w'^2 = W^2 - D K w^2 is violated: that of a wrong velocity over the
- * time of a half period. */
+/* Estimated error of w where the first integral w'^2 = W^2 - D K w^2 is violated. A violation is a wrong velocity,
+ * which acts for the time of a half period. */
 float drifted(kd_geodesic m, kd_state y, float time)
 {
     float off = abs(y.dw * y.dw - kd_radial_potential(m, y.w, 1.0, cam.spin, cam.root));
@@ -109,9 +109,9 @@ float drifted(kd_geodesic m, kd_state y, float time)
 }
 
 /* For a method of order p, the results with all steps and with half the steps differ by 2^p - 1 times the remaining
- * error, 15 or 63 times. LEFT times this difference is about thirty times the remaining error, which is a bound even if
- * the steps are too coarse for that law. lost_in_a_turn: error of steps of length h over a half turn, for rays without
- * a crossing that shows it. */
+ * error, 15 or 63 times. LEFT times this difference is about thirty times the remaining error. It is a bound even if
+ * the steps are too coarse for that law. lost_in_a_turn: error of steps of length h over a half turn, for rays that
+ * have no crossing to show it. */
 const float LEFT = METHOD == 4 ? 2.0 : 0.5;
 float lost_in_a_turn(float h) { return METHOD == 4 ? 0.1 * h * h * h * h : 0.1 * h * h * h * h * h * h; }
 
@@ -190,17 +190,17 @@ void main()
         alive = j > STEPS && w > 0.0;
         tau += h * float(min(j, STEPS));
         float left = h * float(STEPS - min(j, STEPS)), ahead = left * abs(y.dw);
-        /* The error of w comes from the steps and from rounding. The steps' error is the difference of the two
-         * integrations, where that is small. But it is at least the error at the last crossing times the growth of the
+        /* The error of w comes from the steps and from rounding. The error of the steps is the difference of the two
+         * integrations, if that is small. It is at least the error at the last crossing times the growth of the
          * variation since, because two wrong paths may meet by chance. Rounding adds about ten operations of a unit
-         * roundoff each, amplified by the variation. It adds as much again through the time of the crossing, and the
-         * drift of the first integral. */
+         * roundoff each, amplified by the variation. It adds the same amount again through the time of the crossing,
+         * and the drift of the first integral. */
         float parted = abs(p.y.z) + left * abs(p.dy.z);
         float lost = max((LEFT + min(apart / max(abs(w), 1e-30), 2.0)) * apart, lost_before * parted / spread);
         float off = lost + drifted(m, y, h * float(STEPS)) +
                     cam.epsilon * ((4.0 + 0.01 * float(STEPS)) * w + kick * abs(p.y.z) + 8.0 * tau * abs(y.dw));
-        /* So close to the horizon or to infinity a crossing may or may not exist: only crossings that certainly exist
-         * are reported. */
+        /* Close to the horizon or to infinity, errors may create or remove a crossing. Only crossings that certainly
+         * exist are reported. */
         if (min(abs(w), abs(cam.horizon - w)) + ahead < off) {
             error = max(error, 1.0);
             alive = false;

@@ -33,9 +33,9 @@ rays;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
 #include "ray/trace.glsl"
 
-/* Tao's omega, in units of 1/s. If omega is small the copies diverge on long orbits; if it is large it costs accuracy
- * and phase. Among 0.1, 0.5, 2 and 10 the value 0.1 was the most accurate, by factors of 15 to 10^4 over the half turns
- * of a ray. */
+/* Tao's omega, in units of 1/s. If omega is small, the copies diverge on long orbits. If it is large, accuracy and
+ * phase suffer. Among 0.1, 0.5, 2 and 10 the value 0.1 was the most accurate, by factors of 15 to 10^4 over the half
+ * turns of a ray. */
 #define KD_BIND 0.1
 
 struct kd_point { vec3 x, p; };
@@ -147,9 +147,9 @@ float hermite_slope(float y0, float d0, float y1, float d1, float s)
     return d0 + s * (2.0 * c2 + 3.0 * s * c3);
 }
 
-/* Change of the number of turns about the axis in a step from x to y, which atan2 does not give: whether the chord
- * crosses the half plane x < 0. Very close to the axis the ray may pass on the other side of the axis than the
- * chord. */
+/* Change of the number of turns about the axis in a step from x to y, which atan2 does not give. It changes where the
+ * chord crosses the half plane x < 0. Very close to the axis the ray and the chord may pass the axis on opposite
+ * sides. */
 float turned(vec3 x, vec3 y)
 {
     if ((x.y < 0.0) == (y.y < 0.0) || (x.x * y.y - y.x * x.y) / (y.y - x.y) > 0.0)
@@ -177,10 +177,10 @@ void main()
     for (uint n = 0; n < 3 * ORDERS + 4; n++)
         ends[o + n] = 0.0;
 
-    /* lavapipe leaves all loops of an invocation after 65535 rounds, including inner ones, with whatever the variables
-     * then hold. So stay below that, and leave a ray that needs more undecided. With the most steps that
-     * src/render/rays/check.c accepts, these rounds are 16 half turns (Tao's method) or 60; a ray that passes the hole
-     * takes 8 to 13. */
+    /* lavapipe leaves all loops of an invocation after 65535 rounds, including inner ones; the variables then hold
+     * intermediate values. This limit is below that, and a ray that needs more stays undecided. With the most steps
+     * that src/render/rays/check.c accepts, these rounds are 16 half turns (Tao's method) or 60; a ray that passes the
+     * hole takes 8 to 13. */
     const uint most = min(60 * STEPS, METHOD == 2 ? 8000 : 64000);
 
     float h = 0.6 * KD_PI / float(STEPS), fate = KD_FATE_UNDECIDED, about = 0.0;
@@ -191,7 +191,7 @@ void main()
         n = 1;
     }
     float far = max(rays.far, 10.0 * radius(y.a.x));
-    /* Computed once, and not in each step: the series has ten rounds. */
+    /* Computed here and not in each step, because the series has ten rounds. */
     kd_phasor turns[4];
     for (int k = 0; k < 4; k++)
         turns[k] = kd_cos_sin(2.0 * KD_BIND * h * YOSHIDA[k]);

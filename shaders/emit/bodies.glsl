@@ -3,13 +3,13 @@
  * A body is a sphere of radius R in its own frame, and space is taken as flat on its scale. The map A of a body
  * converts coordinate differences from its centre to lengths in the orthonormal frame of zero angular momentum there:
  * along r, theta and phi, stretched by the metric. In that frame the light that arrives at one time is a plane wave, t
- * = n.Y, where n is the direction of propagation. It meets a body of velocity v where, in the body's frame, t' = gamma
- * (t - v.Y),
+ * = n.Y, where n is the direction of propagation. In the frame of a body of velocity v, the wave has the time t' =
+ * gamma (t - v.Y). It meets the body where
  *
  *   b^2 + t'^2 = R^2,   b^2 = Y^2 - t^2.
  *
  * The distance b of the ray from the centre does not depend on v: a moving body appears as a sphere, rotated (Penrose
- * 1959, Terrell 1959). The cosine of the emission angle in the body's frame is t'/R. Its surface emits as a black body
+ * 1959, Terrell 1959). The cosine of the emission angle in the body's frame is t'/R. The surface emits as a black body
  * with linear limb darkening:
  *
  *   light = brightness B(g T) (1 - c (1 - cos)) / (1 - c/3),

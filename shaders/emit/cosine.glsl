@@ -1,4 +1,4 @@
-/* Angle of emission: the cosine of the angle between light and the normal of the plane, in the frame of the gas,
+/* Angle of emission: the cosine of the angle between light and the normal of the plane, in the frame of the gas. It is
  * |p_theta| g/r with p_theta^2 = Q in the plane (Carter 1968), for a photon of energy 1/g. Opacity by optical depth,
  * limb darkening and light scattered by electrons depend on it. It is computed once for each crossing, if anything
  * needs it. */

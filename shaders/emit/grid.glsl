@@ -1,6 +1,6 @@
-/* Matter on a grid of nodes: interpolation, linear in log r, in columns of theta and in phi. The buffer plasma_grid has
- * one or two quads a node, then the table of uneven columns (src/render/emit/matter_grid.h). Included by
- * emit/plasma.glsl. */
+/* Matter on a grid of nodes. Values are interpolated linearly in log r, in columns of theta, and in phi. The buffer
+ * plasma_grid has one or two quads a node, then the table of uneven columns (src/render/emit/matter_grid.h). Included
+ * by emit/plasma.glsl. */
 
 /* Interpolated values. matter: log2 of density and Theta, u^r, r u^theta; rest: u_phi/(r sin^2 theta), and b^r, r
  * b^theta and b_phi/(r sin^2 theta) in the grid's unit. */
@@ -14,7 +14,7 @@ kd_grid_node kd_grid_whole(uint node)
     return kd_grid_node(uintBitsToFloat(kd_grid_quad(2u * node)), uintBitsToFloat(kd_grid_quad(2u * node + 1u)));
 }
 
-/* A packed node has density and Theta as parts of their ranges in 16 bits, and six halves. */
+/* A packed node has density and Theta as fractions of their ranges in 16 bits each, and six half floats. */
 kd_grid_node kd_grid_packed(uint node)
 {
     uvec4 words = kd_grid_quad(node);
@@ -51,7 +51,7 @@ kd_grid_place kd_grid_place_at(kd_midst p, float log2_r)
     at.row = clamp((log2_r - emission.plasma.grid_r) * emission.plasma.grid_per_r, 0.0, float(most.x));
     at.column = clamp((theta - emission.plasma.grid_theta) * emission.plasma.grid_per_theta, 0.0, float(most.y));
     at.per_theta = emission.plasma.grid_per_theta;
-    /* lavapipe skips the unused rounds of a loop, but not the branches of an if */
+    /* lavapipe skips loop rounds that are not needed, but executes both branches of an if */
     for (uint n = 0u; n < min(emission.plasma.grid_steps, 1u); n++) {
         float steps = float(emission.plasma.grid_steps), row = min(floor(at.row), float(most.x - 1u)),
               x = clamp(theta * (steps / KD_PI), 0.0, steps), cell = min(floor(x), steps - 1.0);
@@ -79,7 +79,7 @@ kd_grid_node kd_grid_at(kd_midst p, float log2_r)
     uint first = uint(clamp(layer - floor(layer / float(layers)) * float(layers), 0.0, float(layers - 1u)));
     kd_grid_node sum = kd_grid_node(vec4(0.0), vec4(0.0));
     vec4 weights = vec4(1.0 - part.x, part.x, 1.0 - part.x, part.x) * vec4(1.0 - part.yy, part.yy);
-    /* loops as above, of which one has no rounds */
+    /* loops as above; one of the two has no rounds */
     for (uint n = 0u; n < (emission.plasma.grid_packed == 0u ? rounds : 0u); n++) {
         uint k = first + n, from = at + (k < layers ? k : 0u);
         vec4 w = weights * (layers == 1u ? 1.0 : n == 0u ? 1.0 - past : past);
@@ -100,7 +100,8 @@ kd_grid_node kd_grid_at(kd_midst p, float log2_r)
 }
 
 /* The edges of cells are visible in the light, so a grain covers at most KD_GRID_CELLS. The grain is at least half of
- * one of the finest rows that a grid may have; columns and layers next to the axis would require less. */
+ * one of the finest rows that a grid may have. Columns and layers next to the axis are finer, but the grain does not
+ * follow them. */
 float kd_grid_grain(kd_midst p, float sharp)
 {
     float r = 1.0 / p.w, s2 = max(1.0 - p.u * p.u, 1e-4);

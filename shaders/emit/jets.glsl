@@ -1,14 +1,14 @@
-/* Two stylised jets: optically thin light in cones along the spin axis. Their matter moves outwards along the radius at
- * one speed relative to observers of zero angular momentum (Bardeen, Press & Teukolsky 1972). In the frame of these
+/* Two stylised jets: optically thin light in cones along the spin axis. Their matter moves radially outwards at one
+ * speed relative to observers of zero angular momentum (Bardeen, Press & Teukolsky 1972). In the frame of these
  * observers a photon has the energy and radial momentum
  *
  *   e = (E - omega L) sqrt(A/(Sigma Delta)),   k_r = p_r sqrt(Delta/Sigma),
  *
  * and in the frame of the matter the energy -k.U = Gamma (e - beta k_r).
  *
- * A spectrum j_nu ~ nu^-alpha keeps its shape under a shift. j_nu/nu^2 is invariant: per unit of the observer's affine
- * parameter light is g^(2 + alpha) j, g = 1/(-k.U), the D^(2 + alpha) of a steady jet (Lind & Blandford 1985, ApJ 295,
- * 358).
+ * A spectrum j_nu ~ nu^-alpha keeps its shape under a shift, and j_nu/nu^2 is invariant. Per unit of the observer's
+ * affine parameter light is therefore g^(2 + alpha) j with g = 1/(-k.U), which is the D^(2 + alpha) of a steady jet
+ * (Lind & Blandford 1985, ApJ 295, 358).
  *
  * Profile across, with x = tan(theta)/tan(opening): a spine (1 - x^2)^2 and a sheath 27/4 x^2 (1 - x^2)^2. Profile
  * along: (r/inner)^-falloff, with smooth ends. */
@@ -36,10 +36,10 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* -k.U of the matter, without a difference of nearly equal numbers. For light along the jet, e - k_r is across^2 over
- * the sum e + k_r, with across^2 = k_theta^2 + k_phi^2 = (p_theta^2 + L^2 Sigma^2/(A sin^2))/Sigma. By p_theta^2 = Q +
- * a^2 E^2 u^2 - L^2 u^2/sin^2 and A = (r^2 + a^2)^2 - a^2 Delta sin^2 this has no sine in a denominator: Sigma across^2
- * = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2r - q^2)/A. */
+/* -k.U of the matter, without a difference of nearly equal numbers. For light along the jet, e - k_r is computed as
+ * across^2 over the sum e + k_r, with across^2 = k_theta^2 + k_phi^2 = (p_theta^2 + L^2 Sigma^2/(A sin^2))/Sigma. By
+ * p_theta^2 = Q + a^2 E^2 u^2 - L^2 u^2/sin^2 and A = (r^2 + a^2)^2 - a^2 Delta sin^2 this has no sine in a
+ * denominator: Sigma across^2 = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2r - q^2)/A. */
 float kd_jets_energy(kd_midst p)
 {
     kd_place at = kd_place_at(p.w, p.u, 1.0 - p.u * p.u);
@@ -64,7 +64,7 @@ kd_medium kd_jets_along(kd_midst p)
           down = clamp((outer - r) / (KD_JETS_FADE * outer), 0.0, 1.0);
     float along = up * up * (3.0 - 2.0 * up) * down * down * (3.0 - 2.0 * down);
     /* Both powers and the brightness are computed in one exponential. g to the 12th may be 2^92 and r/inner to the 10th
-     * 2^199, which would overflow separately even if their product is 1. */
+     * 2^199: separately they would overflow even if their product is 1. */
     float light = exp2(clamp(emission.jets.brightness - emission.jets.falloff * log2(r / inner) -
                                  emission.jets.power * log2(kd_jets_energy(p)),
                              -126.0, 120.0));

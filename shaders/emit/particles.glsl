@@ -13,8 +13,8 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* A place on one of the grids, which begins at node `first`: the row, and the azimuth in turns on the row before the
- * place and on the row after it. */
+/* A place on one of the grids, which begins at node `first`: the row, and the azimuth in turns on the rows before and
+ * after the place. */
 struct kd_density_place {
     uint first, rows, columns;
     float row, before, after;
@@ -48,7 +48,7 @@ float kd_density_of_row(kd_density_place at, uint row, float turn)
                KD_OWN_FLOAT(density, first + ((j + 1) & (at.columns - 1))), column - float(j));
 }
 
-/* The ratio of the number of particles to the expected number, bilinear between the nodes. */
+/* Ratio of the number of particles to the expected number, bilinear between the nodes. */
 float kd_density_at(kd_density_place at)
 {
     uint i = min(uint(at.row), at.rows - 1);
@@ -63,7 +63,7 @@ bool kd_plunge_falls(kd_sample s);
 kd_density_place kd_plunge_place(kd_sample s, float turn);
 kd_gas kd_plunge_gas(kd_sample s, float number);
 
-/* Particles on orbits and plunging ones (plunge.glsl) share one read of the grids and one black body. */
+/* Orbiting and plunging particles (plunge.glsl) share one read of the grids and one evaluation of the black body. */
 kd_glow kd_particles_glow(kd_sample s)
 {
     float turn = kd_sample_turn(s);

@@ -106,10 +106,10 @@ kd_flow kd_flow_round(kd_metric g, float r)
     return kd_flow(time, g.round_ * past * time, 0.0, 0.0);
 }
 
-/* Inside the ISCO matter keeps the e and l that it has at the ISCO at its latitude (H.-Y. Pu, K. Akiyama & K. Asada
- * 2016, ApJ 831, 4), and stays at that latitude. Then Sigma^2 (u^r)^2 = A e^2 - 2 a m e l - (Sigma - m) l^2/sin^2 -
- * Sigma Delta, with m = 2r - q^2, is a quartic that vanishes at the ISCO; divided by r - r_isco, it has no difference
- * of nearly equal numbers. Where it is negative, off the plane, matter rotates with the angular velocity of e and l. */
+/* Inside the ISCO matter keeps the e and l that it has at the ISCO at its latitude, and stays at that latitude (H.-Y.
+ * Pu, K. Akiyama & K. Asada 2016, ApJ 831, 4). Then Sigma^2 (u^r)^2 = A e^2 - 2 a m e l - (Sigma - m) l^2/sin^2 - Sigma
+ * Delta, with m = 2r - q^2, is a quartic that vanishes at the ISCO. Divided by r - r_isco, it has no difference of
+ * nearly equal numbers. Where it is negative, off the plane, matter rotates with the angular velocity of e and l. */
 kd_flow kd_flow_plunge(kd_metric g, kd_midst p)
 {
     float r = 1.0 / p.w, edge = emission.frame.r_isco, a2 = cam.spin * cam.spin, u2 = p.u * p.u,
@@ -138,9 +138,10 @@ float kd_less_ln(float z)
 }
 
 /* The torus of L. G. Fishbone & V. Moncrief 1976 (ApJ 207, 962): u^t u_phi = l everywhere. With u_phi^2 = g_phiphi U^2
- * and u^t = sqrt(1 + U^2)/lapse, U^2 (1 + U^2) = l^2 lapse^2/g_phiphi = q/4; and ln h = ln((1 + sqrt(1 + q))/lapse^2)/2
- * - sqrt(1 + q)/2 - omega l, equation 3.6. ln h is about a hundredth, a difference of numbers near 1. So U^2 = (sqrt(1
- * + q) - 1)/2 is used, which contributes ln(1 + U^2)/2 - U^2, and 1 - lapse^2 = (2r - q^2) (r^2 + a^2)/A. */
+ * and u^t = sqrt(1 + U^2)/lapse this is U^2 (1 + U^2) = l^2 lapse^2/g_phiphi = q/4. Equation 3.6 is ln h = ln((1 +
+ * sqrt(1 + q))/lapse^2)/2 - sqrt(1 + q)/2 - omega l. ln h is about a hundredth, a difference of numbers near 1.
+ * Therefore U^2 = (sqrt(1 + q) - 1)/2 is used, which contributes ln(1 + U^2)/2 - U^2, and 1 - lapse^2 = (2r - q^2) (r^2
+ * + a^2)/A. */
 struct kd_equilibrium {
     kd_flow flow;
     float enthalpy;
@@ -194,8 +195,8 @@ void kd_plasma_field(inout kd_plasma m, kd_midst p)
 
 /* Any u^r, u^theta and u_phi belong to a timelike unit vector: -lapse^2 (u^t)^2 = -1 - U^2, where U are the components
  * of the velocity for the observer of zero angular momentum. Let B be the same components of b. Then b.u = 0 gives
- * lapse b^t = B.U/sqrt(1 + U^2), and b^2 = (B^2 + (B x U)^2)/(1 + U^2), without a difference of large numbers near the
- * horizon. */
+ * lapse b^t = B.U/sqrt(1 + U^2), and b^2 = (B^2 + (B x U)^2)/(1 + U^2). These forms have no difference of large numbers
+ * near the horizon. */
 kd_plasma kd_plasma_of_grid(kd_midst p, float log2_r)
 {
     kd_plasma m;
@@ -306,9 +307,9 @@ kd_radiates kd_plasma_gives(kd_plasma m)
     return kd_synchrotron_thermal(m.electrons, m.frequency);
 }
 
-/* Medium from logarithms. Matter deeper than 2^24 a length shows only its own light, so its light and depth are both
- * reduced by the same factor: light of such matter is correct up to 6e28 K. Light of thin matter is limited to 2^99 a
- * length, beyond the range of layers (src/render/frame/layers.c). */
+/* Makes the medium from logarithms. Where the depth exceeds 2^24 a length, light and depth are both reduced by the same
+ * factor, because such matter shows only its own light. Light of such matter is correct up to 6e28 K. Light of thin
+ * matter is limited to 2^99 a length, beyond the range of layers (src/render/frame/layers.c). */
 kd_medium kd_plasma_medium(float light, float depth, float grain)
 {
     float over = max(depth - 24.0, 0.0);
@@ -318,7 +319,7 @@ kd_medium kd_plasma_medium(float light, float depth, float grain)
 }
 
 /* Distance along the ray, M, over which a layer exp(-x^2/2), x = steep u/sin(theta), and its field vary. Inside the
- * layer it follows from the layer's height and the place; outside it is the distance to the layer. sharp: steep of
+ * layer it follows from the layer's height and the place; outside it is the distance to the layer. sharp: `steep` of
  * kd_radiates. */
 float kd_plasma_grain(kd_midst p, float steep, float sharp)
 {
@@ -365,14 +366,14 @@ kd_medium kd_plasma_along(kd_midst p)
     }
     if (r < emission.plasma.inner || r > emission.plasma.outer)
         return kd_medium(vec3(0.0), 0.0, max(max(emission.plasma.inner - r, r - emission.plasma.outer), 0.1 * r));
-    /* Off the plane infall begins as the square root of the distance to the ISCO. So stretches are shorter the nearer
-     * they are to the ISCO. */
+    /* Off the plane infall begins as the square root of the distance to the ISCO. Stretches are therefore shorter near
+     * the ISCO. */
     if ((TRAITS_plasma &
          (KD_TRAIT_PLASMA_GOLD | KD_TRAIT_PLASMA_REST | KD_TRAIT_PLASMA_TORUS | KD_TRAIT_PLASMA_GRID)) == 0u &&
         r < emission.frame.r_isco)
         medium.grain = min(medium.grain, max(0.8 * (emission.frame.r_isco - r), 2e-3 * r));
     float edge =
-        /* the edges may lie inside the bounds of other volumes, where the march does not find them */
+        /* the edges may lie inside the bounds of other volumes, where the march does not look for them */
         min(abs(r - emission.plasma.inner), abs(r - emission.plasma.outer));
     medium.grain = KD_VOLUMES > 1 ? min(medium.grain, max(edge, 2.5e-4 * r)) : medium.grain;
     return medium;

@@ -1,4 +1,4 @@
-/* Gas that plunges from the ISCO with the energy E and angular momentum L of the orbit there;
+/* Gas that plunges from the ISCO with the energy E and angular momentum L of the orbit there.
  * src/render/emit/plunging.h describes its parcels.
  *
  * The gas is a grey body of one temperature. Its optical depth is proportional to its surface density: 1/(r |u^r|)
@@ -8,8 +8,8 @@
  *   u^r = -sqrt(2/(3 r0)) (r0/r - 1)^(3/2),   r0 the ISCO's radius     (Mummery & Balbus 2022, arXiv:2209.03579)
  *   1/g = -p.u = (W W' - w' u^r)/D - J J'/r^2 ,                         (Carter 1968)
  *
- * where primed quantities and w' are the light's; w' is positive where a ray traced back goes inwards and the light
- * comes outwards. */
+ * where primed quantities are those of the light. w' is positive where a ray traced back goes inwards, so that the
+ * light comes outwards. */
 #ifndef KD_BLOCK_plunge
 #define KD_PLUNGE_TABLE 512
 /* clang-format off */
@@ -33,7 +33,7 @@
 
 #ifdef KD_EMIT_CODE
 /* Place on the grid of phases and azimuths at the ISCO. The matter is shown as it is now or, with slow light, as it was
- * a time `ago`. */
+ * the time `ago` before. */
 kd_density_place kd_plunge_place(kd_sample s, float turn)
 {
     float way = log2((emission.frame.r_isco * s.w - 1.0) / (1.0 - s.w / cam.horizon));
@@ -55,7 +55,7 @@ float kd_plunge_speed(float w)
     return -sqrt(gap * (2.0 / 3.0) / r0) * gap;
 }
 
-/* g from Doppler shift and gravity, or from one of them only. */
+/* g from Doppler shift and gravity together, or from only one of the two. */
 float kd_plunge_shift(kd_sample s, bool doppler, bool redshift)
 {
     float a = cam.spin, w2 = s.w * s.w, d = kd_delta(s.w, cam.root);

@@ -1,5 +1,5 @@
-/* Polarisation of light from gas in the plane. The direction of polarisation is carried along the ray by a constant of
- * Walker & Penrose (1970): with F = k ^ f, where k is the light's wave vector and f the direction of its electric
+/* Polarisation of light from gas in the plane. The constant of Walker & Penrose (1970) carries the direction of
+ * polarisation along the ray. With F = k ^ f, where k is the light's wave vector and f the direction of its electric
  * field,
  *
  *   kappa = (A - i B)(r - i a cos(theta)),   A = k^t f^r - k^r f^t,   B = k^phi f^theta - k^theta f^phi
@@ -19,7 +19,7 @@
 #ifndef KD_BLOCK_polarization
 /* rows by sqrt(mu): the polarised fraction there and that of the next row */
 #define KD_SCATTERING_ROWS 128
-/* polarised fraction for an ordered field, times the field's degree of order */
+/* polarised fraction for an ordered field, times the degree to which the field is ordered */
 #define KD_BLOCK_polarization(F, U, A) F(fraction)
 #define KD_TABLES_polarization(T) T(scattering, KD_SCATTERING_ROWS)
 #define KD_TRAIT_SCATTERED \
@@ -39,7 +39,8 @@ vec2 kd_polarization_right(uvec2 place)
 {
     kd_ray k = kd_camera_ray(place.x, place.y);
     float a = cam.spin, s = cam.s;
-    if (!FINITE) { /* r kappa of the direction alpha is alpha + a sin(theta) + i beta; for beta it is -i times that */
+    if (!FINITE) { /* r kappa of the direction alpha is alpha + a sin(theta) + i beta; for the direction beta it is -i
+                    * times that */
         vec2 alpha = vec2(a * s - k.l, k.p), right = vec2(cam.cxx, cam.cxy);
         return vec2(right.x * alpha.x + right.y * alpha.y, right.x * alpha.y - right.y * alpha.x);
     }
@@ -92,7 +93,7 @@ kd_polarized kd_polarization_left(kd_sample s, bool down)
         b = vec4(0.0, 1.0, 0.0, 0.0);
     if ((TRAITS_polarization & (KD_TRAIT_VERTICAL | KD_TRAIT_SCATTERED)) != 0u)
         b = vec4(0.0, 0.0, 1.0, 0.0);
-    /* f is orthogonal to all three vectors; components of b along u or k do not matter. */
+    /* f is orthogonal to all three vectors; components of b along u or k have no effect. */
     vec3 f = u.x * cross(k.yzw, b.yzw) - k.x * cross(u.yzw, b.yzw) + b.x * cross(u.yzw, k.yzw);
     float f_t = dot(u.yzw, cross(k.yzw, b.yzw));
     kd_polarized out_ =
@@ -107,8 +108,8 @@ kd_polarized kd_polarization_left(kd_sample s, bool down)
 }
 
 /* Stokes Q and U of the light of a crossing, relative to its I. A ray traced back from above the plane first goes down
- * through the plane, so that the light comes up; for an observer in the plane the camera's direction decides. right:
- * kappa of the ray's place, from kd_polarization_right. */
+ * through the plane, so its light comes up. For an observer in the plane the camera's direction decides. right: kappa
+ * of the ray's place, from kd_polarization_right. */
 vec2 kd_polarization_at(kd_sample s, vec2 right, float up)
 {
     float above = cam.u != 0.0 ? cam.u : up;

@@ -1,6 +1,7 @@
 /* Polarised synchrotron light of hot electrons in a magnetic field, and the effects of these electrons on passing
  * light: absorption of each polarisation, rotation of its direction (Faraday rotation), and conversion between linear
- * and circular polarisation. All by fits, with Q along the electric field perpendicular to the magnetic one:
+ * and circular polarisation. All coefficients are fits, with Q along the electric field perpendicular to the magnetic
+ * one:
  *
  *   thermal     j_I and j_Q of A. Pandya et al. 2016 (ApJ 822, 34, equation 31); j_V/j_I and rho_Q of J. Dexter 2016
  *               (MNRAS 462, 115, A1 to A3, B4 to B13); rho_V of R. V. Shcherbakov 2008 (ApJ 688, 695, equation 33), or
@@ -13,11 +14,11 @@
  *               214, 522), as given by Dexter 2016 (B1 to B3), rho_Q with the sign of thermal electrons of the same
  *               mean energy: both are 2 <gamma> times the same numbers at high frequencies
  *
- * V > 0 rotates anticlockwise on the sky (IAU 1973), as does light of electrons whose field points to the observer;
+ * V > 0 rotates anticlockwise on the sky (IAU 1973), as does light of electrons whose field points to the observer.
  * rho_V > 0 rotates the angle from north to east.
  *
- * The direction of the field is carried to the observer by the constant of Walker & Penrose, as in
- * emit/polarization.glsl: across the ray it is b + cos(theta_B) u, up to a multiple of k. */
+ * The constant of Walker & Penrose carries the direction of the field to the observer, as in emit/polarization.glsl.
+ * Across the ray the field is b + cos(theta_B) u, up to a multiple of k. */
 #ifndef KD_BLOCK_stokes
 /* clang-format off */
 #define KD_BLOCK_stokes(F, U, A) \
@@ -44,9 +45,9 @@
     0.99 /* largest polarised fraction of emission and of absorption: Q and V of the fits are reduced in proportion to \
           * it */
 
-/* State along the ray. here: the medium at the current place, per unit of the affine parameter; right: kappa of the
- * unit vector to the right of the ray; seen: Q, U and V so far; front: how the medium passed so
- * far changes light that comes from behind it. */
+/* State along the ray. here: the medium at the current place, per unit of the affine parameter. right: kappa of the
+ * unit vector to the right of the ray. seen: Q, U and V so far. front: the effect of the medium passed so far on light
+ * that comes from behind it. */
 kd_stokes kd_stokes_here = kd_stokes(vec4(0.0), 0.0, vec3(0.0), vec3(0.0));
 vec2 kd_stokes_right = vec2(0.0);
 vec3 kd_stokes_seen = vec3(0.0);
@@ -78,7 +79,7 @@ vec3 kd_stokes_bessel(float log2_heat)
                    : vec3(p0, p1, 0.0) / (p0 + z * p1);
 }
 
-/* Dexter 2016, B8 and B13: rho_Q at high temperatures, relative to its high-frequency limit. */
+/* Dexter 2016, B8 and B13: rho_Q at high temperatures, over its high-frequency limit. */
 float kd_stokes_converts(float log2_x)
 {
     float x = exp2(clamp(log2_x, -40.0, 40.0)), far = max(x, 30.0);
@@ -238,8 +239,8 @@ vec2 kd_stokes_direction(kd_plasma m, kd_midst p)
     return vec2(z.x * z.x - z.y * z.y, -2.0 * z.x * z.y) / dot(z, z);
 }
 
-/* Sets the medium at the current place. light, depth: for I; depth_log2: log2 of the depth, whose excess over 2^40 is
- * dropped in proportion. */
+/* Sets the medium at the current place. light, depth: for I. depth_log2: log2 of the depth; where it exceeds 40, all
+ * coefficients are reduced by the same factor. */
 void kd_stokes_at(kd_plasma m, kd_midst p, float light, float depth, float depth_log2)
 {
     kd_polarises of;
@@ -292,7 +293,7 @@ void kd_stokes_along(inout kd_stokes_trial trial, float way)
 }
 
 /* First-order remainder of the light of a stretch. Light of each of its three nodes is attenuated and rotated by half
- * of the node's own matter and all matter before it. The remainder has Gauss's coefficients, as in kd_march_rest. */
+ * of the node's own matter and by all matter before it. The remainder has Gauss's coefficients, as in kd_march_rest. */
 vec4 kd_stokes_rest(kd_stokes_trial t)
 {
     vec4 rest = 0.0809475 * (kd_stokes_less(t.two, t.one.light) - kd_stokes_less(t.one, t.two.light) +
@@ -303,7 +304,7 @@ vec4 kd_stokes_rest(kd_stokes_trial t)
 }
 
 /* Second-order remainder of the product of the three nodes' factors: sum [c_i, c_j] with the coefficients of
- * kd_stokes_rest (W. Magnus 1954). It is a factor after that product. */
+ * kd_stokes_rest (W. Magnus 1954). The result is a factor that follows that product. */
 kd_jones kd_stokes_order(kd_stokes_trial t)
 {
     const float near = 0.0809475, far = 0.0352425;
@@ -313,8 +314,8 @@ kd_jones kd_stokes_order(kd_stokes_trial t)
     vec3 im =
         near * (cross(r1, r2) - cross(a1, a2) + cross(r2, r3) - cross(a2, a3)) - far * (cross(r1, r3) - cross(a1, a3));
     float size = dot(re, re) + dot(im, im), turn = length(r1 + r2 + r3);
-    /* The series is one in the rotation angle of the stretch, and the factor does not preserve lengths: over many
-     * stretches of many radians each the factor would amplify light. */
+    /* The series is in powers of the rotation angle of the stretch, and the factor does not preserve lengths. If many
+     * stretches had angles of many radians, the factors would amplify light. */
     return size < 0.25 && turn < 2.0 ? kd_jones(vec2(1.0, 0.0), -0.5 * re, -0.5 * im) : kd_jones_one();
 }
 

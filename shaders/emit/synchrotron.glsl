@@ -1,6 +1,5 @@
 /* Synchrotron emission and absorption of electrons in a magnetic field, per length at one frequency and angle. All
- * values are logarithms to base 2, because neither the powers of ten that occur here nor exponentials of numbers far
- * from 1 fit a float.
+ * values are logarithms to base 2, because their powers of ten and their exponentials do not fit a float.
  *
  * Thermal electrons (A. Pandya, Z. Zhang, M. Chandra & C. F. Gammie 2016, ApJ 822, 34, equation 31; the fit is that of
  * P. K. Leung, C. F. Gammie & S. C. Noble 2011, ApJ 737, 21), with nu_c = eB/(2 pi m_e c), nu_s = (2/9) nu_c Theta^2

@@ -4,8 +4,8 @@
  *
  *   -k.U = (E - omega L) sqrt(A/(Sigma Delta)),   omega = 2 a r/A,   A = (r^2 + a^2)^2 - a^2 Delta sin^2(theta).
  *
- * Without the redshift its frequencies are taken as the observer's: what remains is the affine parameter, which has a
- * closed form. */
+ * Without the redshift the frequencies of the matter are taken as those of the observer. Lengths are then those of the
+ * affine parameter, which has a closed form. */
 #ifndef KD_BLOCK_volume
 /* clang-format off */
 #define KD_BLOCK_volume(F, U, A) \
@@ -30,7 +30,7 @@ float kd_volume_energy(kd_midst p)
 
 /* The march finds the edges of all volumes together. Edges of the shell may be inside other volumes. There a stretch is
  * no longer than the distance to the edge, or than this fraction of r. The fraction is the uncertainty of the shell's
- * length at `balanced`; it falls with finer stretches. */
+ * length at `balanced`. It is smaller for finer stretches. */
 #define KD_VOLUME_EDGE 2.5e-4
 float kd_volume_grain(float r, float grain)
 {

@@ -3,9 +3,9 @@
 #ifndef KD_COMPOSE_GLSL
 #define KD_COMPOSE_GLSL
 
-/* A sample of a ray. ago: how much earlier its light left than light that shows the scene's time; energy, momentum, q:
- * E, L and Carter's Q in units of the energy that the observer measures; footprint, shape: of the ray's footprint at
- * the sample, 0 if no emitter needs them (shared/lens.h); cosine: of the angle between light and normal in the frame of
+/* A sample of a ray. ago: the time by which its light left before light that shows the scene's time. energy, momentum,
+ * q: E, L and Carter's Q in units of the energy that the observer measures. footprint, shape: of the ray's footprint at
+ * the sample, 0 if no emitter needs them (shared/lens.h). cosine: of the angle between light and normal in the frame of
  * the gas where the light left it, 0 if no emitter needs it (emit/cosine.glsl). */
 struct kd_sample {
     float w, phi, ago, slope, energy, momentum, q, footprint, shape;
@@ -23,14 +23,14 @@ struct kd_glow {
 /* The ellipse across a ray that the ray stands for, at its nearest crossing of the plane: M_rr, M_rf, M_ff in the plane
  * as in KD_LENS_SHAPE (shared/lens.h), and M_rz, M_fz, M_zz, M^2; z is along the normal. */
 struct kd_spread { vec3 plane, rise; };
-/* A point of a ray inside a volume. w = 1/r, u = cos(theta). dw, du: their derivatives by Mino time in the direction
- * of tracing, against the light. energy, momentum, q: E, L and Q in units of the energy that the observer measures;
- * the arriving photon has these, p_r = dw/kd_delta(w) and p_theta = du/sin(theta). speed: length in (r, r n), M, per
- * unit of Mino time, as if space were flat, where n is the direction from the hole; grains are in this unit of
- * length. phi: azimuth, source minus observer; spread: the ellipse that the ray stands for; both 0 without
- * KD_TRAIT_AZIMUTH. order: of the nearest crossing of the plane on the ray; it changes at the extremes of
- * cos(theta); 0 if nothing needs it. ago: as in kd_sample, 0 without KD_TRAIT_SLOW. nearest: 1/r of the ray's
- * innermost crossing of the plane; 0: unknown. */
+/* A point of a ray inside a volume. w = 1/r, u = cos(theta). dw, du: their derivatives by Mino time in the direction of
+ * tracing, against the light. energy, momentum, q: E, L and Q in units of the energy that the observer measures. They
+ * belong to the arriving photon, which has p_r = dw/kd_delta(w) and p_theta = du/sin(theta). speed: length in (r, r n),
+ * M, per unit of Mino time, as if space were flat, where n is the direction from the hole; grains are in this unit of
+ * length. phi: azimuth, source minus observer. spread: the ellipse that the ray stands for. phi and spread are 0
+ * without KD_TRAIT_AZIMUTH. order: of the nearest crossing of the plane on the ray; it changes at the extremes of
+ * cos(theta); 0 if nothing needs it. ago: as in kd_sample, 0 without KD_TRAIT_SLOW. nearest: 1/r of the ray's innermost
+ * crossing of the plane; 0: unknown. */
 struct kd_midst {
     float w, u, dw, du, energy, momentum, q, speed, phi;
     kd_spread spread;
@@ -38,11 +38,11 @@ struct kd_midst {
     float ago;
     float nearest;
 };
-/* The medium at a point of a ray. light: emission, and depth: optical depth, both per unit of the affine parameter by
- * the observer's energy. Along a ray d lambda = (r^2 + a^2 u^2) d tau, and matter of velocity U sees the path length
- * -k.U d lambda. With emissivity j and opacity alpha per its own length, depth = alpha (-k.U) and bolometric light = j
- * (-k.U)^-3, where 1/(-k.U) is g. grain: M along the ray over which the medium changes by about its own size; where
- * there is no matter, the distance to the matter. */
+/* The medium at a point of a ray. light: emission; depth: optical depth. Both are per unit of the affine parameter by
+ * the observer's energy. Along a ray d lambda = (r^2 + a^2 u^2) d tau, and matter of velocity U measures the path
+ * length -k.U d lambda. With emissivity j and opacity alpha per length in the matter's frame, depth = alpha (-k.U) and
+ * bolometric light = j (-k.U)^-3, where 1/(-k.U) is g. grain: M along the ray over which the medium changes by about
+ * its own size; where there is no matter, the distance to the matter. */
 struct kd_medium {
     vec3 light;
     float depth, grain;
@@ -155,7 +155,7 @@ void kd_beam_along(inout kd_beam beam, kd_medium medium, float way)
 #endif
 
 #ifdef KD_MARCH
-/* Nothing is transmitted by a surface. */
+/* A surface transmits nothing. */
 void kd_beam_met(inout kd_beam beam, kd_met met)
 {
 #define KD_MET_(number, name) \
@@ -181,7 +181,7 @@ void kd_beam_end(inout kd_beam beam, kd_end end)
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_END_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 }
 
-/* Adds points of light, which are spread over pixels independently of the pixels' own rays. */
+/* Adds points of light. They were spread over pixels independently of the pixels' own rays. */
 void kd_beam_points(inout kd_beam beam, uint pixel)
 {
 #define KD_POINTS_(number, name) \
@@ -204,7 +204,7 @@ bool kd_beam_has_points(uint pixel)
     return has;
 }
 
-/* Marks a ray that was given up, with a colour that nothing in the sky has, so that it does not look complete. */
+/* Marks a ray that was given up, with a colour that nothing in the sky has. Otherwise it would look complete. */
 void kd_beam_given_up(inout kd_beam beam)
 {
     beam.light += beam.through * vec3(1.0, 0.0, 1.0);

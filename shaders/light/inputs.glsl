@@ -1,6 +1,6 @@
 /* Inputs of the kernels that make light from a lens map: the map, numbers and tables of the emitters, the camera, and
- * the emitters' buffers. These have the bindings 0, 1, 2, 4, and from KD_OWN_BINDING on; 3 is the kernels' output.
- * Needs the specialisation constants of KD_SPEC_TRANSFER. */
+ * the emitters' buffers. Their bindings are 0, 1, 2, 4, and from KD_OWN_BINDING on; 3 is the kernels' output. Needs the
+ * specialisation constants of KD_SPEC_TRANSFER. */
 #ifndef KD_INPUTS_GLSL
 #define KD_INPUTS_GLSL
 

@@ -1,6 +1,6 @@
-/* Kernel: makes one layer of a frame (shared/layers.h) from the lens map; an invocation writes a pixel's number, NaN if
- * there is none. LAYER: which layer; ORDER: number of the crossing. KD_MARCH: for scenes with volumes or bodies;
- * transfer.comp has stored their light, followed by Stokes Q, U and V. */
+/* Kernel: makes one layer of a frame (shared/layers.h) from the lens map. An invocation writes a pixel's number, or NaN
+ * if the pixel has none. LAYER: which layer. ORDER: number of the crossing. KD_MARCH: for scenes with volumes or
+ * bodies; transfer.comp has stored their light, followed by Stokes Q, U and V. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -34,8 +34,8 @@ float kd_layer_depth(kd_sample s)
     return beam.through > 0.0 ? -log(beam.through) : uintBitsToFloat(KD_INFINITE_BITS);
 }
 
-/* A footprint. There is none for a ray without neighbours, or for one whose neighbours are indistinguishable in 32 bits
- * (comp/footprint.comp). */
+/* Least size of a footprint. A ray without neighbours has none, nor has a ray whose neighbours are indistinguishable
+ * from it in 32 bits (comp/footprint.comp). */
 #define KD_FOOTPRINT_LEAST 1e-6 /* relative to r, and in radians */
 float kd_layer_size(float footprint, float least)
 {
@@ -58,7 +58,7 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
 
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
-/* Whether a ray of the pixel was given up, so that the pixel has no number. This is a flag because a device need not
+/* Whether a ray of the pixel was given up, so that the pixel has no number. It is a flag, because a device need not
  * preserve NaN in sums. */
 bool untold = false;
 
@@ -88,7 +88,7 @@ void at_crossing(inout kd_beam beam, kd_sample s, uvec2 place, kd_ray ray)
         polarized += (dot(beam.light, LUMINANCE) - before) * kd_polarization_at(s, kd_polarization_right(place), ray.p);
 }
 
-/* Luminance of a ray (Stokes I), and Stokes Q, U and V, as its light arrives: for everything that it sees, or for one
+/* Luminance of a ray (Stokes I), and Stokes Q, U and V, as its light arrives: for all that the ray shows, or for one
  * order. */
 vec4 light(uvec2 place, uint at, uint pixel)
 {

@@ -4,11 +4,11 @@
  * The ray is traced again by the steps of ray/escape.glsl, which are long and accurate. Within a step it is the quintic
  * that fits y, y' and y'' at both ends (Hermite's; its error, like the integrator's, is of sixth order in the step). A
  * step is split where w or u turns and where the plane is crossed, so that both are monotone in each part. In each part
- * the range inside the volumes' bounds is found by Newton's method. This range is integrated in stretches with three
+ * Newton's method finds the range inside the volumes' bounds. This range is integrated in stretches with three
  * Gauss-Legendre nodes each. A stretch is as long as the grain, the depth and the distance allow; one that turns out
  * too long is repeated.
  *
- * Needs inputs.glsl, KD_MARCH_MEET(beam, w, n, place, at), which composes crossing n of the lens map, and
+ * Needs inputs.glsl; KD_MARCH_MEET(beam, w, n, place, at), which composes crossing n of the lens map; and
  * KD_MARCH_GIVEN_UP(beam) for a ray whose end is not found. */
 #ifndef KD_MARCH_GLSL
 #define KD_MARCH_GLSL
@@ -27,8 +27,8 @@
 #define KD_MARCH_WAY 0.5   /* longest stretch, times r: three nodes then integrate r^2 with an error of 4e-5 */
 #define KD_MARCH_DEPTH 1.0 /* longest stretch, in optical depth */
 #define KD_MARCH_TURN 1.0  /* longest stretch, in radians of Faraday rotation and conversion */
-/* Faraday rotation leaves at least this fraction of the length otherwise allowed: light rotated further is mixed and
- * mostly depolarised */
+/* Faraday rotation leaves at least this fraction of the length otherwise allowed. Light that rotates further within a
+ * stretch is mixed and mostly depolarised */
 #define KD_MARCH_TURNED 0.125
 #define KD_MARCH_TOO_LONG 1.5 /* a stretch that is longer by this factor than its nodes allow is repeated */
 /* largest factor by which a grain is lengthened for matter that is barely visible behind other matter */
@@ -45,8 +45,8 @@
 #define KD_MARCH_DEEP 1e3            /* optical depth beyond which more makes no difference */
 #define KD_MARCH_OPAQUE slice.opaque /* a ray ends where less than this fraction of the light behind is transmitted */
 
-/* A ray that was stopped by a driver's limit on loops is traced again in pieces, one dispatch each (KD_PIECES). left:
- * loop passes that this piece may still take; waits: no passes were left before the ray's end. The other members are
+/* A driver's limit on loops may stop a ray. Such a ray is traced again in pieces, one dispatch each (KD_PIECES). left:
+ * loop passes that this piece may still take. waits: no passes were left before the ray's end. The other members tell
  * where to continue: completed steps, the place within the next step, and the length of the next stretch. */
 #ifdef KD_PIECES
 struct kd_march_piece {
@@ -125,17 +125,17 @@ const bool KD_MARCH_DELAYS = true;
 const bool KD_MARCH_DELAYS = (KD_ALONG_TRAITS & KD_TRAIT_SLOW) != 0u;
 #endif
 
-/* Frame dragging up to the start of a step. chi: the azimuth of the ray in the coordinates of ray/radial_step.glsl;
- * way: which coordinates these are; fallen: the terms left out earlier; ago: how much earlier light left the start of
- * the step than light that shows the scene's time. */
+/* Frame dragging up to the start of a step. chi: the azimuth of the ray in the coordinates of ray/radial_step.glsl.
+ * way: which of these coordinates. fallen: the terms left out earlier. ago: the time by which light left the start of
+ * the step before light that shows the scene's time. */
 struct kd_march_drag {
     float chi, way, fallen;
     bool returns;
     float ago;
 };
 
-/* A step of the ray. Within it chi grows by a cubic. ago grows by a quintic and, if the ray does not turn, the
- * difference of kd_march_edge: along = 1 inwards, -1 outwards. */
+/* A step of the ray. Within it chi is a cubic. ago is a quintic and, if the ray does not turn, the difference of
+ * kd_march_edge: along = 1 inwards, -1 outwards. */
 struct kd_stride {
     kd_quintic w, u, x, y;
     float h, c0, c1, c2, c3, way;
@@ -250,10 +250,10 @@ vec3 kd_march_shorter(vec3 m, vec2 d, float less)
            dd * vec3(d.x * d.x, d.x * d.y, d.y * d.y);
 }
 
-/* The ellipse across a ray that the ray stands for, at its crossing n of the plane. To lie across the ray, the
- * footprint's axis along the ray is multiplied by the cosine of the angle to the normal. It then has components in the
- * plane (times the cosine again) and along the normal (times the sine). outwards: 1 if the ray is traced outwards, -1
- * if inwards. The result is zero for a ray without that crossing. */
+/* The ellipse across a ray that the ray stands for, at its crossing n of the plane. The footprint's axis along the ray
+ * is multiplied by the cosine of the angle to the normal, so that the ellipse lies across the ray. The axis then has
+ * components in the plane (times the cosine again) and along the normal (times the sine). outwards: 1 if the ray is
+ * traced outwards, -1 if inwards. The result is zero for a ray without that crossing. */
 kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outwards)
 {
     uint k = at + min(n, ORDERS - 1u) * slice.stride;
@@ -305,9 +305,9 @@ kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, u
 }
 
 /* Light of a node is attenuated by half its own depth and all depth before it. By Gauss's method of three stages
- * (Hairer, Norsett & Wanner 1993, II.7), with coefficients a_ij, the attenuation is sum_j a_ij/b_j x_j: this function
- * returns the remainder to first order in depth. The remainder is 0 where light is proportional to depth, for which the
- * sum is exact. */
+ * (Hairer, Norsett & Wanner 1993, II.7), with coefficients a_ij, the attenuation is sum_j a_ij/b_j x_j. This function
+ * returns the remainder to first order in depth. The remainder is 0 where light is proportional to depth, because the
+ * sum is then exact. */
 vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
 {
     float x = one.w + two.w + three.w;
@@ -316,8 +316,8 @@ vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
     return x < 8.0 ? exp(-0.5 * x) * rest : vec3(0.0);
 }
 
-/* Compensated sum of many small terms (Kahan 1965): otherwise thousands of equally rounded terms have an error of
- * 5e-5. */
+/* Compensated sum of many small terms (Kahan 1965). In a plain sum the rounding of thousands of similar terms adds up
+ * to an error of 5e-5. */
 void kd_march_add(inout float sum, inout float off, float more)
 {
     precise float y = more - off, t = sum + y;
@@ -402,7 +402,7 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
     beam.through = beam.through > KD_MARCH_OPAQUE ? beam.through : 0.0;
 }
 
-/* Whether a ray can reach the volumes, by w'^2 = R(w): for a ray from outside R must not vanish before. */
+/* Whether a ray can reach the volumes, by w'^2 = R(w): R must not vanish before them for a ray from outside. */
 bool kd_march_meets(kd_geodesic m, kd_ray ray)
 {
     float w = emission.frame.along_least, w2 = w * w;
@@ -447,7 +447,7 @@ bool kd_march_matters(kd_march_way y)
 void kd_march_leave(inout kd_march_way y)
 {
     bool crosses = kd_march_crosses(y), falls = y.q.y.w >= cam.horizon && (!INGOING || y.q.v.w > 0.0);
-    /* An outgoing ray beyond the volumes that is accelerated outwards does not come back. */
+    /* A ray that is beyond the volumes, moves outwards and is accelerated outwards does not come back. */
     bool gone =
         y.q.v.w < 0.0 && y.q.y.w < emission.frame.along_least && (y.q.y.w <= 0.0 || kd_path_pull(y.m, y.q.y).w <= 0.0);
     y.side = crosses ? -y.side : y.side;
@@ -470,8 +470,8 @@ void kd_march_next(inout kd_march_way y, kd_ray ray)
     y.s = kd_stride_of(y.m, ray, y.p, y.q, y.h, y.drag);
 }
 
-/* Advances to the next step that matters. Steps that do not matter are cheap and have a loop of their own, because
- * lavapipe skips work only by leaving a loop. */
+/* Advances to the next step that matters. The other steps are cheap and have a loop of their own, because lavapipe
+ * skips work only by leaving a loop. */
 void kd_march_advance(inout kd_march_way y, kd_ray ray)
 {
     bool far = true;
@@ -516,7 +516,7 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
                         to);
         kd_spread spread = kd_spread(vec3(0.0), vec3(0.0));
         uint order = 0u;
-        /* order of the next crossing, or of the previous one while the ray moves away from the plane */
+        /* order of the next crossing; of the previous one while the ray moves away from the plane */
         if (KD_OVERS || (KD_MARCH_TURNS && ORDERS > 0)) {
             uint passed = y.crossed + (t >= plane ? 1u : 0u);
             bool leaves =
@@ -559,7 +559,7 @@ kd_march_way kd_march_begin(kd_ray ray, float left)
 }
 
 #ifdef KD_PIECES
-/* Takes the steps of earlier pieces again. */
+/* Repeats the steps of earlier pieces. */
 void kd_march_again(inout kd_march_way y, kd_ray ray)
 {
     y.stretch = kd_march_at.stretch;
@@ -572,8 +572,8 @@ void kd_march_again(inout kd_march_way y, kd_ray ray)
 }
 #endif
 
-/* Follows one ray up to a Mino time, before which it crosses the plane `crossings` times. The light of what is at the
- * end is left out. */
+/* Follows one ray up to a Mino time, before which it crosses the plane `crossings` times. Light from the end of the ray
+ * is left out. */
 void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint crossings)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);

@@ -2,12 +2,13 @@
  * the lens map, and volumes by the march.
  *
  * The ray is traced by the steps of ray/escape.glsl. With n the direction from the hole in Boyer-Lindquist azimuths,
- * and w = 1/r, a point is X = n/w. Relative to a point c it is along Z = n - w c, and X' is along e = n' w - n w',
- * which stays finite at infinity and is almost constant where space is flat. So the ray is nearest to c where Z.e
+ * and w = 1/r, a point is X = n/w. Relative to a point c the ray's point is along Z = n - w c, and X' is along e = n' w
+ * - n w'. e stays finite at infinity and is almost constant where space is flat. So the ray is nearest to c where Z.e
  * changes sign, at most once a step.
  *
  * lavapipe skips work only by leaving a loop. The inner loops take steps, and descend the tree of balls, until each ray
- * of a group is near a body or has none left; the outer loop then tests the body closely. Needs light/march.glsl. */
+ * of a group is near a body or has no more steps. The outer loop then tests the body closely. Needs
+ * light/march.glsl. */
 #ifndef KD_MEET_GLSL
 #define KD_MEET_GLSL
 
@@ -87,7 +88,7 @@ float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
             enters = next - size * sqrt(max(1.0 - off, 0.0)) * s.rate;
     }
     bool meets = (passes || ends_within) && off < 1.0 && enters <= 1.0;
-    /* Solve again from the surface found, as the ray's position and direction have changed. */
+    /* Solves again from the surface found, because the ray's position and direction have changed. */
     t = clamp(enters, 0.0, 1.0);
     kd_met_end e = kd_met_between(a, b, t);
     kd_met_sight s = kd_met_sight_of(e, r0, r1, r2, v, own.x);
@@ -106,7 +107,7 @@ uint kd_met_next(uint node)
     return next == 1u ? 0u : next;
 }
 
-/* Whether the search of this ray is incomplete: a driver may end loops before their condition does, and thousands of
+/* Whether the search of this ray is incomplete. A driver may end loops before their condition does, and thousands of
  * overlapping bodies exceed lavapipe's limit. */
 bool kd_meet_lost = false;
 
@@ -191,7 +192,7 @@ kd_met kd_meet(uvec2 place)
     return met;
 }
 
-/* Follows one ray, without the light of what is at its end. */
+/* Follows one ray, without light from its end. */
 void kd_follow(inout kd_beam beam, uvec2 place, uint at)
 {
     kd_met met = kd_met_nothing();

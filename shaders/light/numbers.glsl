@@ -3,8 +3,8 @@
 #ifndef KD_NUMBERS_GLSL
 #define KD_NUMBERS_GLSL
 
-/* Ratio of the frequency that the observer measures to the frequency in the frame of the gas, even if the picture does
- * not apply it. */
+/* Ratio of the frequency that the observer measures to the frequency in the frame of the gas. It does not depend on
+ * whether the picture applies the shift. */
 float kd_layer_g(kd_sample s)
 {
     if (kd_plunge_falls(s))
@@ -47,8 +47,8 @@ float kd_layer_met_temperature(kd_met met)
 float kd_layer_turned(float phi) { return phi - 2.0 * KD_PI * ceil((phi - KD_PI) * (0.5 / KD_PI)); }
 
 /* An angle from its cosine. The cosine of the angle between light and the disk's normal in the frame of the gas is g
- * |p_theta| / r: the photon's momentum along the normal, p_theta / r with p_theta^2 = Q in the equatorial plane,
- * over its energy there, 1/g. For gas that moves within the plane the normal is along theta (Carter 1968). */
+ * |p_theta| / r. Here p_theta / r is the photon's momentum along the normal, with p_theta^2 = Q in the equatorial
+ * plane, and 1/g is its energy there. For gas that moves within the plane the normal is along theta (Carter 1968). */
 float kd_layer_angle(float c) { return kd_angle_upper(clamp(c, -1.0, 1.0), sqrt(max(1.0 - c * c, 0.0))); }
 
 #endif

@@ -91,8 +91,8 @@ void kd_probe_place(kd_sample s, float through)
 #define KD_PROBED_STOKES vec4(0.0)
 #endif
 
-/* Light and depth of each volume: kd_place_, at a sample, per unit of the affine parameter; kd_tried_, of the current
- * stretch; kd_probed_, of all accepted stretches. */
+/* Light and depth of each volume. kd_place_: at a sample, per unit of the affine parameter. kd_tried_: of the current
+ * stretch. kd_probed_: of all accepted stretches. */
 float kd_probed_steps = 0.0, kd_probed_places = 0.0;
 #define KD_PROBE_NONE_(number, name)
 #define KD_PROBE_VOLUME_(number, name) \

@@ -8,8 +8,8 @@
  * S is written in Pauli matrices, I + v.sigma. The solution is then a product with a 2 x 2 matrix: exp(-K s) S = A S
  * A*, A = exp(-alpha s/2) (cosh(lambda s/2) - sinh(lambda s/2)/lambda c.sigma), with c = a + i rho and lambda =
  * sqrt(c.c) = Lambda_1 + i Lambda_2. Products of such matrices preserve I^2 >= Q^2 + U^2 + V^2 in spite of rounding,
- * and have half as many numbers as the corresponding 4 x 4 matrices. Light of the medium itself is the integral of A j
- * A*, whose four functions of the length are means of exponentials. */
+ * and have half as many numbers as the corresponding 4 x 4 matrices. The medium's own light is the integral of A j A*,
+ * whose four functions of the length are means of exponentials. */
 #ifndef KD_STOKES_GLSL
 #define KD_STOKES_GLSL
 
@@ -18,8 +18,8 @@ struct kd_jones {
     vec2 s;
     vec3 re, im;
 };
-/* A length of matter: its light; its depth for I; its absorption of Q, U and V; and the rotation of Q, U and V by
- * it. */
+/* A length of matter: its light; its depth for I; its absorption of Q, U and V; and the rotation that it gives to Q, U
+ * and V. */
 struct kd_stokes {
     vec4 light;
     float depth;
@@ -39,7 +39,7 @@ vec2 kd_complex_times(vec2 a, vec2 b) { return vec2(a.x * b.x - a.y * b.y, a.x *
 
 kd_jones kd_jones_one() { return kd_jones(vec2(1.0, 0.0), vec3(0.0), vec3(0.0)); }
 
-/* Light goes through b first. */
+/* The product of a and b. Light goes through b first. */
 kd_jones kd_jones_times(kd_jones a, kd_jones b)
 {
     vec2 s = kd_complex_times(a.s, b.s) + vec2(dot(a.re, b.re) - dot(a.im, b.im), dot(a.re, b.im) + dot(a.im, b.re));

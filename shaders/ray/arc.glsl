@@ -10,14 +10,14 @@
  *   v(+-z) = v + (g (F P/2 + c g) +- v' g'/2) / (P^2 + v'^2 D g^2/4),
  *   F = v'' = v (A + 3K v - 2D v^2),  s = v (K - D v)/2,  P = 1 - g s,  c = v'^2 (K/4 - D v/2).
  *
- * g has its pole at the time from v = 0 to v = K/D, inside the horizon: no stretch outside the horizon lasts that
- * long. No root of f is needed. The pair (g, g') is the same for all points of a path: one pair serves the same time
- * before and after each crossing. It comes from the Laurent series of wp (Abramowitz & Stegun 18.5) up to z sqrt|A|
- * = pi/2, and beyond by the duplication formula from z to 2z.
+ * g has its pole at the time from v = 0 to v = K/D, which is inside the horizon. No stretch outside the horizon lasts
+ * that long. No root of f is needed. The pair (g, g') is the same for all points of a path: one pair serves the same
+ * time before and after each crossing. It comes from the Laurent series of wp (Abramowitz & Stegun 18.5) up to z
+ * sqrt|A| = pi/2, and beyond by the duplication formula from z to 2z.
  *
- * The unit of time is a power of two, so that scaling causes no rounding. It is chosen such that 1 <= |A| < 4 and a
- * half period lasts from pi/2 to pi. Rays with b below about 1 have a smaller A, and are captured or gone long
- * before. */
+ * The unit of time is a power of two, so that scaling causes no rounding. It is chosen such that 1 <= |A| < 4, for
+ * which a half period lasts from pi/2 to pi. Rays with b below about 1 have a smaller A. Their half periods are longer,
+ * but these rays are captured or escape long before one ends. */
 #ifndef KD_ARC_GLSL
 #define KD_ARC_GLSL
 
@@ -79,7 +79,7 @@ kd_arc kd_arc_short(kd_lattice l, float z)
         (l.c2 + y * (2.0 * l.c3 +
                      y * (3.0 * l.c4 + y * (4.0 * l.c5 + y * (5.0 * l.c6 + y * (6.0 * l.c7 + y * (7.0 * l.c8)))))));
     float inv = 1.0 / (1.0 + sum), part = sum * inv;
-    /* Small differences from the values that g and g' have where the series is 1. */
+    /* Small corrections to the values that g and g' have where the series is 1. */
     precise float g = y - y * part, turn = z - z * part, dg = turn - turn * (part + slope * inv);
     o.g = g;
     o.dg = 2.0 * dg;

@@ -1,6 +1,6 @@
 /* Integrates the azimuth by which the hole drags a ray, chi' = a (W/D - E) (radial_step.glsl), over a stretch of its
- * path, by Gauss-Legendre quadrature with seven nodes (Abramowitz & Stegun 25.4.29): three on each side of the
- * middle, and the middle. */
+ * path. The rule is Gauss-Legendre quadrature with seven nodes (Abramowitz & Stegun 25.4.29): the middle, and three on
+ * each side of it. */
 #ifndef KD_ARC_DRAG_GLSL
 #define KD_ARC_DRAG_GLSL
 
@@ -42,7 +42,7 @@ kd_drag_terms kd_drag_terms_of(kd_geodesic m, float e, float a, float root, floa
 }
 
 /* The integrand without the factor a. For a ray that falls in it is the integrand of ingoing coordinates, without -E.
- * Both kinds are computed together, because a driver may run both branches of an if. */
+ * Both forms are always computed, because a driver may run both branches of an if. */
 float kd_drag_at(kd_drag_terms t, float v)
 {
     float w = v * t.unit, w2 = w * w, d = kd_delta(w, t.root), kw = t.k * w2;

@@ -15,9 +15,9 @@ float kd_arc_time(kd_lattice l, float g)
     return sqrt(g) * (1.0 + g * (l.a * (-1.0 / 24.0) + g * (l.a * l.a * (3.0 / 640.0) - l.d * (1.0 / 40.0))));
 }
 
-/* Scaled time from `last` to infinity, for a ray that gets there before `next`, a time z later; `middle` is the arc of
- * z/2. The nearest of the three points gives the time to 1e-3. The value of w left there gives the rest, because w'' =
- * 0 at w = 0. */
+/* Scaled time from `last` to infinity, for a ray that gets there before `next`, a time z later. `middle` is the arc of
+ * z/2. The nearest of the three points gives the time to 1e-3. The remaining w there gives the correction, because w''
+ * = 0 at w = 0. */
 float kd_arc_escape_time(kd_arcs a, kd_centre last, kd_arc middle, kd_state next, float z, float e)
 {
     float most = last.dv < 0.0 ? 4.0 * last.v / min(e, -last.dv) : 1e30; /* points further along are meaningless */
@@ -74,9 +74,9 @@ vec3 kd_direction_pull(kd_geodesic m, vec3 n)
     return f;
 }
 
-/* Direction of a ray that escapes soon after its start, with psi counted from the start. Takes four steps of the vector
- * equation of escape.glsl, each of which has an error below a float's for a quarter radian. A ray that never meets the
- * plane, with b < a, is such a ray if it starts outside the photon orbits. */
+/* Direction of a ray that escapes soon after its start, with psi counted from the start. The function takes four steps
+ * of the vector equation of escape.glsl; for a quarter radian the error of a step is below a float's. A ray that never
+ * meets the plane, with b < a, is such a ray if it starts outside the photon orbits. */
 kd_direction kd_arc_direction_soon(kd_geodesic m, kd_ray ray, float u, float s, float time)
 {
     vec3 n = vec3(s, 0.0, u), v = vec3(-u * ray.p, ray.l, s * ray.p);

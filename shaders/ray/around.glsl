@@ -1,6 +1,6 @@
-/* Wrap-around of a picture of all directions (KD_SIGHT_SPHERE), which has no edges. Beyond its left and right edges it
- * continues at the opposite edge. Beyond the upper and lower edges it continues at the same edge, half a turn further
- * on. Needs camera.glsl. */
+/* Wrap-around of a picture of all directions (KD_SIGHT_SPHERE). Beyond its left and right edges the picture continues
+ * at the opposite edge. Beyond the upper and lower edges it continues at the same edge, half a turn further on. Needs
+ * camera.glsl. */
 #ifndef KD_AROUND_GLSL
 #define KD_AROUND_GLSL
 

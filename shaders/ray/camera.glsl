@@ -1,6 +1,6 @@
 /* The camera, the rows of this dispatch, and the constants of motion of a ray from its place in the picture. Needs
- * KD_CAMERA_BINDING and the specialisation constant SIGHT (KD_SIGHT_). KD_CAMERA_ONLY: without the rows, for kernels
- * with push constants of their own, which read `cam` themselves. */
+ * KD_CAMERA_BINDING and the specialisation constant SIGHT (KD_SIGHT_). KD_CAMERA_ONLY leaves the rows out, for kernels
+ * that have push constants of their own and read `cam` themselves. */
 #ifndef KD_CAMERA_GLSL
 #define KD_CAMERA_GLSL
 
@@ -40,7 +40,7 @@ float kd_camera_ahead(inout float x, inout float y)
     if (SIGHT == KD_SIGHT_DOME) {
         float d = sqrt(x * x + y * y);
         vec2 off = kd_quarter_turns(d * cam.turn_x);
-        x *= off.y / max(d, 0.25); /* no ray but one in the middle itself is nearer to the middle than half a step */
+        x *= off.y / max(d, 0.25); /* only a ray in the middle itself is nearer to the middle than half a step */
         y *= off.y / max(d, 0.25);
         return off.x;
     }
@@ -72,7 +72,7 @@ kd_ray kd_camera_ray(uint px, uint py)
         ray.e = cam.e_t + cam.e_r * m_r + cam.e_theta * m_theta + cam.e_phi * m_phi;
         ray.l = cam.l_t + cam.l_r * m_r + cam.l_theta * m_theta + cam.l_phi * m_phi;
         ray.p = cam.p_t - (cam.p_r * kx + cam.p_theta * ky + cam.p_phi * kz) *
-                              n; /* multiplied here and not through m, so that a single product is rounded once less */
+                              n; /* n is multiplied here and not through m, so that a product is rounded once less */
         ray.w = cam.w0;
         ray.dw = cam.dw_t - (cam.dw_r * kx + cam.dw_theta * ky + cam.dw_phi * kz) * n;
     }

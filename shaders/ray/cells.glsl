@@ -26,8 +26,8 @@ kd_camera_block cam;
 const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SLOPE = (QUANTITIES & KD_LENS_SLOPE) != 0u,
            SKY = (QUANTITIES & KD_LENS_SKY_U) != 0u, FATE = (QUANTITIES & KD_LENS_FATE) != 0u;
 
-/* The index has two parts. The first has a word for each even place: 1 + the number of its node, or 0 if it has no
- * node. The second has, for each cell of the last level, the two rays by which the cell is checked. */
+/* The index has two parts. The first has a word for each even place: 1 + the number of its node, or 0 if the place is
+ * not a node. The second has, for each cell of the last level, the two rays by which the cell is checked. */
 const uint SIDE = 32u; /* even places along the side of a block */
 uint index_width() { return SIDE * push.blocks_x + 1u; }
 uint index_of(uvec2 even) { return even.y * index_width() + even.x; }
@@ -56,8 +56,8 @@ uint kd_unit(uvec2 corner, uint eight, uint level) { return corner.x + eight | c
 uvec2 kd_unit_corner(uint unit) { return 8u * uvec2(unit & 0x7fffu, (unit >> 15) & 0x3fffu); }
 uint kd_unit_level(uint unit) { return (unit >> 29) + 1u; }
 
-/* Values that ray/node.glsl stores after the planes: the state of a node; and a value that vanishes where the fate of
- * rays changes. */
+/* The values that ray/node.glsl stores after the planes: the state of a node, and a value that vanishes where the fate
+ * of rays changes. */
 float state_of(uint node) { return NODE_AT(kd_planes_of_all() * push.room + node); }
 float curve_of(uint node) { return NODE_AT((kd_planes_of_all() + 1u) * push.room + node); }
 uint crossings_of(float state) { return uint(state) & 15u; }

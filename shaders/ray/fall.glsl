@@ -4,9 +4,9 @@
 
 #include "shared/math.glsl"
 
-/* Delta/r^2 = 1 - 2w + (a^2 + q^2) w^2 from root = sqrt(1 - a^2 - q^2). 1 - w is exact near the horizon of a fast hole,
- * and the two factors keep their precision where the horizons almost coincide. Precise: a driver may otherwise multiply
- * the product out, which would lose that precision. */
+/* Delta/r^2 = 1 - 2w + (a^2 + q^2) w^2 from root = sqrt(1 - a^2 - q^2). 1 - w is exact near the horizon of a hole that
+ * spins fast, and the two factors keep their precision where the horizons almost coincide. `precise` stops a driver
+ * from multiplying the product out, which would lose that precision. */
 float kd_delta(float w, float root)
 {
     precise float d = 1.0 - w, h = root * w, delta = (d - h) * (d + h);

@@ -1,5 +1,5 @@
-/* A ray is a null geodesic of Kerr, or of Kerr and Newman with charge q, in Mino time tau, with w = M/r and u =
- * cos(theta), M = 1, traced from the observer.
+/* A ray is a null geodesic of the Kerr metric, or with charge q of the Kerr-Newman metric. It is traced from the
+ * observer in Mino time tau, with w = M/r, u = cos(theta) and M = 1:
  *
  *   w'^2 = R(w) = E^2 + A w^2 + 2 K w^3 - D w^4     A = a^2 E^2 - L^2 - Q,  K = Q + (L - aE)^2,  D = a^2 Q + q^2 K
  *   u'^2 = U(u) = Q + A u^2 - a^2 E^2 u^4
@@ -60,7 +60,7 @@ kd_geodesic kd_geodesic_of(kd_ray ray, float a, float q2, float u, float s)
 }
 
 /* Factor for A, K and Q before they are squared, and the inverse factor for the result. It is 1 unless their squares
- * exceed a float's range, as for a fast observer far away. Factors are powers of two, so no digit changes. */
+ * exceed a float's range, as for a fast observer far away. The factors are powers of two, so that no digit changes. */
 float kd_squared_by(kd_geodesic m) { return max(abs(m.a2), abs(m.k)) > 1e15 ? 8.673617379884035e-19 : 1.0; }
 float kd_squared_back(float by) { return by < 1.0 ? 1152921504606846976.0 : 1.0; }
 

@@ -6,7 +6,7 @@
 
 /* a^2 w^2; Delta/r^2, at least 1e-30; A/r^4; Sigma/r^2; and the angular velocity of an observer of zero angular
  * momentum (Bardeen, Press & Teukolsky 1972, with 2r - q^2 for 2r). The square of that observer's lapse is sigma delta
- * / area. u: cosine of the polar angle. s2: the square of its sine. */
+ * / area. u: cosine of the polar angle. s2: square of its sine. */
 struct kd_place { float aw2, delta, area, sigma, omega; };
 kd_place kd_place_at(float w, float u, float s2)
 {
@@ -43,7 +43,7 @@ float kd_late(float w)
     return part * kd_fall(w, cam.root);
 }
 
-/* sqrt(r - q^2), by which circular orbits go (src/physics/spacetime/kerr.h). */
+/* sqrt(r - q^2), on which the velocities of circular orbits depend (src/physics/spacetime/kerr.h). */
 float kd_circle_root(float w) { return CHARGED ? sqrt(1.0 / w - cam.charge2) : inversesqrt(w); }
 
 /* 1/Omega of the circular orbit at r, which is beyond the ISCO (src/physics/spacetime/kerr.h). */

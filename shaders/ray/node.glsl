@@ -24,8 +24,8 @@ void kd_finish_node(uint at, uint crossings, bool captured, float curve)
     }
 }
 
-/* Completes a ray or a node. An open node is not listed: its state says that it is open, and the rays of its cells are
- * traced singly. curve: for rays, a smooth function that vanishes where fates change. */
+/* Completes a ray or a node. An open node is not listed for the host: its state says that it is open, and the rays of
+ * its cells are traced singly. curve: for rays, a smooth function that vanishes where fates change. */
 void kd_finish_ray(bool open, uint at, uint crossings, bool captured, float curve)
 {
     const bool node = BY_PLACE && slice.stage != KD_STAGE_ALONE;

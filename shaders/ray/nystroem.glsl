@@ -1,12 +1,12 @@
 /* Runge-Kutta-Nystroem methods for y'' = f(y), for scalars and vectors. A step of length h goes from (y, v) to (y_out,
- * v_out); T is the type, and PULL(m, y) the function f. KD_NYSTROEM_ORDER, which a kernel may define before as a
+ * v_out). T is the type, and PULL(m, y) the function f. A kernel may define KD_NYSTROEM_ORDER before as a
  * specialisation constant:
  *   6: J. Albrecht's method in five stages (1955, ZAMM 35, 100);
  *   4: E. J. Nystroem's method in three, the fewest possible (1925, Acta Soc. Sci. Fenn. 50, 13; Hairer, Norsett &
  *     Wanner 1993, II.14).
  * The sums are precise. Otherwise a driver may add a step's small terms to y one by one (Vulkan allows reassociation),
- * each with a rounding error of y. tests/gpu/test_rays.c verifies the orders: twice the steps leave a sixty-fourth of
- * the error, or a sixteenth. */
+ * each with a rounding error of y. tests/gpu/test_rays.c verifies the orders: with twice the steps the error is a
+ * sixty-fourth or a sixteenth. */
 #ifndef KD_NYSTROEM_GLSL
 #define KD_NYSTROEM_GLSL
 

@@ -19,8 +19,8 @@ void kd_leave_open(bool open, uint at)
  * neither create nor remove the crossing. */
 struct kd_margins { float far, horizon, edge; };
 
-/* far, horizon: the scales of w far out and at the horizon; noise: rounding error of R at the barrier. The margin grows
- * as the ray comes closer to the critical curve, where R vanishes at the barrier. */
+/* far, horizon: the scales of w far out and at the horizon. noise: rounding error of R at the turning point. The margin
+ * grows as the ray comes closer to the critical curve, where R vanishes at the turning point. */
 kd_margins kd_margins_of(kd_turning_point b, float noise, float far, float horizon)
 {
     float part = 32.0 * KD_ROUNDOFF + noise / max(abs(b.r), 1e-30);

@@ -1,5 +1,5 @@
-/* A step of the ray with everything that is needed to judge a crossing: w, u, and the variation v of w with the slope
- * at its start:
+/* A step of the ray with everything that is needed to judge a crossing: w, u, and the variation v of w with its slope
+ * at the start:
  *   w'' = A w + 3K w^2 - 2D w^3,   u'' = A u - 2 e u^3,   v'' = (A + 6K w - 6D w^2) v,   v(0) = 0, v'(0) = 1. */
 #ifndef KD_PATH_STEP_GLSL
 #define KD_PATH_STEP_GLSL

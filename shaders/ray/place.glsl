@@ -1,11 +1,14 @@
 /* Determines which ray an invocation processes. Needs camera.glsl, the lens map as `lens`, and the specialisation
  * constants CRITICAL, GENERATOR and SHIFT. KD_BY_PLACE_BINDING: binding of the places, for kernels that trace.
  *
- * CRITICAL = KD_RAYS_BY_PLACE: the rays of a stage of a list of places (ray/places.glsl). These are nodes, which have a
- * map of their own with their states after its planes, or single rays of the grid. CRITICAL = 0: rays of the picture's
- * grid; a row of workgroups is a row of rays. Otherwise: CRITICAL rays on each of the listed pixels, on a lattice or,
- * if GENERATOR is 0, a square grid (src/render/view/critical_pixels.h). The list, x and y of each pixel, follows the
- * planes in the lens map. */
+ * CRITICAL = KD_RAYS_BY_PLACE: the rays of a stage of a list of places (ray/places.glsl). These are single rays of the
+ * grid, or nodes. Nodes have a map of their own, with their states after its planes.
+ *
+ * CRITICAL = 0: rays of the picture's grid. A row of workgroups is a row of rays.
+ *
+ * Other values of CRITICAL: this number of rays on each of the listed pixels, on a lattice or, if GENERATOR is 0, on a
+ * square grid (src/render/view/critical_pixels.h). The list, x and y of each pixel, follows the planes in the lens
+ * map. */
 #ifndef KD_PLACE_GLSL
 #define KD_PLACE_GLSL
 
@@ -26,8 +29,8 @@ uvec2 kd_listed_pixel(uint pixel)
     return uvec2(KD_MAP_AT(at), KD_MAP_AT(at + 1));
 }
 
-/* A ray on a pixel, by its number. The result is in steps of the camera: CRITICAL steps a pixel, or SHIFT on a square
- * grid. */
+/* A ray on a pixel, by its number. The result is in steps of the camera. A pixel has CRITICAL steps, or SHIFT on a
+ * square grid. */
 uvec2 kd_critical_place(uvec2 pixel, uint ray)
 {
     if (GENERATOR == 0)

@@ -7,10 +7,10 @@
  * which is Gauss's form of the elliptic integral. A half period takes pi / AGM(p, q), and Landen's transformation
  * tan(x_{n+1} - x_n) = (q_n/p_n) tan x_n (Abramowitz & Stegun 17.6.8) gives the incomplete integral.
  *
- * Rays with an impact parameter well above a have q/p near 1, for which two iterations would do. Four are used for
- * pictures, with an error of 1e-7 at q/p = 0.05 and of 1e-5 at 0.01. q/p is smaller only for rays that aim at the hole
- * along the plane of the disk, with |alpha| below a and |beta| below a hundredth of a. The kernel of listed rays
- * reports each ray's error: it defines KD_POLAR_LISTED and uses eight iterations. */
+ * For rays with an impact parameter well above a, q/p is near 1, and two iterations would be enough. Pictures use four,
+ * with an error of 1e-7 at q/p = 0.05 and of 1e-5 at 0.01. q/p is smaller only for rays that aim at the hole along the
+ * plane of the disk, with |alpha| below a and |beta| below a hundredth of a. The kernel of listed rays reports each
+ * ray's error. It therefore defines KD_POLAR_LISTED and uses eight iterations. */
 #ifndef KD_POLAR_GLSL
 #define KD_POLAR_GLSL
 
@@ -36,7 +36,7 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
     float b = m.a2 < 0.0 ? 0.5 * (root - m.a2) : 2.0 * m.energy2 * (m.q / (root + m.a2));
     o.b = max(b, 1e-30);
 
-    /* By symmetry the observer may be taken above the plane; one in the plane starts upwards. */
+    /* By symmetry the observer may be taken above the plane; if it is in the plane, the ray starts upwards. */
     float du = u < 0.0 || (u == 0.0 && ray.p < 0.0) ? -(s * ray.p) : s * ray.p;
     float cx = abs(u), sx = -du / sqrt(o.b + m.energy2 * u * u); /* sqrt(U+) (cos x, sin x) */
     float larger = max(cx, abs(sx)); /* only the direction counts, and its squares must not underflow */
@@ -47,8 +47,8 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
     float k0 = sqrt(o.b / max(root, 1e-30));
     float p = sqrt(root), q = k0 * p;
 #ifdef KD_POLAR_LISTED
-    /* Each step replaces 1 - k by about its square over eight, so that eight steps end below a roundoff for k from
-     * 1e-15 on. */
+    /* Each step replaces 1 - k by about its square over eight. For k from 1e-15 on, eight steps therefore end below a
+     * roundoff. */
     float weight = 0.5, correction = 0.0, k = k0;
     for (int i = 0; i < 8; i++) {
         float n = 1.0 / (cx * cx + sx * sx);

@@ -35,7 +35,7 @@ float kd_radial_potential(kd_geodesic m, float w, float e, float a, float root)
 /* The azimuth chi by which the hole drags a ray, chi' = a (W/D - E), D = 1 - 2w + (a^2 + q^2) w^2.
  *
  * Towards the horizon chi' diverges as 1/D, and so would its quadrature. For a falling ray the azimuth of ingoing
- * Kerr-Schild coordinates is regular: it leaves out a w'/D, whose integral is elementary and is added by kd_drag_fall.
+ * Kerr-Schild coordinates is regular. It leaves out a w'/D, whose integral is elementary and is added by kd_drag_fall.
  * As w'^2 = W^2 - D K w^2, the rest is a (K w^2/(W + w') - E), without a pole or a difference. The same holds with the
  * other sign of w' for a ray that comes from next to the horizon. way: 1 for a ray that goes straight in, -1 for one
  * that goes straight out, else 0. */
@@ -47,9 +47,9 @@ float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way
     return a * w * (2.0 * e - m.drag * w) / kd_horizons(w, root);
 }
 
-/* kd_drag for a ray that may come from inside the horizon or return to it. It is in ingoing coordinates (way = -1)
- * while the ray goes outwards, and in outgoing ones (1) while it returns. Each divides by D only on the other half of
- * the way. Both are smooth where the ray turns, because w'^2 = W^2 - D K w^2. */
+/* kd_drag for a ray that may come from inside the horizon or return to it. It uses ingoing coordinates (way = -1) while
+ * the ray goes outwards, and outgoing ones (1) while the ray returns. Each of these divides by D only on the other half
+ * of the way. Both are smooth where the ray turns, because w'^2 = W^2 - D K w^2. */
 float kd_drag_ingoing(kd_geodesic m, kd_state y, float e, float a, float root, float way)
 {
     float w2 = y.w * y.w, speed = abs(y.dw), sum = max(e + a * (a * e - m.momentum) * w2 + speed, 1e-12);
@@ -57,9 +57,9 @@ float kd_drag_ingoing(kd_geodesic m, kd_state y, float e, float a, float root, f
     return a * ((along ? m.k * w2 : sum) / (along ? sum : kd_horizons(y.w, root)) - e);
 }
 
-/* Whether the light of an observer at w comes from outside. Only an observer on or inside the horizon sees light that
- * does not. Such light crosses the horizon with W < 0, from the other side of the hole's past, and is dark. W has no
- * meaning at a horizon that a ray does not cross. */
+/* Whether the light that an observer at w receives comes from outside. Only an observer on or inside the horizon
+ * receives other light. Such light crosses the horizon with W < 0, from the other side of the hole's past, and is dark.
+ * W has no meaning at a horizon that a ray does not cross. */
 bool kd_from_outside(kd_geodesic m, float w, float e, float a, float horizon)
 {
     return w < horizon || e + a * (a * e - m.momentum) * horizon * horizon > 0.0;
@@ -67,14 +67,14 @@ bool kd_from_outside(kd_geodesic m, float w, float e, float a, float horizon)
 
 float kd_drag_fall(float w, float a, float root) { return a * kd_fall(w, root); }
 
-/* The turning point of the radial motion, which with the constants of motion alone decides where a ray ends. R' = 2w (A
- * + 3Kw - 2Dw^2) vanishes once between infinity and the photon region, and at the horizon R = W^2. So a ray on one side
- * of that place gets to the other side exactly if R > 0 there. R = W^2 - D K w^2 keeps its precision next to the
- * horizon too. */
+/* The turning point of the radial motion, which together with the constants of motion decides where a ray ends. R' = 2w
+ * (A + 3Kw - 2Dw^2) vanishes at one place between infinity and the photon region, and at the horizon R = W^2. So a ray
+ * on one side of that place gets to the other side exactly if R > 0 there. R = W^2 - D K w^2 keeps its precision next
+ * to the horizon too. */
 struct kd_turning_point {
     float w, r;  /* w: the place, or the horizon if the place is inside the horizon; r: R at w */
     float noise; /* bound of the rounding error of r */
-    bool open;   /* the place is clearly inside the horizon: there is no barrier */
+    bool open;   /* the place is clearly inside the horizon, so that the ray has no turning point */
 };
 
 kd_turning_point kd_turning_point_of(kd_geodesic m, kd_ray ray, float a, float horizon, float root, kd_rounding off)
@@ -100,9 +100,9 @@ float kd_speed_noise(kd_geodesic m, kd_state y, kd_rounding off)
     return off.unit * (off.size_e + sqrt(max(m.k, 0.0)) * y.w);
 }
 
-/* The turning point, for an observer next to the photon orbits, from the observer's place. There R = w'^2, and between
- * the two places R changes by x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) - x^2 D), where x is their distance, since R'
- * vanishes at the barrier. If w' is close to 0, its square is more precise than R. */
+/* The turning point, for an observer next to the photon orbits, from the observer's place. There R = w'^2. Between the
+ * two places R changes by x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) - x^2 D), where x is their distance, since R' vanishes at
+ * the turning point. If w' is close to 0, its square is more precise than R. */
 kd_turning_point kd_turning_point_beside(kd_geodesic m, kd_turning_point b, kd_state y, float horizon, kd_rounding off)
 {
     float x = y.w - b.w, c2 = m.a2 + 6.0 * b.w * (m.k - m.d * b.w),
@@ -137,7 +137,7 @@ bool kd_escapes(kd_turning_point b, kd_state y)
     return y.dw < 0.0 ? b.open || y.w < b.w || b.r > 0.0 : !b.open && y.w < b.w && b.r <= 0.0;
 }
 
-/* Whether it is certain in spite of rounding where the ray ends. start: kd_start_noise at y. */
+/* Whether the ray's end is certain in spite of rounding. start: kd_start_noise at y. */
 bool kd_is_decided(kd_turning_point b, kd_state y, float start)
 {
     bool ahead = y.dw < 0.0 ? y.w > b.w : y.w < b.w;

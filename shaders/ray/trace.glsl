@@ -1,5 +1,5 @@
 /* Records the steps of a kernel for `kerrd rays --trace`. Compiled with KD_TRACE, it writes a record of each step of
- * its single ray to binding 2; otherwise it compiles to nothing. The numbers are the count of records, the constants of
+ * its single ray to binding 2; otherwise it compiles to nothing. The output is the number of records, the constants of
  * motion, then the records. A record is stage, step, four numbers, their derivatives, chi. Records that do not fit are
  * only counted. */
 #ifndef KD_TRACE_GLSL

@@ -58,14 +58,14 @@
 #define KD_EMIT_TABLES \
     KD_TABLES_colour(KD_T) \
         KD_EMITTERS(KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_)
-/* All buffers, by the KD_B(number, type, member) defined at the place of use: bindings of the kernels of light from
- * KD_OWN_BINDING on. */
+/* All buffers, by the KD_B(number, type, member) defined at the place of use. They are bindings of the kernels of
+ * light, from KD_OWN_BINDING on. */
 #define KD_BUFFERS_OF_(number, name) KD_BUFFERS_##name(KD_B)
 #define KD_EMIT_BUFFERS \
     KD_EMITTERS(KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_)
 #define KD_OWN_BINDING 5
 /* Binding at which layers.comp reads the light stored by the march. It replaces the binding of the points of light,
- * which that light includes: a device may allow no more than 8 storage buffers for a kernel. */
+ * because that light includes the points and a device may allow only 8 storage buffers for a kernel. */
 #define KD_LIGHT_BINDING (KD_OWN_BINDING + 2)
 /* All passes that belong to emitters, by the KD_P(name, ID, word, guess) defined at the place of use
  * (render/plan/pass.h). */
@@ -73,7 +73,7 @@
 #define KD_EMIT_PASSES KD_EMITTERS(KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_)
 
 /* Bits that every emitter's word has. PRESENT: the scene has the emitter. SEPARATE_PHOTOMETRY: its luminance is also
- * kept separately, so that its flux and centroid can be measured; possible for one emitter. */
+ * stored separately, so that its flux and centroid can be measured. Only one emitter can have this bit. */
 #define KD_TRAIT_PRESENT 1u
 #define KD_TRAIT_SEPARATE_PHOTOMETRY 32u
 #define KD_TRAIT_SLOW \

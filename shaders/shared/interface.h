@@ -26,13 +26,13 @@
     F(charge2)              /* q^2 */
 /* clang-format on */
 
-/* Camera and the hole: a uniform block of the tracing and transfer kernels. A ray at (x, y), in steps
- * from the middle of the picture with y upwards, has the direction c0 + x cx + y cy. At infinity its first two
- * components are alpha and beta; at a finite radius it is normalised to the look direction k = (k_r, k_theta, k_phi)
- * in the observer's local frame. On a sphere and a dome the steps are angles, and c0, cx and cy point ahead, to the
- * right and up: the direction is cos(y) (cos(x) c0 + sin(x) cx) + sin(y) cy, or cos(d) c0 + sin(d) (x cx + y cy) / d
- * with d^2 = x^2 + y^2. A photon from there moves along m = -k, and has E = e_t + m_r e_r + m_theta e_theta + m_phi
- * e_phi. L/sin(theta) follows likewise from l_, p_theta from p_, and dw/dtau of the traced ray from dw_: these are
+/* Camera and the hole: a uniform block of the tracing and transfer kernels. A ray at (x, y), in steps from the middle
+ * of the picture with y upwards, has the direction c0 + x cx + y cy. At infinity its first two components are alpha and
+ * beta. At a finite radius it is normalised to the look direction k = (k_r, k_theta, k_phi) in the observer's local
+ * frame. On a sphere and a dome the steps are angles, and c0, cx and cy point ahead, to the right and up. The direction
+ * is then cos(y) (cos(x) c0 + sin(x) cx) + sin(y) cy on a sphere, and cos(d) c0 + sin(d) (x cx + y cy) / d with d^2 =
+ * x^2 + y^2 on a dome. A photon from there moves along m = -k, and has E = e_t + m_r e_r + m_theta e_theta + m_phi
+ * e_phi. L/sin(theta) follows likewise from l_, p_theta from p_, and dw/dtau of the traced ray from dw_. These are
  * components of the observer's tetrad (src/physics/spacetime/tetrad.h). */
 /* clang-format off */
 #define KD_CAMERA_FIELDS_(F, U) \
@@ -79,11 +79,11 @@
 /* clang-format on */
 
 /* Rays through volumes that were stopped early are stored after a band's light (frame/pieces.c). Offsets count from the
- * end of the light's buffer: counters of rays given up, rays listed, and rays waiting for their next piece;
- * KD_LOST_STATE words for each of the rays that continue at once; and the list. An entry of the list is (pixel number)
- * * (rays a pixel) + ray, with the pixel's number in the band, the list of pixels or the sample. A piece takes up to
- * KD_PIECE_PASSES passes of loops. lavapipe (Mesa 22.3) ends the loops of eight invocations after 65 535 passes in
- * total, and repeated work takes some thousand of these. */
+ * end of the light's buffer. There are counters of rays given up, of rays listed, and of rays waiting for their next
+ * piece; KD_LOST_STATE words for each ray that is continued in the same dispatch; and the list. An entry of the list is
+ * (pixel number) * (rays a pixel) + ray, with the pixel's number in the band, the list of pixels or the sample. A piece
+ * takes up to KD_PIECE_PASSES passes of loops. lavapipe (Mesa 22.3) ends the loops of eight invocations after 65 535
+ * passes in total, and repeated work takes some thousand of these. */
 #define KD_LOST_GIVEN_UP 1
 #define KD_LOST_LISTED 2
 #define KD_LOST_WAITING 3
@@ -284,7 +284,7 @@
     F(narrow)  /* 1/(2 sigma^2) */ \
     F(weight)  /* factor of the whole sum */
 
-/* Stokes V of a pixel one of whose rays was given up: larger than for any light. */
+/* Stokes V that marks a pixel one of whose rays was given up; larger than for any light. */
 #define KD_STOKES_UNTOLD 3e38
 #define KD_STOKES_LEAST_UNTOLD 1e38
 

@@ -3,16 +3,16 @@
  * lists.
  *
  *   W        1/r of the crossing; 0: there is none; negative: the ray was given up on the way to it
- *   PHI      its azimuth, source minus observer, radians
- *   DELAY    of light, t_observed - t_emitted, M (minus r_o + 2 ln r_o at infinity)
+ *   PHI      azimuth of the crossing, source minus observer, radians
+ *   DELAY    delay of light, t_observed - t_emitted, M (minus r_o + 2 ln r_o at infinity)
  *   SLOPE    w', in Mino time, of the ray traced back
  *   FOOTPRINT  size of a ray's footprint on the disk, M: the distance of the crossings, in (r, r phi), of rays one step
  *            of the camera apart, along the direction in which it is largest (comp/footprint.comp)
- *   SHAPE    of the ellipse whose long axis FOOTPRINT is, as 1 + (i + 2048 j)/2^23: of M = J J^T, J from steps of
+ *   SHAPE    shape of the ellipse whose long axis FOOTPRINT is, as 1 + (i + 2048 j)/2^23: of M = J J^T, J from steps of
  *            the camera to (r, r phi), i/2047 = M_rr/(M_rr + M_ff) and j/2047 = (1 + M_rf/sqrt(M_rr M_ff))/2
  *   ALPHA    impact parameter of the ray, M, if rays are not on the camera's grid
  *   SKY_U    cosine of the polar angle of the direction in which the ray escapes
- *   SKY_PHI  and its azimuth, source minus observer, radians
+ *   SKY_PHI  azimuth of that direction, source minus observer, radians
  *   FATE     KD_FATE_... of interface.h
  *   SKY_FOOTPRINT  size of a ray's footprint on the sky, radians
  *

@@ -74,8 +74,9 @@ static enum kd_status put_verdict(const struct kd_described_steps *trace, struct
         KD_TRY(kd_buffer_printf(out, ", estimated error %.1e", steps->end.error));
     if (steps->lost)
         KD_TRY(kd_buffer_printf(out, "\n%zu more steps are not shown", steps->lost));
-    KD_TRY(kd_buffer_printf(out, "\n%s\nwithout --trace the device gives %s\n", trace->why,
-                            steps->same ? "the same, bit for bit" : "OTHER numbers: these steps are not quite those"));
+    KD_TRY(
+        kd_buffer_printf(out, "\n%s\nwithout --trace the device gives %s\n", trace->why,
+                         steps->same ? "the same, bit for bit" : "DIFFERENT numbers: it took other steps than these"));
 done:
     return status;
 }

@@ -202,7 +202,7 @@ static enum kd_status take_field(struct reader *r)
     *field = (struct kd_npy_field) { 0 };
     if (!take(r, '(') || !take_string(r, field->name, sizeof field->name) || !take(r, ',') ||
         !good_name(array, field->name))
-        return fail(r, "the name of a field is not unique, or has other than 1 to 31 letters, digits and _");
+        return fail(r, "the names of its fields must differ, each of 1 to 31 letters, digits and _");
     enum kd_status status = take_type(r, &field->type);
     if (!status && take(r, ',')) {
         skip_blanks(r);

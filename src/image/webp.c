@@ -98,7 +98,8 @@ enum kd_status kd_webp_xmp(const void *data, size_t size, struct kd_buffer *out,
     if (mux && WebPMuxGetChunk(mux, "XMP ", &packet) == WEBP_MUX_OK)
         status = kd_buffer_append(out, packet.bytes, packet.size);
     else
-        kd_error_set(error, KD_EINVAL, mux ? "the WebP has no XMP, which would hold its scene" : "the file is no WebP");
+        kd_error_set(error, KD_EINVAL,
+                     mux ? "the WebP has no XMP, which would hold its scene" : "the file is not a WebP");
     WebPMuxDelete(mux);
     return status == KD_ENOMEM ? kd_error_set(error, status, "out of memory for the XMP of a WebP") : status;
 }

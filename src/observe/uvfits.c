@@ -165,8 +165,8 @@ static enum kd_status read_stations(const struct file *f, const struct hdu *hdu,
     KD_TRY(read_whole(f, hdu, "NAXIS2", 2, KD_OBSERVATION_STATIONS, &rows));
     if (row * rows > f->size - hdu->begin) /* the table's length follows from NAXIS and BITPIX, which may be wrong */
         return kd_error_set(f->error, KD_EINVAL,
-                            "the table AIPS AN has %zu rows of %zu bytes; the uvfits must have as many, and ends %zu "
-                            "bytes behind its header",
+                            "the table AIPS AN has %zu rows of %zu bytes; the uvfits must hold them all, but ends %zu "
+                            "bytes after the table's header",
                             rows, row, f->size - hdu->begin);
     KD_TRY(find_column(f, hdu, "ANNAME", row, &name));
     KD_TRY(find_column(f, hdu, "NOSTA", row, &number));
@@ -268,8 +268,8 @@ static enum kd_status read_axis(const struct file *f, struct groups *g, int axis
     numbered(key, "NAXIS", axis);
     KD_TRY(read_whole(f, &g->hdu, key, 1, 4096, &size));
     if (axis == 2 && (strcmp(kind, "COMPLEX") || size != 3))
-        return kd_error_set(f->error, KD_EINVAL, "axis 2 of the uvfits is %s of %zu; it must be COMPLEX of 3", kind,
-                            size);
+        return kd_error_set(f->error, KD_EINVAL,
+                            "axis 2 of the uvfits is %s of length %zu; it must be COMPLEX of length 3", kind, size);
     if (!strcmp(kind, "STOKES")) {
         numbered(key, "CRVAL", axis);
         const double first = number_or(&g->hdu, key, 0);
@@ -301,8 +301,9 @@ enum kd_status kd_uvfits_open(const struct file *f, struct groups *g)
     KD_TRY(read_header(f, 0, &g->hdu));
     const char *groups = find_card(&g->hdu, "GROUPS");
     if (!groups || groups[strspn(groups, " ")] != 'T' || number_or(&g->hdu, "NAXIS1", -1) != 0)
-        return kd_error_set(f->error, KD_EINVAL,
-                            "this FITS file is no uvfits: GROUPS must be T, and NAXIS1 0 (an image is no observation)");
+        return kd_error_set(
+            f->error, KD_EINVAL,
+            "this FITS file is not uvfits: GROUPS must be T and NAXIS1 0 (an image is not an observation)");
     if (!read_number(&g->hdu, "BITPIX", &bitpix) || (bitpix != -32 && bitpix != -64))
         return kd_error_set(f->error, KD_EINVAL, "BITPIX of the uvfits must be -32 or -64");
     g->bytes = bitpix == -64 ? 8 : 4;
@@ -325,8 +326,8 @@ enum kd_status kd_uvfits_open(const struct file *f, struct groups *g)
     if ((uint64_t)group * g->n > f->size - g->hdu.begin)
         return kd_error_set(
             f->error, KD_EINVAL,
-            "the uvfits has %zu groups of %zu bytes behind byte %zu; it must have %llu bytes, and has %zu", g->n, group,
-            g->hdu.begin, (unsigned long long)((uint64_t)group * g->n + g->hdu.begin), f->size);
+            "the uvfits has %zu groups of %zu bytes from byte %zu on; it must have %llu bytes, but has %zu", g->n,
+            group, g->hdu.begin, (unsigned long long)((uint64_t)group * g->n + g->hdu.begin), f->size);
     g->hdu.size = group * g->n;
 done:
     return status;
@@ -387,10 +388,9 @@ static enum kd_status place_of(const struct file *f, const struct kd_observation
             *out = (uint8_t)i;
             return KD_OK;
         }
-    return kd_error_set(
-        f->error, KD_EINVAL,
-        "visibility %zu of the uvfits is of station %u; it must be of one of those of the table AIPS AN", group + 1,
-        number);
+    return kd_error_set(f->error, KD_EINVAL,
+                        "visibility %zu of the uvfits is of station %u; it must be of a station in the table AIPS AN",
+                        group + 1, number);
 }
 
 static enum kd_status read_group(const struct file *f, const struct groups *g, const struct stations *s, size_t i,
@@ -406,8 +406,8 @@ static enum kd_status read_group(const struct file *f, const struct groups *g, c
     }
     if (!(baseline >= 257 && baseline < 65536))
         return kd_error_set(f->error, KD_EINVAL,
-                            "BASELINE of visibility %zu of the uvfits is %g; it must be 256 times one station's number "
-                            "and another's",
+                            "BASELINE of visibility %zu of the uvfits is %g; it must be 256 times the number of one "
+                            "station plus that of another",
                             i + 1, baseline);
     KD_TRY(place_of(f, o, s, i, (uint32_t)baseline / 256, &m.station[0]));
     KD_TRY(place_of(f, o, s, i, (uint32_t)baseline % 256, &m.station[1]));

@@ -27,7 +27,7 @@ enum kd_playground_gravity { KD_GRAVITY_PACZYNSKI_WIITA, KD_GRAVITY_KERR };
     REAL(softening, 0.05, 1e-4, 1e3, "softening length in M of the bodies' mutual attraction") \
     REAL(h_max, 1, 1e-6, 1e6, "longest sub-step in M, and the interval at which debris is advanced") \
     REAL(safety, 0.03, 1e-4, 0.2, \
-         "factor C of the limit C (r - 2) of the sub-step, and of the like limit for two bodies") \
+         "factor C of the limit C (r - 2) of the sub-step, and of its limit for two close bodies") \
     INT(budget, 20000, 1, 100000000, \
         "limit of the sub-steps of one advance; if it is reached, the advance is shorter than requested") \
     BOOL(mergers, true, "bodies that touch merge") \

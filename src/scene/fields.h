@@ -120,11 +120,10 @@
          "flux. A crossing has the opacity 1 - exp(-depth/cos) times disk.opacity, with the angle of emission " \
          "in the gas's frame; 0: the same opacity everywhere") \
     REAL(disk, height, MODEL, REST, 0.0, 0.0, 0.5, "1", \
-         "height of the gas over its distance from the axis, at 10 M, where height is that at which the " \
-         "density has fallen to exp(-1/2); the optical depth from top to bottom is that of the thin disk; 0: a " \
-         "thin disk") \
-    REAL(disk, flare, MODEL, REST, 0.0, -0.5, 0.5, "1", \
-         "exponent: height over distance grows as the distance from the axis to this power") \
+         "relative half height H/R at R = 10 M: H is the height above the plane at which the density has fallen " \
+         "to exp(-1/2), R the distance from the axis; the optical depth from top to bottom is that of the thin " \
+         "disk; 0: a thin disk") \
+    REAL(disk, flare, MODEL, REST, 0.0, -0.5, 0.5, "1", "exponent p: H/R is proportional to R^p (disk.height)") \
     ENUM(disk, colour, MODEL, REST, KD_COLOUR_PEAK, \
          "temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd", \
          "peak|accretion") \
@@ -134,10 +133,9 @@
          "accretion rate: luminosity over the Eddington luminosity, with the efficiency for this spin") \
     REAL(disk, hardening, MODEL, REST, 1.0, 1.0, 3.0, "1", "colour temperature over effective temperature") \
     ENUM(disk, atmosphere, MODEL, REST, KD_ATMOSPHERE_ISOTROPIC, \
-         "light of the thin disk's surface by mu, the cosine of the angle to its normal in the gas's frame: " \
-         "isotropic; " \
-         "laor, as 1 + 2.06 mu; scattering, that of a deep atmosphere of free electrons, whose polarisation " \
-         "polarization.model \"scattering\" has; each radiates the disk's flux", \
+         "how the light of the thin disk's surface depends on mu, the cosine of the angle to its normal in the " \
+         "gas's frame. isotropic; laor: as 1 + 2.06 mu; scattering: as from a deep atmosphere of free electrons, " \
+         "which polarization.model \"scattering\" polarises. Each law has the disk's flux", \
          "isotropic|laor|scattering") \
     ENUM(disk, band, LOOK, REST, KD_BAND_BOLOMETRIC, \
          "brightness: bolometric, g^4 F; or visible, the luminance that the eye perceives of the Planck " \
@@ -150,8 +148,8 @@
     INT(disk, seed, MODEL, REST, 1, 0, 2147483647, "1", \
         "seed of the random numbers: another seed gives other particles (model: particles)") \
     REAL(disk, density_index, MODEL, REST, 2.0, 0.0, 4.0, "1", \
-         "the number of particles per area falls as r to minus this power; with 2 each octave of r has as many " \
-         "(model: particles)") \
+         "p: the number of particles per area is proportional to r^-p; for p = 2 every octave of r has the same " \
+         "number (model: particles)") \
     REAL(disk, plunging, MODEL, REST, 0.02, 0.0, 0.5, "1", \
          "share of the particles that fall from the ISCO, with its energy and angular momentum; none fall " \
          "unless disk.inner is \"isco\" (model: particles)") \
@@ -159,8 +157,8 @@
          "temperature of the plunging gas over the disk's largest temperature; 0: it is invisible (model: " \
          "particles)") \
     REAL(disk, epicycles, MODEL, REST, 0.02, 0.0, 0.2, "1", \
-         "largest amplitude of oscillations: in latitude, in radians; in r over r, times (kappa/Omega)^2, " \
-         "which vanishes at the ISCO (model: particles)") \
+         "largest amplitude of oscillations in latitude, in radians; times (kappa/Omega)^2, which vanishes at the " \
+         "ISCO, also that of the relative oscillations in r (model: particles)") \
     BOOL(disk, slow_light, PHYSICS, REST, false, \
          "show particles, gas and spots at the time when the light of each ray left them, instead of at one " \
          "coordinate time")
@@ -311,8 +309,8 @@
 
 #define KD_JETS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(jets, brightness, MODEL, FRONT, 0.0, 0.0, 1e9, "1/M", \
-         "light emitted along 1 M in the jet's frame, extrapolated to the inner edge, where it begins " \
-         "smoothly, in units of the disk's brightest; 0: no jets") \
+         "light emitted along 1 M in the jet's frame, in units of the disk's brightest: the power law's value at " \
+         "the inner edge, from which the light rises smoothly; 0: no jets") \
     REAL(jets, opening_deg, MODEL, FRONT, 8.0, 1.0, 60.0, "degrees", "half of the cone's opening angle") \
     REAL(jets, lorentz, MODEL, FRONT, 2.0, 1.0, 100.0, "1", "Lorentz factor of the outflow") \
     REAL(jets, inner, MODEL, REST, 4.0, 1.0, 1e6, "M", \
@@ -322,7 +320,7 @@
     REAL(jets, sheath, MODEL, REST, 0.5, 0.0, 1.0, "1", \
          "brightness across the jet: 0, a bright spine; 1, bright edges") \
     REAL(jets, spectral_index, MODEL, REST, 0.7, -10.0, 10.0, "1", \
-         "brightness is proportional to the frequency shift to the power of 2 plus this") \
+         "index: brightness is proportional to g^(2 + index)") \
     REAL(jets, temperature_k, LOOK, REST, 14000.0, 300.0, 1e9, "K", \
          "colour of a black body of this temperature, not shifted") \
     BOOL(jets, counterjet, MODEL, REST, true, "include the jet below the disk")
@@ -356,9 +354,9 @@
          "the stars of the Hipparcos catalogue over that Milky Way; or sky.image without stars", \
          "none|grid|stars|catalogue|image") \
     WORD(sky, brightness, MODEL, FRONT, INFINITY, 0.0, 100.0, "1", \
-         "brightness of the sky in units of the disk's brightest surface brightness at g = 1: that of the grid, or " \
-         "of 21 magnitudes per square arcsecond for stars and the Milky Way, whose ratio is real; auto: 0.2, or 0.01 " \
-         "for stars and the Milky Way behind something that shines", \
+         "brightness in units of the disk's brightest surface brightness at g = 1: of the grid, or, for stars and " \
+         "the Milky Way in their real ratio, of 21 magnitudes per square arcsecond; auto: 0.2, or 0.01 for stars and " \
+         "the Milky Way behind something that shines", \
          "auto") \
     REAL(sky, grid_deg, MODEL, REST, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid") \
     REAL(sky, milky_way, MODEL, FRONT, 1.0, 0.0, 100.0, "1", \
@@ -370,11 +368,12 @@
     REAL(sky, limit_mag, MODEL, REST, 14.0, -2.0, 14.0, "magnitudes", "magnitude of the faintest stars") \
     INT(sky, seed, MODEL, REST, 1, 0, 2147483647, "1", \
         "seed of the random numbers: another seed gives another generated sky") \
-    ENUM(sky, orientation, MODEL, FRONT, KD_SKY_GALACTIC, \
-         "galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra, " \
-         "m87: seen from azimuth 0 the hole is in front of that source as seen from the Earth, with the galactic or " \
-         "the celestial pole above", \
-         "galactic|equatorial|sgra|m87") \
+    ENUM( \
+        sky, orientation, MODEL, FRONT, KD_SKY_GALACTIC, \
+        "galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra, " \
+        "m87: an observer at azimuth 0 sees the hole where the Earth sees that source, with the galactic pole (sgra) " \
+        "or the celestial pole (m87) above", \
+        "galactic|equatorial|sgra|m87") \
     REAL(sky, turn_deg, MODEL, REST, 0.0, -360.0, 360.0, "degrees", \
          "rotation of the sky about the hole's axis, in the sense of camera.azimuth_deg") \
     REAL(sky, tilt_deg, MODEL, REST, 0.0, -180.0, 180.0, "degrees", \
@@ -458,8 +457,8 @@
          "rate at which the observer goes round the axis") \
     REAL(motion, time_rate, LOOK, FRONT, 0.0, -1e6, 1e6, "M per second", "rate of coordinate time") \
     REAL(motion, proper_time_rate, LOOK, REST, 0.0, 0.0, 1e6, "M per second", \
-         "rate of the observer's proper time: the observer falls, to the last possible position, or orbits; " \
-         "coordinate time follows")
+         "rate of the observer's proper time: the observer moves along its path, a fall to the last possible " \
+         "position or an orbit; coordinate time follows")
 
 /* Words that requests for rays share. */
 #define KD_PROFILE_WORDS "draft|interactive|balanced|high|reference"
@@ -494,8 +493,7 @@
     SECTION(gas, KD_GAS_FIELDS, GAS, "turbulence in the gas of the smooth disk models") \
     LIST(spots, spot, KD_SPOTS_FIELDS, GAS, KD_SPOTS, \
          "hot spots: Gaussians in the equatorial plane that go round with the gas") \
-    LIST(bodies, body, KD_BODIES_FIELDS, GAS, KD_SCENE_BODIES, \
-         "bodies: luminous spheres in front of the hole, behind it and in the disk") \
+    LIST(bodies, body, KD_BODIES_FIELDS, GAS, KD_SCENE_BODIES, "bodies: luminous spheres round the hole") \
     SECTION(volume, KD_VOLUME_FIELDS, GAS, "matter along the rays") \
     SECTION(jets, KD_JETS_FIELDS, GAS, "stylised jets along the spin axis") \
     SECTION(polarization, KD_POLARIZATION_FIELDS, MORE, \

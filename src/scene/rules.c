@@ -22,7 +22,7 @@ static struct shown show(double value)
     return s;
 }
 
-/* Names the fields that make the hole. */
+/* The hole's fields and their values, for messages. */
 struct hole_shown { char text[2 * KD_NUMBER_SIZE + 40]; };
 
 static struct hole_shown show_hole(const struct kd_scene *scene)
@@ -76,7 +76,7 @@ static enum kd_status charge(const struct kd_scene *scene, struct kd_error *erro
                           show(floor(sqrt(fmax(0, (1 - a) * (1 + a) - least)) * 1e9) / 1e9).text);
 }
 
-/* What is known only for an uncharged hole. */
+/* Refuses models that are known for an uncharged hole only. */
 static enum kd_status uncharged(const struct kd_scene *scene, struct kd_error *error)
 {
     static const struct {
@@ -404,7 +404,7 @@ static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error
 
 #define BODIES_CLEAR 1.05 /* a body's smallest radius as a multiple of the horizon's */
 
-/* Error for a field of a body. It has the field's value and what is allowed. */
+/* Refuses a field of a body. */
 static enum kd_status body_field(const char *name, size_t index, const char *is, const char *allowed,
                                  struct kd_error *error)
 {
@@ -603,12 +603,12 @@ const struct kd_rule kd_rules[] = {
       "`camera.r`.",
       idle_motion },
     { "`motion.proper_time_rate` needs an observer at a finite `camera.r` that stays there (static, zamo), orbits in "
-      "the equatorial plane, or falls without leaving its latitude: without spin, in that plane, on the axis, or from "
-      "rest at infinity. Then `motion.time_rate` and `motion.azimuth_rate_deg` are 0, and for a falling observer "
-      "`disk.slow_light` is false.",
+      "the equatorial plane, or falls at constant latitude. A fall is at constant latitude if the hole has no spin, "
+      "in the equatorial plane, on the axis, or from rest at infinity. `motion.time_rate` and "
+      "`motion.azimuth_rate_deg` are then 0, and `disk.slow_light` is false for a falling observer.",
       path },
-    { "`camera.stereo` \"pair\" needs a finite `camera.r` and the pinhole projection, and `camera.observer` exists "
-      "where each eye is, less than `camera.r` from the other.",
+    { "`camera.stereo` \"pair\" needs a finite `camera.r` and the pinhole projection. `camera.eye_distance` is then "
+      "less than `camera.r`, and `camera.observer` exists at both eyes.",
       stereo },
     { "`disk.inner` is at least the ISCO of the spin, if there is a disk.", inner_edge },
     { "`disk.outer` is larger than the inner edge, if there is a disk.", outer_edge },
@@ -622,18 +622,18 @@ const struct kd_rule kd_rules[] = {
       "radio frequency shines, in the plane or pinhole projection, without stereo.",
       volume },
     { "If `jets.brightness` is not 0, `jets.outer` is larger than the inner edge, which is at least 5 % outside the "
-      "horizon. With a `jets.falloff` below 0 the light grows by at most 2^60 in between.",
+      "horizon. If `jets.falloff` is below 0, the light grows by at most 2^60 between the edges.",
       jets },
     { "`spots.N.r` is at least the ISCO of the spin, if the spot's brightness is not 0.", spots },
     { "If the body's radius is not 0: `bodies.N.r` is at least 5 % outside the horizon, and `bodies.N.motion` exists "
       "there; " KD_OBSERVER_CIRCULAR " orbits have `bodies.N.inclination_deg` 90; `bodies.N.velocity_*` make a speed "
       "of at most 0.999, and are 0 unless the motion is \"velocity\".",
       bodies },
-    { "`polarization.model` \"transfer\" needs a scene where only a volume shines whose electrons are in a magnetic "
-      "field (`volume.model` \"riaf\", \"torus\" or \"grid\"), and no ring projection; a kappa distribution needs "
-      "`volume.kappa` from 3.5 to 5.",
+    { "`polarization.model` \"transfer\" needs a scene where only a volume with electrons in a magnetic field shines "
+      "(`volume.model` \"riaf\", \"torus\" or \"grid\"), in a projection other than \"ring\". With a kappa "
+      "distribution `volume.kappa` is then 3.5 to 5.",
       transfer },
-    { "`style.ringdown` is 0 where the spin is beyond 0.9999 or -0.9999.", ringdown },
+    { "`style.ringdown` is 0 unless `spacetime.spin` is from -0.9999 to 0.9999.", ringdown },
     { "`style.beam_uas` is at most a thousand times the width of the picture in the plane and pinhole projections, and "
       "0 in the others.",
       beam },

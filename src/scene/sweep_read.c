@@ -141,8 +141,8 @@ static enum kd_status add_range(struct reader *r, const char *text)
     if (!(steps >= 0) || !isfinite(steps) || !isfinite(range.step) || range.step == 0)
         return kd_error_field(
             r->error, r->pointer,
-            "%s is \"%s\"; it must be a list of values or a range that leads from its start to its stop: "
-            "\"10:80:15\", start:stop:step, or \"10:80/15\", start:stop/how many",
+            "%s is \"%s\"; it must be a list of values, or a range whose steps lead from start to stop: "
+            "\"10:80:15\" (start:stop:step) or \"10:80/15\" (start:stop/count)",
             last(r)->path, shown);
     if (steps > KD_SWEEP_MOST)
         return too_many(r, steps + 1);

@@ -413,7 +413,7 @@ TOGETHER = [
         (
             "the axes make %.6g scenes; they must make at most %d",
             "%s is given twice",
-            '%s is "%s"; it must be a list of values or a range that leads from its start to its stop: "10:80:15", start:stop:step, or "10:80/15", start:stop/how many',
+            '%s is "%s"; it must be a list of values, or a range whose steps lead from start to stop: "10:80:15" (start:stop:step) or "10:80/15" (start:stop/count)',
             "%s holds %s twice",
         ),
     ),

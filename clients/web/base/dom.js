@@ -17,8 +17,8 @@ export const svg = maker(tag => document.createElementNS('http://www.w3.org/2000
 export const math = maker(tag => document.createElementNS('http://www.w3.org/1998/Math/MathML', tag));
 export const byId = id => document.getElementById(id);
 
-// Protects what somebody types into a field from being overwritten. typed: the field has a value that is not submitted
-// yet. held: that, or the field has the focus; for values that arrive all the time and may be older. given(): the value
+// Protects a field from being overwritten while somebody types. typed: the field has a value that is not submitted yet.
+// held: the same, or the field has the focus; for values that arrive all the time and may be older. given(): the value
 // was submitted by a key.
 export function typing(input) {
   let typed = false;
@@ -63,7 +63,7 @@ export async function seen(view) {
   while (document.hidden || document.body.dataset.view !== view) await looksElsewhere();
 }
 
-// Wraps an asynchronous task so that one call runs at a time. Of the calls made meanwhile only the newest runs
+// Wraps an asynchronous task so that one call runs at a time. Of the calls made meanwhile, only the newest runs
 // afterwards.
 export function latest(task) {
   let busy = false,
@@ -87,7 +87,7 @@ export function latest(task) {
 
 const pace_ms = 250;
 
-// Runs a task after changes: at once after the first, and at most four times a second while they go on.
+// Runs a task after changes: at once after the first, then at most four times a second while changes continue.
 export function paced(task) {
   let timer = 0,
     late = false;

@@ -16,8 +16,8 @@ function slider(spec, input, tell) {
 }
 
 // specs: [{ name, label, unit, help, value, min, max, step, choices, words, auto, nature, about }]. label replaces the
-// label made from the name, about the server's help; the nature is physics by default. changed() is called after a
-// change. An auto field has no value until somebody enters one, and again when it is emptied. Returns values() by name,
+// label made from the name, and about the server's help. The default nature is physics. changed() is called after a
+// change. An auto field is empty until somebody enters a value, and again when it is cleared. Returns values() by name,
 // and put({ name: value }).
 export function buildForm(root, prefix, specs, changed) {
   const inputs = new Map();
@@ -91,7 +91,7 @@ export function buildForm(root, prefix, specs, changed) {
         link.set(key, input.value === String(spec.value) ? null : input.value);
       }
     },
-    // Shows the value that an auto field takes, unless somebody has entered or is entering one.
+    // Shows the value that an auto field has by default, unless somebody has entered or is entering one.
     suggest(name, value) {
       const { input, hand, follow } = inputs.get(name);
       if (!input.chosen && !hand.typed) (input.value = value), follow();

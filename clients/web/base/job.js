@@ -1,5 +1,4 @@
-// A job of the server, followed by the page: its progress is shown, it can be cancelled, and it survives a reload of
-// the page.
+// Follows a job of the server: shows its progress, cancels it, and finds it again after a reload of the page.
 import { duration, number, t, tell } from '../words/i18n.js';
 import { remaining } from './remaining.js';
 import { ask, getJson, passes, postJson } from './server.js';
@@ -29,17 +28,17 @@ function memory(key) {
 
 export const remembered = key => Boolean(memory(key).read()?.id);
 
-// key: of the entry in sessionStorage. starts: buttons, disabled while a job runs; cancel: the button that cancels it;
-// bar: of progress; told and fault: elements for sentences. words: { done, cancelled, written, before(n) }. take(job)
-// fetches the result and may return a sentence; seen(status, job) is called at each poll and may return a promise.
-// Returns { begin(request, about), resume() }: request() gives a document of POST /v1/jobs; about is stored with the
-// job.
+// key: of the entry in sessionStorage. starts: buttons that are disabled while a job runs. cancel: the button that
+// cancels it. bar: the progress bar. told and fault: elements for sentences. words: { done, cancelled, written,
+// before(n) }. take(job) fetches the result and may return a sentence. seen(status, job) is called at each poll and may
+// return a promise. Returns { begin(request, about), resume() }: request() returns a document of POST /v1/jobs; about
+// is stored with the job.
 export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen = () => {}, free = () => true }) {
   const kept = memory(key);
   let job = null,
     left = remaining();
 
-  // The focus moves to the button that is left; progress is not read aloud.
+  // The focus moves to the button that is still enabled; progress is not read aloud.
   function show(status) {
     const busy = Boolean(job),
       at = [...starts, cancel].find(button => button === document.activeElement);
@@ -92,7 +91,8 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
         await pause(poll_ms);
       } catch (error) {
         if (job !== now) return;
-        if (!passes(error) || error.status === 500) return end(error.message, true); // another try would fail as well
+        // another attempt would fail as well
+        if (!passes(error) || error.status === 500) return end(error.message, true);
         tell(fault, error.message).append(t('common.trying-again', ' – trying again'));
         await pause(again_ms);
       }
@@ -111,7 +111,7 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
     async begin(request, about) {
       told.textContent = '';
       tell(fault, '');
-      const asked = (job = {}); // so that a second one is not begun
+      const asked = (job = {}); // so that a second job is not started
       show({ fraction: 0 });
       try {
         const { id, token } = await postJson('v1/jobs', await request());
@@ -134,7 +134,7 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
   };
 }
 
-// Name of a file: what it shows, if that has a name, and its size in pixels.
+// File name: the name of what the file shows, if it has one, and its size in pixels.
 export const fileName = (names, width, height) => ['kerrd', ...names.filter(Boolean), `${width}x${height}`].join('-');
 
 // Puts a file into a download link, and clicks it.

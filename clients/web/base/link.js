@@ -1,4 +1,4 @@
-// The page's address is its state. After the # stand the view, the language, the fields that differ from the default
+// The page's address is its state. After the # it has the view, the language, the fields that differ from the default
 // scene, and the parameters of the other views, in the form of a query.
 const state = new URLSearchParams(location.hash.slice(1));
 const load = performance.timeOrigin; // marks entries of the browser's history that this load of the page made
@@ -32,10 +32,10 @@ export function enter(view) {
   flush('pushState');
 }
 
-// Back and forward switch views; other changes that were made since stay.
+// Back and forward switch views; other changes since then are kept.
 export function onReturn(show) {
   addEventListener('popstate', event => event.state?.load === load && show(event.state.view));
 }
 
-// An address that was typed, or an entry of an earlier load of the page: the page is loaded anew.
+// The address was typed, or the entry is from an earlier load of the page: the page is reloaded.
 addEventListener('hashchange', () => history.state?.load === load || location.reload());

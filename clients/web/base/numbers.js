@@ -43,7 +43,7 @@ function table(spec) {
 
 const cell = text => `"${String(text ?? '').replaceAll('"', '""')}"`;
 
-// The CSV is made in the page: no address of the server returns it.
+// The page makes the CSV, because no route of the server returns these numbers.
 function sheet(spec) {
   const [{ x }] = spec.series,
     rows = [
@@ -53,7 +53,7 @@ function sheet(spec) {
   return URL.createObjectURL(new Blob([rows.map(row => row.join(',') + '\n').join('')], { type: 'text/csv' }));
 }
 
-// The numbers of a chart under a heading. The table is made when it is opened, and that of a live chart is updated.
+// The numbers of a chart under a heading. The table is made when it is opened; that of a live chart is then updated.
 export function numbers(id) {
   const box = el('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-labelledby': id }),
     links = el('p', {});

@@ -1,5 +1,5 @@
 // Charts by uPlot. This module adds curves with x columns of their own, marks, a legend that hides curves and shows
-// their values, reading by keyboard, and the numbers as a table beside each chart.
+// their values, reading by keyboard, and a table of the numbers beside each chart.
 import { el, svg } from './dom.js';
 import { number, t } from '../words/i18n.js';
 import { numbers, shared } from './numbers.js';
@@ -40,7 +40,7 @@ function extent(given, values) {
   return [given.min ?? low - room, given.max ?? high + room];
 }
 
-// The power of ten that ticks far from 1 are divided by; the label has it.
+// The power of ten by which ticks far from 1 are divided; the axis label states it.
 function power([low, high], log) {
   const p = Math.floor(Math.log10(Math.max(Math.abs(low), Math.abs(high))));
   return log || (p > -3 && p < 6) ? 0 : p;
@@ -114,7 +114,7 @@ function key(style) {
   );
 }
 
-// spec: { title, note, csv, live, x: { label, min, max, log }, y: likewise, series: [{ name, x, y, style }], marks: [{
+// spec: { title, note, csv, live, x: { label, min, max, log }, y: the same, series: [{ name, x, y, style }], marks: [{
 // x or y, label, low, left }] }. Returns the figure, with a method draw(spec) that shows other numbers.
 export function plot(first) {
   const id = 'plot-' + ++count,
@@ -216,7 +216,7 @@ export function plot(first) {
     return button;
   }
 
-  // The chart is rebuilt only if curves or scales have changed. Without a width it waits for one.
+  // Rebuilds the chart only if curves or scales have changed. If the chart has no width yet, waits for one.
   function render() {
     if (!spec || !chart.clientWidth) return;
     const now = JSON.stringify([spec.series.map(s => s.style), spec.x.log, spec.y.log]);

@@ -1,4 +1,4 @@
-// Estimates the remaining time: the time since the start, times the share left, over the share done since then.
+// Estimates the remaining time: the time since the start, times the share left, over the share done in that time.
 const least_ms = 3000; // an estimate needs this time
 const least_share = 0.02; // and this share
 const smoothing = 0.2; // weight of the newest estimate

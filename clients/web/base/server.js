@@ -1,4 +1,4 @@
-// Requests to the server besides pictures. An unsuccessful answer is thrown as a Problem (RFC 9457).
+// Requests to the server other than for pictures. An unsuccessful answer is thrown as a Problem (RFC 9457).
 import { t } from '../words/i18n.js';
 
 export class Problem extends Error {
@@ -12,7 +12,7 @@ export class Problem extends Error {
 
 export const too_large = 'urn:kerrd:problem:too-large';
 
-// Whether another try may succeed: no answer came, or the server had a temporary error.
+// Whether another attempt may succeed: there was no answer, or the server had a temporary error.
 export const passes = error => !(error instanceof Problem) || error.status >= 500 || error.status === 429;
 
 export async function ask(url, options) {
@@ -24,7 +24,7 @@ export async function ask(url, options) {
   return answer;
 }
 
-// A module that is being imported, with a sentence of our own if it cannot be fetched.
+// Imports a module. If it cannot be fetched, throws a sentence of the page instead of the browser's.
 export const module = loading =>
   loading.catch(() => {
     throw new Error(t('common.the-server-does-not', 'The server does not answer'));
@@ -48,7 +48,7 @@ export const postJson = async (url, body) =>
     })
   ).json();
 
-// The lines of a streamed answer, each parsed, as they come.
+// Yields the lines of a streamed answer, each parsed, as they arrive.
 export async function* lines(url, body, signal) {
   const { body: stream } = await ask(url, {
     method: 'POST',
@@ -73,13 +73,13 @@ export function physicsUrl(name, parameters) {
   return `v1/physics/${name}?` + new URLSearchParams(parameters).toString().replaceAll('%3A', ':');
 }
 
-// A scene's hole as parameters of quantities and orbits. Without charge they are as short as before there was one.
+// A scene's hole as parameters of quantities and orbits. If the charge is 0, it is omitted.
 export const holeOf = scene => ({
   spin: scene.get('spacetime.spin'),
   ...(scene.get('spacetime.charge') ? { charge: scene.get('spacetime.charge') } : {}),
 });
 
-// Charts show no more digits than these; all digits would be three times the bytes.
+// Charts show at most this number of digits; all digits would take three times the bytes.
 export const drawn = { digits: 6 };
 
 export function physics(name, parameters) {

@@ -37,7 +37,7 @@ export function sheet(node) {
     drag = null,
     placed = false;
 
-  // If the page is still too short to scroll that far, the picture is not placed yet.
+  // If the page is still too short to scroll to the picture, the picture counts as not placed yet.
   function show() {
     if (!at || !picture?.offsetHeight || !handle.offsetParent) return;
     picture.scrollIntoView();
@@ -123,8 +123,8 @@ export function sheet(node) {
   node.prepend(handle);
   rest(0);
   if (picture) {
-    // If the sheet was raised before its picture, or the content that makes the page long enough, was there, the
-    // picture is placed when they come.
+    // The picture, or the content that makes the page long enough, may come after the sheet was raised. The picture is
+    // then placed.
     const grows = new ResizeObserver(() => {
       placed &&= picture.offsetHeight > 0; // a view that is opened again is placed again
       if (!placed) show();

@@ -28,9 +28,9 @@ export function scale(range) {
 
 const power = x => 10 ** Math.floor(Math.log10(x));
 
-// The step of an arrow key: about a hundredth of a linear range, a tenth of the leading digit on a logarithmic one. If
-// such a range begins at 0, ten steps lead to about the default; below a tenth of the default, a step is one unit of
-// the leading digit.
+// The step of an arrow key: about a hundredth of a linear range, a tenth of the leading digit on a logarithmic one. In
+// a logarithmic range that begins at 0, about ten steps reach the default, and below a tenth of the default a step is
+// one unit of the leading digit.
 function step(range, value) {
   const size = Math.abs(value);
   if (!spread(range)) return power(range.maximum - range.minimum) / 100;
@@ -43,9 +43,9 @@ function step(range, value) {
 const across = { ArrowRight: 1, ArrowLeft: -1 };
 const steps = { ArrowUp: 1, ArrowDown: -1 };
 
-// By default, arrow keys change a number box by 1, from 0.9 to 1.9, and a slider by a thousandth of its length, which
-// may be too little to be seen or less than the field's step. These handlers use step() instead. range.step: of numbers
-// that have a step. node: the box, or the slider beside it.
+// By default, arrow keys change a number box by 1, for example from 0.9 to 1.9, and a slider by a thousandth of its
+// length, which may be invisible or less than the field's step. These handlers use step() instead. range.step: for
+// numbers that have a step. node: the box, or the slider beside it.
 export function stepByArrows(node, range, give, box = node) {
   const way = node.type === 'range' ? { ...steps, ...across } : steps;
   node.addEventListener('keydown', event => {

@@ -1,12 +1,12 @@
-// Makes a ringdown audible. A pitch outside the range of hearing is shifted by whole octaves, which makes all of it
-// faster or slower. As it has only a swing or two before it fades, its fading is stretched at the same pitch. The page
-// states both.
+// Makes a ringdown audible. A pitch outside the range of hearing is shifted by whole octaves, which makes the whole
+// sound faster or slower. The wave fades after one or two oscillations, so its fading is stretched at the same pitch.
+// The page states both changes.
 import { el } from './dom.js';
 import { duration, number, t, tell } from '../words/i18n.js';
 import { physicsUrl } from './server.js';
 
 const heard = { least: 20, most: 20000, best: 300 }; // Hz
-const fading_s = 0.5; // time in which it fades by a factor e: long enough to hear a pitch
+const fading_s = 0.5; // time in which the sound fades by a factor e: long enough to hear a pitch
 const repeated_ms = 2000;
 
 // v: values of the quantity qnm for `asked`; octaves: a shift, or undefined for one that makes it audible.
@@ -30,7 +30,7 @@ export function ringing(v, asked, octaves) {
   };
 }
 
-// In words: how the sound was changed.
+// Describes in words how the sound was changed.
 export function told({ octaves, pitch, short, stretch, swings, audible }) {
   if (!audible) return t('sound.no-ear-hears-hz', 'No ear hears {0} Hz.', number(pitch, 3)) + shifted(octaves);
   const fades =
@@ -59,7 +59,7 @@ function shifted(octaves) {
     : t('sound.octaves-lower', ' {0} octaves lower, and slower, than the hole rings.', n);
 }
 
-const speaker = new Audio(); // one for all, so that no two sounds overlap
+const speaker = new Audio(); // one for all sounds, so that they do not overlap
 let timer = 0;
 
 export function play(url, repeated) {

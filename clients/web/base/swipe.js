@@ -1,7 +1,7 @@
 // A sideways swipe over the line below the picture, or over the handle of a sheet, chooses the next preset. A drag of
 // the picture turns the camera, and telephones use the screen's edges for Back.
 const turn_px = 48;
-const steeper = 2; // least ratio of the movement across to that along
+const steeper = 2; // least ratio of the sideways movement to the vertical one
 
 export function swipe(node, turn) {
   let begun = null;

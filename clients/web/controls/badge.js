@@ -1,5 +1,5 @@
-// The badge of a field: physics, model or look. Its tooltip has the server's sentence on what that means, as the legend
-// does.
+// The badge of a field: physics, model or look. Its tooltip is the server's sentence on the meaning of this nature, as
+// in the legend.
 import { el } from '../base/dom.js';
 import { nature } from '../words/i18n.js';
 

@@ -1,4 +1,4 @@
-// A sentence on each choice of a field, for fields whose help from the server would have to describe all choices.
+// One sentence for each choice of a field, where the server's help would have to describe all choices.
 import { t } from '../words/i18n.js';
 
 const observers = {

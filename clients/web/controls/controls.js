@@ -31,7 +31,7 @@ function numberRow(field, scene, id, hint) {
     'aria-describedby': hint,
   });
   const hand = typing(box);
-  let own = null; // the value that this control gave last
+  let own = null; // the last value that this control set
   const give = value => {
     hand.given();
     own = value;
@@ -56,7 +56,8 @@ function numberRow(field, scene, id, hint) {
       given = value !== special;
     if (check) check.checked = !given;
     slider.disabled = box.disabled = !given;
-    // Somebody who has selected a number that time changes is about to type another one.
+    // While somebody has selected a number that time changes, the number is not updated, because they are about to
+    // type.
     const selected = hand.held && value !== own && moving.includes(field.path) && scene.goesOn();
     if (!given) box.value = '';
     else if (!hand.typed && !selected)
@@ -123,8 +124,8 @@ function row(field, scene) {
   control.label?.setAttribute('aria-label', mark ? `${label} (${mark})` : label);
   const fault = el('p', { class: 'fault', hidden: true }),
     about = el('p', { class: 'help', id: id + '-help', lang: helpLang }, help);
-  // Shows the help of the chosen value. A control that shows the value already is left alone, unless somebody has typed
-  // into it.
+  // Shows the help of the chosen value. A control that already shows the value is not touched, unless somebody has
+  // typed into it.
   let shown;
   function show() {
     const value = scene.get(field.path);
@@ -250,7 +251,7 @@ export function buildControls(scene, living_root) {
 
   function show() {
     const grown = lists.map(grow).some(yes => yes);
-    let others = false; // whether other fields are visible than before
+    let others = false; // whether the visible fields have changed
     for (const r of rows) {
       const hidden = !meansSomething(scene, r.path);
       if (r.node.hidden !== hidden) (r.node.hidden = hidden), (others = true);

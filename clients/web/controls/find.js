@@ -3,7 +3,7 @@
 import { byId } from '../base/dom.js';
 import { english, t } from '../words/i18n.js';
 
-const most = 4; // matching fields without effect that are named
+const most = 4; // limit of the matching fields without effect that are named
 
 // Text for comparison: lower case, without accents, with straight apostrophes.
 export const plain = text => text.normalize('NFD').replace(/\p{M}/gu, '').replace(/[’‘]/g, "'").toLowerCase();

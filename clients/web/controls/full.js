@@ -1,10 +1,10 @@
-// The picture alone fills the window: by the key F or a button, left by Esc. If the browser allows, the window fills
-// the screen too.
+// Shows the picture alone in the window: by the key F or a button; Esc ends it. If the browser allows, the window also
+// fills the screen.
 import { byId } from '../base/dom.js';
 import { t } from '../words/i18n.js';
 import * as link from '../base/link.js';
 
-const awake_ms = 2500; // how long the buttons stay visible after a pointer has moved
+const awake_ms = 2500; // time for which the buttons stay visible after a pointer has moved
 
 export function buildFull(stage) {
   const body = document.body,
@@ -34,7 +34,7 @@ export function buildFull(stage) {
     else (before?.isConnected && before !== body ? before : stage).focus();
   }
 
-  // If the browser refuses, the picture fills the window alone.
+  // If the browser refuses full screen, the picture fills only the window.
   function enter() {
     show(true);
     document.documentElement.requestFullscreen?.().catch(() => {});

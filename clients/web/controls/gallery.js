@@ -8,7 +8,7 @@ import { swipe } from '../base/swipe.js';
 // A preset without a caption shows its title.
 export const caption = (name, title) => captions[name] ?? title;
 
-// The most wanted presets stand first, and those that test programs last; between them the server's order holds.
+// The most popular presets come first, and those that test programs last; between them the server's order is kept.
 const wanted = [first_view, 'gargantua-gas', 'milky-way', 'jet', 'infall', 'm87', 'polarised-ring'];
 function order(name) {
   if (wanted.includes(name)) return wanted.indexOf(name) - wanted.length;

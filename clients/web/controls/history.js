@@ -2,12 +2,13 @@
 import { byId } from '../base/dom.js';
 import { valueAt } from '../picture/scene.js';
 
-const together_ms = 400; // changes that follow each other sooner are one step, as those of a drag
+const together_ms = 400; // changes that follow each other within this time are one step, as those of a drag
 const most = 200;
 
 export function buildHistory(scene) {
-  // text: the scene without time and without what the server moves, which undo leaves alone. When undo crosses the
-  // start or the end of a motion, time and what was moved go back to their values of then. fitted: see fit.js.
+  // text: the scene without time and without the values that the server moves; undo does not change these. When undo
+  // crosses the start or the end of a motion, time and the moved values return to their values of that moment. fitted:
+  // see fit.js.
   function whole() {
     const { time, ...document } = scene.document({}, true);
     return { text: JSON.stringify(document), time: scene.get('time'), fitted: scene.fitted() };
@@ -54,7 +55,7 @@ export function buildHistory(scene) {
     clearTimeout(timer);
     timer = setTimeout(note, together_ms);
   });
-  // The values that the server set, and the place that a camera has drifted to, are where the next change begins.
+  // The next change begins from the values that the server has set, and from the place to which a camera has drifted.
   scene.addEventListener('settle', () => timer || (now = whole()));
   scene.addEventListener('tick', () => timer || (now.time = scene.get('time')));
   buttons[0].addEventListener('click', () => go(past, future));

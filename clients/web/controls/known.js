@@ -1,4 +1,4 @@
-// What the page knows of single fields beyond the schema. A field that is not named here gets its control all the same.
+// What the page knows about single fields beyond the schema. A field that is not named here has a control as well.
 
 export const left_out = ['image.width', 'image.height']; // set by the window
 export const beside_time = ['time', 'motion.time_rate']; // shown beside the buttons that start and stop time
@@ -14,7 +14,7 @@ const has_disk = scene => scene.get('disk.model') !== 'none',
     scene.emitters.some(({ name }) => name !== 'sky');
 const only_with = {
   'disk.flare': scene => has_disk(scene) && scene.get('disk.height') > 0,
-  // a refused atmosphere of a thick disk can be taken back
+  // shown even for a thick disk, so that a refused atmosphere can be reset
   'disk.atmosphere': scene =>
     has_disk(scene) && (scene.get('disk.height') === 0 || scene.get('disk.atmosphere') !== 'isotropic'),
   'style.ringdown_time': scene => scene.get('style.ringdown') > 0,
@@ -66,7 +66,7 @@ function hasChoice(scene, name) {
 // The value by which a switch turns its section off.
 const off = field => field.choices?.[0] ?? field.minimum;
 
-// Whether a field has an effect, by the schema and by what the server says of the current scene.
+// Whether a field has an effect, by the schema and by the server's statements on the current scene.
 export function meansSomething(scene, path) {
   const field = scene.fields.get(path),
     dot = path.lastIndexOf('.'),

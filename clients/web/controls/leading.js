@@ -8,7 +8,7 @@ import { light_m_s, sun_m } from '../picture/scene.js';
 
 const au_m = 149597870700;
 
-// The fields of each slider, of which one is in use: for an observer at infinity, "distance" sets the picture's width.
+// The fields of each slider; one of them is in use. For an observer at infinity, "distance" sets the picture's width.
 const sliders = {
   spin: ['spacetime.spin'],
   tilt: ['camera.inclination_deg'],

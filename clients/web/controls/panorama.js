@@ -1,5 +1,5 @@
-// A panorama of the sky as the server takes it: PNG, twice as wide as high, in galactic coordinates. JPEG is decoded;
-// a panorama in equatorial coordinates (J2000) is turned.
+// Converts a panorama of the sky to the server's form: PNG, twice as wide as high, in galactic coordinates. JPEG is
+// decoded; a panorama in equatorial coordinates (J2000) is rotated.
 import { t } from '../words/i18n.js';
 
 const widest = 4096; // larger panoramas are scaled down
@@ -29,7 +29,7 @@ async function turned({ data, width, height }) {
         y = flat * sines[i],
         ra = Math.atan2(y_of[0] * x + y_of[1] * y + y_of[2] * z, x_of[0] * x + x_of[1] * y + x_of[2] * z),
         dec = Math.asin(Math.min(Math.max(z_of[0] * x + z_of[1] * y + z_of[2] * z, -1), 1));
-      // between the four nearest pixels
+      // interpolates between the four nearest pixels
       const u = (0.5 - ra / (2 * Math.PI)) * width - 0.5,
         v = Math.min(Math.max((0.5 - dec / Math.PI) * height - 0.5, 0), height - 1),
         [left, up] = [Math.floor(u), Math.min(Math.floor(v), height - 2)],
@@ -48,7 +48,7 @@ async function turned({ data, width, height }) {
   return out;
 }
 
-// Returns a PNG. Throws a sentence if the file is no picture, or not twice as wide as high.
+// Returns a PNG. Throws a sentence if the file is not a picture, or not twice as wide as high.
 export async function panorama(file, isEquatorial) {
   const picture = await createImageBitmap(file).catch(() => {
     throw new Error(t('panorama.this-file-is-no', 'This file is no picture that the browser can read'));

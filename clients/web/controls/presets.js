@@ -1,5 +1,5 @@
-// The list of presets. It shows the one that the scene matches, at any time and from any azimuth; the link keeps its
-// name.
+// The list of presets. It shows the preset that the scene matches, whatever its time and azimuth. The link has the
+// preset's name.
 import { firstDocument, first_view } from '../picture/ahead.js';
 import { byId, el } from '../base/dom.js';
 import { label, t, tell } from '../words/i18n.js';
@@ -34,7 +34,7 @@ export async function openPreset(scene) {
           if (error.status !== 404) throw error;
           scene.unknown.push('preset');
         }));
-  // A width that equals the preset's was not chosen by anybody.
+  // A width that equals the preset's was not chosen by the user.
   const given = Object.fromEntries(
     Object.entries(linked).filter(([path, value]) => value !== valueAt(document ?? {}, path)),
   );
@@ -45,8 +45,8 @@ export async function openPreset(scene) {
 // Fields that do not change which preset a scene matches: the picture, the time and the azimuth.
 const besides = path => ['image', 'time'].includes(path.split('.')[0]) || path === 'camera.azimuth_deg';
 
-// A scene's other fields as a text, to compare scenes by. fitted: its width is set by the window, so the scene's own
-// counts.
+// A scene without those fields as a text, to compare scenes by. fitted: the window has set the scene's width, so its
+// own width is compared.
 function essence(scene, document, fitted = null) {
   const own = {};
   for (const [path, { default: usual }] of scene.fields) {
@@ -56,8 +56,8 @@ function essence(scene, document, fitted = null) {
   return JSON.stringify(own);
 }
 
-// A link with a preset holds what differs from the preset, even a default value. A width that the window set is left
-// out.
+// A link with a preset has the fields that differ from the preset, even if their values are defaults. A width that the
+// window set is left out.
 function linkBeside(scene, document, fitted) {
   for (const [path, { default: usual }] of scene.fields) {
     const theirs = told(valueAt(document, path)) ?? usual;

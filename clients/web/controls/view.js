@@ -1,5 +1,5 @@
-// The camera is moved by hand: a drag goes round the hole, or looks around when the camera is near it; the wheel or a
-// pinch comes nearer or narrows the field; keys do all of it.
+// Moves the camera by hand. A drag goes round the hole, or looks around when the camera is near it. The wheel or a
+// pinch comes nearer or narrows the field of view. Keys can do all of these.
 import { byId } from '../base/dom.js';
 import { t } from '../words/i18n.js';
 import * as link from '../base/link.js';
@@ -65,8 +65,8 @@ export function handle(stage, scene) {
   const far = () => get('r') === 'infinity';
   const narrows = () => looks() && !['equirectangular', 'fulldome'].includes(get('projection'));
 
-  // What wheel and pinch change. At infinity, and where a drag looks around, it is the field of view; elsewhere the
-  // distance, which stays outside every static limit (r = 2) unless the camera is within already.
+  // What the wheel and a pinch change. At infinity, and where a drag looks around, it is the field of view. Elsewhere
+  // it is the distance, which stays outside every static limit (r = 2) unless the camera is already inside.
   function reach() {
     if (get('projection') === 'ring')
       return { name: 'ring_decades_min', low: -13, high: Math.min(get('ring_decades_max') - 0.5, -1) };

@@ -1,5 +1,5 @@
-// A lesson, from the teacher's side: a class follows this page's session, answers questions, and is counted. In a
-// pupil's copy, the way back to the lesson.
+// A lesson, from the teacher's side: a class follows this page's session and answers questions, and the answers are
+// counted. In a pupil's copy, the way back to the lesson.
 import { describe } from '../words/describe.js';
 import { byId, el } from '../base/dom.js';
 import { lang, number, t, tell } from '../words/i18n.js';
@@ -9,7 +9,8 @@ import { ask, module } from '../base/server.js';
 
 const beat_ms = 1000; // between two requests for the answers
 const choice_most = 60; // characters of an answer
-const own = ['lang', 'full', 'lesson', 'view', 'pace']; // of this page, and not of the copies; nor pair.FIELD
+// fields of this page that copies do not get; pair.FIELD is not copied either
+const own = ['lang', 'full', 'lesson', 'view', 'pace'];
 
 // The browser may block the storage; then the lesson ends with the page.
 const memory = {
@@ -39,8 +40,8 @@ const tooNear = () => /^(localhost|127\.|\[::1\])/.test(location.hostname);
 
 let section = null;
 
-// session(): the address of the session that shows the scene, or null. begins: a lesson is begun, also in a pupil's
-// copy; else the lesson before a reload goes on, or a copy gets the way back.
+// session(): the address of the session that shows the scene, or null. begins: a lesson is started, also in a pupil's
+// copy; otherwise the lesson from before a reload continues, or a copy shows the way back.
 export function teach(scene, session, begins) {
   document.head.querySelector('[href$="lesson.css"]') ??
     document.head.append(el('link', { rel: 'stylesheet', href: new URL('lesson.css', import.meta.url) }));
@@ -65,7 +66,7 @@ function wayBack(id) {
 
 function panel(scene, session) {
   let lesson = memory.get(),
-    sent = {}, // what this page has sent of the session, the link and the words
+    sent = {}, // what this page has last sent: session, link and words
     turn = Promise.resolve(), // the request before
     timer = 0,
     ended = false,
@@ -117,7 +118,8 @@ function panel(scene, session) {
   async function exchange(more) {
     if (ended) return;
     const now = present(),
-      // Only what has changed on this page: the same lesson may be open in another tab, which shows another session.
+      // Sends only what has changed on this page: the same lesson may be open in another tab, which shows another
+      // session.
       news = Object.entries(now).filter(([name, value]) => value != null && sent[name] !== value),
       fresh = { ...Object.fromEntries(news), ...more };
     const state =
@@ -139,7 +141,7 @@ function panel(scene, session) {
     return turn;
   }
 
-  // The server was restarted, or the lesson was idle for too long. The next beat opens another one.
+  // The lesson is gone: the server was restarted, or the lesson was idle for too long. The next beat opens another one.
   function lose() {
     lesson = null;
     sent = {};
@@ -150,7 +152,7 @@ function panel(scene, session) {
     renewed.textContent = t('lesson.the-lesson-ended-pupils', 'The lesson ended. Pupils must open the new link.');
   }
 
-  // Problems of one beat are mended by the next.
+  // An error of one beat is repaired by the next.
   async function beat() {
     clearTimeout(timer);
     try {
@@ -242,7 +244,7 @@ function panel(scene, session) {
     showHands(question, hands);
   }
 
-  // The question of one's own in these inputs; null, with the reason, if it is none.
+  // The teacher's own question in these inputs; null, with the reason, if it is not complete.
   function written(text, choices) {
     const plain = words => words.replace(/[\s\p{Cc}]+/gu, ' ').trim(),
       refuse = (input, words) => ((wrong.textContent = words), input.focus(), null),
@@ -264,7 +266,7 @@ function panel(scene, session) {
 
   const ready = import('./questions.js').then(({ questions }) => questions(lang));
 
-  // The form that asks: a ready question, or one of one's own.
+  // The form for asking: a ready question, or the teacher's own.
   async function showAsking() {
     const list = await ready.catch(() => []),
       select = el(

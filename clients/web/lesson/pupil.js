@@ -1,11 +1,11 @@
-// The page of a pupil: the picture that the teacher moves, the teacher's question, and the way to a copy. It stands
-// alone, so that thirty telephones load little.
+// The page of a pupil: the picture that the teacher moves, the teacher's question, and the way to a copy. It loads no
+// other module of the page except the language, so that thirty telephones load little.
 import { lang, t } from '../words/language.js';
 
 const beat_ms = 1000; // between two requests for the state of the lesson
 const again_ms = 2000; // after a request that failed
 const quality = 80, // of moving pictures
-  fine = 92; // of a picture at rest: less than a third of the bytes of an exact one
+  fine = 92; // JPEG quality of a picture at rest: less than a third of the bytes of an exact one
 
 const id = /[0-9a-f]{16}/.exec(location.hash)?.[0],
   at = name => document.getElementById(name),
@@ -17,7 +17,7 @@ document.title = `${at('title').textContent} – kerrd`;
 at('copy').textContent = t('pupil.take-a-copy-to', 'Take a copy to try it yourself');
 document.querySelector('label').textContent = t('pupil.your-name-for-your', 'Your name, for your teacher');
 
-// A key of this page's own, by which the server counts a pupil once. The browser may block the storage.
+// A random key of this page, so that the server counts a pupil once. The browser may block the storage.
 function remember(key, make) {
   try {
     const kept = sessionStorage.getItem(key) ?? make();
@@ -37,7 +37,7 @@ let session = null, // the session that the teacher shows
   refused = '', // why the pupil's last choice was not taken
   ended = false;
 
-// What is wrong with the lesson, and with its pictures. The first of them is shown.
+// What is wrong with the lesson, and with its pictures. The first message that is not empty is shown.
 const wrong = { lesson: '', pictures: '…' };
 function tell(of, words) {
   wrong[of] = words;
@@ -56,7 +56,7 @@ function sentence(status, pointer) {
   return t('pupil.the-server-has-refused', 'The server has refused this (HTTP {0}).', status);
 }
 
-// A ready question in the pupil's language. A question of the teacher's own stays in the teacher's.
+// Translates a ready question into the pupil's language. A question of the teacher's own is not translated.
 async function translated(question, from) {
   if (!question || from === lang) return question;
   const [theirs, ours] = await import('./questions.js')
@@ -66,7 +66,7 @@ async function translated(question, from) {
   return choices?.length === question.choices.length ? { ...question, text, choices } : { ...question, lang: from };
 }
 
-// Without an attribute a text is in the language of the page.
+// A text without the attribute is in the language of the page.
 const speaks = (node, tongue) =>
   tongue && tongue !== lang ? node.setAttribute('lang', tongue) : node.removeAttribute('lang');
 
@@ -117,7 +117,7 @@ function draw(asked) {
     }),
   );
   at('question').hidden = false;
-  // who is writing goes on, and hears of it
+  // a pupil who is typing keeps the focus, and hears the question
   if (document.activeElement !== at('name')) at('asked').focus();
   else at('heard').textContent = asked.text;
 }

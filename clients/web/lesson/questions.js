@@ -1,5 +1,5 @@
-// Questions that a teacher can ask a class as they are: each asks for a prediction. `right` is the right choice; `shows`,
-// the changes of the scene that let the class see it.
+// Ready questions for a class: each asks for a prediction. `right` is the right choice; `shows` are changes of the
+// scene by which the class sees it.
 import { speak } from '../words/language.js';
 
 const ready = t => [
@@ -67,5 +67,5 @@ const ready = t => [
   },
 ];
 
-// The questions in a language, which are the same in each; throws where the page does not have the language.
+// The questions in a language, the same in each language; throws if the page does not have the language.
 export const questions = async lang => ready(await speak(lang));

@@ -1,4 +1,5 @@
-// Curved space over the picture: Flamm's paraboloid, also of a spinning hole, and how its spokes are dragged round.
+// Curved space over the picture: Flamm's paraboloid, generalised to a spinning hole, with spokes that the hole drags
+// round.
 import { t } from '../words/i18n.js';
 import { drawn, holeOf, physics } from '../base/server.js';
 

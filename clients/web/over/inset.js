@@ -1,5 +1,4 @@
-// The path of one ray past the hole in space, turned by dragging or by arrow keys. It draws points that the server has
-// computed.
+// The path of one ray past the hole in space, rotated by dragging or by arrow keys. The points come from the server.
 import { el } from '../base/dom.js';
 import { t } from '../words/i18n.js';
 
@@ -30,7 +29,7 @@ export function buildInset() {
   // coordinates.
   const wider = r => Math.hypot(r, spin);
 
-  // The radius that is shown, M: it holds the bend and the crossings that are seen.
+  // The radius that is shown, M: it contains the bend and the visible crossings.
   function reach({ path, crossings }) {
     const crossed = crossings.filter(({ seen }) => seen).map(({ r }) => r);
     return Math.min(Math.max(8, 2.2 * path.least_r, 1.15 * Math.max(0, ...crossed)), 60);
@@ -64,7 +63,7 @@ export function buildInset() {
     context.fillText(text, x, y);
   }
 
-  // Names the observer's end of the ray, the first crossing that is seen, and the hole.
+  // Labels the observer's end of the ray, the first visible crossing, and the hole.
   function names(points, scale, horizon) {
     const inside = ([right, up]) => Math.abs(right * scale) < wide / 2 && Math.abs(up * scale) < high / 2,
       from = points.find(inside),

@@ -1,5 +1,5 @@
-// For a hole whose ring the Event Horizon Telescope measured, a slider over the picture: from the picture without a
-// beam, through the scene as it is, blurred by its beam, to the measured ring with its error, drawn to scale.
+// A slider over the picture, for a hole whose ring the Event Horizon Telescope measured. It goes from the picture
+// without a beam, through the scene blurred by its beam, to the measured ring with its error, drawn to scale.
 import { byId, el } from '../base/dom.js';
 import { stops } from '../views/scale/eht.js';
 import { number, t } from '../words/i18n.js';
@@ -51,7 +51,7 @@ export async function ring(scene, look, path) {
   };
 }
 
-// choose(yes): sets whether the ring is drawn; size(): of the pictures.
+// choose(yes): sets whether the ring is drawn. size(): size of the pictures.
 export function buildMeasured(stage, scene, size, choose) {
   const slider = el('input', {
       type: 'range',

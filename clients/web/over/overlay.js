@@ -1,5 +1,5 @@
-// Lines over the picture. Each is made of values of /v1/physics: points of the image plane, or directions from a camera
-// near the hole. This module projects them by the camera.
+// Lines over the picture. Each is made of values from /v1/physics: points of the image plane, or directions from a
+// camera near the hole. This module projects them with the camera.
 import { byId, el, latest, svg } from '../base/dom.js';
 import { number, t, tell } from '../words/i18n.js';
 import { nameLines } from '../words/naming.js';
@@ -17,7 +17,8 @@ function camera(scene, width, height) {
     width / 2 + (x * Math.cos(roll) - y * Math.sin(roll)) * unit,
     height / 2 - (x * Math.sin(roll) + y * Math.cos(roll)) * unit,
   ];
-  // Projections in which angles are distances. c and s: of the roll, by which the camera's right and up are turned.
+  // Projections in which angles become distances. c and s: cosine and sine of the roll, which rotates the camera's
+  // right and up.
   function turned(projection, ahead, side, upward) {
     const [c, s] = [Math.cos(roll), Math.sin(roll)],
       right = side * c - upward * s,
@@ -49,7 +50,7 @@ function camera(scene, width, height) {
   };
 }
 
-// Pixels: neighbours that are further apart lie on two sides of the seam of a picture of all directions.
+// Pixels: neighbouring points that are further apart lie on different sides of the seam of a picture of all directions.
 let seam = Infinity;
 const beyondSeam = (a, b) => a && b && Math.abs(a[0] - b[0]) > seam;
 
@@ -115,8 +116,8 @@ const refusals = {
   '/inclination_deg': t('overlay.a-line-seen-from', 'a line, seen from the plane itself'),
 };
 
-// The image of order 0 or 1 of a circle in the equatorial plane. Where a degree of it is spread wide, more points are
-// requested.
+// The image of order 0 or 1 of a circle in the equatorial plane. Where a degree of it covers many pixels, more points
+// are requested.
 async function circle(scene, look, r, order = 0) {
   const far = at_infinity(scene);
   const ask = async angle_deg => {
@@ -238,7 +239,7 @@ export function buildOverlays(root, stage, scene) {
   const chosen = new Set((link.get('over') ?? '').split(',').filter(Boolean)),
     layer = byId('overlay'),
     notes = new Map();
-  let leave = new AbortController(); // aborts what the camera's move has made useless
+  let leave = new AbortController(); // aborts requests that a camera move has made obsolete
 
   function lay(groups, width, height) {
     layer.setAttribute('viewBox', `0 0 ${width} ${height}`);
@@ -294,7 +295,7 @@ export function buildOverlays(root, stage, scene) {
     layer.classList.remove('late');
   });
 
-  // Lets a slider over the picture switch an overlay. A choice by the user's own click overrides it.
+  // Lets a slider over the picture switch an overlay. A click of the user on the overlay's box takes precedence.
   const boxes = new Map(),
     asked = new Map();
   function choose(name, yes) {
@@ -341,7 +342,7 @@ export function buildOverlays(root, stage, scene) {
   // the lines are dimmed until the picture is at rest
   for (const event of ['change', 'move'])
     scene.addEventListener(event, () => (leave.abort(), layer.classList.add('late')));
-  // a falling observer has moved on
+  // a falling observer has moved meanwhile
   scene.addEventListener('tick', () => scene.get('motion.proper_time_rate') && layer.replaceChildren());
   // The axes of the ring projection are drawn for coarse pictures too.
   const axes = () => scene.get('camera.projection') === 'ring' && draw();

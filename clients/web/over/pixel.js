@@ -1,6 +1,6 @@
-// "What is this light?": where the light of one pixel comes from, in sentences, with its ray past the hole beside them
-// and the numbers folded below. A tap or the arrow keys choose the pixel. If the card is opened by its button or key,
-// it follows the pointer and asks wherever that rests, until a tap or an arrow key pins it.
+// "What is this light?": sentences on the origin of the light of one pixel, with its ray past the hole beside them and
+// the numbers folded below. A tap or the arrow keys choose the pixel. If the card is opened by its button or key, it
+// follows the pointer and asks wherever the pointer rests, until a tap or an arrow key pins it.
 import { byId, el, latest } from '../base/dom.js';
 import { duration, number, said, t, tell } from '../words/i18n.js';
 import { buildInset } from './inset.js';
@@ -8,15 +8,15 @@ import { light_m_s, sun_m } from '../picture/scene.js';
 import { ask } from '../base/server.js';
 import { hasNames, nameOf, starsIn } from './stars.js';
 
-const rest_ms = 40; // a pointer must rest so long before the server is asked
-const late_ms = 150; // after which the old text is replaced by "Following this light back …"
-const change_ms = 400; // the scene must be unchanged so long before the server is asked again
+const rest_ms = 40; // a pointer must rest for this time before the server is asked
+const late_ms = 150; // time after which the old text is replaced by "Following this light back …"
+const change_ms = 400; // the scene must be unchanged for this time before the server is asked again
 const star_px = 6;
-const sideways = 0.005; // c: slower gas neither approaches nor recedes
+const sideways = 0.005; // c: gas with a smaller velocity counts as neither approaching nor receding
 const faint = 0.005; // share of the light below which a source goes unmentioned
 
 // Values that make the pixel independent of the rest of the picture, so that no other pixel is rendered. The card shows
-// light as it arrives, before exposure, glare and beam.
+// light as it arrives, before exposure, bloom and beam.
 const alone = {
   'image.samples': 1,
   'style.exposure': 0,
@@ -29,7 +29,7 @@ const degrees = radians => ((((radians * 180) / Math.PI) % 360) + 360) % 360;
 const angle = radians => number(degrees(radians), 3) + '°';
 const length = r => number(r, 4) + ' M';
 
-// The sources of the ray's light, the brightest first: { seen, kind, name, ...what is known of the place }.
+// The sources of the ray's light, the brightest first: { seen, kind, name, ...the known numbers of the place }.
 function sources({ crossings, met, along, end }) {
   const all = [
     ...crossings.flatMap(crossing =>
@@ -79,7 +79,7 @@ const images = [
 ];
 const orderOf = order => `${images[Math.min(order, 2)]} (${t('pixel.order', 'order')} ${order})`;
 
-// What the frequency shift does to the light. The brightness over all frequencies goes by g⁴.
+// Describes the effect of the frequency shift on the light. The brightness over all frequencies is proportional to g⁴.
 function shifted(g) {
   const per_cent = number(100 * Math.abs(g - 1), 2),
     by = g ** (g > 1 ? 4 : -4),
@@ -309,7 +309,7 @@ export function buildPixel(stage, scene, size) {
   function place() {
     cross.style.left = `${100 * at.u}%`;
     cross.style.top = `${100 * at.v}%`;
-    // The card leaves the pixel free: it stands beside it in a wide window, above or below it on a telephone.
+    // The card does not cover the pixel: it is beside it in a wide window, above or below it on a telephone.
     card.dataset.side = at.u < 0.5 ? 'right' : 'left';
     card.dataset.edge = at.v < 0.5 ? 'bottom' : 'top';
   }

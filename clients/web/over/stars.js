@@ -16,7 +16,8 @@ export const hasNames = scene =>
   scene.get('camera.stereo') !== 'pair';
 export const nameOf = ({ name, designation }) => [name, designation].filter(Boolean).join(' · ');
 
-// The values that decide where stars are, as a key; the clock does not. moved: fields that the server has moved.
+// The values on which the places of stars depend, as a key; the clock is not among them. moved: fields that the server
+// has moved.
 function sceneOf(scene, { clientWidth: width, clientHeight: height }, moved) {
   const { time, motion, style, ...document } = scene.document({
     'image.width': width,
@@ -88,7 +89,8 @@ export function buildStars(stage, scene) {
       by = gone(list),
       images = list.images.map(one => ({ ...one, x: one.x + by * one.x_by_azimuth, y: one.y + by * one.y_by_azimuth })),
       image = images.find(one => Math.hypot(one.x - x, one.y - y) < near_px);
-    pace = image ? Math.hypot(image.x_by_azimuth, image.y_by_azimuth) : stale_px; // else stale after a degree
+    // without a known pace the list is stale after a degree
+    pace = image ? Math.hypot(image.x_by_azimuth, image.y_by_azimuth) : stale_px;
     clear();
     if (!image) return;
     const all = images.filter(one => one.name === image.name && one.designation === image.designation);

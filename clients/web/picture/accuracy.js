@@ -2,7 +2,7 @@
 import { byId, el } from '../base/dom.js';
 import { number, readable, said, t, tell, word } from '../words/i18n.js';
 
-// A pass that belongs to one emitter is called by the emitter's title.
+// A pass that belongs to one emitter has the emitter's title.
 const pass_names = {
   queue: t('accuracy.waiting', 'waiting'),
   trace: t('accuracy.rays', 'rays'),

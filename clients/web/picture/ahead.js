@@ -43,8 +43,9 @@ function poll(url) {
   return one;
 }
 
-// Returns the session: { id, token, revision, … } as the server describes it, the window's size, how much of it is kept
-// in motion, and the requests under way. Null if it failed; the caller then opens one itself and shows the error.
+// Returns the session as the server describes it, { id, token, revision, … }, the window's size, the share of its width
+// that is kept in motion, and the requests in progress. Null if it failed; the caller then opens a session itself and
+// shows the error.
 async function open() {
   const size = windowSize(stage),
     keeps = kept(),

@@ -19,7 +19,7 @@ const names = [
   ...Object.keys(sides),
 ];
 const radians = Math.PI / 180;
-const most = 4; // largest scaling up or down: beyond, too little of the picture is seen, or too much is missing
+const most = 4; // largest scaling up or down: beyond it, the picture shows too little, or leaves too much empty
 const half = fov_deg => Math.tan((fov_deg / 2) * radians);
 
 // How a picture seen by the camera `then` lies in the view of the camera `now`: { scale, right, down }, the shifts in
@@ -45,9 +45,10 @@ export function carried(then, now, height) {
   return Math.hypot(right, down / height) < 1 ? { scale, right, down } : null;
 }
 
-// Shows pictures in the stage, each with the camera that saw it. The last picture of a scene is an <img>, exact, which
-// can be saved like any other. Pictures in motion are drawn on a canvas over it, which takes half the time of a new
-// <img>; the last full picture below it moves along. A picture with all its pixels is faded in over one with fewer.
+// Shows pictures in the stage, each with the camera that it was rendered for. The last picture of a scene is an exact
+// <img>, which can be saved like any other. Pictures in motion are drawn on a canvas over it, in half the time of a new
+// <img>; the last full picture below the canvas moves along. A picture with all its pixels is faded in over one with
+// fewer.
 export function buildCarry(stage, scene) {
   const camera = document =>
       Object.fromEntries(names.map(name => [name, document?.[name] ?? scene.fields.get('camera.' + name).default])),
@@ -68,8 +69,8 @@ export function buildCarry(stage, scene) {
     if (node.style.transform !== transform) node.style.transform = transform;
   }
 
-  // Where the coarse picture shrinks, the picture at rest below it appears round it; it is hidden when it was seen from
-  // another direction.
+  // Where the coarse picture shrinks, the picture at rest below it appears round it. It is hidden if it was rendered
+  // for another direction.
   function cover() {
     const [below, over] = [picture, canvas].map(node => seen.get(node)),
       other =

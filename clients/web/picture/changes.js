@@ -1,4 +1,4 @@
-// What a session is sent of a scene, and what the scene takes back from it.
+// Compares a scene with its session: what is sent to the session, and what the scene takes over from it.
 import { mergePatch } from './merge.js';
 
 const least_samples = 2;
@@ -22,8 +22,8 @@ export function document(scene, { width, height }, part) {
   return scene.document(over, true);
 }
 
-// The patch from the session's document. Time and the place of a falling observer are left to the server, unless
-// somebody has set them.
+// The patch from the session's document. Time and the place of a falling observer are left to the server, unless the
+// user has set them.
 export function difference(scene, session, document) {
   const { time: then, ...before } = session.document,
     { time, ...after } = document;
@@ -34,8 +34,8 @@ export function difference(scene, session, document) {
   return patch;
 }
 
-// When motion has stopped, takes the values where the server left them. document: the one that was sent, which gets
-// them too; now: the server's.
+// When motion has stopped, takes over the final values of the server. document: the one that was sent; it gets these
+// values too. now: the server's document.
 export function follow(scene, document, now) {
   if (scene.goesOn()) return;
   const { time, camera } = now,

@@ -1,6 +1,6 @@
-// The camera drifts round the hole in the first view until somebody touches anything. With reduced motion preferred it
-// does not. Where the server shows too few pictures of it a second, a recording of the same drift plays (loop.js). At
-// the first touch live pictures go on from where the recording is.
+// In the first view the camera drifts round the hole until the user touches anything. With reduced motion preferred it
+// does not. If the server renders too few pictures of the drift per second, a recording of it plays (loop.js). At the
+// first touch live pictures continue from the recording's camera.
 import { atFirstTouch, still } from '../base/dom.js';
 import { begun, end, leave, length_s, play, rate_deg, seconds } from './loop.js';
 import { goesOn } from '../share/share.js';
@@ -9,7 +9,7 @@ const trial_ms = 3000; // the pictures of this time are counted
 const least_pace = 4; // pictures a second
 const tell_ms = 250; // between two updates of the scene while the recording plays
 
-// fresh: nobody has touched anything yet. Returns shown(frame), to be called with each picture that is shown.
+// fresh: the user has not touched anything yet. Returns shown(frame), to be called with each picture that is shown.
 export function begin(stage, scene, fresh) {
   const drifts =
     fresh &&
@@ -19,7 +19,7 @@ export function begin(stage, scene, fresh) {
     scene.get('motion.proper_time_rate') === 0;
   let pictures = 0,
     timer = 0,
-    jumps = -1; // as the scene counts them, when live pictures went on; -1: none were interrupted
+    jumps = -1; // value of the scene's counter of jumps when live pictures continued; -1: they were never interrupted
   if (!drifts) {
     end();
     return () => begun() && leave();
@@ -45,7 +45,7 @@ export function begin(stage, scene, fresh) {
   const look = () => (seen &&= sees());
   for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, look);
   function judge() {
-    if (scene.get('camera.azimuth_deg') > rate_deg * (length_s - 1)) return; // the recording does not go so far
+    if (scene.get('camera.azimuth_deg') > rate_deg * (length_s - 1)) return; // the recording ends before this azimuth
     if (seen && pictures < (least_pace * trial_ms) / 1000) return void record();
     trial();
   }
@@ -77,7 +77,7 @@ export function begin(stage, scene, fresh) {
   scene.addEventListener('drift', stop);
   scene.drifts(rate_deg);
   if (goesOn('lesson'))
-    stand(); // the class follows the session
+    stand(); // the class follows the session, which therefore shows the pictures
   else if (begun()) record().then(plays => plays || (scene.drift && trial()));
   else trial();
   return frame => {

@@ -7,7 +7,7 @@ const widest = 16 / 9;
 const most = { 'camera.fov_deg': 150, 'camera.field_m': 1e4 };
 const half = degrees => (degrees * Math.PI) / 360;
 
-// The field of the camera that sets the width; null if there is none, as in a picture of all directions.
+// The camera field that sets the width; null if there is none, as for a picture of all directions.
 function widthOf(get) {
   const projection = get('camera.projection'),
     far = get('camera.r') === 'infinity';
@@ -28,7 +28,7 @@ export const fits = ({ clientWidth: width, clientHeight: height }) => width > 0 
 export function buildFit(scene) {
   let held = null; // { path, base: the scene's own width, value: the fitted one }
 
-  // Returns values of a scene by path, with the width fitted; given: the values that somebody chose.
+  // Returns values of a scene by path, with the width fitted. given: values that the user chose.
   scene.fits = (values, given = {}) => {
     const get = path => values[path] ?? scene.fields.get(path).default,
       path = widthOf(get);

@@ -1,15 +1,15 @@
-// Requests for pictures. While something moves, several are under way, each for the frame after that of the one before:
-// the server makes the next picture while one is read and drawn, and several over a line of high latency. New requests
-// are sent as answers come, so a slow answer slows all of them down. At rest there is one request. Over a line of high
-// latency a change of the camera is sent with a request, which saves a round trip; from.pending is the next change to
-// send.
+// Requests for pictures. While something moves, several requests are in flight, each for the frame after that of the
+// request before. The server then makes the next picture while one is read and drawn; over a line of high latency it
+// makes several. New requests are sent as answers arrive, so a slow answer slows all of them down. At rest there is one
+// request. Over a line of high latency a change of the camera is sent with a request, which saves a round trip;
+// from.pending is the next change to send.
 import { Problem, ask } from '../base/server.js';
 
-export const still_ms = 600; // after so long without a change or an unfinished picture, one request is enough
+export const still_ms = 600; // after this time without a change or an unfinished picture, one request is sufficient
 
-// moving(): whether something moved lately; goesOn(): whether pictures come without changes; options(change): options
-// of fetch; arrived(from, request, answer) is called when the server has taken a change, refused(from) when it has
-// refused one.
+// moving(): whether something has moved recently. goesOn(): whether pictures come without changes. options(change):
+// options of fetch. arrived(from, request, answer) is called when the server has accepted a change, refused(from) when
+// it has refused one.
 export function buildFlight(line, { moving, goesOn, options, arrived, refused }) {
   let kick = () => {};
 
@@ -27,8 +27,8 @@ export function buildFlight(line, { moving, goesOn, options, arrived, refused })
     from.flight.push(one);
   }
 
-  // When pictures come only after changes, further requests would wait in vain and take the place of those that carry
-  // changes.
+  // If pictures come only after changes, further requests would wait in vain and occupy the connections of those that
+  // carry changes.
   const depth = () => (!moving() ? 1 : line.far() && !goesOn() ? 2 : line.depth());
   const behind = from => Math.max(from.frame - 1, ...from.flight.map(({ after }) => after)) + 1;
 

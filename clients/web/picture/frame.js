@@ -24,8 +24,8 @@ export function sentences() {
 
 const names = header => (header ?? '').split(', ').filter(Boolean);
 
-// The approximations of a picture: names and sentences. The server sends their names only when the set differs from
-// the one whose number the request gave; the session keeps the sets by number.
+// The approximations of a picture: names and sentences. If the set differs from the one whose number the request gave,
+// the server sends the names; otherwise it sends none. The session stores the sets by number.
 export async function approximations(session, get) {
   session.told = get('Kerrd-Sentences');
   if (!session.sentences.has(session.told)) session.sentences.set(session.told, names(get('Kerrd-Approximations')));
@@ -44,8 +44,8 @@ export const passes = header =>
       ms: Number(/dur=([\d.]+)/.exec(entry)?.[1] ?? 0),
     }));
 
-// What the page states on a picture's size. all: it has all the pixels of a picture at rest; narrow: it has fewer than
-// were to be kept in motion.
+// What the page states about a picture's size. all: the picture has all the pixels of one at rest. narrow: it has fewer
+// than should be kept in motion.
 export function fits(quality, { width }, { keeps, part }) {
   const all = Math.round(width * part);
   return {
@@ -54,8 +54,8 @@ export function fits(quality, { width }, { keeps, part }) {
   };
 }
 
-// What the headers of a picture say of its state: quality, revision, an observer's clock, and where the camera is.
-// falls: the observer moves by their own clock.
+// The state of a picture, from its headers: quality, revision, an observer's clock, and the camera's place. falls: the
+// observer moves by proper time.
 export function state(get, scene) {
   const clock = get('Kerrd-Clock') && figures(get('Kerrd-Clock')),
     falls = clock && scene.get('motion.proper_time_rate'),

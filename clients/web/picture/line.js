@@ -1,30 +1,30 @@
 // Chooses the JPEG quality and the number of requests of moving pictures by the bandwidth and the latency of the line.
-// At the highest quality the difference to an exact picture is invisible in motion. When the bytes take long, the
-// quality falls until they do not; when they arrive quickly, it rises again.
+// At the highest quality the difference to an exact picture is invisible in motion. While transfers take long, the
+// quality falls; while they are quick, it rises again.
 const qualities = [90, 75, 60, 45, 30];
-// transfer time of a picture, for each request that is under way, above which the quality falls
+// transfer time of a picture, for each request in flight, above which the quality falls
 const long_ms = 45;
 // time between pictures above which the quality falls, if the transfer takes up most of it
 const slow_ms = 105;
-const steep = 3; // times slow_ms: a transfer that takes longer lowers the quality by two steps at once
+const steep = 3; // multiple of slow_ms: a transfer that takes longer lowers the quality by two steps at once
 const soon_ms = 3000; // a higher quality that is given up sooner than this is tried less often afterwards
 const busy = 0.7; // share of the time between pictures above which the transfer is what limits it
-const short_ms = 12; // transfer time, for each request under way, below which a higher quality is affordable
-const calm = 12; // number of such quick pictures in a row before a higher quality is tried
-const near_ms = 15; // round trip below which the line is not to blame
-const far_ms = 60; // round trip above which the latency counts
+const short_ms = 12; // transfer time, for each request in flight, below which a higher quality is affordable
+const calm = 12; // number of consecutive quick pictures before a higher quality is tried
+const near_ms = 15; // round-trip time below which the line is not the cause
+const far_ms = 60; // round-trip time above which the latency counts
 const frame_ms = 75; // usual time between pictures over a line of high latency
 const most = 5; // requests for pictures: a browser opens six connections to one server
 const choked_ms = 800; // transfer time at the lowest quality; above it, more requests only make each picture older
-const most_calm = 400; // upper limit of the pictures to wait, after repeated failures
-const of_late = 4; // number of latest answers; the quickest gives the round trip
+const most_calm = 400; // upper limit of the number of quick pictures to wait for, after repeated failures
+const of_late = 4; // number of latest answers; the quickest of them gives the round-trip time
 
 export function buildLine() {
   let at = 0,
     quick = 0,
     patience = calm,
     climbed = -Infinity,
-    trip_ms = 0, // round trip: the least of the latest answers
+    trip_ms = 0, // round-trip time: the least of the latest answers
     trips = [],
     read_ms = 0,
     came_ms = -Infinity;
@@ -48,7 +48,7 @@ export function buildLine() {
     read(quality, ms) {
       const now = performance.now(),
         since = now - came_ms,
-        // the line takes that long, and not the server
+        // the transfer takes this long, not the server
         holds_up = since > slow_ms && since < choked_ms && ms > busy * since;
       came_ms = now;
       read_ms = ms;

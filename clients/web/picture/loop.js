@@ -1,5 +1,6 @@
-// A recording of the first view, made by scripts/stills. It plays where the server is too slow to show the first view
-// live. So that it can go round, its first second fades from the pictures after its end to those of its start.
+// A recording of the first view, made by scripts/stills. It plays if the server is too slow to show the first view
+// live. Its first second fades from the pictures after its end to those of its start, so that it can repeat without a
+// jump.
 import { byId, el, still } from '../base/dom.js';
 import { sizeOf } from './sizes.js';
 
@@ -18,7 +19,7 @@ const happens = event =>
     film.addEventListener('error', reject, { once: true });
   });
 
-// While the view is hidden it stands.
+// Pauses while the view is hidden.
 function follow() {
   if (over) return;
   document.hidden || document.body.dataset.view !== 'lensing' ? film.pause() : film.play().catch(() => {});
@@ -34,7 +35,8 @@ async function open(stage, from_s, wanted) {
     const answer = await fetch(new URL('../stills/first.webm', import.meta.url));
     if (!answer.ok) throw new Error();
     const there = happens('loadeddata');
-    film.src = URL.createObjectURL(await answer.blob()); // one can seek in a blob, whatever the server does
+    // a blob can be sought in, even if the server does not support ranges
+    film.src = URL.createObjectURL(await answer.blob());
     await there;
     const found = happens('seeked');
     film.currentTime = Math.min(Math.max(from_s(), fade_s), length_s - fade_s);
@@ -57,16 +59,16 @@ function away() {
   film = null;
 }
 
-// Plays it from from_s() seconds on, unless it plays already, or wanted() is false once it is loaded. Returns a promise
-// of whether it plays.
+// Plays from from_s() seconds on, unless it already plays, or wanted() is false when it is loaded. Returns a promise of
+// whether it plays.
 export const play = (stage, from_s, wanted = () => true) => (playing ??= open(stage, from_s, wanted));
 
 export const begun = () => playing;
 
-// Where its camera has drifted to since the start, in seconds.
+// Seconds for which its camera has drifted.
 export const seconds = () => film.currentTime + (film.currentTime < fade_s / 2 ? length_s : 0);
 
-// It stands from now on, until it is taken away.
+// Pauses the recording until it is removed.
 export function end() {
   over = true;
   film?.pause();

@@ -21,8 +21,8 @@ function sentence(name, { fraction, remaining_s: left }) {
     : done + t('refining.s-to-go', ', {0} s to go', number(Math.ceil(left))).replace('mancano 1 s', 'manca 1 s');
 }
 
-// address(): of the session; say(words): shows progress. Returns follow(waits), where waits is whether another picture
-// is to come.
+// address(): of the session. say(words): shows progress. Returns follow(waits), where waits tells whether another
+// picture will come.
 export function buildRefining(address, say) {
   const bar = byId('refined'),
     first = byId('first');
@@ -33,7 +33,7 @@ export function buildRefining(address, say) {
     await seen('lensing');
     if (mine !== timer) return;
     const { frame, rendering, refining } = (address() && (await getJson(address()).catch(() => null))) || {};
-    if (mine !== timer) return; // it has come, or another one has been begun
+    if (mine !== timer) return; // the picture has come, or another one has begun
     const made = rendering ?? refining;
     bar.hidden = !made;
     if (made) {

@@ -9,10 +9,10 @@ const tick_ms = 100;
 const patience_ms = 1000;
 const link_ms = 1000;
 const hand_ms = 200; // without a move for so long, a drag has come to rest
-const aside = ['tile']; // sections that the page does not use: it shows whole pictures
+const aside = ['tile']; // sections that the page does not use, because it shows whole pictures
 const known = ['view', 'lang', 'over', 'preset', 'pause', 'full', 'look', 'pace', 'lesson']; // keys of a link without a dot
 
-// Elements of a list have their own paths: spots.0.r.
+// Elements of a list have paths of their own: spots.0.r.
 function* flatten(schema, prefix = '') {
   for (const [name, spec] of Object.entries(schema.properties)) {
     if (spec.deprecated || aside.includes(name)) continue;
@@ -61,7 +61,7 @@ export const linkedTime = time => Number(time?.toPrecision(6)) || null;
 // The value at a path of a document, or undefined.
 export const valueAt = (document, path) => path.split('.').reduce((inside, name) => inside?.[name], document);
 
-// Words are a list in a document, and a text with commas elsewhere, as in a link.
+// Words are a list in a document; elsewhere, as in a link, they are a text with commas.
 export const told = value => (Array.isArray(value) ? value.join(',') : value);
 
 // { type: 'number'
@@ -109,14 +109,14 @@ export class Scene extends EventTarget {
   #clock = null; // timer of the clock without pictures
   #linked = 0; // when the address was last updated
   held = link.get('pause') === '1' || still.matches; // nothing moves until somebody presses Play
-  varies = []; // what another time or azimuth would change, by the server (docs/live.md)
-  emitters = []; // the scene's emitters, by the server
-  unknown = []; // keys of the link that mean nothing here
+  varies = []; // what another time or azimuth would change, as the server states it (docs/live.md)
+  emitters = []; // the scene's emitters, as the server states them
+  unknown = []; // keys of the link that the page does not know
   linked = []; // paths of scene fields that the link set
-  jumps = 0; // how often somebody has set the time
-  jumped = new Set(); // paths of moved values that somebody has set since
-  drift = 0; // degrees a second by which the camera turns until somebody touches anything (drift.js)
-  recorded = false; // the drift is shown by a recording, and the session rests (loop.js)
+  jumps = 0; // number of times that the user has set the time
+  jumped = new Set(); // paths of moved values that the user has set since
+  drift = 0; // degrees a second by which the camera turns until the user touches anything (drift.js)
+  recorded = false; // a recording shows the drift, and the session rests (loop.js)
 
   static async load() {
     const schema = await getJson('v1/schema'),
@@ -183,7 +183,8 @@ export class Scene extends EventTarget {
     return [...values].sort(([a], [b]) => (b === 'style.name') - (a === 'style.name'));
   }
 
-  // Sets a value. A field that the style sets is kept even at its default, else the style's value would apply.
+  // Sets a value. A field that the style sets is stored even if it has its default; otherwise the style's value would
+  // apply.
   #put(path, given) {
     let value = told(given);
     const styled = path in (this.#styles[this.#values.get('style.name')] ?? {});
@@ -205,7 +206,7 @@ export class Scene extends EventTarget {
   // These values of all fields that the server moves, by path.
   origins = () => Object.fromEntries([...this.#moved.keys()].map(path => [path, this.begun(path)]));
 
-  // Fixes moved values where they are.
+  // Fixes moved values at their present values.
   land() {
     if (this.#moved.size) this.settle(Object.fromEntries(this.#moved));
   }
@@ -216,7 +217,8 @@ export class Scene extends EventTarget {
     this.drift = rate;
     const path = 'camera.azimuth_deg',
       there = this.#moved.get(path);
-    if (!rate && this.recorded) (this.recorded = false), this.jumps++; // the session goes on from the recording's time
+    // the session continues from the recording's time
+    if (!rate && this.recorded) (this.recorded = false), this.jumps++;
     if (!rate && there != null) {
       this.jumped.add(path);
       this.settle({ [path]: there });
@@ -224,26 +226,26 @@ export class Scene extends EventTarget {
     this.dispatchEvent(new Event('drift'));
   }
 
-  // A recording shows the drift from now on; it tells its time and its camera by tick().
+  // From now on a recording shows the drift; it reports its time and its camera by tick().
   record() {
     this.recorded = true;
     this.dispatchEvent(new Event('drift'));
   }
 
-  // Degrees a second that the camera turns.
+  // Rate at which the camera turns, degrees per second.
   turns() {
     return this.held ? 0 : this.drift || this.get('motion.azimuth_rate_deg');
   }
 
-  // Sets values, such as { 'camera.r': 30 }; null is the default. A style sets its fields, except those among the
-  // values.
+  // Sets values, such as { 'camera.r': 30 }; null is the default. A style sets its fields, except those that are among
+  // the values.
   change(values) {
     this.#set(values);
     this.#changed();
   }
 
-  // Sets values during a drag: 'move' each time, and 'change' only when the drag rests, since what stands beside the
-  // picture follows 'change'.
+  // Sets values during a drag: 'move' each time, and 'change' only when the drag rests, because panels beside the
+  // picture listen to 'change'.
   move(values) {
     this.#set(values);
     this.#stop();
@@ -263,8 +265,8 @@ export class Scene extends EventTarget {
     this.#field(all);
   }
 
-  // The width of the image plane is one number in two units, as on the server (src/scene/sky_scale.h): the one that is
-  // set last holds; if both are set, the one on the sky.
+  // The width of the image plane is one number in two units, as on the server (src/scene/sky_scale.h). The unit that
+  // was set last counts; if both are set, the angle on the sky counts.
   #field(given) {
     if ('camera.field_m' in given && given['camera.field_uas'] == null) this.#put('camera.field_uas', null);
     const uas = this.get('camera.field_uas');
@@ -285,10 +287,10 @@ export class Scene extends EventTarget {
     this.#clock = null;
   }
 
-  // Whether time runs but nothing visible moves with it, so that no pictures tell the time.
+  // Whether time runs but moves nothing visible, so that no pictures report the time.
   resting = () => this.#clock != null;
 
-  // Stops, or lets go on, all that moves by itself.
+  // Stops or resumes everything that moves by itself.
   hold(held) {
     this.drifts(0);
     this.held = held;
@@ -323,7 +325,8 @@ export class Scene extends EventTarget {
     if (changed) this.dispatchEvent(new Event('settle'));
   }
 
-  // Takes the time of a picture. After one of full quality either the next one comes soon, or nothing visible moves.
+  // Takes over the time of a picture. After a picture of full quality either the next one comes soon, or nothing
+  // visible moves.
   tick(time, fine, moved = {}) {
     this.#stop();
     for (const [path, value] of Object.entries(moved)) this.jumped.has(path) || this.#moved.set(path, value);
@@ -345,8 +348,8 @@ export class Scene extends EventTarget {
     this.dispatchEvent(new Event('tick'));
   }
 
-  // Replaces the whole scene by a document; the picture's size is left to the page. over: values by path that go over
-  // it, a style's among them before its fields; fitted: adapts values to the window (fit.js).
+  // Replaces the whole scene by a document; the page sets the picture's size. over: values by path that override the
+  // document; among them a style is applied before its fields. fitted: adapts values to the window (fit.js).
   replace(document, over = {}, fitted = values => values) {
     this.held = still.matches;
     link.set('pause', null);
@@ -365,8 +368,8 @@ export class Scene extends EventTarget {
     ]);
   }
 
-  // The scene as JSON, only with what differs. other: values that go over the page's; begun: moved values are given as
-  // they began. Elements at their defaults are {} if others follow.
+  // The scene as JSON, only with what differs from the defaults. other: values that override the page's. begun: moved
+  // values are given as at the start of the motion. Elements at their defaults are {} if others follow.
   document(other = {}, begun = false) {
     const out = {};
     for (const [path, value] of this.#with(other, begun ? [] : this.#moved)) {
@@ -380,7 +383,7 @@ export class Scene extends EventTarget {
     return out;
   }
 
-  // A query makes elements one after the other, so an element {} is given by one default value.
+  // A query creates elements one after the other, so an element {} is given by one default value.
   #pairs(document, before = '') {
     return Object.entries(document).flatMap(([name, value]) => {
       const path = before + name;

@@ -1,4 +1,4 @@
-// The page's state of a session, and forms of the scene for it.
+// The page's state of a session, and the scene in the forms that a session needs.
 import { ask, Problem } from '../base/server.js';
 import { take } from './ahead.js';
 
@@ -17,12 +17,13 @@ export const fresh = ({ id, token, flight = [] }) => ({
   plain: false,
 });
 
-// The parts of a scene that decide its cost: the size of the picture, and all that decides how long a pixel takes.
+// The parts of a scene that decide its cost: the size of the picture, and everything on which the time of a pixel
+// depends.
 export const load = ({ camera, time, motion, ...rest }) => JSON.stringify(rest);
 
 export const asleep = document => ({ ...document, motion: { ...document.motion, azimuth_rate_deg: 0 } });
 
-// Adopts the session that was opened ahead of everything else, for the current scene. Returns a function to be called
+// Takes over the session that was opened before everything else, for the current scene. Returns a function to be called
 // once; its promise is null if there is no session.
 export function adopter(scene) {
   const fitted = scene.fitted(), // the server does not know the width that the window set
@@ -40,8 +41,8 @@ export function adopter(scene) {
   };
 }
 
-// Strikes the hole of a session. document: the one that was sent, which gets the strike too. wrong(sentence) is
-// called on a refusal.
+// Strikes the hole of a session. document: the one that was sent; it gets the strike too. wrong(sentence) is called on
+// a refusal.
 export async function strike(scene, session, document, headers, wrong) {
   const answer = await ask(session.url + '/ringdown', { method: 'POST', headers, body: '{}' }).catch(error => {
     if (!(error instanceof Problem) || error.status === 404) throw error;

@@ -5,7 +5,8 @@ import * as link from '../base/link.js';
 const most = { width: 3840, height: 2160 }; // pixels at rest; in a larger window the picture is scaled up
 const drag_px = 1600; // a wider window keeps in motion a share of this width
 const least_part = 0.25; // the server's limit
-const max_frame_ms = 100; // for a frame; where half the width takes longer, Auto keeps less after the first touch
+// limit of a frame's time: if half the width takes longer, Auto keeps less after the first touch
+const max_frame_ms = 100;
 // The least share of the window's width that is kept in motion; null: the whole picture at rest.
 const parts = { auto: 0.5, sharp: null, fast: 0.25 };
 
@@ -40,11 +41,11 @@ export function windowSize(stage) {
 // Auto, Sharp or Fast, kept in the address.
 export const pace = () => (Object.hasOwn(parts, link.get('pace') ?? '') ? link.get('pace') : 'auto');
 
-let landing = true; // nobody has touched anything yet
+let landing = true; // the user has not touched anything yet
 atFirstTouch(() => (landing = false));
 
-// The query that asks the session to keep a share of the width in motion. Auto gives it up when frames take too long,
-// so that a drag is followed; before the first touch it does not, since nobody waits for an answer to their hand.
+// The query that asks the session to keep a share of the width in motion. If frames take too long, Auto gives the share
+// up so that a drag is followed. Before the first touch it does not, because nothing has to follow a hand.
 export function kept() {
   const part = parts[pace()],
     here = sizeOf(byId('stage'));

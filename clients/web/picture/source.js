@@ -1,6 +1,6 @@
 // Pictures of the scene from a live session. Changes of the scene are sent one patch at a time, and the latest state
 // wins. Pictures are requested one after the other, each newer than the one shown, so a slow device or line never
-// builds up a backlog. The server decides how fine each picture is in motion; at rest it has all pixels of the window
+// builds up a backlog. In motion the server decides how fine each picture is. At rest it has all pixels of the window
 // and several rays for each.
 import { again_ms } from '../base/again.js';
 import { latest, seen } from '../base/dom.js';
@@ -19,12 +19,12 @@ const heard = (target, event) => new Promise(resolve => target.addEventListener(
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 
 // scene; size() → { width, height } of the window in device pixels. Callbacks: shown(frame), failed(error), and
-// rests(whether), where whether is true when the picture that is shown is the last one of the current scene: until the
-// server has answered a change, its pictures are of the scene before. Returns
+// rests(whether). whether is true when the picture shown is the last one of the current scene; until the server has
+// answered a change, its pictures are of the scene before. Returns
 //   refresh()      to be called whenever the scene or the window has changed
 //   close()        ends the session; no other call may follow
 //   address()      of the session, or null
-//   strike(wrong)  strikes the hole, once the server has the current scene; wrong(sentence) is called on a refusal
+//   strike(wrong)  strikes the hole when the server has the current scene; wrong(sentence) is called on a refusal
 export function openSource(scene, size, shown, failed, rests) {
   let session = null,
     timer = 0,
@@ -61,8 +61,8 @@ export function openSource(scene, size, shown, failed, rests) {
     await strike(scene, session, document, headers(), wrong);
   }
 
-  // Opens a session that has ended again: the server keeps it for a minute without viewers. A hidden window has no
-  // size.
+  // Opens a new session if the old one has ended: the server ends a session without viewers after a minute. A hidden
+  // window has no size.
   async function send() {
     await seen('lensing');
     if (closed.aborted) return;
@@ -110,7 +110,7 @@ export function openSource(scene, size, shown, failed, rests) {
         if (!from) session = fresh({ id, token });
         return leave();
       }
-      if (from && session !== from) return; // it was left meanwhile; the next call opens another one
+      if (from && session !== from) return; // the session was replaced meanwhile; the next call opens another one
       if (!session) last &&= { final: false }; // a new session counts its revisions from the start
       session ??= fresh({ id, token });
       session.cameras.set(revision, document.camera ?? {});
@@ -147,8 +147,8 @@ export function openSource(scene, size, shown, failed, rests) {
   const put = latest(send);
 
   // Over a line of high latency, a change of the camera is sent with one of the requests for pictures, which saves a
-  // round trip. Each holds all changes since the latest answered one, since the server ignores a request that was
-  // overtaken.
+  // round trip. Each request has all changes since the latest answered one, because the server ignores a request that
+  // was overtaken.
   function carry(patch, document, asked, jumps) {
     for (const name of Object.keys(patch.camera)) session.touched.add(name);
     Object.assign(session, { jumps, pending: { patch, document, asked } });
@@ -221,7 +221,7 @@ export function openSource(scene, size, shown, failed, rests) {
       try {
         await next(from);
       } catch (error) {
-        from.flight.length = 0; // the others have failed as well, or come too late
+        from.flight.length = 0; // the other requests have failed as well, or are too late
         if (session !== from) continue; // another session has taken its place
         if (error.status !== 404) failed(Object.assign(error, { again: true }));
         else (session = null), put();
@@ -231,7 +231,7 @@ export function openSource(scene, size, shown, failed, rests) {
     pulling = false;
   }
 
-  // While the page or the view is hidden, a drifting camera stands where it was last seen.
+  // While the page or the view is hidden, a drifting camera stops where it was last shown.
   function doze() {
     if (!session || !scene.drift || scene.recorded || (!document.hidden && document.body.dataset.view === 'lensing'))
       return;
@@ -249,7 +249,7 @@ export function openSource(scene, size, shown, failed, rests) {
     const left = session,
       owner = headers();
     session = null;
-    polls.abort(); // else they would report that the session is gone
+    polls.abort(); // otherwise they would report that the session no longer exists
     polls = new AbortController();
     if (left) fetch(left.url, { method: 'DELETE', headers: owner, keepalive: true });
   }

@@ -25,9 +25,9 @@ const choose = (id, label, options) =>
 const button = (id, text, attributes) => el('button', { type: 'button', id, ...attributes }, text);
 
 // kinds: [{ name, text, lacks(): why the film would show nothing, request(n, width, height): the document of a job,
-// plan(n, width, height): the document of /v1/plan }]; size(): of the view, in pixels; key: prefix of sessionStorage
-// and of ids; preset: key of the preset's name in the link, from which files are named. Returns renew(), to be called
-// when what would be filmed has changed.
+// plan(n, width, height): the document of /v1/plan }]. size(): of the view, in pixels. key: prefix of sessionStorage
+// and of ids. preset: key of the preset's name in the link, for file names. Returns renew(), to be called when the
+// contents of the films have changed.
 export function buildFilms(box, { key, kinds, size, preset }) {
   const starts = kinds.map(({ name, text }) =>
       button(`${key}-${name}`, text, { 'aria-describedby': `${key}-${name}-takes` }),
@@ -105,7 +105,7 @@ export function buildFilms(box, { key, kinds, size, preset }) {
     return looks;
   }
 
-  // Without ffmpeg the server has no films: the pictures are returned instead, and the page says so.
+  // Without ffmpeg the server cannot encode films. It then returns the pictures, and the page says so.
   async function fetchFilm({ id, form: as, rate }) {
     const at = `v1/jobs/${id}/result?format=`;
     if (as === 'zip') return { film: await ask(at + 'zip'), as };
@@ -225,7 +225,7 @@ export function recordScene(box, scene, size) {
     rate = () => scene.get('motion.time_rate') || 20,
     falls = () => scene.get('motion.proper_time_rate') > 0,
     now = () => scene.get('time');
-  // One turn that begins at the camera's azimuth, in numbers within the range of the field.
+  // One turn that begins at the camera's azimuth, as numbers within the field's range.
   const round = n => {
     const from = ((scene.get('camera.azimuth_deg') % 360) + 360) % 360;
     return [from - 360, from - 360 / n];

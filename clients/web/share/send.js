@@ -52,7 +52,8 @@ async function makePoster(card, scene, url, openTake) {
   inPanel(card, 'save-told', 'save-cancel');
 }
 
-// Begins the first of these films that would show something: of what moves by itself, once round the hole, other spins.
+// Starts the first of these films that would show something: the motion of the scene, one turn round the hole, a change
+// of the spin.
 async function makeFilm(card, openTake) {
   const films = ['time', 'orbit', 'spin'].map(name => `#film-${name}`);
   const panel = await openTake();
@@ -144,7 +145,7 @@ function fill(card, shared, scene, openTake) {
   copies.focus();
 }
 
-// openTake(): opens the panel of what can be saved; returns what buildSave does, or null if it cannot be loaded.
+// openTake(): opens the panel of downloads; returns the result of buildSave, or null if the panel cannot be loaded.
 export async function send(scene, openTake) {
   const card = byId('sending'),
     told = el('p', { role: 'status' }, '…');

@@ -1,4 +1,4 @@
-// The panel of what can be taken away: the link, the picture as a file, the scene as JSON and as a command.
+// The panel of downloads: the link, the picture as a file, the scene as JSON and as a command.
 import { byId, paced } from '../base/dom.js';
 import { t, tell } from '../words/i18n.js';
 import * as link from '../base/link.js';
@@ -23,7 +23,7 @@ export function picked(scene, size) {
 
 const shell = text => `'${text.replaceAll("'", `'\\''`)}'`;
 
-// Whether one of these was under way when the page was left: a job, a film (job.js), a lesson. The browser may block
+// Whether one of these was in progress when the page was left: a job, a film (job.js), a lesson. The browser may block
 // the storage.
 export function goesOn(...keys) {
   try {
@@ -76,7 +76,7 @@ export function share(scene, size) {
   scene.addEventListener('change', paced(show));
   scene.addEventListener('settle', show);
 
-  // "Save picture" is loaded when its section is opened, or at once if a job goes on from before a reload.
+  // "Save picture" is loaded when its section is opened, or at once if a job from before a reload continues.
   const group = byId('take');
   let save = null;
   const loadSave = () =>

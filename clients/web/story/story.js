@@ -1,13 +1,14 @@
-// The story: sliders in sentences set the picture beside them, a guess is answered, and the text is complete without.
+// The story: sliders in sentences set the picture beside them, and a guess is answered. The text is complete without
+// both.
 const lang = document.documentElement.lang,
-  settled_ms = 150; // a slider must rest so long before the server is asked for a number
+  settled_ms = 150; // a slider must rest for this time before the server is asked for a number
 
 const number = (value, step) =>
   value
     .toLocaleString(lang, { maximumFractionDigits: step < 0.01 ? 3 : step < 0.1 ? 2 : step < 1 ? 1 : 0 })
     .replace('-', '−');
 
-// Sets attributes of a picture for spin and inclination, and its scene for all other fields.
+// Sets one field. Spin and inclination are attributes of the picture; all other fields are in its attribute `scene`.
 function set(hole, path, value) {
   if (path === 'spin' || path === 'inclination') return hole.setAttribute(path, value);
   const scene = new URLSearchParams(hole.getAttribute('scene') ?? '');

@@ -1,6 +1,6 @@
 // "Fall in": the observer falls freely through the horizon, while the page shows its clock, the redshift of the sky and
-// the size of the shadow. The session moves the observer and sends its clock with each picture; this module sets how
-// fast it falls, and where it is put by the slider.
+// the size of the shadow. The session moves the observer and sends its clock with each picture. This module sets the
+// rate of the fall, and the observer's place when the slider is moved.
 import { byId, el, latest, still } from '../base/dom.js';
 import { duration, number, t, tell } from '../words/i18n.js';
 import { holeOf, module, physics } from '../base/server.js';
@@ -8,7 +8,7 @@ import { holeOf, module, physics } from '../base/server.js';
 const begin_r = 20; // M, the radius where the fall begins if the camera is at infinity
 const wide_deg = 100;
 const fold_s = 3; // seconds of watching in which the proper time left to the end shrinks by about a factor e,
-const fold_pictures = 5; // but in no fewer pictures than these, so that a slow server shows the fall as well
+const fold_pictures = 5; // least number of pictures in that time, so that a slow server shows the fall as well
 const fastest = 1e6; // M a second: the server's limit
 const uneven = 0.1; // the pace is sent again when it has changed by more than this, as a logarithm
 
@@ -30,7 +30,7 @@ const thousandth = x => Math.round(x * 1e3) / 1e3;
 const turn = degrees => thousandth(degrees - 360 * Math.round(degrees / 360));
 const falls = scene => scene.get('camera.r') !== 'infinity' && scene.get('camera.observer') === 'infall';
 
-// Parameters of the fall: those of an observer that falls already, else from rest at infinity.
+// Parameters of the fall: those of an observer that already falls, otherwise those from rest at infinity.
 function faller(scene) {
   const own = name => [name, scene.get('camera.' + name)];
   return {
@@ -58,7 +58,7 @@ export function buildFall(scene) {
     r = 0, // its radius, M
     given = 0, // the radius that was set in the scene
     rate = 0, // the pace that was set in the scene
-    waits = false, // until the first picture of the fall has come
+    waits = false, // whether the first picture of the fall has not come yet
     seen = 0, // when the last picture of the fall came, by performance.now()
     gap = 0, // seconds between its pictures: a maximum that decays
     guide = null, // the captions and the sound of a guided fall (guide.js)
@@ -125,7 +125,7 @@ export function buildFall(scene) {
     showPlay();
     showGuided();
     if (ended()) guide?.over();
-    // the other numbers do not need these
+    // the other numbers do not depend on these
     measure().catch(() => ['behind', 'sky', 'disk'].forEach(name => (byId('fall-' + name).textContent = '–')));
   }
 
@@ -140,7 +140,7 @@ export function buildFall(scene) {
     scene.change({ [pace]: rate });
   }
 
-  // Puts the observer at a radius on its way; clock: its clock there.
+  // Puts the observer at a radius of its path. clock: its clock there.
   function put(radius, clock) {
     left = clock.proper_time_to_end;
     r = given = radius;
@@ -174,7 +174,7 @@ export function buildFall(scene) {
     if (focused) start.focus();
   }
 
-  // Without a guide the fall goes on as before. keep: saves the film as far as it has come.
+  // Ends the guide; the fall continues. keep: saves the film recorded so far.
   function unguide(keep) {
     guide?.end(keep);
     guide = null;
@@ -191,7 +191,7 @@ export function buildFall(scene) {
     told = el('p', { class: 'help', id: 'fall-film-told', role: 'status' });
   box.append(el('p', { class: 'row' }, guided, ' ', filmed, ' ', got), told);
   let filming = null, // the guide whose film is being recorded
-    asked = 0; // how often a guide has been asked for
+    asked = 0; // number of times that a guide has been requested
 
   function showGuide() {
     guided.textContent = guide ? t('fall.end-the-guide', 'End the guide') : t('fall.guide-me-90-s', 'Guide me, 90 s');

@@ -1,12 +1,12 @@
-// A guided fall: captions at places of its way, a tone that is the frequency of starlight from behind, and a film of
-// pictures, captions and tone, which the browser records as they come.
+// A guided fall: captions at radii of the path, a tone with the frequency of starlight from behind, and a film of
+// pictures, captions and tone, which the browser records.
 import { byId, el } from '../base/dom.js';
 import { number, t } from '../words/i18n.js';
 import { offer } from '../base/job.js';
 import { muted } from './struck.js';
 
 export const seconds = 90; // longer if the server makes few pictures a second
-const pitch_hz = 440; // of starlight for an observer far away and at rest
+const pitch_hz = 440; // frequency of the tone for an observer far away and at rest
 const loudness = 0.12;
 const glide_s = 0.25;
 const [width, height, rate] = [1280, 720, 30]; // of the film
@@ -19,7 +19,7 @@ const form = globalThis.MediaRecorder && forms.find(name => MediaRecorder.isType
 export const films = Boolean(form) && Boolean(HTMLCanvasElement.prototype.captureStream);
 
 // The captions, the outermost first, each with the radius below which it is shown. One is a function of the black share
-// of the sky. hole: values of the quantity kerr; way: of infall, where the fall begins.
+// of the sky. hole: values of the quantity kerr. way: values of the quantity infall at the start of the fall.
 export function captions({ horizon, ...hole }, { r, end }) {
   const inner = end > 0,
     isco = Math.min(hole.isco, hole.isco_retrograde),
@@ -142,7 +142,8 @@ function draw(context, text) {
     });
 }
 
-// got: the link by which the file can be saved again. Returns stop(), which saves the film, and drop().
+// got: the link by which the file can be saved again. Returns stop(), which saves the film, and drop(), which discards
+// it.
 function film(text, sound, got, ended) {
   const canvas = el('canvas', { width, height }),
     context = canvas.getContext('2d', { alpha: false }),
@@ -179,7 +180,7 @@ export function begin({ hole, way, records, got, ended }) {
   let timer = 0,
     kept = null,
     here = null, // the caption of the newest picture
-    told = null; // that which is shown; its text stays as it was, because screen readers read each change
+    told = null; // the caption that is shown; its text does not change, because screen readers read each change
 
   const captionAt = r => all.findLast(([below]) => r <= below)[1];
   function say(black) {

@@ -1,5 +1,5 @@
-// Light curve, centroid track and polarisation of the picture and of the light that is photometred separately, from the
-// session's events, one for each frame.
+// Light curve, centroid track and polarisation of the whole picture and of the emitter with separate photometry, from
+// the session's events, one for each frame.
 import { byId, el } from '../base/dom.js';
 import { said, t } from '../words/i18n.js';
 import { apart } from './living.js';
@@ -115,7 +115,8 @@ export function buildLight(root, scene) {
     loop.figure.hidden ||= !light?.stokes;
     none.hidden = Boolean(light);
     if (!light) return;
-    const now = JSON.stringify({ ...scene.document(), time: 0, motion: 0, style: 0 }); // a strike is no new scene
+    // a strike does not make another scene
+    const now = JSON.stringify({ ...scene.document(), time: 0, motion: 0, style: 0 });
     const against = (time - points.at(-1)?.time) * scene.get('motion.time_rate') < 0;
     if (now !== kind || against) points = []; // another scene, or time has been set back
     kind = now;

@@ -7,8 +7,8 @@ import { physics } from '../base/server.js';
 
 const usual_rate = 8; // M a second, unless a rate was chosen
 
-// Properties that the server states of a scene: an emitter that is photometred separately, light of higher image orders
-// that can ring, and whether another time or azimuth would change the picture.
+// Properties of a scene that the server states: an emitter with separate photometry, light of higher image orders,
+// which can ring, and whether another time or azimuth would change the picture.
 export const apart = scene => scene.emitters.find(emitter => emitter.apart);
 const canRing = scene => scene.get('accuracy.orders') > 1 && scene.emitters.some(({ at }) => at === 'crossing');
 const showsTime = scene => scene.varies.some(word => word.endsWith('_time'));
@@ -18,7 +18,8 @@ const showsAzimuth = scene => scene.varies.includes('moves_with_azimuth');
 const withButton = scene => [...scene.fields.values()].filter(({ button, path }) => button && !/\.[1-9]/.test(path));
 const seeds = scene => [...scene.fields.keys()].filter(path => path.endsWith('.seed') && meansSomething(scene, path));
 
-// A button sets its field, and resets it when pressed again. Setting it also gives time a rate, if it has none.
+// A button sets its field; pressed again, it resets the field. If time has no rate, setting the field also gives it
+// one.
 function buildButton(scene, { path, button, type, default: usual }, rate) {
   const isOn = () => (type === 'choice' ? scene.get(path) === button.value : scene.get(path) !== usual);
   const node = el('button', {
@@ -39,7 +40,7 @@ export function buildLiving(stage, scene, source) {
     fault = byId('strike-fault');
   let second = 0; // one M of time in seconds, for the hole's mass
 
-  // the observer moves by its own proper time, which time and azimuth then follow
+  // the observer moves by its own proper time, which determines time and azimuth
   const goesItself = () => scene.get('motion.proper_time_rate') !== 0;
   const moves = () =>
     goesItself() || showsTime(scene) || (showsAzimuth(scene) && scene.get('motion.azimuth_rate_deg') !== 0);
@@ -82,7 +83,7 @@ export function buildLiving(stage, scene, source) {
     for (const id of ['hear', 'wave']) byId(id).hidden = !(canRing(scene) && scene.get('style.ringdown') > 0);
     if (byId('hear').hidden) byId('heard').textContent = '';
     fault.textContent = '';
-    if (showsTime(scene)) weigh().catch(() => {}); // then the clock shows no seconds
+    if (showsTime(scene)) weigh().catch(() => {}); // if it fails, the clock shows no seconds
     tell_time();
   }
 

@@ -1,5 +1,5 @@
-// A struck hole is heard at once, unless it is muted: its ringdown is made audible (sound.js). The view of physics also
-// shows the ringdown as a curve.
+// Makes the ringdown of a struck hole audible at once, unless it is muted (sound.js). The view of physics also shows
+// the ringdown as a curve.
 import { byId } from '../base/dom.js';
 import { t, tell } from '../words/i18n.js';
 import { physics } from '../base/server.js';
@@ -17,7 +17,7 @@ export function muted(to) {
 }
 
 export function buildStruck(scene, goTo) {
-  // The hole itself rings, about its own axis, whichever way the disk turns.
+  // The hole itself rings, about its own axis, whatever the direction of the disk.
   const hole = () => ({
       spin: Number(Math.abs(scene.get('spacetime.spin')).toFixed(4)),
       mass_msun: scene.get('spacetime.mass_msun'),

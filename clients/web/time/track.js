@@ -1,13 +1,13 @@
-// Points in a plane, drawn to scale as they come: the axes through 0, a scale bar, and older parts fainter.
+// Points in a plane, drawn to scale as they arrive, with the axes through 0 and a scale bar; older parts are fainter.
 import { el, svg } from '../base/dom.js';
 import { number } from '../words/i18n.js';
 import { numbers } from '../base/numbers.js';
 
-const parts = 5; // of a track, each of its own strength
-const edge = 94; // of 100 from the middle
+const parts = 5; // number of parts of a track, each with its own opacity
+const edge = 94; // largest distance from the middle, of 100
 
-// One cubic for each section, at each point along the chord of its neighbours (E. Catmull & R. Rom 1974), by a third of
-// the section, since points come at uneven times.
+// One cubic for each section. Its slope at each point is along the chord of the point's neighbours (E. Catmull & R. Rom
+// 1974), with a third of the section's length, because points come at uneven times.
 function curve(track, from, to) {
   const at = i => track[Math.min(Math.max(i, 0), track.length - 1)],
     text = ([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`,

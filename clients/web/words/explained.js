@@ -1,4 +1,4 @@
-// The text under each curve, and its derivation, folded.
+// The text under each curve, and its derivation, which is folded.
 import { t } from './language.js';
 
 export const explained = {

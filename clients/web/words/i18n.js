@@ -1,5 +1,4 @@
-// What the page says in its language (language.js): numbers, units, names of fields and choices, and the sentences of
-// the server.
+// The page's language for numbers, units, names of fields and choices, and sentences of the server (language.js).
 import { lang, locale, t } from './language.js';
 
 export { lang, t };
@@ -12,8 +11,8 @@ try {
   Object.defineProperty(navigator, 'language', { value: lang });
 }
 
-// A sentence of the server, and its name if it has one: translated if a translation is known, else marked as English
-// for screen readers.
+// A sentence of the server, and its name if it has one. It is translated if a translation exists; otherwise it is
+// marked as English for screen readers.
 export function said(text, name) {
   const known = locale && text && (locale.server[name] ?? server.translated(text, locale.server));
   return { text: known || text, lang: known || !locale || !text ? null : 'en' };
@@ -210,7 +209,7 @@ const choices = {
   'volume.model torus': 'torus in equilibrium',
   'volume.model uniform': 'uniform shell',
 };
-// The label of a choice; some differ from field to field, which is what path is for.
+// The label of a choice. Some labels depend on the field, which path names.
 export const word = (value, path) =>
   locale?.values[`${path} ${value}`] ?? choices[`${path} ${value}`] ?? locale?.values[value] ?? choices[value] ?? value;
 export const preset = (name, title) => locale?.playgrounds[name] ?? title; // of the playground; for scenes: captions.js

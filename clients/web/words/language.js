@@ -1,7 +1,7 @@
 // The language of the page, and its messages. A message is a call of t with an identifier and the English text:
-// t('tour.the-shadow', 'The shadow'). locale/LANGUAGE.json has the text of each identifier in another language, with {0}
-// and so on for the values that follow. Only the file of the page's own language is loaded; if it cannot be had, the
-// page is in English.
+// t('tour.the-shadow', 'The shadow'). locale/LANGUAGE.json has the text of each identifier in another language, with
+// {0} and so on for the values that follow. Only the file of the page's own language is loaded. If it cannot be loaded,
+// the page is in English.
 import * as link from '../base/link.js';
 
 export const languages = { en: 'English', it: 'Italiano', de: 'Deutsch' };
@@ -16,8 +16,8 @@ const wanted = known([
   ...(navigator.languages ?? [navigator.language]),
 ]);
 
-// All words of a language but English that this page needs: a page may name a smaller file of its own. Null for
-// English, and where the file cannot be had.
+// All words that this page needs, in a language other than English; a page may name a smaller file of its own. Null for
+// English, and if the file cannot be loaded.
 async function words(name) {
   if (name === 'en') return null;
   const file = `locale/${document.documentElement.dataset.locale ?? ''}${name}.json`;

@@ -2,9 +2,9 @@
 // other names.
 import { svg } from '../base/dom.js';
 
-const places = 40; // points of a line that are tried
+const places = 40; // number of points of a line that are tried
 const margin = { x: 8, y: 20, bottom: 40 };
-const letter = 7; // width of a letter, about, pixels
+const letter = 7; // approximate width of a letter, pixels
 
 function candidates(path, width, height, wide) {
   const length = path.getTotalLength(),
@@ -14,7 +14,7 @@ function candidates(path, width, height, wide) {
   );
 }
 
-// How much room there is at a point: the distance to other names, and to the middle, where most lines cross.
+// The free space at a point: the distance to other names, and to the middle, where most lines cross.
 function room({ x, y }, taken, width, height) {
   const off = Math.hypot((x - width / 2) / width, (y - height / 2) / height);
   return Math.min(...taken.map(([tx, ty]) => Math.hypot((x - tx) / 4, y - ty)), 60) + 40 * off;

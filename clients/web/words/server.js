@@ -1,6 +1,5 @@
-// Sentences of the server that have no name in its answers: an identifier of each, by which locale/LANGUAGE.json has
-// its translation, and how the identifier is found. Loaded for languages other than English. Approximations have
-// names.
+// Sentences of the server that have no name in its answers. Each has an identifier here, by which locale/LANGUAGE.json
+// has its translation. Loaded for languages other than English. Approximations have names.
 const sentences = {
   'said.thin-disk': 'thin disk',
   'said.thick-disk': 'thick disk',
@@ -88,7 +87,7 @@ const sentences = {
   'playground.softening-length-in-m-of': "softening length in M of the bodies' mutual attraction",
   'playground.longest-sub-step-in-m': 'longest sub-step in M, and the interval at which debris is advanced',
   'playground.factor-c-of-the-limit':
-    'factor C of the limit C (r - 2) of the sub-step, and of the like limit for two bodies',
+    'factor C of the limit C (r - 2) of the sub-step, and of its limit for two close bodies',
   'playground.limit-of-the-sub-steps':
     'limit of the sub-steps of one advance; if it is reached, the advance is shorter than requested',
   'playground.bodies-that-touch-merge': 'bodies that touch merge',
@@ -394,7 +393,7 @@ const amounts = {
 };
 
 const named = new Map(Object.entries(amounts).map(([id, english]) => [english, id]));
-// Whole words alone, and none within quotes or a dotted name: neither "orbits" nor image.bits holds bits.
+// Whole words only, and none within quotes or a dotted name: "orbits" and image.bits are not matched by "bits".
 const whole = english => `${/^\w/.test(english) ? '(?<![\\w./-])' : ''}${english}(?![\\w/-]|\\.\\w)`,
   measured = new RegExp(['"[^"]*"', ...[...named.keys()].map(whole)].join('|'), 'g');
 
@@ -415,7 +414,7 @@ const shapes = patterns.map(([id, english]) => [id, shape(english)]),
   strips = '; strips might fit, but ',
   ranges = /, or a range first:last:count of (\d+) to (\d+) such values$/;
 
-// The sentence in the words of a locale, or undefined.
+// The sentence in the words of a locale, or undefined if it is not known.
 export function translated(text, words) {
   if (exact.has(text)) return words[exact.get(text)];
   const fill = (id, values) => words[id]?.replace(/\{(\d)\}/g, (_, i) => values[i]);

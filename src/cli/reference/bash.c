@@ -75,7 +75,7 @@ void kd_write_tables(struct kd_writer *w)
 void kd_completions_bash(struct kd_writer *w)
 {
     struct kd_context context;
-    kd_write(w, "# Completions of kerrd for bash. Made of its option tables when it is built: "
+    kd_write(w, "# Completions of kerrd for bash. Generated from its option tables when it is built: "
                 "src/cli/reference.\n\n_kerrd_commands='");
     for (size_t i = 0; i < kd_n_commands; i++)
         kd_write(w, "%s ", kd_commands[i].name);

@@ -84,7 +84,10 @@ const struct kd_variable kd_variables[] = {
     { "TMPDIR", "sweep film serve", "the folder of temporary files (default: /tmp)" },
     { "MALLOC_ARENA_MAX", "serve",
       "number of heaps that threads share; if it is set, kerrd does not adjust the C library's allocator" },
-    { "MALLOC_MMAP_THRESHOLD_", "serve", "size in bytes from which a freed block returns to the kernel; likewise" },
-    { "GLIBC_TUNABLES", "serve", "tunables of the GNU C library, with these two and more; likewise" },
+    { "MALLOC_MMAP_THRESHOLD_", "serve",
+      "size in bytes from which a freed block returns to the kernel; if it is set, kerrd does not adjust the "
+      "allocator" },
+    { "GLIBC_TUNABLES", "serve",
+      "tunables of the GNU C library, among them these two; if it is set, kerrd does not adjust the allocator" },
 };
 const size_t kd_n_variables = sizeof kd_variables / sizeof *kd_variables;

@@ -80,9 +80,9 @@ static void write_named(struct kd_writer *w, const char *name, const char *words
 void kd_completions_fish(struct kd_writer *w)
 {
     struct kd_context context;
-    kd_write(w,
-             "# Completions of kerrd for fish. Made of its option tables when it is built: src/cli/reference.\n\n"
-             "# NAME=, and the words that may follow; after a comma they are a list of these.\nset -g __kerrd_fields");
+    kd_write(
+        w, "# Completions of kerrd for fish. Generated from its option tables when it is built: src/cli/reference.\n\n"
+           "# NAME=, and the words that may follow; after a comma they are a list of these.\nset -g __kerrd_fields");
     kd_argument_fields(write_named, w);
     kd_write(w, "\nset -g __kerrd_settings");
     kd_argument_settings(write_named, w);

@@ -52,7 +52,7 @@ static void write_head(struct kd_writer *w, const char *command)
     struct tm parts;
     char date[20] = "";
     strftime(date, sizeof date, "%Y-%m-%d", gmtime_r(&now, &parts));
-    kd_write(w, ".\\\" Made of the option tables when kerrd is built: src/cli/reference.\n.TH KERRD");
+    kd_write(w, ".\\\" Generated from the option tables when kerrd is built: src/cli/reference.\n.TH KERRD");
     for (const char *c = command ? command : ""; *c; c++)
         kd_write(w, c == command ? "\\-%s%c" : "%s%c", *c == '-' ? "\\" : "", toupper((unsigned char)*c));
     kd_write(w, " 1 %s \"kerrd " KD_VERSION "\" \"kerrd\"\n", date);

@@ -94,7 +94,7 @@ static void write_context(struct kd_writer *w, const struct kd_context *context)
 void kd_completions_zsh(struct kd_writer *w)
 {
     struct kd_context context;
-    kd_write(w, "#compdef kerrd\n# Completions of kerrd for zsh. Made of its option tables when it is built: "
+    kd_write(w, "#compdef kerrd\n# Completions of kerrd for zsh. Generated from its option tables when it is built: "
                 "src/cli/reference.\n\n");
     kd_write_tables(w);
     kd_write(w, "_kerrd_commands=(\n");

@@ -195,7 +195,7 @@ enum kd_status kd_renderer_reopen(struct kd_renderer *r, struct kd_error *error)
     enum kd_status status = open_device(r, error);
     if (status || is_same(kd_vk_info(r->vk), &r->opened))
         return status;
-    kd_error_set(error, KD_EDEVICE, "the device %.200s is gone, and %.200s has its place", r->opened.name,
+    kd_error_set(error, KD_EDEVICE, "the device %.200s is gone; %.200s has replaced it", r->opened.name,
                  kd_vk_info(r->vk)->name);
     close_device(r);
     return KD_EDEVICE;

@@ -131,7 +131,7 @@ static enum kd_status put_accuracy(const struct kd_picture *picture, const struc
     KD_TRY(kd_buffer_printf(out, "\n"));
     if (x->told->n_volumes)
         KD_TRY(
-            kd_buffer_printf(out, "march: %u steps, light looked at in %u places\n", x->told->steps, x->told->samples));
+            kd_buffer_printf(out, "march: %u steps, light sampled at %u places\n", x->told->steps, x->told->samples));
     if (!isnan(x->picture_error))
         KD_TRY(kd_buffer_printf(out, "picture: %s %s, radii off by %.1e at most\n",
                                 kd_engine_name(picture->plan->lens.setting.engine),

@@ -63,8 +63,8 @@ static const struct sentence {
     bool (*in_force)(const struct kd_plan *plan, const struct kd_scene *scene);
 } sentences[] = {
     { "hole.charged",
-      "hole: charged as real holes hardly are, because matter around them soon neutralises a charge; light and matter "
-      "here are neutral, and feel the charge only through space-time",
+      "hole: it has a charge, which matter around a real hole would soon neutralise; light and matter here are "
+      "neutral, and the charge affects them only through space-time",
       charged },
     { "disk.orders", "disk: image orders beyond accuracy.orders are left out", crossings },
     { "volumes.march",

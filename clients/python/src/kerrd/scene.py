@@ -136,31 +136,31 @@ class Disk:
     emission_opacity: optical depth along the normal where the disk is brightest; elsewhere it is proportional to the flux. A crossing
         has the opacity 1 - exp(-depth/cos) times disk.opacity, with the angle of emission in the gas's frame; 0: the same opacity
         everywhere; 0 to 1000000; default 10.
-    height: height of the gas over its distance from the axis, at 10 M, where height is that at which the density has fallen to
-        exp(-1/2); the optical depth from top to bottom is that of the thin disk; 0: a thin disk; 0 to 0.5; default 0.
-    flare: exponent: height over distance grows as the distance from the axis to this power; -0.5 to 0.5; default 0.
+    height: relative half height H/R at R = 10 M: H is the height above the plane at which the density has fallen to exp(-1/2), R the
+        distance from the axis; the optical depth from top to bottom is that of the thin disk; 0: a thin disk; 0 to 0.5; default 0.
+    flare: exponent p: H/R is proportional to R^p (disk.height); -0.5 to 0.5; default 0.
     colour: temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd; default "peak".
     peak_temperature_k: largest effective temperature of the disk, in its own frame (colour: peak); in K; 300 to 1000000000; default
         3600.
     mdot_edd: accretion rate: luminosity over the Eddington luminosity, with the efficiency for this spin; in Eddington rates; 1e-12 to
         1000; default 0.1.
     hardening: colour temperature over effective temperature; 1 to 3; default 1.
-    atmosphere: light of the thin disk's surface by mu, the cosine of the angle to its normal in the gas's frame: isotropic; laor, as 1
-        + 2.06 mu; scattering, that of a deep atmosphere of free electrons, whose polarisation polarization.model "scattering" has; each
-        radiates the disk's flux; default "isotropic".
+    atmosphere: how the light of the thin disk's surface depends on mu, the cosine of the angle to its normal in the gas's frame.
+        isotropic; laor: as 1 + 2.06 mu; scattering: as from a deep atmosphere of free electrons, which polarization.model "scattering"
+        polarises. Each law has the disk's flux; default "isotropic".
     band: brightness: bolometric, g^4 F; or visible, the luminance that the eye perceives of the Planck spectrum; default "bolometric".
     doppler: include the Doppler shift and beaming of the orbiting gas; default true.
     redshift: include the gravitational redshift and time dilation of the orbiting gas; default true.
     particles: number of particles (model: particles); 1000 to 10000000; default 300000.
     seed: seed of the random numbers: another seed gives other particles (model: particles); 0 to 2147483647; default 1.
-    density_index: the number of particles per area falls as r to minus this power; with 2 each octave of r has as many (model:
+    density_index: p: the number of particles per area is proportional to r^-p; for p = 2 every octave of r has the same number (model:
         particles); 0 to 4; default 2.
     plunging: share of the particles that fall from the ISCO, with its energy and angular momentum; none fall unless disk.inner is
         "isco" (model: particles); 0 to 0.5; default 0.02.
     plunging_temperature: temperature of the plunging gas over the disk's largest temperature; 0: it is invisible (model: particles); 0
         to 1; default 0.7.
-    epicycles: largest amplitude of oscillations: in latitude, in radians; in r over r, times (kappa/Omega)^2, which vanishes at the
-        ISCO (model: particles); 0 to 0.2; default 0.02.
+    epicycles: largest amplitude of oscillations in latitude, in radians; times (kappa/Omega)^2, which vanishes at the ISCO, also that
+        of the relative oscillations in r (model: particles); 0 to 0.2; default 0.02.
     slow_light: show particles, gas and spots at the time when the light of each ray left them, instead of at one coordinate time;
         default false.
     gas: turbulence in the gas of the smooth disk models.
@@ -353,15 +353,15 @@ class Volume:
 class Jets:
     """Stylised jets along the spin axis.
 
-    brightness: light emitted along 1 M in the jet's frame, extrapolated to the inner edge, where it begins smoothly, in units of the
-        disk's brightest; 0: no jets; in 1/M; 0 to 1000000000; default 0.
+    brightness: light emitted along 1 M in the jet's frame, in units of the disk's brightest: the power law's value at the inner edge,
+        from which the light rises smoothly; 0: no jets; in 1/M; 0 to 1000000000; default 0.
     opening_deg: half of the cone's opening angle; in degrees; 1 to 60; default 8.
     lorentz: Lorentz factor of the outflow; 1 to 100; default 2.
     inner: radius at which the light begins, at least 1.05 times that of the horizon; in M; 1 to 1000000; default 4.
     outer: radius at which the light ends; larger than the inner edge; in M; 1 to 1000000; default 60.
     falloff: p: light along the jet is proportional to r^-p; -10 to 10; default 1.5.
     sheath: brightness across the jet: 0, a bright spine; 1, bright edges; 0 to 1; default 0.5.
-    spectral_index: brightness is proportional to the frequency shift to the power of 2 plus this; -10 to 10; default 0.7.
+    spectral_index: index: brightness is proportional to g^(2 + index); -10 to 10; default 0.7.
     temperature_k: colour of a black body of this temperature, not shifted; in K; 300 to 1000000000; default 14000.
     counterjet: include the jet below the disk; default true.
     """
@@ -410,9 +410,9 @@ class Sky:
 
     model: sky at infinity: none; a celestial grid that shows the lensing; generated stars and a generated Milky Way; the stars of the
         Hipparcos catalogue over that Milky Way; or sky.image without stars; default "none".
-    brightness: brightness of the sky in units of the disk's brightest surface brightness at g = 1: that of the grid, or of 21
-        magnitudes per square arcsecond for stars and the Milky Way, whose ratio is real; auto: 0.2, or 0.01 for stars and the Milky Way
-        behind something that shines; 0 to 100; default "auto".
+    brightness: brightness in units of the disk's brightest surface brightness at g = 1: of the grid, or, for stars and the Milky Way in
+        their real ratio, of 21 magnitudes per square arcsecond; auto: 0.2, or 0.01 for stars and the Milky Way behind something that
+        shines; 0 to 100; default "auto".
     grid_deg: spacing of the celestial grid; in degrees; 1 to 90; default 15.
     milky_way: factor on the natural brightness of the Milky Way or of sky.image; 0: only stars; 0 to 100; default 1.
     image: picture of the whole sky instead of the generated Milky Way (model: stars, catalogue, image): twice as wide as high, with
@@ -420,9 +420,9 @@ class Sky:
         arcsecond; default null.
     limit_mag: magnitude of the faintest stars; in magnitudes; -2 to 14; default 14.
     seed: seed of the random numbers: another seed gives another generated sky; 0 to 2147483647; default 1.
-    orientation: galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra, m87: seen
-        from azimuth 0 the hole is in front of that source as seen from the Earth, with the galactic or the celestial pole above;
-        default "galactic".
+    orientation: galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra, m87: an
+        observer at azimuth 0 sees the hole where the Earth sees that source, with the galactic pole (sgra) or the celestial pole (m87)
+        above; default "galactic".
     turn_deg: rotation of the sky about the hole's axis, in the sense of camera.azimuth_deg; in degrees; -360 to 360; default 0.
     tilt_deg: a second rotation of the sky, about the horizontal axis of the picture from azimuth 0; in degrees; -180 to 180; default 0.
     """
@@ -549,8 +549,8 @@ class Motion:
 
     azimuth_rate_deg: rate at which the observer goes round the axis; in degrees per second; -360 to 360; default 0.
     time_rate: rate of coordinate time; in M per second; -1000000 to 1000000; default 0.
-    proper_time_rate: rate of the observer's proper time: the observer falls, to the last possible position, or orbits; coordinate time
-        follows; in M per second; 0 to 1000000; default 0.
+    proper_time_rate: rate of the observer's proper time: the observer moves along its path, a fall to the last possible position or an
+        orbit; coordinate time follows; in M per second; 0 to 1000000; default 0.
     """
 
     azimuth_rate_deg: float | None = None
@@ -587,7 +587,7 @@ class Scene:
     camera: position, motion and view of the observer.
     disk: the accretion disk in the equatorial plane, turning towards +phi.
     spots: hot spots: Gaussians in the equatorial plane that go round with the gas; up to 16.
-    bodies: bodies: luminous spheres in front of the hole, behind it and in the disk; up to 8.
+    bodies: bodies: luminous spheres round the hole; up to 8.
     volume: matter along the rays.
     jets: stylised jets along the spin axis.
     polarization: polarisation of light, as layers and ticks show it; in a picture it changes only the light of volumes.

@@ -1,8 +1,9 @@
-// Requests for orbits, prepared so that the server refuses none: browsers write refusals into the console.
+// Requests for orbits. They are checked before, so that the server does not refuse them: browsers write refusals into
+// the console.
 import { physics, postJson } from '../../base/server.js';
 
 // Inside the separatrix there is no rosette. It is replaced by a plunge with the energy of the last orbit that turns
-// back, and with L^2 and Q scaled by p over the separatrix's p.
+// back, and with L^2 and Q multiplied by the ratio of p to the separatrix's p.
 async function plunge(asked, edge) {
   const { duration: _, seen: __, ...alone } = asked,
     share = asked.orbit.p / edge,
@@ -17,12 +18,12 @@ async function plunge(asked, edge) {
   return { asked: { ...whole, method: asked.method === 'closed' ? 'yoshida6' : asked.method, orbit }, edge, share };
 }
 
-// Thrown bodies may fall in or fly away, which the closed form does not cover.
+// Thrown bodies may fall in or escape, which the closed form does not cover.
 const anyWay = asked => (asked.method === 'closed' && asked.orbit.p == null ? { ...asked, method: 'yoshida6' } : asked);
 
-// Returns { asked }, the document to send. For a rosette inside the separatrix also { edge, share }: the separatrix's
-// p, and p as a share of it. There are unstable circles inside it, down to the photon orbit; the closed form does not
-// cover these either.
+// Returns { asked }, the document to send. For a rosette inside the separatrix it also returns { edge, share }: the
+// separatrix's p, and the ratio of p to it. Inside the separatrix there are unstable circles, down to the photon orbit;
+// the closed form does not cover these either.
 export async function settled(asked) {
   const { p, e, inclination_deg } = asked.orbit;
   if (p == null) return { asked: anyWay(asked) };
@@ -35,8 +36,8 @@ export async function settled(asked) {
     : plunge(asked, values.p);
 }
 
-// Requests an orbit, and again with more samples if the path needs them to be smooth: each sample has 90 bytes on the
-// wire. The first answer gives the number of turns.
+// Requests an orbit. If the path needs more samples to be smooth, requests it again, because each sample takes 90
+// bytes. The first answer gives the number of turns.
 export async function follow(orbit) {
   const { series, ...answer } = await postJson('v1/orbits', orbit),
     at = name => series.columns.indexOf(name),

@@ -7,7 +7,7 @@ import { requested, specs } from './orbit-fields.js';
 import { holeOf, lines } from '../../base/server.js';
 
 const apart = (5 * Math.PI) / 180; // angle between neighbouring points as seen from the hole
-const margin = 1.1; // the largest angle was measured on a path with other samples
+const margin = 1.1; // factor, because the largest angle was measured on a path with other samples
 const most = 20000; // the server's limit on samples
 const patience_ms = 5000;
 const torn = 0.25; // of the window's width: points that are further apart belong to two arcs
@@ -42,7 +42,7 @@ function widest(column) {
 }
 
 // The same orbit with points that are close enough, over as many periods as one answer can hold: { asked, all }, where
-// all is the number of periods that were wanted. For a circle in the equatorial plane one turn is enough.
+// all is the requested number of periods. For a circle in the equatorial plane one turn is sufficient.
 async function sampled(asked) {
   const { duration } = asked,
     path = await follow({ ...asked, samples: 400, digits: 7 }),
@@ -94,7 +94,7 @@ async function seen(scene, signal) {
   return answer;
 }
 
-// A sentence on how much of the path was found in time.
+// A sentence on the share of the path that was found in time.
 function share({ rows, asked, all, fate }) {
   const part = Math.min(rows.length / asked.samples, 1),
     periods = part * (asked.duration?.periods ?? 1);

@@ -1,4 +1,4 @@
-// The path of a body in space. Dragging beside the body turns the view; dragging the body places it, and dragging it
+// The path of a body in space. Dragging beside the body rotates the view. Dragging the body places it; dragging it
 // again throws it.
 import { el, svg } from '../../base/dom.js';
 import { number, t } from '../../words/i18n.js';
@@ -14,7 +14,7 @@ export function smooth(points, k, share) {
   return mix(mix(mix(a, b), mix(b, c)), mix(mix(b, c), mix(c, d)));
 }
 
-const grip = 8; // distance from the body within which a drag takes hold of it; the picture is 200 wide
+const grip = 8; // distance from the body within which a drag grasps it; the picture is 200 wide
 const glows = 2.4; // radius of the glow round the hole, in radii of the horizon
 const least_ring = 2.5; // radius below which a circle of the hole is not drawn
 const full = 60; // length of an arrow of the speed of light
@@ -105,7 +105,7 @@ export function buildPicture(root, hand) {
     return 'M' + points.join('L');
   }
 
-  // The hole's circles: the half behind it comes before it.
+  // The hole's circles; the half behind the hole is drawn before it.
   function rings(from, to) {
     const large = circles.filter(({ r }) => (r * 70) / reach > least_ring),
       flipped = tilt.valueAsNumber > 90; // from below, the other half is nearer
@@ -114,7 +114,7 @@ export function buildPicture(root, hand) {
     );
   }
 
-  // The scale, a round number of M.
+  // The scale bar, a round number of M.
   function bar() {
     const raw = (reach / 70) * 34,
       ten = 10 ** Math.floor(Math.log10(raw)),

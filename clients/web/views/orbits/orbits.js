@@ -132,7 +132,7 @@ export async function openOrbits() {
 
   const load = persistent(fault, 'orbits', follows, keep);
 
-  // A drag of the body sets the fields, so that links and the keyboard can do the same. All of it is one change.
+  // A drag of the body sets the fields, so that links and the keyboard can do the same. The whole drag is one change.
   const set = values => (form.put(values), load());
   const azimuth = ([x, y]) => Math.atan2(y, x);
   const digits = (x, n) => Number(x.toFixed(n));
@@ -208,7 +208,7 @@ export async function openOrbits() {
     await show(answer, said);
   }
 
-  // If there is no such orbit, the previous one stays under its own name.
+  // If the requested orbit does not exist, the previous one stays under its own name.
   function keep() {
     if (!shown) return;
     byId('orbits').dataset.kept = true;
@@ -219,7 +219,7 @@ export async function openOrbits() {
     );
   }
 
-  // The numbers of an orbit are shown at once; the potential follows when its answers come.
+  // The numbers of an orbit are shown at once; the potential is shown when its answers arrive.
   async function show(answer, said) {
     const { column } = answer;
     const [x, y, z] = ['x', 'y', 'z'].map(column),

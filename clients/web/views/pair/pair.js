@@ -1,5 +1,5 @@
 // Two holes side by side under one camera: the scene, and the scene with other values of some fields. A drag on either
-// moves both. The link keeps the other values as pair.FIELD.
+// of them moves both. The link has the other values as pair.FIELD.
 import { describe } from '../../words/describe.js';
 import { byId, el, paced, typing } from '../../base/dom.js';
 import { named, number, t, tell, unit, word } from '../../words/i18n.js';
@@ -9,7 +9,7 @@ import { windowSize } from '../../picture/sizes.js';
 
 const prefix = 'pair.';
 const smooth = { 'disk.gas.amplitude': 0, 'disk.emission_opacity': 0, 'style.bloom': 0 };
-// Pairs to begin with: values on both sides, and what they are called.
+// Ready pairs: values on both sides, and their labels.
 const ready = [
   {
     name: t('pair.spin-none-nearly-the', 'Spin: none | nearly the most'),
@@ -74,7 +74,7 @@ class Other {
   streams = () => this.scene.streams();
   turns = () => this.scene.turns();
   tellSeen = ({ emitters }) => (this.emitters = emitters);
-  // Time and camera are the first scene's; the server moves both alike.
+  // These do nothing: time and camera are the first scene's, and the server changes both scenes together.
   land() {}
   settle() {}
   tick() {}
@@ -82,7 +82,7 @@ class Other {
 
 let pair = null;
 
-// Begins, or shows what the link has.
+// Starts the comparison, or shows the one in the link.
 export function besides(stage, scene) {
   document.head.querySelector('[href$="pair.css"]') ??
     document.head.append(el('link', { rel: 'stylesheet', href: new URL('pair.css', import.meta.url) }));
@@ -164,7 +164,7 @@ function build(stage, scene) {
   const sized = new ResizeObserver(() => source.refresh());
   sized.observe(box);
 
-  // What each side is called.
+  // The label of each side.
   const value = (path, given) => {
     const field = scene.fields.get(path);
     if (typeof given === 'boolean') return given ? t('pair.yes', 'yes') : t('pair.no', 'no');
@@ -196,7 +196,7 @@ function build(stage, scene) {
     for (const [path, own] of Object.entries(other.over)) link.set(prefix + path, own);
   }
 
-  // Sets what differs; left: values of the scene itself.
+  // Sets what differs. left: values of the scene itself.
   function differ(right, left = {}) {
     other.over = Object.fromEntries(
       Object.entries(right).map(([path, own]) => [path, own ?? scene.fields.get(path).default]),
@@ -207,7 +207,7 @@ function build(stage, scene) {
     inputs();
   }
 
-  // The controls: what differs, and its values.
+  // The controls: the field that differs, and its values.
   let drawn = null, // the path of the field whose values are shown
     values = []; // the inputs of both sides
   const fields = [...scene.fields.values()].filter(comparable),
@@ -245,7 +245,7 @@ function build(stage, scene) {
     });
     return { node, show: () => typed.typed || node.value === String(held()) || (node.value = held()) };
   }
-  // An input that has the focus stays, and so does what is being typed.
+  // An input that has the focus is kept, and so is a text that is being typed.
   function inputs() {
     const [path, more] = Object.keys(other.over),
       alone = path && !more ? path : null;

@@ -1,6 +1,6 @@
 // The gravitational waves of the closest pair, as sound. Their frequency is in units of 1/M. It is scaled to a hole of
-// so few solar masses that the sound begins at begins_hz; the page gives that mass. The tone changes at the pace of the
-// screen, not at that of such a hole.
+// such a mass that the sound begins at begins_hz; the page states that mass in solar masses. The tone changes at the
+// rate of the screen, not at that of such a hole.
 import { number, t } from '../../words/i18n.js';
 
 const key = 'kerrd.playground.sound';
@@ -10,7 +10,7 @@ const sun_s = 4.925490947e-6; // G M / c^3 of the Sun
 const loudest = 0.5;
 const glide_s = 0.04;
 
-// button: switches the sound; words: the element that says what is heard. Returns { follow(tick), begin() }.
+// button: switches the sound. words: the element that describes the sound. Returns { follow(tick), begin() }.
 export function chirp(button, words) {
   let on = localStorage.getItem(key) === 'on',
     gesture = false,
@@ -56,8 +56,8 @@ export function chirp(button, words) {
     else hush();
     say();
   });
-  // Browsers allow sound only after a gesture: a sound that is still switched on from last time begins with the first
-  // one.
+  // Browsers allow sound only after a gesture. If the sound is still switched on from last time, it begins with the
+  // first gesture.
   for (const event of ['pointerdown', 'keydown']) addEventListener(event, () => (gesture = true), { once: true });
   for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, hush);
   say();

@@ -4,7 +4,7 @@ import { t } from '../../words/i18n.js';
 import { plot } from '../../base/plot.js';
 import { ask } from '../../base/server.js';
 
-const most = 1200; // rows; when there are more, every second one is dropped
+const most = 1200; // limit of rows; if there are more, every second one is dropped
 const draw_ms = 500;
 const fallback_ms = 2000;
 const columns = ['t', 'energy', 'energy_balance', 'angular_momentum', 'separation', 'wave_frequency'];

@@ -1,11 +1,12 @@
-// What the view shows of a running playground: its state, its bodies and debris, its clock, its events.
+// Shows a running playground: its state, its bodies and debris, its clock, its events.
 import { el } from '../../base/dom.js';
 import { physics } from '../../base/server.js';
 import { entitle } from '../../words/describe.js';
 import { preset as titled, said, t, tell } from '../../words/i18n.js';
 import { seenOf } from './play-seen.js';
 
-// now: what is chosen, on its way and loaded (playground.js). The others are the parts of the view, and what it does.
+// now: what is chosen, in progress and loaded (playground.js). The other arguments are the parts of the view and its
+// actions.
 export function listen(running, now, parts) {
   const { part, plane, hand, form, sound, charts, events, say, choose, fit, preset, showAim, showRules, pace } = parts;
   running.addEventListener('begun', ({ detail: state }) => {

@@ -1,4 +1,4 @@
-// Throwing bodies by pointer, touch and keyboard. Press on an empty place and drag: the arrow is the velocity. Drag a
+// Throws bodies by pointer, touch and keyboard. Press on an empty place and drag: the arrow is the velocity. Drag a
 // body to throw it again. Two fingers, the wheel, Shift or another button move the view.
 const small_px = 5; // a shorter movement is a tap
 const near_px = 12;

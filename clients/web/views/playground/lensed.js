@@ -6,7 +6,7 @@ import { ask } from '../../base/server.js';
 
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 const even = x => Math.max(16, 2 * Math.round(x / 2));
-const slow_ms = 600; // a picture that takes longer is announced
+const slow_ms = 600; // if a picture takes longer, the page says that one is being drawn
 const widest = 960; // largest width, device pixels
 
 // box: the element for the pictures; running: see running.js. Returns { show(yes) }.
@@ -22,13 +22,13 @@ export function lensed(box, running) {
     camera = null;
   const words = el('p', { class: 'help', role: 'status' }),
     drawing = el('p', { class: 'drawing', 'aria-hidden': 'true', hidden: true }, t('lensed.drawing', 'Drawing …'));
-  let late = 0; // timer of a picture that is on its way
+  let late = 0; // timer of a picture that is in progress
   const begin = () =>
     (words.textContent = t('common.the-server-computes-the', 'The server computes the first picture …'));
   begin();
   box.append(picture, words, drawing);
 
-  // Says that a picture is being drawn, if it takes long. At rest no picture is on its way.
+  // If a picture takes long, says that it is being drawn. At rest no picture is in progress.
   function expect() {
     clearTimeout(late);
     late = setTimeout(() => (drawing.hidden = Boolean(words.textContent)), slow_ms);

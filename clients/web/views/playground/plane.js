@@ -7,10 +7,10 @@ import { physics } from '../../base/server.js';
 // past: points of a trail; up to `few` bodies have full trails, beyond `none` no body has one
 const turns = { past: 160, few: 400, none: 1500 };
 const least_px = 2.5;
-const sample = 400; // pieces of debris by which the view is chosen
-const ease = 0.12; // share of the way to the wanted reach, in one update
-// The glow round the hole: its radius in radii of the horizon, at least some pixels, and its colours from the horizon
-// outwards.
+const sample = 400; // number of pieces of debris on which the choice of the view is based
+const ease = 0.12; // fraction of the difference to the requested reach by which one update changes the reach
+// The glow round the hole: its radius in radii of the horizon, its least radius in pixels, and its colours from the
+// horizon outwards.
 const glows = 2.4;
 const least_glow_px = 30;
 const glowing = [
@@ -34,8 +34,8 @@ export class Plane {
   cy = 0;
   scale = 4; // CSS pixels per M
   tilt = 0;
-  accompanies = null; // { least, most }: limits of the reach while the view follows bodies and debris by itself
-  follows = null; // what stays in the middle: "all", "chosen", or null
+  accompanies = null; // { least, most }: limits of the reach while the view follows bodies and debris automatically
+  follows = null; // what is kept in the middle: "all", "chosen", or null
   chosen = null; // id of the marked body
   aim = null; // { from: [x, y, z], to: [x, y, z], text, path, captured, armed }
   bodies = null;
@@ -67,7 +67,7 @@ export class Plane {
         this.redraw();
       },
       () => {},
-    ); // without the table bodies stay grey
+    ); // if the table cannot be loaded, bodies stay grey
   }
 
   get size() {
@@ -97,7 +97,7 @@ export class Plane {
     this.redraw();
   }
 
-  // The middle and the reach of a preset; of a snapshot, those of its bodies about the first one. A middle away from
+  // The middle and the reach of a preset; for a snapshot, those of its bodies about the first one. A middle away from
   // the hole is followed.
   around(preset) {
     const all = this.all(),
@@ -117,8 +117,8 @@ export class Plane {
     this.redraw();
   }
 
-  // Shows all bodies and nine tenths of the debris, at a reach that changes slowly. The middle is the hole, or what is
-  // followed.
+  // Shows all bodies and nine tenths of the debris, at a reach that changes slowly. The middle is the hole, or whatever
+  // is followed.
   accompany() {
     if (!this.accompanies) return;
     const { least, most } = this.accompanies,
@@ -292,7 +292,7 @@ export class Plane {
     for (const [id, trail] of this.#trails) {
       const own = this.body(id);
       c.strokeStyle = own ? this.#colour(own.temperature_k) : this.#colours.dim;
-      // Older parts are fainter: four sections, each of its own strength.
+      // Older parts are fainter: four sections, each with its own opacity.
       for (let part = 0; part < 4; part++) {
         const from = Math.floor((trail.length * part) / 4),
           to = Math.min(Math.floor((trail.length * (part + 1)) / 4) + 1, trail.length);

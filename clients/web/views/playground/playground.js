@@ -50,12 +50,12 @@ export async function openPlayground() {
     picture = lensed(part.lensed, running);
   const now = {
     chosen: null, // the body
-    awaited: false, // the server has the chosen body, but no picture of the bodies has it yet
-    hurries: null, // a rate, not answered yet
+    awaited: false, // the server has the chosen body, but no picture shows it yet
+    hurries: null, // a rate that the server has not answered yet
     given: null, // a snapshot that was loaded
   };
   let flying = null, // a throw that the server has not answered yet
-    halts = null; // { paused }, not answered yet
+    halts = null; // { paused } that the server has not answered yet
 
   const preset = () => known.presets.find(({ name }) => name === part.preset.value);
   const wrong = error => tell(part.fault, error.message);
@@ -93,13 +93,13 @@ export async function openPlayground() {
     foretell();
   }
 
-  // Whether two aims are the same. Aiming makes new arrays; the place of a body that is thrown again changes by itself.
+  // Whether two aims are the same. Aiming makes new arrays; if an existing body is thrown, its place changes by itself.
   const same = (a, b) => a?.velocity === b.velocity && a.body === b.body && (b.body != null || a.from === b.from);
 
   async function release() {
     const mine = { ...hand.aims },
       { from, velocity, body } = mine;
-    if (same(flying, mine)) return; // sent already, and not answered yet
+    if (same(flying, mine)) return; // already sent, and not answered yet
     flying = mine;
     const fields = form.fields(),
       v = velocity.map(x => Number(x.toPrecision(9)));
@@ -136,7 +136,7 @@ export async function openPlayground() {
     await patch(mine);
     if (halts === mine) halts = null;
   }
-  // One step at a time, and at most one waiting: a key that is held down repeats.
+  // One step at a time, and at most one more waits, because a key that is held down repeats.
   const step = latest(async () => {
     if (!paused()) return;
     const rate = part.rate.validity.valid ? part.rate.valueAsNumber : running.state.rate;
@@ -171,7 +171,7 @@ export async function openPlayground() {
       paused = link.get('play.paused') === '1';
     return running.begin(now.given ?? { preset: part.preset.value, ...hole, ...(rate > 0 ? { rate } : {}), paused });
   });
-  let hole = {}; // gravity, spin and charge, if somebody has chosen them
+  let hole = {}; // gravity, spin and charge, if the user has chosen them
   const showRules = rules(
     part.rules,
     known.settings,

@@ -1,12 +1,12 @@
 // Predicts the path of a thrown body. In the Paczyński–Wiita potential the page integrates it with the server's law and
-// steps (playground/step.c): kick, drift, kick, h <= C (r - 2), softened forces between bodies, speeds limited to c.
-// Waves, tides, mergers and the forces of light bodies are left out. With gravity "kerr" the server is asked (POST
-// /v1/orbits).
+// steps (playground/step.c): kick, drift, kick, h <= C (r - 2), softened forces between bodies, speeds limited to c. It
+// leaves out waves, tides, mergers and the forces of light bodies. With gravity "kerr" the server computes the path
+// (POST /v1/orbits).
 import { postJson } from '../../base/server.js';
 
 const light = 1e-5, // masses of the hole
   several = 16,
-  pairs = 1e6, // what a prediction has time for
+  pairs = 1e6, // limit of the pairs of bodies in a prediction, for its time
   clearance = 1.25,
   captured = 2.05;
 
@@ -28,7 +28,8 @@ export function reference(place, bodies, softening) {
   return Math.min(Math.sqrt(square), 0.9);
 }
 
-// a: accelerations at x, 3 numbers for each body. Returns the fastest rate of change, which with C gives the step.
+// a: accelerations at x, 3 numbers for each body. Returns the fastest rate of change, which together with C gives the
+// step.
 function pulls(x, mass, n, softening, a) {
   let fastest = 0;
   for (let i = 0; i < 3 * n; i += 3) {
@@ -72,7 +73,7 @@ export function predict(thrown, bodies, { softening, safety, h_max }, far) {
     r = radius(thrown.x),
     end = 3 * Math.PI * Math.sqrt(r) * Math.abs(r - 2),
     points = [[...thrown.x]],
-    apart = r / 300; // least distance of two points
+    apart = r / 300; // least distance between two points
   if (r <= captured) return { points, captured: true };
   let n = all.length,
     t = 0,
@@ -106,7 +107,7 @@ export function predict(thrown, bodies, { softening, safety, h_max }, far) {
   return { points, captured: false };
 }
 
-// The same by the server: a test body on a geodesic.
+// The same from the server: a test body on a geodesic.
 export async function ask_kerr({ x, v }, spin, far) {
   const r = radius(x),
     theta = Math.acos(x[2] / r),

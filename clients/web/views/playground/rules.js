@@ -1,4 +1,4 @@
-// The settings of a playground: a control for each setting that the server lists. The common ones stand in front.
+// The settings of a playground: a control for each setting that the server lists. The common ones come first.
 import { badge } from '../../controls/badge.js';
 import { el, typing } from '../../base/dom.js';
 import { helpOf, t, word } from '../../words/i18n.js';
@@ -88,7 +88,8 @@ function control(row, id, changed) {
   };
 }
 
-// rows: of GET /v1/playground; changed(name, value); anew(name, value): for settings that need a new playground.
+// rows: settings of GET /v1/playground. changed(name, value): called after a change. anew(name, value): called for
+// settings that need a new playground.
 export function rules(root, rows, changed, anew) {
   const made = new Map(
       rows.map(row => [row.name, control(row, 'play-' + row.name, fixed.includes(row.name) ? anew : changed)]),

@@ -1,14 +1,14 @@
-// A playground on the server: sends changes, and follows its state. Positions of bodies come in binary form, as often
-// as they are drawn; events come by a stream. A playground that the server has ended, when it stopped or when nobody
-// watched, is begun again.
+// A playground on the server: sends changes, and follows its state. Positions of bodies are requested in binary form
+// for each drawing; events come by a stream. If the server has ended the playground, because it stopped or nobody
+// watched, it is started again.
 import { again_ms } from '../../base/again.js';
 import { seen } from '../../base/dom.js';
 import { t } from '../../words/i18n.js';
 import { ask, passes } from '../../base/server.js';
 
 const view = 'playground';
-const pieces = 12000; // as many as a window's pixels can show
-const debris_ms = 120; // between two requests for them
+const pieces = 12000; // limit of pieces: more would not fit the pixels of a window
+const debris_ms = 120; // time between two requests for debris
 const names_ms = 400;
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 const seenNow = () => !document.hidden && document.body.dataset.view === view;
@@ -32,7 +32,8 @@ function unpack(buffer) {
 export class Running extends EventTarget {
   #session = null;
   #document = {};
-  #kept = null; // snapshot from when the page was hidden: the server ends a playground that nobody watches
+  // snapshot from the time when the page was hidden, because the server ends a playground that nobody watches
+  #kept = null;
   #polls = new AbortController();
   #events = null;
   #last = 0; // number of the newest event received
@@ -91,7 +92,7 @@ export class Running extends EventTarget {
     this.#events = null;
   }
 
-  // given: a document as docs/playground.md describes it. Throws what the server refuses.
+  // given: a document as docs/playground.md describes it. Throws the server's refusal.
   async begin(given) {
     const answer = await ask('v1/playground', {
         method: 'POST',
@@ -168,7 +169,7 @@ export class Running extends EventTarget {
     return this.#inTurn(this.#session, 'POST', '/step', { by });
   }
 
-  // Begins again after the server has ended the playground: from the snapshot if there is one, else from the same
+  // Starts again after the server has ended the playground: from the snapshot if there is one, otherwise from the same
   // document.
   async #anew() {
     const { document: kept } = this.#kept ?? {};
@@ -235,7 +236,8 @@ export class Running extends EventTarget {
 
   #listen() {
     if (!this.#session || this.#events || !seenNow()) return;
-    this.#kept = this.#kept && { ...this.#kept, session: null }; // the next time the page is hidden a new one is taken
+    // a new snapshot is taken the next time the page is hidden
+    this.#kept = this.#kept && { ...this.#kept, session: null };
     const events = (this.#events = new EventSource(`${this.#session.url}/events?since=${this.#last}`)),
       told = message => JSON.parse(message.data);
     events.addEventListener('tick', message => this.#tell('tick', (this.tick = told(message))));

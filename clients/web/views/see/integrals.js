@@ -8,7 +8,7 @@ import { meansSomething } from '../../controls/known.js';
 import { plot } from '../../base/plot.js';
 import { holeOf, postJson } from '../../base/server.js';
 
-const rest_ms = 400; // since the last change, such as one of a drag
+const rest_ms = 400; // time since the last change, for example of a drag
 const floor = 1e-5; // share of the largest value below which nothing is drawn
 
 const isRadio = scene =>
@@ -27,7 +27,7 @@ function disk(scene) {
   };
 }
 
-// A note that the plot shows a thin disk, for scenes that show something else.
+// A note that the plot is for a thin disk, if the scene shows something else.
 const elsewhere = scene =>
   (scene.get('disk.model') === 'none'
     ? t('integrals.the-scene-has-no', ' The scene has no disk: this is of one that would lie there.')

@@ -1,4 +1,4 @@
-// "Look around": five things to see on a black hole, each with its own view, a ring round its place in the picture, and
+// "Look around": five things to see on a black hole. Each has its own view, a ring round its place in the picture, and
 // a few sentences. At the end the view from before is restored.
 import { byId, el, latest, still } from '../../base/dom.js';
 import { t } from '../../words/i18n.js';
@@ -8,8 +8,8 @@ import { physics } from '../../base/server.js';
 const flight_ms = 1400;
 const least_ms = 60; // between two steps of a flight
 
-// Places: a direction of the critical curve, counted from the right through the top; of a ring of gas, its radius and
-// its azimuth less the observer's: 180 is behind the hole, and at 270 the gas approaches.
+// Places: for the critical curve, an angle counted from the right through the top; for a ring of gas, its radius and
+// its azimuth minus the observer's, where 180 is behind the hole and at 270 the gas approaches.
 const edge = angle_deg => ['shadow', { angle_deg }];
 const gas = (r, phi_deg) => ['redshift', { r, phi_deg }];
 
@@ -91,7 +91,7 @@ export function buildTour(stage, scene) {
       if (input.checked !== wanted.includes(input.id.slice(5))) input.click();
   }
 
-  // Animates the numbers of a view, lengths by equal factors; the rest of the view changes at once.
+  // Animates the numbers of a view, lengths by constant factors; the rest of the view changes at once.
   function fly(view) {
     const now = ++flight,
       ways = Object.entries(view).map(([path, to]) => ({
@@ -195,7 +195,7 @@ export function buildTour(stage, scene) {
   scene.addEventListener('move', () => (ring.hidden = true));
   scene.addEventListener('change', () => before && box.dataset.arrived && point());
   new ResizeObserver(() => before && box.dataset.arrived && point()).observe(stage);
-  // Wherever the focus is; but Esc closes what lies over the tour first.
+  // Works wherever the focus is; but Esc first closes what lies over the tour.
   document.addEventListener(
     'keydown',
     event =>
