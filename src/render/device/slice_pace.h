@@ -4,8 +4,8 @@
 #ifndef KD_RENDER_DEVICE_SLICE_PACE_H
 #define KD_RENDER_DEVICE_SLICE_PACE_H
 
-#define KD_SLICE_MS 40.0  /* time of a submission: short enough for progress, fairness and a driver's watchdog */
-#define KD_SLOWEST 16.0   /* submissions are not made shorter than by this factor, because each has a cost of its own */
+#define KD_SLICE_MS 40.0 /* time of a submission: short enough for progress, fairness and a driver's watchdog */
+#define KD_SLOWEST 16.0  /* submissions are not made shorter than by this factor, because each has a cost of its own */
 
 struct kd_slice_pace {  /* initialise to 0 */
     double slowness;    /* time of a submission over its estimate, smoothed, 1 to KD_SLOWEST; 0: none yet */

@@ -87,8 +87,7 @@ enum kd_status kd_link_budgets_open(struct kd_link_budgets *all, const char *sta
     struct stat about;
     const int folder = open(state, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder >= 0)
-        all->fd =
-            openat(folder, KD_LINK_BUDGETS_FILE, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600);
+        all->fd = openat(folder, KD_LINK_BUDGETS_FILE, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600);
     bool done = all->fd >= 0 && !fstat(all->fd, &about);
     if (done && !S_ISREG(about.st_mode)) {
         errno = EILSEQ;

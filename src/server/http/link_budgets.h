@@ -10,7 +10,7 @@
 
 struct kd_link_budgets;
 
-struct kd_link_budgets *kd_link_budgets_create(void); /* NULL: out of memory */
+struct kd_link_budgets *kd_link_budgets_create(void);      /* NULL: out of memory */
 void kd_link_budgets_destroy(struct kd_link_budgets *all); /* accepts NULL */
 /* Reads the file in the folder `state`, and keeps it up to date from now on. Creates it if there is none. KD_EINVAL: it
  * is another file, or cannot be read. Call before the first request. */
