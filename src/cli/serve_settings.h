@@ -53,7 +53,7 @@
     S(MEMORY, "memory", 'M', "SIZE", BYTES, 0, 0, NULL, ANYWHERE, KD_CLI_MEMORY_DOC) \
     GROUP("State and shutdown:") \
     S(STATE, "state", 'S', "DIR", TEXT, 0, 0, NULL, ANYWHERE, \
-      "folder for jobs, their frames and assets, which then survive a restart") \
+      "folder for jobs, their frames, assets and what links have used, which then survive a restart") \
     S(DRAIN, "drain-seconds", 'g', "S", NUMBER, 1, 86400, "600", ANYWHERE, \
       "seconds after SIGTERM in which accepted requests may finish; the others are then answered with an error " \
       "(default 600)") \

@@ -20,7 +20,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #define BODIES_TOO_MANY "too many bodies are being received"
 #define BODIES_OF_CLIENT "too many bytes of your request bodies are being received at once (limit for one client)"
@@ -115,8 +114,6 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state, enum 
     stage(request, KD_STAGE_IDLE);
     kd_bytes_give(server->bodies, request->client, request->body.size);
     if (request->job) {
-        if (request->link.on)
-            kd_link_charge(server->links, &request->link, request->job->used_ms, (uint64_t)time(NULL));
         kd_buffer_finish(&request->job->file);
         kd_frame_finish(&request->job->frame);
         free(request->job);

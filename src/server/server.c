@@ -4,7 +4,7 @@
 #include "base/log.h"
 #include "server/asset/store.h"
 #include "server/http/access.h"
-#include "server/http/link.h"
+#include "server/http/link_budgets.h"
 #include "server/http/cors.h"
 #include "server/http/auth_throttle.h"
 #include "server/http/descriptors.h"
@@ -247,7 +247,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(kd_base_path_init(&server->base, params->base_path, error));
     if (params->token_file)
         KD_TRY(kd_access_read(params->token_file, &server->access, error));
-    if (params->token_file && !(server->links = calloc(1, sizeof *server->links)))
+    if (params->token_file && !(server->links = kd_link_budgets_create()))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
     if (params->share_key)
         KD_TRY(take_share_key(server, params->share_key, error));
@@ -279,6 +279,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     /* opened after the jobs, because they lock the folder; before kd_jobs_begin, because jobs may use assets */
     if (params->state)
         KD_TRY(kd_asset_store_open(server->assets, params->state, error));
+    if (params->state && server->links)
+        KD_TRY(kd_link_budgets_open(server->links, params->state, error));
     kd_jobs_begin(server->jobs);
     const int listening = fd;
     fd = -1; /* from here on the front closes it */
@@ -372,7 +374,7 @@ void kd_server_destroy(struct kd_server *server)
     free(server->public_url);
     kd_names_free(server->own);
     kd_access_free(server->access);
-    free(server->links);
+    kd_link_budgets_destroy(server->links);
     kd_auth_throttle_destroy(server->auth_throttle);
     kd_cors_destroy(server->cors);
     if (server->stop_fd >= 0)

@@ -288,11 +288,51 @@ static void test_glances(void **state)
         }
         plan.cost.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
         plan.lens.key[0] = 'x';              /* a key that is not cached */
+        renderer->slice_pace = (struct kd_slice_pace) { 0 };
         struct glances glances = { .want = isinf(scene.style.exposure) ? NULL : &whole };
         OK(kd_render_in_background(renderer, &scene, &plan, NULL, &preview, &glances, &looked, &error));
         assert_in_range(glances.n, k ? 12 : 1, 20); /* a sampled map's slices are blocks of 64 rows */
         assert_same(&whole, &looked);
     }
+}
+
+static bool count_reports(void *user, double fraction)
+{
+    (void)fraction;
+    ++*(unsigned *)user;
+    return true;
+}
+
+/* The light of a block of a sampled map is made in as many submissions as it is long, so that others need not wait for
+ * the whole block. On a slow device there are more of them. The picture is the same. */
+static void test_light_of_a_block(void **state)
+{
+    (void)state;
+    const struct kd_capacity c = capacity();
+    struct kd_scene scene = small_scene();
+    struct kd_plan plan;
+    struct kd_frame whole, cut[2];
+    unsigned reports[2] = { 0 };
+    scene.image.samples = 4; /* 16 rows of pixels a block */
+    scene.image.critical_factor = 1;
+    scene.camera.inclination_deg = 57;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    assert_true(plan.lens.interpolates > 0 && !plan.light.points);
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &whole, &error));
+    double *const light = &renderer->capacity.ns[kd_plan_light_figure(&plan.light)], before = *light;
+    for (int i = 0; i < 2; i++) {
+        plan.lens.key[0] = (char)('x' + i); /* a key that is not cached */
+        *light = 40e6 / (160 * 16 * 5);     /* five rows */
+        renderer->slice_pace = (struct kd_slice_pace) { .slowness = i ? 5 : 0 };
+        OK(kd_render_in_background(renderer, &scene, &plan, count_reports, NULL, &reports[i], &cut[i], &error));
+        assert_false(cut[i].lens_reused);
+    }
+    *light = before;
+    assert_in_range(reports[0], 90 / 5, 40);
+    assert_in_range(reports[1], reports[0] + 10, 90 + 20);
+    assert_memory_equal(kd_frame_pixels(&whole), kd_frame_pixels(&cut[0]), bytes(&whole));
+    kd_frame_finish(&cut[0]);
+    assert_same(&whole, &cut[1]);
 }
 
 struct others {
@@ -456,6 +496,7 @@ static void test_rest(void **state)
             assert_in_range(kept[KD_CACHE_LENS_MAPS], 1, KD_REST_MAPS_BYTES);
         after = rendered_by(fresh, &scene);
         assert_int_equal(after.lens_reused, kept[KD_CACHE_LENS_MAPS] > 0);
+        assert_true(isnan(timing_of(&after, "kernels"))); /* the reopened device has them again */
         assert_same(&before, &after);
     }
     kd_renderer_destroy(fresh);
@@ -687,6 +728,7 @@ int main(void)
         cmocka_unit_test(test_extremes),
         cmocka_unit_test(test_progress),
         cmocka_unit_test(test_glances),
+        cmocka_unit_test(test_light_of_a_block),
         cmocka_unit_test(test_asides),
         cmocka_unit_test(test_what_idle_asides_keep_is_bounded),
         cmocka_unit_test(test_a_map_that_is_handed_over),

@@ -3,6 +3,9 @@
 import hashlib
 import hmac
 import html.parser
+import os
+import subprocess
+import tempfile
 import time
 import urllib.parse
 
@@ -50,6 +53,9 @@ class Links(access.Access):
     @classmethod
     def lines(cls):
         return LINES
+
+    def tokens(self):
+        return os.path.join(self.folder.name, "tokens")
 
     def works(self, target, **headers):
         answer = self.ask("GET", target, headers=headers)
@@ -169,6 +175,43 @@ class Links(access.Access):
             self.refused(link, "budget is spent: 0.001 s")
         self.works(other)
         self.works(signed(RENDER))
+
+    def test_a_client_that_leaves_is_charged(self):
+        """The picture of a client that has left is charged once it ends, like any other."""
+        link = signed(RENDER + "&time=5000", budget_ms=1)  # a fake picture takes its time
+
+        def metrics():
+            return self.ask("GET", "/metrics", headers=access.own(access.VIEW)).body
+
+        with self.daemon.connect() as left:
+            left.sendall(f"GET {link} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
+            self.assertTrue(daemon.eventually(lambda: b"\nkerrd_renders_unfinished 1\n" in metrics()))
+        self.assertTrue(daemon.eventually(lambda: self.ask("GET", link).status == 403))
+
+    def test_a_restart(self):
+        """With a state folder a budget that is spent stays spent, even if the server is killed."""
+        link = signed(RENDER, budget_ms=1)
+        with tempfile.TemporaryDirectory() as folder:
+            for kept in (True, False):
+                options = ["--token-file", self.tokens(), *(["--state", folder] if kept else [])]
+                for spent in (False, kept):
+                    server = daemon.Daemon(*map(str, options))
+                    self.addCleanup(server.stop)
+                    answer = server.get(link)
+                    self.assertEqual(answer.status, 403 if spent else 200, answer.body)
+                    if not spent:
+                        self.assertTrue(daemon.eventually(lambda s=server: s.get(link).status == 403))
+                    server.process.kill()
+                    server.process.wait()
+            os.truncate(os.path.join(folder, "link-budgets"), 10)
+            failed = subprocess.run(
+                [*daemon.COMMAND, "--port", "0", "--token-file", self.tokens(), "--state", folder],
+                capture_output=True,
+                text=True,
+                timeout=60,
+            )
+            self.assertNotEqual(failed.returncode, 0)
+            self.assertIn("link-budgets is not a file of link budgets; remove it", failed.stderr)
 
     def test_other_sites(self):
         """A page of another site shows a picture by a link, and by no other address."""

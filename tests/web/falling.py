@@ -198,6 +198,41 @@ class Falling(Browser):
             route.continue_()
         self.there(page, "Falling freely", "#fall-where")
 
+    def test_the_first_picture_of_the_fall(self):
+        """The panel says at once that a picture is computed, and the first picture of the falling observer ends that:
+        all later ones are held back. The time is printed."""
+        page, held, fallen = self.open(), [], []
+
+        def gate(route):
+            route.continue_() if held is None or not fallen else held.append(route)
+
+        page.on("response", lambda answer: fallen.append(answer) if "kerrd-clock" in answer.headers else None)
+        far = page.locator("#stage").screenshot()
+        page.route("**/frame?*", gate)
+        page.evaluate(
+            """() => {
+            const where = document.getElementById('fall-where');
+            window.fall = [];
+            new MutationObserver(() => {
+                const words = where.textContent.trim();
+                if (words && fall.at(-1)?.words !== words) fall.push({ words, ms: performance.now() - fall.begun });
+            }).observe(where, { subtree: true, childList: true, characterData: true });
+            const begins = () => (fall.begun = performance.now());
+            document.getElementById('fall-in').addEventListener('click', begins, { capture: true });
+        }"""
+        )
+        page.click("#fall-in")
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("fall.length") > 1))
+        first, then = page.evaluate("fall.slice(0, 2)")
+        print(f"words after {first['ms']:.0f} ms, the first picture of the fall after {then['ms']:.0f} ms")
+        self.assertIn("computes the first picture", first["words"])
+        self.assertEqual(then["words"], "Falling freely")
+        self.assertEqual(len(fallen), 1)
+        self.assertTrue(daemon.eventually(lambda: page.locator("#stage").screenshot() != far))
+        waiting, held = held, None
+        for route in waiting:
+            route.continue_()
+
     def test_nothing_lies_under_the_panel_of_the_fall(self):
         page = self.open("lang=de")
         page.click("#fall-in")

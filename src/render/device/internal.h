@@ -11,6 +11,7 @@
 #include "render/device/renderer.h"
 #include "render/device/rest.h"
 #include "render/device/skies.h"
+#include "render/device/slice_pace.h"
 #include "render/device/store.h"
 #include "render/emit/emitter.h"
 #include "render/device/normalised.h"
@@ -66,10 +67,11 @@ struct kd_renderer {
     struct kd_accuracy_table *accuracy; /* accuracy table of this device, as on disk when the renderer was created;
                                          * NULL: none */
     struct kd_verdict verdict;
-    struct kd_capacity stored; /* as stored in the file */
-    uint32_t frames;           /* number of frames so far, as learn.c counts them */
-    bool probing;              /* a pass costs the smallest of the measured costs instead of their mean */
-    char name[800];            /* the next two, joined */
+    struct kd_capacity stored;       /* as stored in the file */
+    struct kd_slice_pace slice_pace; /* of the pictures that let others have the device */
+    uint32_t frames;                 /* number of frames so far, as learn.c counts them */
+    bool probing;                    /* a pass costs the smallest of the measured costs instead of their mean */
+    char name[800];                  /* the next two, joined */
     char device[256], driver[520];
 };
 

@@ -508,6 +508,18 @@ void kd_kernels_rest(struct kd_kernels *kernels, struct kd_vk *vk, size_t n)
     }
 }
 
+void kd_kernels_list(const struct kd_kernels *kernels, struct kd_kernel_requests *out)
+{
+    out->n = 0;
+    for (const struct kd_kernel_entry *e = kernels->entries; e < kernels->entries + KD_KERNELS_KEPT; e++) {
+        if (!e->pipeline || out->n == KD_KERNEL_WISHES)
+            continue;
+        struct kd_kernel_request *w = &out->at[out->n++];
+        *w = (struct kd_kernel_request) { .source = e->source, .n = e->n };
+        memcpy(w->constants, e->constants, sizeof w->constants);
+    }
+}
+
 uint64_t kd_kernels_spirv_bytes(const struct kd_kernels *kernels)
 {
     uint64_t sum = 0;

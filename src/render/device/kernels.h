@@ -133,6 +133,8 @@ static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom, bool heat)
 }
 /* Keeps the n most recently used kernels. */
 void kd_kernels_rest(struct kd_kernels *kernels, struct kd_vk *vk, size_t n);
+/* All cached kernels, up to KD_KERNEL_WISHES, to be made again on another device (kd_kernel_requests_make). */
+void kd_kernels_list(const struct kd_kernels *kernels, struct kd_kernel_requests *out);
 uint64_t kd_kernels_spirv_bytes(const struct kd_kernels *kernels); /* size of the cached kernels' SPIR-V */
 void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk);
 

@@ -40,12 +40,12 @@ enum kd_status kd_frame_between(struct kd_frame_job *j, const struct kd_frame_pa
     for (uint32_t band = 0; band < j->plan->picture.bands; band++) {
         uint64_t from, to;
         kd_frame_part_in_band(j, part, band, &from, &to);
-        /* Slices are sized by the time that tracing these rays would take. */
-        const uint32_t step = kd_frame_slice(j->plan->cost.trace_ns * part->list->lattice.rays, (uint32_t)part->n);
-        for (; from < to; from += step) {
+        for (uint32_t step; from < to; from += step) {
+            /* sized by the time that tracing these rays would take */
+            step = kd_frame_slice_at_most(j, j->plan->cost.trace_ns * part->list->lattice.rays, (uint32_t)(to - from));
             struct kd_between_push push = {
                 .first = (uint32_t)from,
-                .count = (uint32_t)(to - from < step ? to - from : step),
+                .count = step,
                 .stride = part->push.stride,
                 .list = part->push.list,
             };

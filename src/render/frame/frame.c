@@ -77,13 +77,13 @@ enum kd_status kd_frame_ask_kernels(struct kd_frame_job *j)
         }
         if (!j->plan->picture.no_image)
             KD_TRY(kd_frame_light_kernel(j, &lattices[i], KD_MAKES_PICTURE, &later));
+        if (j->plan->report.probe.on && (j->plan->lens.planes || j->plan->light.march.steps))
+            KD_TRY(kd_frame_light_kernel(j, &lattices[i], KD_MAKES_TOLD, &later));
     }
     for (size_t i = 0; i < j->plan->picture.n_layers; i++)
         KD_TRY(kd_frame_light_kernel(j, &lattices[0], (int)i, &later));
     if (j->plan->lens.interpolates > 0 && !there)
         KD_TRY(kd_frame_sample_kernels(j));
-    if (j->plan->report.probe.on && (j->plan->lens.planes || j->plan->light.march.steps))
-        KD_TRY(kd_frame_light_kernel(j, &lattices[0], KD_MAKES_TOLD, &later));
     if (j->plan->report.probe.on)
         KD_TRY(kd_frame_probe_ask(j));
     if (j->plan->light.points)

@@ -14,8 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SLICE_MS 40.0 /* device time of a submission: short enough for progress, fairness and a driver's watchdog */
-
 static const struct kd_critical_lattice on_grid; /* all 0: the grid */
 
 /* Rows of pixels of a band, from `row` on, that one submission processes. Slices of a sampled map end at its blocks if
@@ -23,24 +21,18 @@ static const struct kd_critical_lattice on_grid; /* all 0: the grid */
 static uint32_t rows_of_slice(const struct kd_frame_job *j, uint32_t band, uint32_t row, double ns_per_row, bool maps)
 {
     const struct kd_plan *p = j->plan;
-    const uint32_t left = kd_frame_band_rows(j, band) - row, rows = kd_frame_slice(ns_per_row, left);
+    const uint32_t left = kd_frame_band_rows(j, band) - row, rows = kd_frame_slice(j, ns_per_row, left);
     if (!maps || !(p->lens.interpolates > 0))
         return rows;
     const uint32_t most = p->lens.sample_rows, block = KD_CELL_BLOCK / p->lens.side ? KD_CELL_BLOCK / p->lens.side : 1,
                    first = kd_scene_window(j->scene).top + kd_frame_band_first(j, band) + row,
                    end = (first + (rows < most ? rows : most)) / block * block;
     const uint32_t n = end > first ? end - first : block - first % block, held = n < most ? n : most;
+    j->r->slice_pace.expected_ms *= (double)(held < left ? held : left) / rows;
     return held < left ? held : left;
 }
 
 /* Kernels are looked up for each slice, because other work may have evicted a kernel meanwhile. */
-
-/* Rows of pixels in one submission, given nanoseconds a row. */
-uint32_t kd_frame_slice(double ns_per_row, uint32_t rows)
-{
-    double n = SLICE_MS * 1e6 / fmax(ns_per_row, 1);
-    return n < 1 ? 1 : n > rows ? rows : (uint32_t)n;
-}
 
 /* *out is NULL if no kernel is needed. l: lattice of the listed pixels; all 0: the grid. */
 enum kd_status kd_frame_trace_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l,
@@ -390,12 +382,34 @@ static enum kd_status follow_lost(struct kd_frame_job *j, uint32_t band)
     return kd_frame_follow_lost(j, &d, &push, &on_grid, turns);
 }
 
+/* Lights rows whose map is recorded or made, and reports on them. A slice of a sampled map has at least the rows of a
+ * block, whose light may take several submissions. map_ns, light_ns: per row of pixels. */
+static enum kd_status light_rows(struct kd_frame_job *j, const struct slice *whole, double map_ns, double light_ns)
+{
+    struct slice part = *whole;
+    uint32_t left = whole->count;
+    enum kd_status status;
+    do {
+        const uint32_t most = left ? kd_frame_slice(j, light_ns, left) : 1, parts = (left + most - 1) / most;
+        part.count = parts ? (left + parts - 1) / parts : 0; /* of equal size */
+        j->r->slice_pace.expected_ms = 1e-6 * (light_ns * part.count + (left == whole->count ? map_ns * left : 0));
+        KD_TRY(light_slice(j, &part));
+        part.first += part.count;
+        left -= part.count;
+        j->lit = part.first;
+        KD_TRY(kd_frame_report(j, map_ns > 0 ? 2 * part.count : part.count));
+    } while (left);
+done:
+    return status;
+}
+
 /* Lights a band slice by slice, so that a long picture can be previewed. ns: per ray. */
-static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool needed, double ns)
+static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool needed, double light_ns)
 {
     const struct kd_plan *p = j->plan;
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
-    const double ns_per_row = ns * p->picture.width * p->lens.side * p->lens.side;
+    const double rays = (double)p->picture.width * p->lens.side * p->lens.side,
+                 map_ns = needed ? kd_plan_map_ns(p) * rays : 0, ns_per_row = map_ns + light_ns * rays;
     enum kd_status status = KD_OK;
     for (uint32_t row = 0, step; row < rows && !status; row += step) {
         step = rows_of_slice(j, band, row, ns_per_row, needed);
@@ -403,9 +417,7 @@ static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool nee
         const struct slice whole = needed ? complete(j, &s) : s;
         if (needed)
             KD_TRY(map_slice(j, &s, &whole));
-        KD_TRY(light_slice(j, &whole));
-        j->lit = whole.first + whole.count;
-        KD_TRY(kd_frame_report(j, needed ? 2 * whole.count : whole.count));
+        KD_TRY(light_rows(j, &whole, map_ns, light_ns * rays));
     }
     KD_TRY(follow_lost(j, band));
 done:
@@ -454,7 +466,6 @@ done:
 static enum kd_status light_bands(struct kd_frame_job *j, bool needed, double transfer_ns)
 {
     const struct kd_plan *p = j->plan;
-    double ns = transfer_ns + (needed ? kd_plan_map_ns(p) : 0);
     enum kd_status status = KD_OK;
     for (uint32_t band = 0; p->light.points && needed && p->lens.cacheable && band < p->picture.bands; band++)
         KD_TRY(map_band(j, band, kd_plan_map_ns(p)));
@@ -463,7 +474,7 @@ static enum kd_status light_bands(struct kd_frame_job *j, bool needed, double tr
             KD_TRY(map_band(j, band, kd_plan_map_ns(p)));
         if (p->light.points)
             KD_TRY(kd_frame_stars(j, band));
-        KD_TRY(light_band(j, band, needed && !p->light.points, p->light.points ? transfer_ns : ns));
+        KD_TRY(light_band(j, band, needed && !p->light.points, transfer_ns));
         KD_TRY(kd_frame_probe(j, band));
         KD_TRY(kd_frame_sample_march(j, band));
     }
@@ -478,6 +489,7 @@ enum kd_status kd_frame_light(struct kd_frame_job *j, bool reused)
     const struct kd_plan *p = j->plan;
     bool needed = !reused && p->lens.planes;
     enum kd_status status = KD_OK;
+    kd_slice_begin(&j->r->slice_pace, kd_clock_ms());
     KD_TRY(light_bands(j, needed, kd_plan_light_ns(&p->light, &c)));
     if (p->lens.critical)
         KD_TRY(light_at_curve(j, !reused));

@@ -9,8 +9,19 @@
  * map; the picture's light. Numbers from 0 on are the plan's layers. */
 enum { KD_MAKES_PIECES = -4, KD_MAKES_TOLD = -3, KD_MAKES_RAYS = -2, KD_MAKES_PICTURE = -1 };
 
-/* Rows of pixels in one submission, given nanoseconds a row. */
-uint32_t kd_frame_slice(double ns_per_row, uint32_t rows);
+/* Number of the next items, such as rows of pixels, that one submission processes, given nanoseconds an item on an idle
+ * device. */
+static inline uint32_t kd_frame_slice(const struct kd_frame_job *j, double ns, uint32_t left)
+{
+    return kd_slice_items(&j->r->slice_pace, ns, left);
+}
+/* The same, given an upper bound: the time that these items take says nothing about the device. */
+static inline uint32_t kd_frame_slice_at_most(const struct kd_frame_job *j, double ns, uint32_t left)
+{
+    const uint32_t items = kd_frame_slice(j, ns, left);
+    j->r->slice_pace.expected_ms = 0;
+    return items;
+}
 
 /* The kernels that trace and that light rays: on listed pixels by their lattice, on the grid if the lattice is all 0.
  * *out is NULL if no kernel traces. */

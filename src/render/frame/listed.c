@@ -56,13 +56,13 @@ static enum kd_status run_part(struct kd_frame_job *j, const struct kd_frame_par
                                const struct kd_vk_dispatch *base, int makes, double ns_per_ray)
 {
     const bool rays = makes == KD_MAKES_RAYS;
-    uint32_t step = kd_frame_slice(ns_per_ray * part->list->lattice.rays, (uint32_t)part->n);
     enum kd_status status = KD_OK;
-    for (; from < to; from += step) {
+    for (uint32_t step; from < to; from += step) {
+        step = kd_frame_slice(j, ns_per_ray * part->list->lattice.rays, (uint32_t)(to - from));
         struct kd_slice push = part->push;
         struct kd_vk_dispatch d = *base;
         push.row0 = (uint32_t)from;
-        push.rows = (uint32_t)(to - from < step ? to - from : step);
+        push.rows = step;
         d.push = &push;
         d.groups[0] = kd_frame_groups(rays ? (uint64_t)push.rows * part->list->lattice.rays : push.rows);
         d.groups[1] = 1;
@@ -98,17 +98,17 @@ enum kd_status kd_frame_upload_pixels(struct kd_frame_job *j, const struct kd_fr
 
 static enum kd_status list_part(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
-    const uint32_t rays = part->list->lattice.rays,
-                   step = kd_frame_slice(j->plan->cost.trace_ns * rays, (uint32_t)part->n);
+    const uint32_t rays = part->list->lattice.rays;
     enum kd_status status = KD_OK;
-    for (uint64_t from = 0; from < part->n; from += step) {
+    for (uint32_t step, from = 0; from < part->n; from += step) {
+        step = kd_frame_slice(j, j->plan->cost.trace_ns * rays, (uint32_t)part->n - from);
         const struct kd_lens_rows rows = {
             .first = (uint32_t)(part->first + from),
-            .count = (uint32_t)(part->n - from < step ? part->n - from : step),
+            .count = step,
             .pixels = part->list->pixels->pixels,
             .lattice = &part->list->lattice,
             .to = part->lens,
-            .offset = from * rays,
+            .offset = (uint64_t)from * rays,
             .stride = part->push.stride,
         };
         KD_TRY(kd_frame_list_rays(j, &rows));
@@ -139,12 +139,12 @@ static enum kd_status footprint_part(struct kd_frame_job *j, const struct kd_fra
         .lattice = &part->list->lattice,
         .push = { .rows = (uint32_t)part->n, .list = part->push.list, .stride = part->push.stride },
     };
-    const uint32_t rays = (uint32_t)(part->n * part->list->lattice.rays),
-                   step = kd_frame_slice(j->plan->cost.trace_ns, rays);
+    const uint32_t rays = (uint32_t)(part->n * part->list->lattice.rays);
     enum kd_status status = KD_OK;
-    for (uint32_t from = 0; kd_plan_has_footprints(&j->plan->lens) && from < rays; from += step) {
+    for (uint32_t step, from = 0; kd_plan_has_footprints(&j->plan->lens) && from < rays; from += step) {
+        step = kd_frame_slice_at_most(j, j->plan->cost.trace_ns, rays - from);
         area.push.first = from;
-        area.push.end = from + (rays - from < step ? rays - from : step);
+        area.push.end = from + step;
         KD_TRY(kd_frame_footprint(j, &area));
         KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
         KD_TRY(kd_frame_report(j, 0));

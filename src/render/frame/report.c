@@ -49,12 +49,14 @@ static enum kd_status away(struct kd_frame_job *j, bool (*tell)(struct kd_frame_
         if (status)
             return status;
         keep_times(j);
+        kd_slice_end(&j->r->slice_pace, kd_clock_ms());
     }
     double left = kd_clock_ms();
     *go_on = tell(j, what);
     if (j->background) {
         j->away_ms += kd_clock_ms() - left;
         kd_vk_times_reset(j->r->vk);
+        kd_slice_begin(&j->r->slice_pace, kd_clock_ms());
     }
     return KD_OK;
 }
@@ -93,7 +95,11 @@ enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
     if (!go_on)
         return kd_error_set(j->error, KD_ECANCELLED, "the render was cancelled");
     bool part = j->preview && !j->plan->picture.no_image && !j->looking && j->lit && j->lit < j->plan->picture.height;
-    return part && j->preview->wanted(j->user) ? preview(j) : KD_OK;
+    if (!part || !j->preview->wanted(j->user))
+        return KD_OK;
+    const enum kd_status seen = preview(j);
+    kd_slice_begin(&j->r->slice_pace, kd_clock_ms()); /* its time is not that of the next slice */
+    return seen;
 }
 
 _Static_assert(KD_FRAME_MAX_TIMINGS >= KD_VK_MAX_PASSES + 4,

@@ -5,7 +5,7 @@
 #include "base/hash.h"
 #include "server/http/cors.h"
 #include "server/http/auth_throttle.h"
-#include "server/http/link.h"
+#include "server/http/link_budgets.h"
 #include "server/http/request.h"
 
 #include <errno.h>

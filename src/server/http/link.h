@@ -17,7 +17,6 @@
 #define KD_LINK_LATEST_S 253402300799 /* last second of the year 9999 */
 #define KD_LINK_BUDGET_MS 86400000u   /* largest budget */
 #define KD_SHARED_DAYS 30             /* days for which the link of a shared scene works */
-#define KD_LINK_BUDGETS 16384u        /* largest number of links with a budget whose use is remembered */
 
 /* What a link permits, and until when. */
 struct kd_link_terms {
@@ -46,17 +45,5 @@ bool kd_link_is(const struct kd_target *target);
  * parameters from the target; or returns NULL with *error. Any thread. */
 const struct kd_visitor *kd_link_check(const struct kd_access *access, const char *path, struct kd_target *target,
                                        uint64_t now_s, struct kd_link *out, struct kd_error *error);
-
-/* Device time that links with a budget have used. HTTP thread only. The server forgets it when it ends. */
-struct kd_link_budgets {
-    struct kd_link_spent {
-        uint64_t id, expires_s;
-        double ms;
-    } places[KD_LINK_BUDGETS]; /* expires_s 0: unused */
-};
-enum kd_link_left { KD_LINK_LEFT, KD_LINK_SPENT, KD_LINK_CROWDED };
-/* Whether the link has device time left. KD_LINK_CROWDED: too many links with a budget are in use. */
-enum kd_link_left kd_link_budget(const struct kd_link_budgets *all, const struct kd_link *link, uint64_t now_s);
-void kd_link_charge(struct kd_link_budgets *all, const struct kd_link *link, double ms, uint64_t now_s);
 
 #endif

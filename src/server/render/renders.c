@@ -2,6 +2,7 @@
 #include "render/explain/explain.h"
 #include "render/output/notes.h"
 #include "scene/link.h"
+#include "server/http/link_budgets.h"
 #include "server/http/negotiate.h"
 #include "server/http/query.h"
 #include "server/render/planned.h"
@@ -253,10 +254,6 @@ static struct MHD_Response *picture_response(struct kd_request *request)
 static enum MHD_Result deliver(struct kd_request *request)
 {
     struct kd_render_job *job = request->job;
-    if (request->link.on) { /* charged before the client gets the picture and may request the next */
-        kd_link_charge(request->server->links, &request->link, job->used_ms, (uint64_t)time(NULL));
-        job->used_ms = 0;
-    }
     if (job->status == KD_ECANCELLED)
         return kd_reply_cancelled(request);
     if (job->status) {
@@ -275,6 +272,8 @@ static enum MHD_Result deliver(struct kd_request *request)
 static void wake(struct kd_render_job *job)
 {
     struct kd_request *request = job->user;
+    if (request->link.on) /* before the client gets the picture and may request the next, or if it has left */
+        kd_link_charge(request->server->links, &request->link, job->used_ms, (uint64_t)time(NULL));
     MHD_resume_connection(request->mhd);
 }
 

@@ -1,0 +1,31 @@
+#include "render/device/slice_pace.h"
+
+#include <math.h>
+
+/* Submissions are made shorter at once, and longer again over some ten of them: one that is too long is worse. */
+#define FALLS 0.5
+#define RISES 0.1
+
+unsigned kd_slice_items(struct kd_slice_pace *pace, double ns, unsigned most)
+{
+    const double n = KD_SLICE_MS * 1e6 / fmax(pace->slowness, 1) / fmax(ns, 1);
+    const unsigned items = n < 1 ? 1 : n > most ? most : (unsigned)n;
+    pace->expected_ms = items * ns * 1e-6;
+    return items;
+}
+
+void kd_slice_begin(struct kd_slice_pace *pace, double now_ms)
+{
+    pace->begun_ms = now_ms;
+    pace->expected_ms = 0;
+}
+
+void kd_slice_end(struct kd_slice_pace *pace, double now_ms)
+{
+    const double LEAST_MS = 1; /* less is mostly the cost of a submission */
+    const double known = fmax(pace->slowness, 1);
+    if (!(pace->expected_ms >= LEAST_MS))
+        return;
+    const double ratio = fmin(fmax((now_ms - pace->begun_ms) / pace->expected_ms, 1), KD_SLOWEST);
+    pace->slowness = known + (ratio > known ? FALLS : RISES) * (ratio - known);
+}
