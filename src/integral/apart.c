@@ -28,6 +28,17 @@ static const char line[] = "{\"anyOf\":["
     NOT_OF("index", "\"lamppost\"") "," OF_NO_OTHER_THAN("outer_index", "broken") ","
     OF_NO_OTHER_THAN("break_r", "broken") "," OF_NO_OTHER_THAN("height", "lamppost") ","
     OF_NO_OTHER_THAN("photon_index", "lamppost") "]}";
+#define ECHO \
+    BOTH("edges", "energy_min") "," BOTH("edges", "energy_max") "," BOTH("edges", "bins") "," \
+    OF_NO_OTHER_THAN("corona_radius", "ring") "," OF_NO_OTHER_THAN("motion", "ring")
+#define A_NUMBER(name) "{\"required\":[\"" name "\"],\"properties\":{\"" name "\":{\"type\":\"number\"}}}"
+static const char impulse[] = "{\"anyOf\":[" ECHO "]}";
+static const char lags[] = "{\"anyOf\":[" ECHO ","
+    BOTH("frequencies_m", "frequency_min") "," BOTH("frequencies_m", "frequency_max") ","
+    BOTH("frequencies_m", "frequencies") ","
+    "{\"allOf\":[" A_NUMBER("reference_min") ",{\"not\":" A_NUMBER("reference_max") "}]},"
+    "{\"allOf\":[" A_NUMBER("reference_max") ",{\"not\":" A_NUMBER("reference_min") "}]},"
+    "{\"required\":[\"energy_min\"],\"properties\":{\"energy_min\":{\"maximum\":0}}}]}";
 static const char transfer[] = "{\"anyOf\":[" BOTH("radii", "rings") "," BOTH("g_star", "g_stars") "]}";
 static const char spectrum[] = "{\"anyOf\":["
     BOTH("frequencies_hz", "frequency_min_hz") "," BOTH("frequencies_hz", "frequency_max_hz") ","
@@ -55,9 +66,13 @@ static const char compare[] = "{\"anyOf\":["
 const char *kd_integral_apart(enum kd_integral what)
 {
     _Static_assert(KD_INTEGRAL_PICTURES == 200 && KD_INTEGRAL_FREQUENCIES == 1000, "the schema of a spectrum says so");
-    static const char *const schemas[KD_INTEGRALS] = {
-        [KD_INTEGRAL_LINE] = line,       [KD_INTEGRAL_TRANSFER] = transfer,     [KD_INTEGRAL_SPECTRUM] = spectrum,
-        [KD_INTEGRAL_VOLUME] = spectrum, [KD_INTEGRAL_VISIBILITY] = visibility, [KD_INTEGRAL_COMPARE] = compare
-    };
+    static const char *const schemas[KD_INTEGRALS] = { [KD_INTEGRAL_LINE] = line,
+                                                       [KD_INTEGRAL_TRANSFER] = transfer,
+                                                       [KD_INTEGRAL_SPECTRUM] = spectrum,
+                                                       [KD_INTEGRAL_IMPULSE] = impulse,
+                                                       [KD_INTEGRAL_LAGS] = lags,
+                                                       [KD_INTEGRAL_VOLUME] = spectrum,
+                                                       [KD_INTEGRAL_VISIBILITY] = visibility,
+                                                       [KD_INTEGRAL_COMPARE] = compare };
     return schemas[what];
 }

@@ -14,7 +14,8 @@
 bool kd_integral_given(const struct kd_integral_request *request, const char *name)
 {
     const struct kd_row *f = kd_integral_field_named(request, name);
-    return f && request->seen & UINT64_C(1) << (f - kd_integral_fields);
+    const size_t at = f ? (size_t)(f - kd_integral_fields) : 0;
+    return f && request->seen[at / 64] & UINT64_C(1) << at % 64;
 }
 
 static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error *error)
@@ -217,11 +218,108 @@ static enum kd_status check_frequencies(struct kd_integral_request *r, struct kd
     return kd_integral_check_frequencies(r, KD_INTEGRAL_FREQUENCIES, error);
 }
 
+struct kd_corona_source kd_integral_source(const struct kd_integral_request *r, struct kd_error *error,
+                                           enum kd_status *status)
+{
+    struct kd_corona_source source = { 0 };
+    const double radius = r->emissivity == KD_LINE_RING ? r->corona_radius : 0, edge = KD_CORONA_LEAST,
+                 at = hypot(radius, r->height), least = edge * kd_kerr_ergosphere(kd_integral_hole(r), r->height / at);
+    *status = KD_OK;
+    if (at < least)
+        *status = kd_error_field(error, "/height",
+                                 "height is %.9g, where the source is %.9g M from the hole; it must be at least %.9g M "
+                                 "away, %g times the ergosphere",
+                                 r->height, at, least, edge);
+    else if (!kd_corona_source_of(kd_integral_hole(r), radius, r->height, r->motion, &source))
+        *status =
+            kd_error_field(error, "/motion",
+                           "motion is corotating, which is faster than light %.9g M from the axis and %.9g M above "
+                           "the plane; it must be static or zamo, or the ring must be elsewhere",
+                           radius, r->height);
+    return source;
+}
+
+/* Requires that a source of an echo exists, and that fields of a ring belong to one. */
+static enum kd_status check_source(const struct kd_integral_request *r, struct kd_error *error)
+{
+    static const char *const of_ring[] = { "corona_radius", "motion" };
+    enum kd_status status;
+    for (size_t i = 0; i < sizeof of_ring / sizeof *of_ring; i++)
+        if (kd_integral_given(r, of_ring[i]) && r->emissivity != KD_LINE_RING) {
+            char pointer[40];
+            snprintf(pointer, sizeof pointer, "/%s", of_ring[i]);
+            return kd_error_field(error, pointer, "%s cannot be used here; it belongs to emissivity ring", of_ring[i]);
+        }
+    if (r->emissivity == KD_LINE_RING && r->height < KD_CORONA_FLATTEST * r->corona_radius)
+        return kd_error_field(error, "/height", "height is %.9g; it must be at least %.9g, %g times corona_radius",
+                              r->height, KD_CORONA_FLATTEST * r->corona_radius, KD_CORONA_FLATTEST);
+    kd_integral_source(r, error, &status);
+    return status;
+}
+
+static enum kd_status check_impulse(struct kd_integral_request *r, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    KD_TRY(check_source(r, error));
+    KD_TRY(check_edges(r, error));
+    if (!(r->time_max > r->time_min))
+        return kd_error_field(error, "/time_max",
+                              "time_max is %.9g and time_min %.9g; time_max must be larger than time_min", r->time_max,
+                              r->time_min);
+    if ((size_t)r->bins * r->times > KD_INTEGRAL_ROWS)
+        return kd_error_field(error, r->bins > r->times ? "/bins" : "/times",
+                              "%u bins of energy with %u of time make too many rows (limit %u)", r->bins, r->times,
+                              KD_INTEGRAL_ROWS);
+done:
+    return status;
+}
+
+static enum kd_status check_lags(struct kd_integral_request *r, struct kd_error *error)
+{
+    static const char *const even[] = { "frequency_min", "frequency_max", "frequencies" };
+    enum kd_status status = KD_OK;
+    KD_TRY(check_source(r, error));
+    KD_TRY(check_edges(r, error));
+    if (!(r->edges.at[0] > 0))
+        return kd_error_field(error, kd_integral_given(r, "edges") ? "/edges/0" : "/energy_min",
+                              "the first edge is 0, where a power law has no number of photons; it must be above 0");
+    if (r->frequencies_m.n) {
+        KD_TRY(kd_integral_check_beside(r, "frequencies_m", even, 3, error));
+        KD_TRY(kd_integral_check_growth(&r->frequencies_m, "frequencies_m", error));
+        r->frequencies = (uint32_t)r->frequencies_m.n;
+        r->frequency_min = r->frequencies_m.at[0], r->frequency_max = r->frequencies_m.at[r->frequencies - 1];
+    } else {
+        if (!(r->frequency_max > r->frequency_min))
+            return kd_error_field(error, "/frequency_max",
+                                  "frequency_max is %.9g and frequency_min %.9g; frequency_max must be larger than "
+                                  "frequency_min",
+                                  r->frequency_max, r->frequency_min);
+        KD_TRY(kd_integral_fill_list(r, "frequencies_m", r->frequencies, r->frequency_min, r->frequency_max, error));
+    }
+    if ((size_t)r->bins * r->frequencies > KD_INTEGRAL_ROWS)
+        return kd_error_field(error, "/bins", "%u bins with %u frequencies make too many rows (limit %u)", r->bins,
+                              r->frequencies, KD_INTEGRAL_ROWS);
+    if (isnan(r->reference_min) != isnan(r->reference_max))
+        return kd_error_field(
+            error, isnan(r->reference_min) ? "/reference_min" : "/reference_max",
+            "reference_min and reference_max are a number and \"continuum\"; they must be two numbers "
+            "or both \"continuum\"");
+    if (r->reference_max <= r->reference_min)
+        return kd_error_field(error, "/reference_max",
+                              "reference_max is %.9g and reference_min %.9g; reference_max must be larger than "
+                              "reference_min",
+                              r->reference_max, r->reference_min);
+done:
+    return status;
+}
+
 size_t kd_integral_rows(const struct kd_integral_request *r)
 {
     switch (r->what) {
     case KD_INTEGRAL_LINE: return r->bins;
     case KD_INTEGRAL_TRANSFER: return (size_t)r->rings * r->g_stars;
+    case KD_INTEGRAL_IMPULSE: return (size_t)r->bins * r->times;
+    case KD_INTEGRAL_LAGS: return (size_t)r->bins * r->frequencies;
     case KD_INTEGRAL_VISIBILITY: return r->u.n * (1 + r->orders);
     case KD_INTEGRAL_COMPARE: return r->comparison->rows;
     case KD_INTEGRAL_SETS: return r->sets->n;
@@ -245,6 +343,8 @@ enum kd_status kd_integral_request_check(struct kd_integral_request *r, struct k
         break;
     case KD_INTEGRAL_TRANSFER: KD_TRY(check_transfer(r, error)); break;
     case KD_INTEGRAL_SPECTRUM: KD_TRY(check_frequencies(r, error)); break;
+    case KD_INTEGRAL_IMPULSE: KD_TRY(check_impulse(r, error)); break;
+    case KD_INTEGRAL_LAGS: KD_TRY(check_lags(r, error)); break;
     case KD_INTEGRAL_VOLUME: KD_TRY(kd_integral_check_volume(r, error)); break;
     case KD_INTEGRAL_VISIBILITY: KD_TRY(kd_integral_check_visibility(r, error)); break;
     case KD_INTEGRAL_COMPARE:

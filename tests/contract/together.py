@@ -237,6 +237,36 @@ TOGETHER = [
         ),
     ),
     (
+        "POST /v1/(impulse|lags)",
+        RADII
+        + (
+            "%s is %.9g after %.9g; each must be larger than the one before",
+            "energy_max is %.9g and energy_min %.9g; energy_max must be larger than energy_min",
+            "height is %.9g, where the source is %.9g M from the hole; it must be at least %.9g M away, %g times the ergosphere",
+            "height is %.9g; it must be at least %.9g, %g times corona_radius",
+            "motion is corotating, which is faster than light %.9g M from the axis and %.9g M above the plane; it must be static or zamo, or the ring must be elsewhere",
+            "height and corona_radius are of a place from which no direct light to this inclination was found",
+            "height and corona_radius are of a place from which no rays to all radii of the disk were found",
+            "inclination_deg is one for which no ray to the ring at %.9g was found",
+        ),
+    ),
+    (
+        "POST /v1/impulse",
+        (
+            "time_max is %.9g and time_min %.9g; time_max must be larger than time_min",
+            "%u bins of energy with %u of time make too many rows (limit %u)",
+        ),
+    ),
+    (
+        "POST /v1/lags",
+        (
+            "frequency_max is %.9g and frequency_min %.9g; frequency_max must be larger than frequency_min",
+            "reference_max is %.9g and reference_min %.9g; reference_max must be larger than reference_min",
+            "%u bins with %u frequencies make too many rows (limit %u)",
+            "the first edge is 0, where a power law has no number of photons; it must be above 0",
+        ),
+    ),
+    (
         "POST /v1/spectrum",
         RADII
         + (

@@ -245,6 +245,23 @@ class OpenApi(daemon.Case):
                 {"radii": [8], "g_stars": 1},
             ),
             (
+                "impulse",
+                {"edges": [0.5, 1], "bins": 1},
+                {"corona_radius": 5},
+                {"motion": "zamo", "emissivity": "lamppost"},
+                {"motion": "zamo", "emissivity": "ring", "bins": 2, "times": 2},
+            ),
+            (
+                "lags",
+                {"edges": [0.5, 1], "energy_max": 1},
+                {"frequencies_m": [0.01], "frequencies": 1},
+                {"frequencies_m": [0.01], "frequency_max": 1},
+                {"energy_min": 0},
+                {"reference_min": 1},
+                {"reference_max": 1, "reference_min": "continuum"},
+                {"frequencies_m": [0.01], "bins": 2, "reference_min": "continuum", "reference_max": "continuum"},
+            ),
+            (
                 "spectrum",
                 {"frequencies_hz": [1e17], "frequencies": 2},
                 {"frequencies_hz": [1e17], "frequency_min_hz": "auto"},

@@ -27,7 +27,8 @@ static double emissivity(const struct kd_line_params *p, const struct kd_lamppos
     case KD_LINE_POWER: return pow(r, -p->index);
     case KD_LINE_BROKEN:
         return pow(p->break_r, -p->index) * pow(r / p->break_r, r < p->break_r ? -p->index : -p->outer_index);
-    case KD_LINE_LAMPPOST: break;
+    case KD_LINE_LAMPPOST:
+    case KD_LINE_RING: break;
     }
     return kd_lamppost_at(lamp, r);
 }

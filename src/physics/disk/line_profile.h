@@ -19,7 +19,7 @@
 #include "physics/disk/disk_image.h"
 #include "physics/disk/limb.h"
 
-enum kd_line_emissivity { KD_LINE_POWER, KD_LINE_BROKEN, KD_LINE_LAMPPOST };
+enum kd_line_emissivity { KD_LINE_POWER, KD_LINE_BROKEN, KD_LINE_LAMPPOST, KD_LINE_RING };
 
 struct kd_line_params {
     double inner, outer;

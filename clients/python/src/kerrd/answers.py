@@ -435,6 +435,93 @@ class TransferFunction(TypedDict):
     approximations: list[str]
 
 
+class ImpulseResponseParameters(TypedDict):
+    spin: float
+    charge: float
+    inclination_deg: float
+    inner: float
+    outer: float
+    emissivity: str
+    height: float
+    corona_radius: float
+    motion: str
+    photon_index: float
+    limb: str
+    rest_energy: float
+    energy_min: float
+    energy_max: float
+    bins: float
+    time_min: float
+    time_max: float
+    times: float
+    mass_msun: float
+
+
+class ImpulseResponseValues(TypedDict):
+    isco: float | None
+    strength: float | None
+    direct_flux: float | None
+    direct_g: float | None
+    unit_s: float | None
+    inside: float | None
+    mean_time: float | None
+    error: float | None
+
+
+class ImpulseResponse(TypedDict):
+    integral: Literal['impulse']
+    parameters: ImpulseResponseParameters
+    values: ImpulseResponseValues
+    columns: Columns
+    units: dict[str, str]
+    sources: list[str]
+    approximations: list[str]
+
+
+class LagsParameters(TypedDict):
+    spin: float
+    charge: float
+    inclination_deg: float
+    inner: float
+    outer: float
+    emissivity: str
+    height: float
+    corona_radius: float
+    motion: str
+    photon_index: float
+    limb: str
+    rest_energy: float
+    energy_min: float
+    energy_max: float
+    bins: float
+    frequency_min: float
+    frequency_max: float
+    frequencies: float
+    reflection: float
+    reference_min: float
+    reference_max: float
+    mass_msun: float
+
+
+class LagsValues(TypedDict):
+    isco: float | None
+    strength: float | None
+    direct_flux: float | None
+    direct_g: float | None
+    unit_s: float | None
+    error: float | None
+
+
+class Lags(TypedDict):
+    integral: Literal['lags']
+    parameters: LagsParameters
+    values: LagsValues
+    columns: Columns
+    units: dict[str, str]
+    sources: list[str]
+    approximations: list[str]
+
+
 class DiskSpectrumParameters(TypedDict):
     spin: float
     charge: float
