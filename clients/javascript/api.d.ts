@@ -1161,17 +1161,34 @@ export interface LineRequest {
   inner?: 'isco' | number;
   /** outer edge of the disk [M]; 1 to 1000000. */
   outer?: number;
-  /** emissivity of the line as a function of radius. */
-  emissivity?: 'power' | 'broken' | 'lamppost';
+  /**
+   * emissivity of the line as a function of radius; that of the light that the disk receives: from a point on the
+   * axis, a ring, a flat layer or a slab above the disk.
+   */
+  emissivity?: 'power' | 'broken' | 'lamppost' | 'ring' | 'disk' | 'slab';
   /** power and broken: the light per area falls as r^-index; -10 to 20. */
   index?: number;
   /** broken: index beyond break_r; -10 to 20. */
   outer_index?: number;
   /** broken: radius at which the index changes [M]; 1 to 1000000. */
   break_r?: number;
-  /** lamppost: height of the source on the axis [M]; 1 to 10000. */
+  /**
+   * lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); of a slab, of its lower side
+   * [M]; 0.1 to 10000.
+   */
   height?: number;
-  /** lamppost: photon index of the source's power law; 0 to 10. */
+  /** ring: distance from the axis, r sin(theta); disk, slab: outer radius of the source [M]; 0.001 to 10000. */
+  corona_radius?: number;
+  /** disk, slab: inner radius of the source [M]; 0 to 10000. */
+  corona_inner?: number;
+  /** slab: height of its upper side [M]; 0.1 to 10000. */
+  corona_top?: number;
+  /**
+   * ring, disk, slab: at rest, with zero angular momentum, or with the angular velocity of the gas of the disk at
+   * the same distance from the axis, within the ISCO that of the ISCO.
+   */
+  motion?: 'static' | 'zamo' | 'corotating';
+  /** lamppost, ring, disk, slab: photon index of the source's power law; 0 to 10. */
   photon_index?: number;
   /**
    * dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, ln(1 +
@@ -1210,6 +1227,10 @@ export interface LineProfile {
     outer_index: number;
     break_r: number;
     height: number;
+    corona_radius: number;
+    corona_inner: number;
+    corona_top: number;
+    motion: string;
     photon_index: number;
     limb: string;
     tolerance: number;
@@ -1231,6 +1252,18 @@ export interface LineProfile {
     inside: number | null;
     /** estimated largest error of the cumulative share at any edge. */
     error: number | null;
+    /**
+     * equivalent width of the line over that in the gas's frame: photons of the line for each photon of the
+     * continuum per energy, where the gas emits one for each that it receives; null without a source.
+     */
+    strength: number | null;
+    /**
+     * continuum of the source at the observer over that of the same source at rest far from the hole; null without
+     * a source.
+     */
+    direct_flux: number | null;
+    /** mean redshift factor of that continuum; null without a source. */
+    direct_g: number | null;
   };
   columns: {
     /** edge of the bin. */
@@ -1426,16 +1459,19 @@ export interface ImpulseRequest {
   outer?: number;
   /** source of the light that the disk receives: a point on the axis, or a ring about it. */
   emissivity?: 'lamppost' | 'ring';
-  /** height of the source above the plane, r cos(theta) [M]; 0.1 to 10000. */
+  /**
+   * lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); of a slab, of its lower side
+   * [M]; 0.1 to 10000.
+   */
   height?: number;
-  /** ring: distance from the axis, r sin(theta) [M]; 0.001 to 10000. */
+  /** ring: distance from the axis, r sin(theta); disk, slab: outer radius of the source [M]; 0.001 to 10000. */
   corona_radius?: number;
   /**
-   * ring: at rest, with zero angular momentum, or with the angular velocity of the gas of the disk at
-   * corona_radius, within the ISCO that of the ISCO.
+   * ring, disk, slab: at rest, with zero angular momentum, or with the angular velocity of the gas of the disk at
+   * the same distance from the axis, within the ISCO that of the ISCO.
    */
   motion?: 'static' | 'zamo' | 'corotating';
-  /** photon index of the source's power law; 0 to 10. */
+  /** lamppost, ring, disk, slab: photon index of the source's power law; 0 to 10. */
   photon_index?: number;
   /**
    * dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, ln(1 +
@@ -1536,16 +1572,19 @@ export interface LagsRequest {
   outer?: number;
   /** source of the light that the disk receives: a point on the axis, or a ring about it. */
   emissivity?: 'lamppost' | 'ring';
-  /** height of the source above the plane, r cos(theta) [M]; 0.1 to 10000. */
+  /**
+   * lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); of a slab, of its lower side
+   * [M]; 0.1 to 10000.
+   */
   height?: number;
-  /** ring: distance from the axis, r sin(theta) [M]; 0.001 to 10000. */
+  /** ring: distance from the axis, r sin(theta); disk, slab: outer radius of the source [M]; 0.001 to 10000. */
   corona_radius?: number;
   /**
-   * ring: at rest, with zero angular momentum, or with the angular velocity of the gas of the disk at
-   * corona_radius, within the ISCO that of the ISCO.
+   * ring, disk, slab: at rest, with zero angular momentum, or with the angular velocity of the gas of the disk at
+   * the same distance from the axis, within the ISCO that of the ISCO.
    */
   motion?: 'static' | 'zamo' | 'corotating';
-  /** photon index of the source's power law; 0 to 10. */
+  /** lamppost, ring, disk, slab: photon index of the source's power law; 0 to 10. */
   photon_index?: number;
   /**
    * dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, ln(1 +
@@ -1592,7 +1631,7 @@ export interface Lags {
     spin: number;
     charge: number;
     inclination_deg: number;
-    inner: number;
+    inner: number | null;
     outer: number;
     emissivity: string;
     height: number;
@@ -1602,14 +1641,14 @@ export interface Lags {
     limb: string;
     rest_energy: number;
     energy_min: number;
-    energy_max: number;
+    energy_max: number | null;
     bins: number;
     frequency_min: number;
     frequency_max: number;
     frequencies: number;
     reflection: number;
-    reference_min: number;
-    reference_max: number;
+    reference_min: number | null;
+    reference_max: number | null;
     mass_msun: number;
   };
   values: {

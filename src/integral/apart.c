@@ -8,9 +8,11 @@
 /* A member given with an emissivity that it does not belong to. */
 #define NOT_OF(name, words) \
     "{\"required\":[\"" name "\",\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[" words "]}}}"
-#define OF_NO_OTHER_THAN(name, word) \
+#define CORONAE "\"ring\",\"disk\",\"slab\""
+#define SOURCES "\"lamppost\"," CORONAE
+#define OF_NO_OTHER_THAN(name, words) \
     "{\"required\":[\"" name \
-    "\"],\"not\":{\"required\":[\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[\"" word "\"]}}}}"
+    "\"],\"not\":{\"required\":[\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[" words "]}}}}"
 /* Pictures need a scene, and a disk does not take one. */
 #define OF_A_SCENE "\"anyOf\":[" HAS("scene") "," HAS("preset") "]"
 #define OF_A_DISK \
@@ -25,12 +27,14 @@
 /* clang-format off */
 static const char line[] = "{\"anyOf\":["
     BOTH("edges", "energy_min") "," BOTH("edges", "energy_max") "," BOTH("edges", "bins") ","
-    NOT_OF("index", "\"lamppost\"") "," OF_NO_OTHER_THAN("outer_index", "broken") ","
-    OF_NO_OTHER_THAN("break_r", "broken") "," OF_NO_OTHER_THAN("height", "lamppost") ","
-    OF_NO_OTHER_THAN("photon_index", "lamppost") "]}";
+    NOT_OF("index", "\"lamppost\",\"ring\",\"disk\",\"slab\"") "," OF_NO_OTHER_THAN("outer_index", "\"broken\"") ","
+    OF_NO_OTHER_THAN("break_r", "\"broken\"") "," OF_NO_OTHER_THAN("height", SOURCES) ","
+    OF_NO_OTHER_THAN("photon_index", SOURCES) "," OF_NO_OTHER_THAN("corona_radius", CORONAE) ","
+    OF_NO_OTHER_THAN("motion", CORONAE) "," OF_NO_OTHER_THAN("corona_inner", "\"disk\",\"slab\"") ","
+    OF_NO_OTHER_THAN("corona_top", "\"slab\"") "]}";
 #define ECHO \
     BOTH("edges", "energy_min") "," BOTH("edges", "energy_max") "," BOTH("edges", "bins") "," \
-    OF_NO_OTHER_THAN("corona_radius", "ring") "," OF_NO_OTHER_THAN("motion", "ring")
+    OF_NO_OTHER_THAN("corona_radius", "\"ring\"") "," OF_NO_OTHER_THAN("motion", "\"ring\"")
 #define A_NUMBER(name) "{\"required\":[\"" name "\"],\"properties\":{\"" name "\":{\"type\":\"number\"}}}"
 static const char impulse[] = "{\"anyOf\":[" ECHO "]}";
 static const char lags[] = "{\"anyOf\":[" ECHO ","

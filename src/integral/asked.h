@@ -40,8 +40,8 @@ struct kd_integral_request {
     double rest_energy, energy_min, energy_max; /* energy_max NaN: 1.7 rest_energy */
     uint32_t bins;
     struct kd_number_list edges;
-    enum kd_corona_motion motion; /* of a ring of a corona */
-    double corona_radius;
+    enum kd_corona_motion motion; /* of a corona off the axis */
+    double corona_radius, corona_inner, corona_top;
     double time_min, time_max; /* for an impulse response: bins of time */
     uint32_t times;
     /* for lags; reference NaN: the continuum */

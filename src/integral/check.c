@@ -60,18 +60,25 @@ enum kd_status kd_integral_check_growth(const struct kd_number_list *list, const
     return KD_OK;
 }
 
+#define BIT(word) (1u << KD_LINE_##word)
+#define OFF_AXIS (BIT(RING) | BIT(DISK) | BIT(SLAB))
+
 /* A field of one emissivity is refused with another, because it would have no effect. */
-static enum kd_status check_emissivity(const struct kd_integral_request *r, struct kd_error *error)
+static enum kd_status check_belongs(const struct kd_integral_request *r, struct kd_error *error)
 {
     static const struct {
         const char *name, *words;
         unsigned of;
     } belongs[] = {
-        { "index", "power and broken", 1u << KD_LINE_POWER | 1u << KD_LINE_BROKEN },
-        { "outer_index", "broken", 1u << KD_LINE_BROKEN },
-        { "break_r", "broken", 1u << KD_LINE_BROKEN },
-        { "height", "lamppost", 1u << KD_LINE_LAMPPOST },
-        { "photon_index", "lamppost", 1u << KD_LINE_LAMPPOST },
+        { "index", "power and broken", BIT(POWER) | BIT(BROKEN) },
+        { "outer_index", "broken", BIT(BROKEN) },
+        { "break_r", "broken", BIT(BROKEN) },
+        { "height", "lamppost, ring, disk and slab", BIT(LAMPPOST) | OFF_AXIS },
+        { "photon_index", "lamppost, ring, disk and slab", BIT(LAMPPOST) | OFF_AXIS },
+        { "corona_radius", "ring, disk and slab", OFF_AXIS },
+        { "motion", "ring, disk and slab", OFF_AXIS },
+        { "corona_inner", "disk and slab", BIT(DISK) | BIT(SLAB) },
+        { "corona_top", "slab", BIT(SLAB) },
     };
     for (size_t i = 0; i < sizeof belongs / sizeof *belongs; i++)
         if (kd_integral_given(r, belongs[i].name) && !(belongs[i].of & 1u << r->emissivity)) {
@@ -80,12 +87,75 @@ static enum kd_status check_emissivity(const struct kd_integral_request *r, stru
             return kd_error_field(error, pointer, "%s cannot be used here; it belongs to emissivity %s",
                                   belongs[i].name, belongs[i].words);
         }
+    return KD_OK;
+}
+
+struct kd_corona_shape kd_integral_corona(const struct kd_integral_request *r)
+{
+    const bool wide = r->emissivity == KD_LINE_DISK || r->emissivity == KD_LINE_SLAB;
+    return (struct kd_corona_shape) { .inner = wide ? r->corona_inner : r->corona_radius,
+                                      .outer = r->corona_radius,
+                                      .height = r->height,
+                                      .top = r->emissivity == KD_LINE_SLAB ? r->corona_top : r->height,
+                                      .motion = r->motion };
+}
+
+/* Requires that each part of a corona exists. */
+static enum kd_status check_ring(const struct kd_integral_request *r, double radius, double height,
+                                 struct kd_error *error)
+{
+    struct kd_corona_source source;
+    const double at = hypot(radius, height),
+                 least = KD_CORONA_LEAST * kd_kerr_ergosphere(kd_integral_hole(r), height / at);
+    if (at < least)
+        return kd_error_field(error, "/height",
+                              "height is %.9g, where the source is %.9g M from the hole; it must be at least %.9g M "
+                              "away, %g times the ergosphere",
+                              r->height, at, least, KD_CORONA_LEAST);
+    if (!kd_corona_source_of(kd_integral_hole(r), radius, height, r->motion, &source))
+        return kd_error_field(error, "/motion",
+                              "motion is corotating, which is faster than light %.9g M from the axis and %.9g M above "
+                              "the plane; it must be static or zamo, or the corona must be elsewhere",
+                              radius, height);
+    return KD_OK;
+}
+
+static enum kd_status check_corona(const struct kd_integral_request *r, struct kd_error *error)
+{
+    struct kd_corona_ring rings[KD_CORONA_PARTS];
+    const struct kd_corona_shape shape = kd_integral_corona(r);
+    const double flattest = shape.outer > shape.inner ? KD_CORONA_FLATTEST_SHAPE : KD_CORONA_FLATTEST;
+    enum kd_status status = KD_OK;
+    if (shape.inner > shape.outer || (shape.inner == shape.outer && r->emissivity != KD_LINE_RING))
+        return kd_error_field(
+            error, "/corona_inner",
+            "corona_inner is %.9g and corona_radius %.9g; corona_radius must be larger than corona_inner", shape.inner,
+            shape.outer);
+    if (shape.top < shape.height || (shape.top == shape.height && r->emissivity == KD_LINE_SLAB))
+        return kd_error_field(error, "/corona_top",
+                              "corona_top is %.9g and height %.9g; corona_top must be larger than height", shape.top,
+                              shape.height);
+    if (r->height < flattest * r->corona_radius)
+        return kd_error_field(error, "/height", "height is %.9g; it must be at least %.9g, %g times corona_radius",
+                              r->height, flattest * r->corona_radius, flattest);
+    const int n = kd_corona_rings(&shape, rings);
+    for (int i = 0; i < n; i++)
+        KD_TRY(check_ring(r, rings[i].radius, rings[i].height, error));
+done:
+    return status;
+}
+
+static enum kd_status check_emissivity(const struct kd_integral_request *r, struct kd_error *error)
+{
+    const enum kd_status status = check_belongs(r, error);
+    if (status)
+        return status;
     double least = 1.05 * kd_integral_hole(r)->outer;
     if (r->emissivity == KD_LINE_LAMPPOST && r->height < least)
         return kd_error_field(error, "/height",
                               "height is %.9g; it must be at least %.9g, 1.05 times the horizon of this hole",
                               r->height, least);
-    return KD_OK;
+    return 1u << r->emissivity & OFF_AXIS ? check_corona(r, error) : KD_OK;
 }
 
 static enum kd_status fill_edges(struct kd_integral_request *r, struct kd_error *error)
@@ -218,49 +288,10 @@ static enum kd_status check_frequencies(struct kd_integral_request *r, struct kd
     return kd_integral_check_frequencies(r, KD_INTEGRAL_FREQUENCIES, error);
 }
 
-struct kd_corona_source kd_integral_source(const struct kd_integral_request *r, struct kd_error *error,
-                                           enum kd_status *status)
-{
-    struct kd_corona_source source = { 0 };
-    const double radius = r->emissivity == KD_LINE_RING ? r->corona_radius : 0, edge = KD_CORONA_LEAST,
-                 at = hypot(radius, r->height), least = edge * kd_kerr_ergosphere(kd_integral_hole(r), r->height / at);
-    *status = KD_OK;
-    if (at < least)
-        *status = kd_error_field(error, "/height",
-                                 "height is %.9g, where the source is %.9g M from the hole; it must be at least %.9g M "
-                                 "away, %g times the ergosphere",
-                                 r->height, at, least, edge);
-    else if (!kd_corona_source_of(kd_integral_hole(r), radius, r->height, r->motion, &source))
-        *status =
-            kd_error_field(error, "/motion",
-                           "motion is corotating, which is faster than light %.9g M from the axis and %.9g M above "
-                           "the plane; it must be static or zamo, or the ring must be elsewhere",
-                           radius, r->height);
-    return source;
-}
-
-/* Requires that a source of an echo exists, and that fields of a ring belong to one. */
-static enum kd_status check_source(const struct kd_integral_request *r, struct kd_error *error)
-{
-    static const char *const of_ring[] = { "corona_radius", "motion" };
-    enum kd_status status;
-    for (size_t i = 0; i < sizeof of_ring / sizeof *of_ring; i++)
-        if (kd_integral_given(r, of_ring[i]) && r->emissivity != KD_LINE_RING) {
-            char pointer[40];
-            snprintf(pointer, sizeof pointer, "/%s", of_ring[i]);
-            return kd_error_field(error, pointer, "%s cannot be used here; it belongs to emissivity ring", of_ring[i]);
-        }
-    if (r->emissivity == KD_LINE_RING && r->height < KD_CORONA_FLATTEST * r->corona_radius)
-        return kd_error_field(error, "/height", "height is %.9g; it must be at least %.9g, %g times corona_radius",
-                              r->height, KD_CORONA_FLATTEST * r->corona_radius, KD_CORONA_FLATTEST);
-    kd_integral_source(r, error, &status);
-    return status;
-}
-
 static enum kd_status check_impulse(struct kd_integral_request *r, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
-    KD_TRY(check_source(r, error));
+    KD_TRY(check_emissivity(r, error));
     KD_TRY(check_edges(r, error));
     if (!(r->time_max > r->time_min))
         return kd_error_field(error, "/time_max",
@@ -278,7 +309,7 @@ static enum kd_status check_lags(struct kd_integral_request *r, struct kd_error 
 {
     static const char *const even[] = { "frequency_min", "frequency_max", "frequencies" };
     enum kd_status status = KD_OK;
-    KD_TRY(check_source(r, error));
+    KD_TRY(check_emissivity(r, error));
     KD_TRY(check_edges(r, error));
     if (!(r->edges.at[0] > 0))
         return kd_error_field(error, kd_integral_given(r, "edges") ? "/edges/0" : "/energy_min",

@@ -17,6 +17,7 @@ static const char *const line_sources[] = {
     "C. T. Cunningham 1975, ApJ 202, 788 (redshift and transfer)",
     "S. E. Gralla & A. Lupsasca 2020, Phys. Rev. D 101, 044032 (rays in closed form)",
     "T. Dauser et al. 2013, MNRAS 430, 1694 (lamppost)",
+    "D. R. Wilkins & A. C. Fabian 2012, MNRAS 424, 1284 (coronae off the axis)",
     "A. Laor 1991, ApJ 376, 90; F. Haardt 1993, ApJ 413, 680; S. Chandrasekhar 1960, Radiative Transfer, 68 (limb)",
     NULL,
 };
@@ -146,7 +147,16 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                "g^4 "
                                "epsilon f, over the image plane" },
                              { "inside", "1", "share of the line between the first and the last edge" },
-                             { "error", "1", "estimated largest error of the cumulative share at any edge" } },
+                             { "error", "1", "estimated largest error of the cumulative share at any edge" },
+                             { "strength", "1",
+                               "equivalent width of the line over that in the gas's frame: photons of the line for "
+                               "each "
+                               "photon of the continuum per energy, where the gas emits one for each that it receives; "
+                               "null without a source" },
+                             { "direct_flux", "1",
+                               "continuum of the source at the observer over that of the same source at rest far from "
+                               "the hole; null without a source" },
+                             { "direct_g", "1", "mean redshift factor of that continuum; null without a source" } },
                            { { "energy_low", "unit of rest_energy", "edge of the bin" },
                              { "energy_high", "unit of rest_energy", "edge of the bin" },
                              { "share", "1", "share of the line's photons, or of its energy, in the bin" },
@@ -357,9 +367,27 @@ struct kd_line_params kd_integral_line_params(const struct kd_integral_request *
                                      .break_r = r->break_r,
                                      .height = r->height,
                                      .photon_index = r->photon_index,
+                                     .corona = kd_integral_corona(r),
                                      .tolerance = r->tolerance,
                                      .limb = r->limb,
                                      .energy = r->energy };
+}
+
+/* The light that reaches the observer from the source itself; not numbers without a source. */
+static enum kd_status continuum_of(const struct kd_integral_request *r, const struct kd_disk_image *image,
+                                   struct kd_corona_continuum *out, struct kd_error *error)
+{
+    struct kd_corona_shape shape = kd_integral_corona(r);
+    *out = (struct kd_corona_continuum) { NAN, NAN };
+    if (r->emissivity < KD_LINE_LAMPPOST)
+        return KD_OK;
+    if (r->emissivity == KD_LINE_LAMPPOST)
+        shape = (struct kd_corona_shape) { .height = r->height, .top = r->height };
+    if (!kd_corona_continuum_of(&image->hole, &shape, r->photon_index, image->cos_i, out))
+        return kd_error_field(error, "/height",
+                              "height and corona_radius are of a place from which no direct light to this inclination "
+                              "was found");
+    return KD_OK;
 }
 
 static enum kd_status compute_line(const struct kd_integral_request *r, const struct kd_disk_image *image,
@@ -379,7 +407,14 @@ static enum kd_status compute_line(const struct kd_integral_request *r, const st
     for (size_t i = 0; !status && i < r->bins; i++)
         /* guards against rounding */
         c[0][i] = r->edges.at[i], c[1][i] = r->edges.at[i + 1], c[3][i] = sum = fmin(sum + c[2][i], 1);
-    const double values[] = { image->isco, profile.total, sum, profile.error };
+    struct kd_corona_continuum direct;
+    if (!status)
+        status = continuum_of(r, image, &direct, error);
+    if (status)
+        return status;
+    const double one = profile.total * kd_limb_scale(r->limb) / (M_PI * direct.flux),
+                 values[] = { image->isco,           profile.total,          sum,     profile.error,
+                              r->energy ? NAN : one, 4 * M_PI * direct.flux, direct.g };
     for (size_t i = 0; !status && i < sizeof values / sizeof *values; i++)
         answer->values[i] = values[i];
 done:

@@ -11,11 +11,13 @@ enum { ISCO, STRENGTH, DIRECT_FLUX, DIRECT_G, UNIT, AFTER };
 enum { INSIDE = AFTER, MEAN, ERROR }; /* of an impulse response */
 enum { WORST = AFTER };               /* of lags */
 
-static struct kd_echo_params params_of(const struct kd_integral_request *r, struct kd_error *error,
-                                       enum kd_status *status)
+/* The source exists: the request has been checked. */
+static struct kd_echo_params params_of(const struct kd_integral_request *r)
 {
-    return (struct kd_echo_params) { r->inner, r->outer, r->photon_index, r->limb,
-                                     kd_integral_source(r, error, status) };
+    struct kd_echo_params params = { r->inner, r->outer, r->photon_index, r->limb };
+    kd_corona_source_of(kd_integral_hole(r), r->emissivity == KD_LINE_RING ? r->corona_radius : 0, r->height, r->motion,
+                        &params.source);
+    return params;
 }
 
 static double second_of(const struct kd_integral_request *r) { return kd_scale_seconds(r->mass_msun); }
@@ -47,9 +49,7 @@ enum kd_status kd_integral_impulse(const struct kd_integral_request *r, const st
     double *edges = edges_of(r, 0), inside = 0;
     struct kd_echo echo;
     enum kd_status status;
-    const struct kd_echo_params params = params_of(r, error, &status);
-    if (status)
-        goto done;
+    const struct kd_echo_params params = params_of(r);
     if (!edges)
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for %u bins", r->bins));
     KD_TRY(kd_integral_make_columns(answer, kd_integral_rows(r), error));
@@ -166,9 +166,7 @@ enum kd_status kd_integral_lags(const struct kd_integral_request *r, const struc
     double *edges = edges_of(r, 2), *frequencies = calloc(stride, sizeof *frequencies), *part = NULL;
     struct kd_echo echo;
     enum kd_status status;
-    const struct kd_echo_params params = params_of(r, error, &status);
-    if (status)
-        goto done;
+    const struct kd_echo_params params = params_of(r);
     const double first = r->edges.at[0] / r->rest_energy, last = r->edges.at[r->bins] / r->rest_energy;
     const size_t n = edges ? all_edges(r, edges) : 0;
     part = calloc(4 * n * stride, sizeof *part);

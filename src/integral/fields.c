@@ -98,7 +98,10 @@ const struct kd_row kd_integral_fields[] = {
     INCLINATION(TRANSFER, "0.1", "179.9"),
     OR_WORD(inner, "M", 1, 1e6, "isco", ALL, "inner edge of the disk, the ISCO or beyond"),
     REAL(outer, "M", 1, 1e6, ALL, "outer edge of the disk"),
-    WORD(emissivity, emissivity, "power|broken|lamppost", LINE, "emissivity of the line as a function of radius"),
+    WORD(
+        emissivity, emissivity, "power|broken|lamppost|ring|disk|slab", LINE,
+        "emissivity of the line as a function of radius; that of the light that the disk receives: from a point on the "
+        "axis, a ring, a flat layer or a slab above the disk"),
     { .name = "emissivity",
       .kind = KD_KIND_WORD,
       .offset = AT(emissivity),
@@ -109,14 +112,18 @@ const struct kd_row kd_integral_fields[] = {
     REAL(index, "", -10, 20, LINE, "power and broken: the light per area falls as r^-index"),
     REAL(outer_index, "", -10, 20, LINE, "broken: index beyond break_r"),
     REAL(break_r, "M", 1, 1e6, LINE, "broken: radius at which the index changes"),
-    REAL(height, "M", 1, 1e4, LINE, "lamppost: height of the source on the axis"),
-    REAL(height, "M", 0.1, 1e4, ECHO, "height of the source above the plane, r cos(theta)"),
-    REAL(corona_radius, "M", 1e-3, 1e4, ECHO, "ring: distance from the axis, r sin(theta)"),
-    WORD(motion, motion, "static|zamo|corotating", ECHO,
-         "ring: at rest, with zero angular momentum, or with the angular velocity of the gas of the disk at "
-         "corona_radius, within the ISCO that of the ISCO"),
-    REAL(photon_index, "", 0, 10, LINE, "lamppost: photon index of the source's power law"),
-    REAL(photon_index, "", 0, 10, ECHO, "photon index of the source's power law"),
+    REAL(
+        height, "M", 0.1, 1e4, LINE | ECHO,
+        "lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); of a slab, of its lower side"),
+    REAL(corona_radius, "M", 1e-3, 1e4, LINE | ECHO,
+         "ring: distance from the axis, r sin(theta); disk, slab: outer radius of the source"),
+    REAL(corona_inner, "M", 0, 1e4, LINE, "disk, slab: inner radius of the source"),
+    REAL(corona_top, "M", 0.1, 1e4, LINE, "slab: height of its upper side"),
+    WORD(
+        motion, motion, "static|zamo|corotating", LINE | ECHO,
+        "ring, disk, slab: at rest, with zero angular momentum, or with the angular velocity of the gas of the disk at "
+        "the same distance from the axis, within the ISCO that of the ISCO"),
+    REAL(photon_index, "", 0, 10, LINE | ECHO, "lamppost, ring, disk, slab: photon index of the source's power law"),
     WORD(limb, limb, "isotropic|laor|haardt|scattering", LINE | SPECTRUM | ECHO,
          "dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, ln(1 + "
          "1/mu), or that of a deep atmosphere of free electrons"),
@@ -274,6 +281,7 @@ void kd_integral_request_init(struct kd_integral_request *request, enum kd_integ
                 : what == KD_INTEGRAL_LAGS  ? 16
                                             : 500,
         .corona_radius = 10,
+        .corona_top = 15,
         .time_max = 200,
         .times = 100,
         .reflection = 1,

@@ -27,9 +27,8 @@ enum kd_status kd_integral_check_beside(const struct kd_integral_request *reques
  * 1. */
 enum kd_status kd_integral_fill_list(struct kd_integral_request *request, const char *name, uint32_t n, double first,
                                      double last, struct kd_error *error);
-/* The lamp or the ring of a request. *status: KD_EINVAL if there is none at its place. */
-struct kd_corona_source kd_integral_source(const struct kd_integral_request *request, struct kd_error *error,
-                                           enum kd_status *status);
+/* The corona of a request whose emissivity is ring, disk or slab. */
+struct kd_corona_shape kd_integral_corona(const struct kd_integral_request *request);
 enum kd_status kd_integral_check_frequencies(struct kd_integral_request *request, uint32_t most,
                                              struct kd_error *error);
 

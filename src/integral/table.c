@@ -32,6 +32,9 @@ static const struct {
     { "break_r", "break_r" },
     { "height", "height" },
     { "photon_index", "photon_index" },
+    { "corona_radius", "corona_radius" },
+    { "corona_inner", "corona_inner" },
+    { "corona_top", "corona_top" },
 };
 enum { IMAGE_AXES = 3 };
 

@@ -172,6 +172,7 @@ class Answers(daemon.Case):
         for name, document in (
             ("line", {"bins": 3}),
             ("line", {"edges": [0.2, 1.4], "emissivity": "lamppost", "limb": "haardt"}),
+            ("line", {"bins": 3, "emissivity": "disk", "motion": "corotating"}),
             ("transfer-function", {"rings": 2, "g_stars": 2}),
             ("spectrum", {"frequencies_hz": [1e16, 1e17]}),
             ("impulse", {"bins": 2, "times": 3}),

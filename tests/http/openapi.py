@@ -234,7 +234,12 @@ class OpenApi(daemon.Case):
                         {"break_r": 12, "emissivity": "power"},
                         {"height": 9},
                         {"photon_index": 2, "emissivity": "broken"},
-                        {"height": 9, "photon_index": 2, "emissivity": "lamppost", "bins": 4},
+                        {"height": 9, "motion": "zamo", "emissivity": "lamppost"},
+                        {"corona_radius": 9},
+                        {"corona_inner": 9, "emissivity": "ring"},
+                        {"corona_top": 20, "emissivity": "disk"},
+                        {"index": 2, "emissivity": "slab"},
+                        {"height": 9, "photon_index": 2, "emissivity": "slab", "corona_inner": 1, "bins": 4},
                     )
                 ),
             ),

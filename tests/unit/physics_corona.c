@@ -54,8 +54,9 @@ static void test_axis(void **state)
             assert_true(kd_corona_init(&beside, &near, 2.3, isco, 400));
             assert_int_equal(on.angles, 1);
             for (double r = isco; r < 400; r *= 1.37) {
-                within("lamp", hole.a, r, kd_corona_at(&on, r) / kd_lamppost_at(&reference, r), 1, 2e-5);
-                within("beside", hole.a, r, kd_corona_at(&beside, r) / kd_lamppost_at(&reference, r), 1, 2e-4);
+                within("lamp", hole.a, r, kd_corona_light_at(&on.light, r) / kd_lamppost_at(&reference, r), 1, 2e-5);
+                within("beside", hole.a, r, kd_corona_light_at(&beside.light, r) / kd_lamppost_at(&reference, r), 1,
+                       2e-4);
             }
             kd_corona_finish(&on);
             kd_corona_finish(&beside);
@@ -75,9 +76,44 @@ static void test_flat_ring(void **state)
         for (int k = 0; k < 500; k++)
             want += height / (4 * M_PI * 500) *
                     pow(r * r + radius * radius + height * height - 2 * r * radius * cos(2 * M_PI * k / 500), -1.5);
-        within("flat ring", 0, r, kd_corona_at(&corona, r) / want, 1, 0.01);
+        within("flat ring", 0, r, kd_corona_light_at(&corona.light, r) / want, 1, 0.01);
     }
     kd_corona_finish(&corona);
+}
+
+/* A wide corona is the mean of its rings, here by the midpoints of a grid with weights as their circumferences. */
+static void test_shapes(void **state)
+{
+    static const struct kd_corona_shape shapes[] = { { 0, 12, 3, 3, KD_CORONA_ZAMO },
+                                                     { 4, 9, 2, 5, KD_CORONA_COROTATING } };
+    enum { ACROSS = 16, UP = 8 };
+    const double a = 0.7, radii[] = { 3.5, 6, 9.5, 13, 40 }, cos_i = 0.6;
+    (void)state;
+    for (size_t k = 0; k < COUNT(shapes); k++) {
+        const struct kd_corona_shape *s = &shapes[k];
+        const int up = s->top > s->height ? UP : 1;
+        struct kd_corona_light light;
+        struct kd_corona_continuum direct;
+        double sum[COUNT(radii)] = { 0 }, all = 0, flux = 0;
+        assert_true(kd_corona_light_of(kd_hole(a), s, 2.2, 3.4, 50, &light));
+        assert_true(kd_corona_continuum_of(kd_hole(a), s, 2.2, cos_i, &direct));
+        for (int i = 0; i < ACROSS * up; i++) {
+            const double rho = s->inner + (s->outer - s->inner) * (i / up + 0.5) / ACROSS,
+                         z = s->height + (s->top - s->height) * (i % up + 0.5) / up;
+            const struct kd_corona_source source = source_of(kd_hole(a), rho, z, s->motion);
+            struct kd_corona ring;
+            struct kd_corona_direct part;
+            assert_true(kd_corona_init(&ring, &source, 2.2, 3.4, 50));
+            assert_true(kd_corona_direct_of(&source, 2.2, cos_i, &part));
+            for (size_t n = 0; n < COUNT(radii); n++)
+                sum[n] += rho * kd_corona_light_at(&ring.light, radii[n]);
+            all += rho, flux += rho * part.flux;
+            kd_corona_finish(&ring);
+        }
+        for (size_t n = 0; n < COUNT(radii); n++)
+            within("shape", a, radii[n], kd_corona_light_at(&light, radii[n]) / (sum[n] / all), 1, 3e-3);
+        within("continuum", a, cos_i, direct.flux / (flux / all), 1, 2e-3);
+    }
 }
 
 /* A photon of the oracle: where it meets the disk and when, or in which direction it escapes; its number for a photon
@@ -265,7 +301,7 @@ static void test_echo(void **state)
             const double r = path.r[0], w = 1 / (pow(r, 1.5) + a);
             const struct metric gas = metric_at(a, r, 0);
             const double g = 1 / (ut_of(&gas, w) * (1 + w * alpha * s)),
-                         light = g * g * g * kd_corona_at(&corona, r) * rho * rho * squeeze;
+                         light = g * g * g * kd_corona_light_at(&corona.light, r) * rho * rho * squeeze;
             int at = met, bin = 0;
             while (at < PHOTONS - NEAR / 2 && photons[at].r < r)
                 at++;
@@ -325,8 +361,9 @@ static void test_transform(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_axis),      cmocka_unit_test(test_flat_ring), cmocka_unit_test(test_photons),
-        cmocka_unit_test(test_flat_echo), cmocka_unit_test(test_echo),      cmocka_unit_test(test_transform),
+        cmocka_unit_test(test_axis),      cmocka_unit_test(test_flat_ring), cmocka_unit_test(test_shapes),
+        cmocka_unit_test(test_photons),   cmocka_unit_test(test_flat_echo), cmocka_unit_test(test_echo),
+        cmocka_unit_test(test_transform),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

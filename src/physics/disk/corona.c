@@ -1,6 +1,7 @@
 #include "physics/disk/corona.h"
 
 #include "base/pause.h"
+#include "physics/math/quadrature.h"
 #include "physics/null/null_course.h"
 #include "physics/null/null_geodesic.h"
 #include "physics/null/null_quartic.h"
@@ -8,6 +9,7 @@
 #include "physics/spacetime/observer.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -103,13 +105,13 @@ static bool find(const struct kd_corona_source *source, double chi, double r, do
     return false;
 }
 
-static double node_of(const struct kd_corona *c, double log_r)
+static double node_of(const struct kd_corona_light *c, double log_r)
 {
     return log_r + (c->width > 0 ? asinh((log_r - c->centre) / c->width) : 0);
 }
 
 /* Inverts node_of by Newton's method: it is monotone, with slopes between 1 and 1 + 1/width. */
-static double log_radius_of(const struct kd_corona *c, double s, double low, double high)
+static double log_radius_of(const struct kd_corona_light *c, double s, double low, double high)
 {
     double at = 0.5 * (low + high);
     for (int i = 0; i < 200 && high - low > 1e-14 * (1 + fabs(at)); i++) {
@@ -119,6 +121,21 @@ static double log_radius_of(const struct kd_corona *c, double s, double low, dou
         at = next > low && next < high ? next : 0.5 * (low + high);
     }
     return at;
+}
+
+static struct kd_corona_light nodes_of(double centre, double width, double inner, double outer)
+{
+    struct kd_corona_light light = { .centre = centre, .width = width, .error = INFINITY };
+    light.first = node_of(&light, log(inner));
+    light.step = (node_of(&light, log(outer)) - light.first) / (KD_CORONA_RINGS - 1);
+    return light;
+}
+
+static void fill_radii(const struct kd_corona_light *c, double radii[KD_CORONA_RINGS])
+{
+    const double last = c->first + (KD_CORONA_RINGS - 1) * c->step;
+    for (int k = 0; k < KD_CORONA_RINGS; k++) /* s is ln r plus something with the sign of ln r - centre */
+        radii[k] = exp(log_radius_of(c, c->first + k * c->step, fmin(c->first, c->centre), fmax(last, c->centre)));
 }
 
 /* d(values)/dk at k, by the polynomial through STENCIL neighbouring values. */
@@ -158,8 +175,8 @@ static bool make_angle(struct kd_corona *c, const struct kd_corona_source *sourc
         guess = x[k];
     }
     for (int k = 0; k < KD_CORONA_RINGS; k++) {
-        const double r = radii[k], sine = 1 / cosh(x[k]), turned = slope_at(x, k) / c->step,
-                     per_s = 1 / (1 + (c->width > 0 ? 1 / hypot(c->width, log(r) - c->centre) : 0)),
+        const double r = radii[k], sine = 1 / cosh(x[k]), turned = slope_at(x, k) / c->light.step,
+                     per_s = 1 / (1 + (c->light.width > 0 ? 1 / hypot(c->light.width, log(r) - c->light.centre) : 0)),
                      solid = photon[k].solid * sine * sine * turned / (per_s * r),
                      g = kd_kerr_ut(hole, r) * (photon[k].energy - kd_kerr_omega(hole, r) * photon[k].momentum);
         const int at = k * n + j;
@@ -180,7 +197,7 @@ static double add_up(struct kd_corona *c)
         double sum[2] = { 0, 0 };
         for (int j = 0; j < c->angles; j++)
             sum[j & 1] += exp(c->log_part[k * c->angles + j]);
-        c->log_epsilon[k] = log(sum[0] + sum[1]);
+        c->light.log_epsilon[k] = log(sum[0] + sum[1]);
         worst = fmax(worst, c->angles > 1 ? fabs(sum[0] - sum[1]) / (sum[0] + sum[1]) : 0);
     }
     return worst;
@@ -214,7 +231,7 @@ static bool take_angles(struct kd_corona *c, const struct kd_corona_source *sour
         }
     }
     kd_corona_finish(&before);
-    c->error = made ? pow(add_up(c), 1.5) : INFINITY;
+    c->light.error = made ? pow(add_up(c), 1.5) : INFINITY;
     return made;
 }
 
@@ -223,15 +240,12 @@ bool kd_corona_init(struct kd_corona *c, const struct kd_corona_source *source, 
 {
     const struct kd_vantage *at = &source->frame.at;
     double radii[KD_CORONA_RINGS];
-    *c = (struct kd_corona) { .centre = at->s > 0 ? log(at->r * at->s) : 0,
-                              .width = at->s > 0 ? fmin(1, at->u / at->s) : 0,
-                              .error = INFINITY };
-    c->first = node_of(c, log(inner)), c->step = (node_of(c, log(outer)) - c->first) / (KD_CORONA_RINGS - 1);
-    for (int k = 0; k < KD_CORONA_RINGS; k++)
-        radii[k] = exp(log_radius_of(c, c->first + k * c->step, log(inner), log(outer)));
+    *c = (struct kd_corona) { .light = nodes_of(at->s > 0 ? log(at->r * at->s) : 0,
+                                                at->s > 0 ? fmin(1, at->u / at->s) : 0, inner, outer) };
+    fill_radii(&c->light, radii);
     if (!(at->s > 0))
         return take_angles(c, source, photon_index, radii, 1);
-    for (int n = FEWEST; n <= KD_CORONA_ANGLES && c->error > RIGHT; n *= 2)
+    for (int n = FEWEST; n <= KD_CORONA_ANGLES && c->light.error > RIGHT; n *= 2)
         if (!take_angles(c, source, photon_index, radii, n))
             return false;
     return true;
@@ -239,7 +253,7 @@ bool kd_corona_init(struct kd_corona *c, const struct kd_corona_source *source, 
 
 enum { POINTS = 4 }; /* nodes that an interpolation uses */
 
-static int weigh(const struct kd_corona *c, double r, double weight[POINTS])
+static int weigh(const struct kd_corona_light *c, double r, double weight[POINTS])
 {
     const double at = (node_of(c, log(r)) - c->first) / c->step;
     const int first = (int)fmin(fmax(floor(at) - 1, 0), KD_CORONA_RINGS - POINTS);
@@ -251,7 +265,7 @@ static int weigh(const struct kd_corona *c, double r, double weight[POINTS])
     return first;
 }
 
-double kd_corona_at(const struct kd_corona *c, double r)
+double kd_corona_light_at(const struct kd_corona_light *c, double r)
 {
     double weight[POINTS], sum = 0;
     const int first = weigh(c, r, weight);
@@ -263,7 +277,7 @@ double kd_corona_at(const struct kd_corona *c, double r)
 void kd_corona_parts(const struct kd_corona *c, double r, double *part, double *time)
 {
     double weight[POINTS];
-    const int first = weigh(c, r, weight);
+    const int first = weigh(&c->light, r, weight);
     for (int j = 0; j < c->angles; j++) {
         part[j] = time[j] = 0;
         for (int i = 0; i < POINTS; i++) {
@@ -450,4 +464,125 @@ bool kd_corona_direct_of(const struct kd_corona_source *source, double photon_in
     }
     out->g /= out->flux, out->time /= out->flux;
     return isfinite(out->time) && out->flux > 0;
+}
+
+/* Gauss points a height of the corona; in z, and at least and at most in rho. */
+#define POINTS_A_HEIGHT 2
+enum { POINTS_Z = 3, FEWEST_RHO = 5, MOST_RHO = 20 };
+
+int kd_corona_rings(const struct kd_corona_shape *shape, struct kd_corona_ring out[KD_CORONA_PARTS])
+{
+    double rho[MOST_RHO], rho_weight[MOST_RHO], z[POINTS_Z], z_weight[POINTS_Z], all = 0;
+    const double wide = shape->outer - shape->inner, high = shape->top - shape->height;
+    const int across =
+                  wide > 0 ? (int)fmin(fmax(ceil(POINTS_A_HEIGHT * wide / shape->height), FEWEST_RHO), MOST_RHO) : 1,
+              up = high > 0 ? POINTS_Z : 1;
+    kd_gauss_legendre(across, rho, rho_weight);
+    kd_gauss_legendre(up, z, z_weight);
+    int n = 0;
+    for (int i = 0; i < across; i++)
+        for (int k = 0; k < up; k++, n++) {
+            const double radius = shape->inner + wide * rho[i],
+                         weight = (wide > 0 ? radius : 1) * rho_weight[i] * z_weight[k];
+            out[n] = (struct kd_corona_ring) { radius, shape->height + high * z[k], weight };
+            all += weight;
+        }
+    for (int i = 0; i < n; i++)
+        out[i].weight /= all;
+    return n;
+}
+
+/* Of a single ring the table is its own; of several it is even in ln r. */
+static bool make_light(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
+                       double inner, double outer, struct kd_corona_light *out)
+{
+    struct kd_corona_ring rings[KD_CORONA_PARTS];
+    double radii[KD_CORONA_RINGS], sum[KD_CORONA_RINGS] = { 0 };
+    const int n = kd_corona_rings(shape, rings);
+    *out = nodes_of(0, 0, inner, outer);
+    out->error = 0;
+    fill_radii(out, radii);
+    for (int i = 0; i < n; i++) {
+        struct kd_corona_source source;
+        struct kd_corona corona = { 0 };
+        const bool made = kd_corona_source_of(hole, rings[i].radius, rings[i].height, shape->motion, &source) &&
+                          kd_corona_init(&corona, &source, photon_index, inner, outer);
+        for (int k = 0; made && k < KD_CORONA_RINGS; k++)
+            sum[k] += rings[i].weight * kd_corona_light_at(&corona.light, radii[k]);
+        if (made && n == 1)
+            *out = corona.light;
+        out->error = made ? fmax(out->error, corona.light.error) : INFINITY;
+        kd_corona_finish(&corona);
+        if (!made)
+            return false;
+    }
+    for (int k = 0; n > 1 && k < KD_CORONA_RINGS; k++)
+        out->log_epsilon[k] = log(sum[k]);
+    return true;
+}
+
+enum { KEPT = 64 };
+struct key { double a, q, inner, outer, photon_index, from, to, height, top, motion; };
+static struct entry {
+    struct key key;
+    unsigned long used; /* time of last use; 0: empty */
+    struct kd_corona_light light;
+} entries[KEPT];
+static unsigned long uses;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+static bool look_up(const struct key *key, struct kd_corona_light *out)
+{
+    bool found = false;
+    pthread_mutex_lock(&lock);
+    for (int i = 0; i < KEPT && !found; i++)
+        if ((found = entries[i].used && !memcmp(&entries[i].key, key, sizeof *key))) {
+            entries[i].used = ++uses;
+            *out = entries[i].light;
+        }
+    pthread_mutex_unlock(&lock);
+    return found;
+}
+
+static void keep(const struct key *key, const struct kd_corona_light *light)
+{
+    pthread_mutex_lock(&lock);
+    struct entry *oldest = entries;
+    for (int i = 1; i < KEPT; i++)
+        if (entries[i].used < oldest->used)
+            oldest = &entries[i];
+    *oldest = (struct entry) { *key, ++uses, *light };
+    pthread_mutex_unlock(&lock);
+}
+
+bool kd_corona_light_of(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
+                        double inner, double outer, struct kd_corona_light *out)
+{
+    const struct key key = { hole->a,      hole->q,      inner,         outer,      photon_index,
+                             shape->inner, shape->outer, shape->height, shape->top, (double)shape->motion };
+    if (look_up(&key, out))
+        return true;
+    if (!make_light(hole, shape, photon_index, inner, outer, out))
+        return false;
+    keep(&key, out);
+    return true;
+}
+
+bool kd_corona_continuum_of(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
+                            double cos_i, struct kd_corona_continuum *out)
+{
+    struct kd_corona_ring rings[KD_CORONA_PARTS];
+    const int n = kd_corona_rings(shape, rings);
+    *out = (struct kd_corona_continuum) { 0, 0 };
+    for (int i = 0; i < n; i++) {
+        struct kd_corona_source source;
+        struct kd_corona_direct direct;
+        if (!kd_corona_source_of(hole, rings[i].radius, rings[i].height, shape->motion, &source) ||
+            !kd_corona_direct_of(&source, photon_index, cos_i, &direct))
+            return false;
+        out->flux += rings[i].weight * direct.flux;
+        out->g += rings[i].weight * direct.flux * direct.g;
+    }
+    out->g /= out->flux;
+    return true;
 }

@@ -32,8 +32,8 @@
  * ISCO. */
 enum kd_corona_motion { KD_CORONA_STATIC, KD_CORONA_ZAMO, KD_CORONA_COROTATING };
 
-/* rho: inner to outer; z: height to top. A ring has outer = inner, a layer has top = height. Each ring shines in
- * proportion to its circumference. */
+/* Rings from rho = inner to outer and z = height to top, each of which shines in proportion to its circumference. A
+ * single ring has outer = inner and top = height, a layer top = height. */
 struct kd_corona_shape {
     double inner, outer, height, top;
     enum kd_corona_motion motion;
@@ -48,7 +48,9 @@ struct kd_corona_source {
 /* False if nothing can move like that there: the speed is 1 or more, or the place is within KD_CORONA_LEAST times the
  * radius of the ergosphere. */
 #define KD_CORONA_LEAST 1.05
-#define KD_CORONA_FLATTEST 0.05 /* least height of a ring over its radius that the angles below resolve */
+/* Least height over the largest radius that the angles below resolve, of a ring and of other shapes. */
+#define KD_CORONA_FLATTEST 0.05
+#define KD_CORONA_FLATTEST_SHAPE 0.1
 bool kd_corona_source_of(const struct kd_hole *hole, double radius, double height, enum kd_corona_motion motion,
                          struct kd_corona_source *out);
 
@@ -61,22 +63,35 @@ struct kd_corona_photon kd_corona_emit(const struct kd_corona_source *source, do
 
 enum { KD_CORONA_RINGS = 128, KD_CORONA_ANGLES = 1024 };
 
-/* What one ring of a corona sends to the rings of the disk. */
+/* ln epsilon at radii of the disk, its nodes: even in s = ln r + asinh((ln r - centre)/width); width 0: in ln r. error:
+ * relative, estimated from the change of epsilon when every second angle is left out. */
+struct kd_corona_light { double first, step, centre, width, log_epsilon[KD_CORONA_RINGS], error; };
+double kd_corona_light_at(const struct kd_corona_light *light, double r);
+
+/* The light of a whole corona, from the ISCO or beyond to outer: the mean over its rings. 0.1 s for a ring, seconds for
+ * others; the last 64 are kept. False as kd_corona_init. Every ring must exist. */
+bool kd_corona_light_of(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
+                        double inner, double outer, struct kd_corona_light *out);
+
+/* Rings that stand for a corona, by Gauss's rule. The weights add up to 1. Returns their number. */
+enum { KD_CORONA_PARTS = 64 };
+struct kd_corona_ring { double radius, height, weight; };
+int kd_corona_rings(const struct kd_corona_shape *shape, struct kd_corona_ring out[KD_CORONA_PARTS]);
+
+/* What one ring of a corona sends to the rings of the disk, by angle. */
 struct kd_corona {
-    double first, step, centre, width; /* nodes are even in s = ln r + asinh((ln r - centre)/width); width 0: in ln r */
+    struct kd_corona_light light;
     int angles;
-    double log_epsilon[KD_CORONA_RINGS];
-    double error; /* relative, estimated from the change of epsilon when every second angle is left out */
     /* By ring and angle, malloc'd: ln of the angle's part of epsilon, and coordinate time from source to disk. */
     double *log_part, *time;
 };
 
-/* Radii from inner, which is the ISCO or larger, to outer. Some 30 ms to 1 s. False if memory is short or light does
- * not reach a ring. Free it with kd_corona_finish in any case. */
+/* Radii from inner, which is the ISCO or larger, to outer. Some 30 ms to 1 s. False if memory is short, or if a ring of
+ * the disk is not met once along each chi, as next to the hole and the plane at once. Free it with kd_corona_finish in
+ * any case. */
 bool kd_corona_init(struct kd_corona *corona, const struct kd_corona_source *source, double photon_index, double inner,
                     double outer);
 void kd_corona_finish(struct kd_corona *corona);
-double kd_corona_at(const struct kd_corona *corona, double r);
 /* The parts and times of all angles at r. */
 void kd_corona_parts(const struct kd_corona *corona, double r, double *part, double *time);
 
@@ -92,5 +107,10 @@ struct kd_corona_direct {
 /* cos_i > 0. False if the image of one azimuth is not found. Some milliseconds. */
 bool kd_corona_direct_of(const struct kd_corona_source *source, double photon_index, double cos_i,
                          struct kd_corona_direct *out);
+
+/* The direct light of a whole corona: the flux and its mean of E. */
+struct kd_corona_continuum { double flux, g; };
+bool kd_corona_continuum_of(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
+                            double cos_i, struct kd_corona_continuum *out);
 
 #endif

@@ -384,6 +384,10 @@ class LineProfileParameters(TypedDict):
     outer_index: float
     break_r: float
     height: float
+    corona_radius: float
+    corona_inner: float
+    corona_top: float
+    motion: str
     photon_index: float
     limb: str
     tolerance: float
@@ -399,6 +403,9 @@ class LineProfileValues(TypedDict):
     total: float | None
     inside: float | None
     error: float | None
+    strength: float | None
+    direct_flux: float | None
+    direct_g: float | None
 
 
 class LineProfile(TypedDict):
@@ -482,7 +489,7 @@ class LagsParameters(TypedDict):
     spin: float
     charge: float
     inclination_deg: float
-    inner: float
+    inner: float | None
     outer: float
     emissivity: str
     height: float
@@ -492,14 +499,14 @@ class LagsParameters(TypedDict):
     limb: str
     rest_energy: float
     energy_min: float
-    energy_max: float
+    energy_max: float | None
     bins: float
     frequency_min: float
     frequency_max: float
     frequencies: float
     reflection: float
-    reference_min: float
-    reference_max: float
+    reference_min: float | None
+    reference_max: float | None
     mass_msun: float
 
 
