@@ -1533,6 +1533,8 @@ export interface ImpulseResponse {
     direct_flux: number | null;
     /** mean redshift factor of the continuum. */
     direct_g: number | null;
+    /** mean arrival of the continuum after the flash, less r + 2 ln r at the observer's radius r. */
+    direct_time: number | null;
     /** GM/c^3. */
     unit_s: number | null;
     /** share of the line in all bins. */
@@ -1663,6 +1665,8 @@ export interface Lags {
     direct_flux: number | null;
     /** mean redshift factor of the continuum. */
     direct_g: number | null;
+    /** mean arrival of the continuum after the flash, less r + 2 ln r at the observer's radius r. */
+    direct_time: number | null;
     /** GM/c^3. */
     unit_s: number | null;
     /** largest value of the column error. */

@@ -124,6 +124,8 @@ static const char *const volume_approximations[] = {
         { "direct_flux", "1", \
           "continuum of the source at the observer over that of the same source at rest far from the hole", false }, \
         { "direct_g", "1", "mean redshift factor of the continuum", false }, \
+        { "direct_time", "M", \
+          "mean arrival of the continuum after the flash, less r + 2 ln r at the observer's radius r", false }, \
     { \
         "unit_s", "s", "GM/c^3", false \
     }

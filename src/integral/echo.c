@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { ISCO, STRENGTH, DIRECT_FLUX, DIRECT_G, UNIT, AFTER };
+enum { ISCO, STRENGTH, DIRECT_FLUX, DIRECT_G, DIRECT_TIME, UNIT, AFTER };
 enum { INSIDE = AFTER, MEAN, ERROR }; /* of an impulse response */
 enum { WORST = AFTER };               /* of lags */
 
@@ -29,6 +29,7 @@ static void fill_values(const struct kd_integral_request *r, const struct kd_dis
     values[STRENGTH] = echo->strength;
     values[DIRECT_FLUX] = 4 * M_PI * echo->direct.flux;
     values[DIRECT_G] = echo->direct.g;
+    values[DIRECT_TIME] = echo->direct.time;
     values[UNIT] = second_of(r);
 }
 

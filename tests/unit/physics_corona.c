@@ -81,6 +81,50 @@ static void test_flat_ring(void **state)
     kd_corona_finish(&corona);
 }
 
+/* Without spin a ray is an integral over u = 1/r, of b/sqrt(1 - b^2 u^2 (1 - 2u)) for its azimuth and of 1/(u^2 (1 -
+ * 2u) sqrt(...)) for its time, here by midpoints. */
+static void test_direct_time(void **state)
+{
+    static const double cases[][2] = { { 5, 60 }, { 5, 30 }, { 20, 60 }, { 100, 80 } };
+    enum { STEPS = 200000 };
+    (void)state;
+    for (size_t k = 0; k < COUNT(cases); k++) {
+        const double h = cases[k][0], i = cases[k][1] * RADIAN, step = 1 / h / STEPS;
+        const struct kd_corona_source source = source_of(kd_hole(0), 0, h, KD_CORONA_STATIC);
+        struct kd_corona_direct direct;
+        double low = 0, high = h / sqrt(1 - 2 / h), time = 0, flux = 0;
+        assert_true(kd_corona_direct_of(&source, 2.5, cos(i), &direct));
+        double b = 0, turn[2];
+        for (int n = 0; n < 50; n++) {
+            double sum = 0;
+            b = 0.5 * (low + high);
+            for (int j = 0; j < STEPS / 100; j++) {
+                const double u = (j + 0.5) * 100 * step;
+                sum += 100 * step * b / sqrt(1 - b * b * u * u * (1 - 2 * u));
+            }
+            *(sum < i ? &low : &high) = b;
+        }
+        for (int j = 0; j < STEPS; j++) {
+            const double u = (j + 0.5) * step;
+            time += step * (1 / ((1 - 2 * u) * sqrt(1 - b * b * u * u * (1 - 2 * u))) - 1 - 2 * u) / (u * u);
+        }
+        within("direct time", 0, h, direct.time, time - h - 2 * log(h), 2e-4);
+        within("redshift", 0, h, direct.g, sqrt(1 - 2 / h), 1e-10);
+        /* its light comes from the solid angle between neighbouring rays: sin(delta) = b sqrt(1 - 2/h)/h */
+        for (int side = 0; side < 2; side++) {
+            const double other = b * (side ? 1.001 : 0.999);
+            turn[side] = 0;
+            for (int j = 0; j < STEPS / 10; j++) {
+                const double u = (j + 0.5) * 10 * step;
+                turn[side] += 10 * step * other / sqrt(1 - other * other * u * u * (1 - 2 * u));
+            }
+            flux += (side ? -1 : 1) * sqrt(1 - pow(other * sqrt(1 - 2 / h) / h, 2));
+        }
+        flux *= pow(1 - 2 / h, 1.25) / (4 * M_PI * (cos(turn[0]) - cos(turn[1])));
+        within("direct flux", 0, h, direct.flux / flux, 1, 1e-4);
+    }
+}
+
 /* A wide corona is the mean of its rings, here by the midpoints of a grid with weights as their circumferences. */
 static void test_shapes(void **state)
 {
@@ -361,9 +405,9 @@ static void test_transform(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_axis),      cmocka_unit_test(test_flat_ring), cmocka_unit_test(test_shapes),
-        cmocka_unit_test(test_photons),   cmocka_unit_test(test_flat_echo), cmocka_unit_test(test_echo),
-        cmocka_unit_test(test_transform),
+        cmocka_unit_test(test_axis),   cmocka_unit_test(test_flat_ring), cmocka_unit_test(test_direct_time),
+        cmocka_unit_test(test_shapes), cmocka_unit_test(test_photons),   cmocka_unit_test(test_flat_echo),
+        cmocka_unit_test(test_echo),   cmocka_unit_test(test_transform),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

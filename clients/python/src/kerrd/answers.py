@@ -469,6 +469,7 @@ class ImpulseResponseValues(TypedDict):
     strength: float | None
     direct_flux: float | None
     direct_g: float | None
+    direct_time: float | None
     unit_s: float | None
     inside: float | None
     mean_time: float | None
@@ -515,6 +516,7 @@ class LagsValues(TypedDict):
     strength: float | None
     direct_flux: float | None
     direct_g: float | None
+    direct_time: float | None
     unit_s: float | None
     error: float | None
 
