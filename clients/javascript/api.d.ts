@@ -1159,17 +1159,34 @@ export interface LineRequest {
   inner?: 'isco' | number;
   /** outer edge of the disk [M]; 1 to 1000000. */
   outer?: number;
-  /** emissivity of the line as a function of radius. */
-  emissivity?: 'power' | 'broken' | 'lamppost';
+  /**
+   * emissivity of the line as a function of radius; that of the light that the disk receives: from a point on the
+   * axis, a ring, a flat layer or a slab above the disk.
+   */
+  emissivity?: 'power' | 'broken' | 'lamppost' | 'ring' | 'disk' | 'slab';
   /** power and broken: the light per area falls as r^-index; -10 to 20. */
   index?: number;
   /** broken: index beyond break_r; -10 to 20. */
   outer_index?: number;
   /** broken: radius at which the index changes [M]; 1 to 1000000. */
   break_r?: number;
-  /** lamppost: height of the source on the axis [M]; 1 to 10000. */
+  /**
+   * lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); of a slab, of its lower side
+   * [M]; 0.1 to 10000.
+   */
   height?: number;
-  /** lamppost: photon index of the source's power law; 0 to 10. */
+  /** ring: distance from the axis, r sin(theta); disk, slab: outer radius of the source [M]; 0.001 to 10000. */
+  corona_radius?: number;
+  /** disk, slab: inner radius of the source [M]; 0 to 10000. */
+  corona_inner?: number;
+  /** slab: height of its upper side [M]; 0.1 to 10000. */
+  corona_top?: number;
+  /**
+   * ring, disk, slab: at rest, with zero angular momentum, or with the angular velocity of the gas of the disk at
+   * the same distance from the axis, within the ISCO that of the ISCO.
+   */
+  motion?: 'static' | 'zamo' | 'corotating';
+  /** lamppost, ring, disk, slab: photon index of the source's power law; 0 to 10. */
   photon_index?: number;
   /**
    * dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, ln(1 +
@@ -1208,6 +1225,10 @@ export interface LineProfile {
     outer_index: number;
     break_r: number;
     height: number;
+    corona_radius: number;
+    corona_inner: number;
+    corona_top: number;
+    motion: string;
     photon_index: number;
     limb: string;
     tolerance: number;
@@ -1229,6 +1250,18 @@ export interface LineProfile {
     inside: number | null;
     /** estimated largest error of the cumulative share at any edge. */
     error: number | null;
+    /**
+     * equivalent width of the line over that in the gas's frame: photons of the line for each photon of the
+     * continuum per energy, where the gas emits one for each that it receives; null without a source.
+     */
+    strength: number | null;
+    /**
+     * continuum of the source at the observer over that of the same source at rest far from the hole; null without
+     * a source.
+     */
+    direct_flux: number | null;
+    /** mean redshift factor of that continuum; null without a source. */
+    direct_g: number | null;
   };
   columns: {
     /** edge of the bin. */
@@ -1405,6 +1438,255 @@ export interface DiskSpectrum {
     flux_jy: (number | null)[];
     /** 4 pi D^2 nu F_nu, the luminosity of an isotropic source with this flux. */
     nu_l_nu_w: (number | null)[];
+  };
+  units: Record<string, string>;
+  sources: string[];
+  approximations: string[];
+}
+
+export interface ImpulseRequest {
+  /** spin of the hole; below 0 the disk rotates against the hole [M]; -1 to 1. */
+  spin?: number;
+  /** charge Q of the hole; the gas is neutral; a^2 + Q^2 < 1 [M]; -1 to 1. */
+  charge?: number;
+  /** angle between the axis and the observer, who is at infinity; not 87 to 93 [deg]; 0 to 87; 93 to 180. */
+  inclination_deg?: number;
+  /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
+  inner?: 'isco' | number;
+  /** outer edge of the disk [M]; 1 to 1000000. */
+  outer?: number;
+  /** source of the light that the disk receives: a point on the axis, or a ring about it. */
+  emissivity?: 'lamppost' | 'ring';
+  /**
+   * lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); of a slab, of its lower side
+   * [M]; 0.1 to 10000.
+   */
+  height?: number;
+  /** ring: distance from the axis, r sin(theta); disk, slab: outer radius of the source [M]; 0.001 to 10000. */
+  corona_radius?: number;
+  /**
+   * ring, disk, slab: at rest, with zero angular momentum, or with the angular velocity of the gas of the disk at
+   * the same distance from the axis, within the ISCO that of the ISCO.
+   */
+  motion?: 'static' | 'zamo' | 'corotating';
+  /** lamppost, ring, disk, slab: photon index of the source's power law; 0 to 10. */
+  photon_index?: number;
+  /**
+   * dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, ln(1 +
+   * 1/mu), or that of a deep atmosphere of free electrons.
+   */
+  limb?: 'isotropic' | 'laor' | 'haardt' | 'scattering';
+  /** energy of the line in the gas's frame, in any unit; edges have the same unit; 1e-09 to 1000000000. */
+  rest_energy?: number;
+  /** first edge of bins of equal width; 0 to 1000000000. */
+  energy_min?: number;
+  /** last edge; auto: 1.7 times rest_energy; 0 to 1000000000. */
+  energy_max?: 'auto' | number;
+  /** number of bins of equal width; 1 to 20000. */
+  bins?: number;
+  /** edges of the bins in ascending order, instead of energy_min, energy_max and bins; up to 20001. */
+  edges?: number[];
+  /** first edge of the bins of time, after the direct light's mean arrival [M]; -1000000 to 1000000. */
+  time_min?: number;
+  /** last edge of the bins of time [M]; -1000000 to 1000000. */
+  time_max?: number;
+  /** number of bins of time, of equal width; 1 to 20000. */
+  times?: number;
+  /** mass of the hole [solar masses]; 1e-05 to 1e+12. */
+  mass_msun?: number;
+}
+
+export interface ImpulseResponse {
+  integral: 'impulse';
+  parameters: {
+    spin: number;
+    charge: number;
+    inclination_deg: number;
+    inner: number;
+    outer: number;
+    emissivity: string;
+    height: number;
+    corona_radius: number;
+    motion: string;
+    photon_index: number;
+    limb: string;
+    rest_energy: number;
+    energy_min: number;
+    energy_max: number;
+    bins: number;
+    time_min: number;
+    time_max: number;
+    times: number;
+    mass_msun: number;
+  };
+  values: {
+    /** innermost stable circular orbit. */
+    isco: number | null;
+    /**
+     * equivalent width of the line over that in the gas's frame: photons of the line for each photon of the
+     * continuum per energy, where the gas emits one for each that it receives.
+     */
+    strength: number | null;
+    /** continuum of the source at the observer over that of the same source at rest far from the hole. */
+    direct_flux: number | null;
+    /** mean redshift factor of the continuum. */
+    direct_g: number | null;
+    /** mean arrival of the continuum after the flash, less r + 2 ln r at the observer's radius r. */
+    direct_time: number | null;
+    /** GM/c^3. */
+    unit_s: number | null;
+    /** share of the line in all bins. */
+    inside: number | null;
+    /** mean time of all photons of the line. */
+    mean_time: number | null;
+    /** estimated largest error of the share of the line before a time and below an energy. */
+    error: number | null;
+  };
+  columns: {
+    /** edge of the bin. */
+    energy_low: (number | null)[];
+    /** edge of the bin. */
+    energy_high: (number | null)[];
+    /** edge of the bin, after the direct light's mean arrival. */
+    time_low: (number | null)[];
+    /** edge of the bin. */
+    time_high: (number | null)[];
+    /** share of the line's photons in the bin. */
+    share: (number | null)[];
+  };
+  units: Record<string, string>;
+  sources: string[];
+  approximations: string[];
+}
+
+export interface LagsRequest {
+  /** spin of the hole; below 0 the disk rotates against the hole [M]; -1 to 1. */
+  spin?: number;
+  /** charge Q of the hole; the gas is neutral; a^2 + Q^2 < 1 [M]; -1 to 1. */
+  charge?: number;
+  /** angle between the axis and the observer, who is at infinity; not 87 to 93 [deg]; 0 to 87; 93 to 180. */
+  inclination_deg?: number;
+  /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
+  inner?: 'isco' | number;
+  /** outer edge of the disk [M]; 1 to 1000000. */
+  outer?: number;
+  /** source of the light that the disk receives: a point on the axis, or a ring about it. */
+  emissivity?: 'lamppost' | 'ring';
+  /**
+   * lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); of a slab, of its lower side
+   * [M]; 0.1 to 10000.
+   */
+  height?: number;
+  /** ring: distance from the axis, r sin(theta); disk, slab: outer radius of the source [M]; 0.001 to 10000. */
+  corona_radius?: number;
+  /**
+   * ring, disk, slab: at rest, with zero angular momentum, or with the angular velocity of the gas of the disk at
+   * the same distance from the axis, within the ISCO that of the ISCO.
+   */
+  motion?: 'static' | 'zamo' | 'corotating';
+  /** lamppost, ring, disk, slab: photon index of the source's power law; 0 to 10. */
+  photon_index?: number;
+  /**
+   * dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, ln(1 +
+   * 1/mu), or that of a deep atmosphere of free electrons.
+   */
+  limb?: 'isotropic' | 'laor' | 'haardt' | 'scattering';
+  /** energy of the line in the gas's frame, in any unit; edges have the same unit; 1e-09 to 1000000000. */
+  rest_energy?: number;
+  /** first edge of bins of equal width; 0 to 1000000000. */
+  energy_min?: number;
+  /** last edge; auto: 1.7 times rest_energy; 0 to 1000000000. */
+  energy_max?: 'auto' | number;
+  /** number of bins of equal width; 1 to 20000. */
+  bins?: number;
+  /** edges of the bins in ascending order, instead of energy_min, energy_max and bins; up to 20001. */
+  edges?: number[];
+  /** first Fourier frequency [c^3/GM]; 1e-09 to 10. */
+  frequency_min?: number;
+  /** last Fourier frequency [c^3/GM]; 1e-09 to 10. */
+  frequency_max?: number;
+  /** number of Fourier frequencies, at equal ratios; 1 to 200. */
+  frequencies?: number;
+  /** Fourier frequencies, instead of frequency_min, frequency_max and frequencies [c^3/GM]; up to 200. */
+  frequencies_m?: number[];
+  /**
+   * photons of the line at all energies over those of the continuum between the first and the last edge, both at
+   * the observer; 0 to 1000000.
+   */
+  reflection?: number;
+  /**
+   * lower end of the band that lags are measured against, in the unit of rest_energy; continuum: the direct light
+   * alone; 1e-09 to 1000000000.
+   */
+  reference_min?: 'continuum' | number;
+  /** upper end of that band; 1e-09 to 1000000000. */
+  reference_max?: 'continuum' | number;
+  /** mass of the hole [solar masses]; 1e-05 to 1e+12. */
+  mass_msun?: number;
+}
+
+export interface Lags {
+  integral: 'lags';
+  parameters: {
+    spin: number;
+    charge: number;
+    inclination_deg: number;
+    inner: number | null;
+    outer: number;
+    emissivity: string;
+    height: number;
+    corona_radius: number;
+    motion: string;
+    photon_index: number;
+    limb: string;
+    rest_energy: number;
+    energy_min: number;
+    energy_max: number | null;
+    bins: number;
+    frequency_min: number;
+    frequency_max: number;
+    frequencies: number;
+    reflection: number;
+    reference_min: number | null;
+    reference_max: number | null;
+    mass_msun: number;
+  };
+  values: {
+    /** innermost stable circular orbit. */
+    isco: number | null;
+    /**
+     * equivalent width of the line over that in the gas's frame: photons of the line for each photon of the
+     * continuum per energy, where the gas emits one for each that it receives.
+     */
+    strength: number | null;
+    /** continuum of the source at the observer over that of the same source at rest far from the hole. */
+    direct_flux: number | null;
+    /** mean redshift factor of the continuum. */
+    direct_g: number | null;
+    /** mean arrival of the continuum after the flash, less r + 2 ln r at the observer's radius r. */
+    direct_time: number | null;
+    /** GM/c^3. */
+    unit_s: number | null;
+    /** largest value of the column error. */
+    error: number | null;
+  };
+  columns: {
+    /** Fourier frequency. */
+    frequency: (number | null)[];
+    /** the same. */
+    frequency_hz: (number | null)[];
+    /** edge of the bin. */
+    energy_low: (number | null)[];
+    /** edge of the bin. */
+    energy_high: (number | null)[];
+    /** phase of the cross spectrum over 2 pi frequency; positive: the bin comes after the reference. */
+    lag: (number | null)[];
+    /** the same. */
+    lag_s: (number | null)[];
+    /** share of the line in the bin's photons: R/(1 + R), the dilution. */
+    reflected: (number | null)[];
+    /** estimated error of the lag. */
+    error: (number | null)[];
   };
   units: Record<string, string>;
   sources: string[];
@@ -6523,6 +6805,34 @@ export interface Operations {
     };
     gives: {
       'application/json': TransferFunction;
+      'text/csv': string;
+      'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
+    };
+  };
+  /**
+   * The echo of a flash on a thin disk: the share of a line's photons by energy and time, from a lamp or a ring.
+   */
+  'POST /v1/impulse': {
+    takes: {
+      body: ImpulseRequest;
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': ImpulseResponse;
+      'text/csv': string;
+      'application/x-npy': Uint8Array;
+      'application/x-npz': Uint8Array;
+    };
+  };
+  /** Lags of that echo, diluted by the continuum: by Fourier frequency and by energy. */
+  'POST /v1/lags': {
+    takes: {
+      body: LagsRequest;
+      type?: 'application/json';
+    };
+    gives: {
+      'application/json': Lags;
       'text/csv': string;
       'application/x-npy': Uint8Array;
       'application/x-npz': Uint8Array;

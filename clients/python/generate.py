@@ -126,6 +126,8 @@ TOLD = (
     "OrbitPaths",
     "LineProfile",
     "TransferFunction",
+    "ImpulseResponse",
+    "Lags",
     "DiskSpectrum",
     "VolumeSpectrum",
     "Visibilities",

@@ -22,6 +22,8 @@
     X("line", line, "the profile of a line from a thin disk: photons by energy") \
     X("table", table, "the profiles of a line as a table model for XSPEC") \
     X("transfer-function", transfer_function, "Cunningham's transfer function of a thin disk") \
+    X("impulse", impulse, "echo of a flash on a thin disk, by energy and time") \
+    X("lags", lags, "lags of that echo, by frequency and energy") \
     X("spectrum", spectrum, "spectrum of a thin disk or of a volume") \
     X("visibility", visibility, "visibilities of a scene by baseline, as an interferometer measures them") \
     X("observe", observe, "what an array would have measured of a scene, with its noise") \

@@ -1,5 +1,5 @@
-/* kerrd line, transfer-function, spectrum, visibility, compare and observe: integrals over a thin disk or over pictures
- * of a scene. */
+/* kerrd line, transfer-function, impulse, lags, spectrum, visibility, compare and observe: integrals over a thin disk
+ * or over pictures of a scene. */
 #include "cli/cli.h"
 #include "cli/ending.h"
 #include "cli/file.h"
@@ -308,6 +308,12 @@ int kd_cli_line(int argc, char **argv) { return run(KD_INTEGRAL_LINE, argc, argv
 
 const struct argp *kd_cli_transfer_function_argp(void) { return make_argp(KD_INTEGRAL_TRANSFER); }
 int kd_cli_transfer_function(int argc, char **argv) { return run(KD_INTEGRAL_TRANSFER, argc, argv); }
+
+const struct argp *kd_cli_impulse_argp(void) { return make_argp(KD_INTEGRAL_IMPULSE); }
+int kd_cli_impulse(int argc, char **argv) { return run(KD_INTEGRAL_IMPULSE, argc, argv); }
+
+const struct argp *kd_cli_lags_argp(void) { return make_argp(KD_INTEGRAL_LAGS); }
+int kd_cli_lags(int argc, char **argv) { return run(KD_INTEGRAL_LAGS, argc, argv); }
 
 const struct argp *kd_cli_visibility_argp(void) { return make_argp(KD_INTEGRAL_VISIBILITY); }
 int kd_cli_visibility(int argc, char **argv) { return run(KD_INTEGRAL_VISIBILITY, argc, argv); }

@@ -8,9 +8,11 @@
 /* A member given with an emissivity that it does not belong to. */
 #define NOT_OF(name, words) \
     "{\"required\":[\"" name "\",\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[" words "]}}}"
-#define OF_NO_OTHER_THAN(name, word) \
+#define CORONAE "\"ring\",\"disk\",\"slab\""
+#define SOURCES "\"lamppost\"," CORONAE
+#define OF_NO_OTHER_THAN(name, words) \
     "{\"required\":[\"" name \
-    "\"],\"not\":{\"required\":[\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[\"" word "\"]}}}}"
+    "\"],\"not\":{\"required\":[\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[" words "]}}}}"
 /* Pictures need a scene, and a disk does not take one. */
 #define OF_A_SCENE "\"anyOf\":[" HAS("scene") "," HAS("preset") "]"
 #define OF_A_DISK \
@@ -25,9 +27,22 @@
 /* clang-format off */
 static const char line[] = "{\"anyOf\":["
     BOTH("edges", "energy_min") "," BOTH("edges", "energy_max") "," BOTH("edges", "bins") ","
-    NOT_OF("index", "\"lamppost\"") "," OF_NO_OTHER_THAN("outer_index", "broken") ","
-    OF_NO_OTHER_THAN("break_r", "broken") "," OF_NO_OTHER_THAN("height", "lamppost") ","
-    OF_NO_OTHER_THAN("photon_index", "lamppost") "]}";
+    NOT_OF("index", "\"lamppost\",\"ring\",\"disk\",\"slab\"") "," OF_NO_OTHER_THAN("outer_index", "\"broken\"") ","
+    OF_NO_OTHER_THAN("break_r", "\"broken\"") "," OF_NO_OTHER_THAN("height", SOURCES) ","
+    OF_NO_OTHER_THAN("photon_index", SOURCES) "," OF_NO_OTHER_THAN("corona_radius", CORONAE) ","
+    OF_NO_OTHER_THAN("motion", CORONAE) "," OF_NO_OTHER_THAN("corona_inner", "\"disk\",\"slab\"") ","
+    OF_NO_OTHER_THAN("corona_top", "\"slab\"") "]}";
+#define ECHO \
+    BOTH("edges", "energy_min") "," BOTH("edges", "energy_max") "," BOTH("edges", "bins") "," \
+    OF_NO_OTHER_THAN("corona_radius", "\"ring\"") "," OF_NO_OTHER_THAN("motion", "\"ring\"")
+#define A_NUMBER(name) "{\"required\":[\"" name "\"],\"properties\":{\"" name "\":{\"type\":\"number\"}}}"
+static const char impulse[] = "{\"anyOf\":[" ECHO "]}";
+static const char lags[] = "{\"anyOf\":[" ECHO ","
+    BOTH("frequencies_m", "frequency_min") "," BOTH("frequencies_m", "frequency_max") ","
+    BOTH("frequencies_m", "frequencies") ","
+    "{\"allOf\":[" A_NUMBER("reference_min") ",{\"not\":" A_NUMBER("reference_max") "}]},"
+    "{\"allOf\":[" A_NUMBER("reference_max") ",{\"not\":" A_NUMBER("reference_min") "}]},"
+    "{\"required\":[\"energy_min\"],\"properties\":{\"energy_min\":{\"maximum\":0}}}]}";
 static const char transfer[] = "{\"anyOf\":[" BOTH("radii", "rings") "," BOTH("g_star", "g_stars") "]}";
 static const char spectrum[] = "{\"anyOf\":["
     BOTH("frequencies_hz", "frequency_min_hz") "," BOTH("frequencies_hz", "frequency_max_hz") ","
@@ -55,9 +70,13 @@ static const char compare[] = "{\"anyOf\":["
 const char *kd_integral_apart(enum kd_integral what)
 {
     _Static_assert(KD_INTEGRAL_PICTURES == 200 && KD_INTEGRAL_FREQUENCIES == 1000, "the schema of a spectrum says so");
-    static const char *const schemas[KD_INTEGRALS] = {
-        [KD_INTEGRAL_LINE] = line,       [KD_INTEGRAL_TRANSFER] = transfer,     [KD_INTEGRAL_SPECTRUM] = spectrum,
-        [KD_INTEGRAL_VOLUME] = spectrum, [KD_INTEGRAL_VISIBILITY] = visibility, [KD_INTEGRAL_COMPARE] = compare
-    };
+    static const char *const schemas[KD_INTEGRALS] = { [KD_INTEGRAL_LINE] = line,
+                                                       [KD_INTEGRAL_TRANSFER] = transfer,
+                                                       [KD_INTEGRAL_SPECTRUM] = spectrum,
+                                                       [KD_INTEGRAL_IMPULSE] = impulse,
+                                                       [KD_INTEGRAL_LAGS] = lags,
+                                                       [KD_INTEGRAL_VOLUME] = spectrum,
+                                                       [KD_INTEGRAL_VISIBILITY] = visibility,
+                                                       [KD_INTEGRAL_COMPARE] = compare };
     return schemas[what];
 }

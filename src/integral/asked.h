@@ -4,6 +4,7 @@
 
 #include "document/document.h"
 #include "observe/align.h"
+#include "physics/disk/corona.h"
 #include "physics/disk/line_profile.h"
 #include "physics/spacetime/hole.h"
 #include "scene/asset.h"
@@ -19,6 +20,8 @@ enum kd_integral {
     KD_INTEGRAL_LINE,
     KD_INTEGRAL_TRANSFER,
     KD_INTEGRAL_SPECTRUM,
+    KD_INTEGRAL_IMPULSE,
+    KD_INTEGRAL_LAGS,
     KD_INTEGRAL_VOLUME,
     KD_INTEGRAL_VISIBILITY,
     KD_INTEGRAL_COMPARE,
@@ -37,6 +40,13 @@ struct kd_integral_request {
     double rest_energy, energy_min, energy_max; /* energy_max NaN: 1.7 rest_energy */
     uint32_t bins;
     struct kd_number_list edges;
+    enum kd_corona_motion motion; /* of a corona off the axis */
+    double corona_radius, corona_inner, corona_top;
+    double time_min, time_max; /* for an impulse response: bins of time */
+    uint32_t times;
+    /* for lags; reference NaN: the continuum */
+    double reflection, reference_min, reference_max, frequency_min, frequency_max;
+    struct kd_number_list frequencies_m;
     struct kd_number_list radii, g_star; /* for a transfer function */
     uint32_t rings, g_stars;
     double mass_msun, distance_pc, mdot_edd, colour_correction; /* for a spectrum */
@@ -71,7 +81,7 @@ struct kd_integral_request {
     int scattering;           /* 1: towards Sgr A*, observe/scattering.h */
     double flux_jy;           /* NaN: the scene's own flux, or the best fit if the scene has none */
     uint32_t products, solve; /* bit masks: products of enum kd_product; solve: KD_ALIGN_... */
-    uint64_t seen;            /* bit mask of the fields that were given */
+    uint64_t seen[2];         /* bit mask of the fields that were given */
 };
 
 /* The hole of a thin disk, for use as an argument. The value lives until the end of the enclosing block. */
@@ -80,6 +90,12 @@ struct kd_integral_request {
 /* The first is true if the integral needs pictures, the second if these are maps of light to be Fourier-transformed. */
 static inline bool kd_integral_is_pictured(enum kd_integral what) { return what >= KD_INTEGRAL_VOLUME; }
 static inline bool kd_integral_is_mapped(enum kd_integral what) { return what >= KD_INTEGRAL_VISIBILITY; }
+
+/* Whether a field of a checked request may be left open: NAN, null in the answer. */
+static inline bool kd_integral_leaves_open(enum kd_integral what)
+{
+    return kd_integral_is_mapped(what) || what == KD_INTEGRAL_LAGS;
+}
 
 /* Whether the maps are transformed at the baselines of an observation. */
 static inline bool kd_integral_is_observed(enum kd_integral what) { return what >= KD_INTEGRAL_COMPARE; }

@@ -14,7 +14,8 @@
 bool kd_integral_given(const struct kd_integral_request *request, const char *name)
 {
     const struct kd_row *f = kd_integral_field_named(request, name);
-    return f && request->seen & UINT64_C(1) << (f - kd_integral_fields);
+    const size_t at = f ? (size_t)(f - kd_integral_fields) : 0;
+    return f && request->seen[at / 64] & UINT64_C(1) << at % 64;
 }
 
 static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error *error)
@@ -59,18 +60,25 @@ enum kd_status kd_integral_check_growth(const struct kd_number_list *list, const
     return KD_OK;
 }
 
+#define BIT(word) (1u << KD_LINE_##word)
+#define OFF_AXIS (BIT(RING) | BIT(DISK) | BIT(SLAB))
+
 /* A field of one emissivity is refused with another, because it would have no effect. */
-static enum kd_status check_emissivity(const struct kd_integral_request *r, struct kd_error *error)
+static enum kd_status check_belongs(const struct kd_integral_request *r, struct kd_error *error)
 {
     static const struct {
         const char *name, *words;
         unsigned of;
     } belongs[] = {
-        { "index", "power and broken", 1u << KD_LINE_POWER | 1u << KD_LINE_BROKEN },
-        { "outer_index", "broken", 1u << KD_LINE_BROKEN },
-        { "break_r", "broken", 1u << KD_LINE_BROKEN },
-        { "height", "lamppost", 1u << KD_LINE_LAMPPOST },
-        { "photon_index", "lamppost", 1u << KD_LINE_LAMPPOST },
+        { "index", "power and broken", BIT(POWER) | BIT(BROKEN) },
+        { "outer_index", "broken", BIT(BROKEN) },
+        { "break_r", "broken", BIT(BROKEN) },
+        { "height", "lamppost, ring, disk and slab", BIT(LAMPPOST) | OFF_AXIS },
+        { "photon_index", "lamppost, ring, disk and slab", BIT(LAMPPOST) | OFF_AXIS },
+        { "corona_radius", "ring, disk and slab", OFF_AXIS },
+        { "motion", "ring, disk and slab", OFF_AXIS },
+        { "corona_inner", "disk and slab", BIT(DISK) | BIT(SLAB) },
+        { "corona_top", "slab", BIT(SLAB) },
     };
     for (size_t i = 0; i < sizeof belongs / sizeof *belongs; i++)
         if (kd_integral_given(r, belongs[i].name) && !(belongs[i].of & 1u << r->emissivity)) {
@@ -79,12 +87,75 @@ static enum kd_status check_emissivity(const struct kd_integral_request *r, stru
             return kd_error_field(error, pointer, "%s cannot be used here; it belongs to emissivity %s",
                                   belongs[i].name, belongs[i].words);
         }
+    return KD_OK;
+}
+
+struct kd_corona_shape kd_integral_corona(const struct kd_integral_request *r)
+{
+    const bool wide = r->emissivity == KD_LINE_DISK || r->emissivity == KD_LINE_SLAB;
+    return (struct kd_corona_shape) { .inner = wide ? r->corona_inner : r->corona_radius,
+                                      .outer = r->corona_radius,
+                                      .height = r->height,
+                                      .top = r->emissivity == KD_LINE_SLAB ? r->corona_top : r->height,
+                                      .motion = r->motion };
+}
+
+/* Requires that each part of a corona exists. */
+static enum kd_status check_ring(const struct kd_integral_request *r, double radius, double height,
+                                 struct kd_error *error)
+{
+    struct kd_corona_source source;
+    const double at = hypot(radius, height),
+                 least = KD_CORONA_LEAST * kd_kerr_ergosphere(kd_integral_hole(r), height / at);
+    if (at < least)
+        return kd_error_field(error, "/height",
+                              "height is %.9g, where the source is %.9g M from the hole; it must be at least %.9g M "
+                              "away, %g times the ergosphere",
+                              r->height, at, least, KD_CORONA_LEAST);
+    if (!kd_corona_source_of(kd_integral_hole(r), radius, height, r->motion, &source))
+        return kd_error_field(error, "/motion",
+                              "motion is corotating, which is faster than light %.9g M from the axis and %.9g M above "
+                              "the plane; it must be static or zamo, or the corona must be elsewhere",
+                              radius, height);
+    return KD_OK;
+}
+
+static enum kd_status check_corona(const struct kd_integral_request *r, struct kd_error *error)
+{
+    struct kd_corona_ring rings[KD_CORONA_PARTS];
+    const struct kd_corona_shape shape = kd_integral_corona(r);
+    const double flattest = shape.outer > shape.inner ? KD_CORONA_FLATTEST_SHAPE : KD_CORONA_FLATTEST;
+    enum kd_status status = KD_OK;
+    if (shape.inner > shape.outer || (shape.inner == shape.outer && r->emissivity != KD_LINE_RING))
+        return kd_error_field(
+            error, "/corona_inner",
+            "corona_inner is %.9g and corona_radius %.9g; corona_radius must be larger than corona_inner", shape.inner,
+            shape.outer);
+    if (shape.top < shape.height || (shape.top == shape.height && r->emissivity == KD_LINE_SLAB))
+        return kd_error_field(error, "/corona_top",
+                              "corona_top is %.9g and height %.9g; corona_top must be larger than height", shape.top,
+                              shape.height);
+    if (r->height < flattest * r->corona_radius)
+        return kd_error_field(error, "/height", "height is %.9g; it must be at least %.9g, %g times corona_radius",
+                              r->height, flattest * r->corona_radius, flattest);
+    const int n = kd_corona_rings(&shape, rings);
+    for (int i = 0; i < n; i++)
+        KD_TRY(check_ring(r, rings[i].radius, rings[i].height, error));
+done:
+    return status;
+}
+
+static enum kd_status check_emissivity(const struct kd_integral_request *r, struct kd_error *error)
+{
+    const enum kd_status status = check_belongs(r, error);
+    if (status)
+        return status;
     double least = 1.05 * kd_integral_hole(r)->outer;
     if (r->emissivity == KD_LINE_LAMPPOST && r->height < least)
         return kd_error_field(error, "/height",
                               "height is %.9g; it must be at least %.9g, 1.05 times the horizon of this hole",
                               r->height, least);
-    return KD_OK;
+    return 1u << r->emissivity & OFF_AXIS ? check_corona(r, error) : KD_OK;
 }
 
 static enum kd_status fill_edges(struct kd_integral_request *r, struct kd_error *error)
@@ -217,11 +288,69 @@ static enum kd_status check_frequencies(struct kd_integral_request *r, struct kd
     return kd_integral_check_frequencies(r, KD_INTEGRAL_FREQUENCIES, error);
 }
 
+static enum kd_status check_impulse(struct kd_integral_request *r, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    KD_TRY(check_emissivity(r, error));
+    KD_TRY(check_edges(r, error));
+    if (!(r->time_max > r->time_min))
+        return kd_error_field(error, "/time_max",
+                              "time_max is %.9g and time_min %.9g; time_max must be larger than time_min", r->time_max,
+                              r->time_min);
+    if ((size_t)r->bins * r->times > KD_INTEGRAL_ROWS)
+        return kd_error_field(error, r->bins > r->times ? "/bins" : "/times",
+                              "%u bins of energy with %u of time make too many rows (limit %u)", r->bins, r->times,
+                              KD_INTEGRAL_ROWS);
+done:
+    return status;
+}
+
+static enum kd_status check_lags(struct kd_integral_request *r, struct kd_error *error)
+{
+    static const char *const even[] = { "frequency_min", "frequency_max", "frequencies" };
+    enum kd_status status = KD_OK;
+    KD_TRY(check_emissivity(r, error));
+    KD_TRY(check_edges(r, error));
+    if (!(r->edges.at[0] > 0))
+        return kd_error_field(error, kd_integral_given(r, "edges") ? "/edges/0" : "/energy_min",
+                              "the first edge is 0, where a power law has no number of photons; it must be above 0");
+    if (r->frequencies_m.n) {
+        KD_TRY(kd_integral_check_beside(r, "frequencies_m", even, 3, error));
+        KD_TRY(kd_integral_check_growth(&r->frequencies_m, "frequencies_m", error));
+        r->frequencies = (uint32_t)r->frequencies_m.n;
+        r->frequency_min = r->frequencies_m.at[0], r->frequency_max = r->frequencies_m.at[r->frequencies - 1];
+    } else {
+        if (!(r->frequency_max > r->frequency_min))
+            return kd_error_field(error, "/frequency_max",
+                                  "frequency_max is %.9g and frequency_min %.9g; frequency_max must be larger than "
+                                  "frequency_min",
+                                  r->frequency_max, r->frequency_min);
+        KD_TRY(kd_integral_fill_list(r, "frequencies_m", r->frequencies, r->frequency_min, r->frequency_max, error));
+    }
+    if ((size_t)r->bins * r->frequencies > KD_INTEGRAL_ROWS)
+        return kd_error_field(error, "/bins", "%u bins with %u frequencies make too many rows (limit %u)", r->bins,
+                              r->frequencies, KD_INTEGRAL_ROWS);
+    if (isnan(r->reference_min) != isnan(r->reference_max))
+        return kd_error_field(
+            error, isnan(r->reference_min) ? "/reference_min" : "/reference_max",
+            "reference_min and reference_max are a number and \"continuum\"; they must be two numbers "
+            "or both \"continuum\"");
+    if (r->reference_max <= r->reference_min)
+        return kd_error_field(error, "/reference_max",
+                              "reference_max is %.9g and reference_min %.9g; reference_max must be larger than "
+                              "reference_min",
+                              r->reference_max, r->reference_min);
+done:
+    return status;
+}
+
 size_t kd_integral_rows(const struct kd_integral_request *r)
 {
     switch (r->what) {
     case KD_INTEGRAL_LINE: return r->bins;
     case KD_INTEGRAL_TRANSFER: return (size_t)r->rings * r->g_stars;
+    case KD_INTEGRAL_IMPULSE: return (size_t)r->bins * r->times;
+    case KD_INTEGRAL_LAGS: return (size_t)r->bins * r->frequencies;
     case KD_INTEGRAL_VISIBILITY: return r->u.n * (1 + r->orders);
     case KD_INTEGRAL_COMPARE: return r->comparison->rows;
     case KD_INTEGRAL_SETS: return r->sets->n;
@@ -245,6 +374,8 @@ enum kd_status kd_integral_request_check(struct kd_integral_request *r, struct k
         break;
     case KD_INTEGRAL_TRANSFER: KD_TRY(check_transfer(r, error)); break;
     case KD_INTEGRAL_SPECTRUM: KD_TRY(check_frequencies(r, error)); break;
+    case KD_INTEGRAL_IMPULSE: KD_TRY(check_impulse(r, error)); break;
+    case KD_INTEGRAL_LAGS: KD_TRY(check_lags(r, error)); break;
     case KD_INTEGRAL_VOLUME: KD_TRY(kd_integral_check_volume(r, error)); break;
     case KD_INTEGRAL_VISIBILITY: KD_TRY(kd_integral_check_visibility(r, error)); break;
     case KD_INTEGRAL_COMPARE:

@@ -17,6 +17,7 @@ static const char *const line_sources[] = {
     "C. T. Cunningham 1975, ApJ 202, 788 (redshift and transfer)",
     "S. E. Gralla & A. Lupsasca 2020, Phys. Rev. D 101, 044032 (rays in closed form)",
     "T. Dauser et al. 2013, MNRAS 430, 1694 (lamppost)",
+    "D. R. Wilkins & A. C. Fabian 2012, MNRAS 424, 1284 (coronae off the axis)",
     "A. Laor 1991, ApJ 376, 90; F. Haardt 1993, ApJ 413, 680; S. Chandrasekhar 1960, Radiative Transfer, 68 (limb)",
     NULL,
 };
@@ -42,6 +43,20 @@ static const char *const spectrum_approximations[] = {
 static const char no_returning[] = "light that returns to the disk is ignored";
 static const char with_returning[] = "the disk absorbs all light that returns to it from a disk without outer edge, "
                                      "and radiates it again as a black body";
+static const char *const echo_sources[] = {
+    "P. Uttley et al. 2014, A&ARv 22, 72 (lags)",
+    "C. S. Reynolds et al. 1999, ApJ 514, 164 (impulse response)",
+    "D. R. Wilkins & A. C. Fabian 2012, MNRAS 424, 1284 (rings of a corona)",
+    "C. T. Cunningham 1975, ApJ 202, 788 (redshift and transfer)",
+    "S. E. Gralla & A. Lupsasca 2020, Phys. Rev. D 101, 044032 (rays in closed form)",
+    NULL,
+};
+static const char *const echo_approximations[] = {
+    "a thin opaque disk in the equatorial plane, gas on circular orbits, nothing within its inner edge",
+    "only direct light: light that crosses the plane within the inner edge, or goes round the hole, is ignored",
+    "the gas emits at once; the source shines isotropically in its own frame, and a whole ring at once",
+    NULL,
+};
 static const char *const disk_approximations[] = {
     "a thin opaque disk in the equatorial plane, gas on circular orbits, nothing within its inner edge",
     "only the direct image: light that goes round the hole and crosses the plane again is ignored",
@@ -100,6 +115,21 @@ static const char *const volume_approximations[] = {
     NULL,
 };
 
+#define ECHO_VALUES \
+    { "isco", "M", "innermost stable circular orbit", false }, \
+        { "strength", "1", \
+          "equivalent width of the line over that in the gas's frame: photons of the line for each photon of the " \
+          "continuum per energy, where the gas emits one for each that it receives", \
+          false }, \
+        { "direct_flux", "1", \
+          "continuum of the source at the observer over that of the same source at rest far from the hole", false }, \
+        { "direct_g", "1", "mean redshift factor of the continuum", false }, \
+        { "direct_time", "M", \
+          "mean arrival of the continuum after the flash, less r + 2 ln r at the observer's radius r", false }, \
+    { \
+        "unit_s", "s", "GM/c^3", false \
+    }
+
 /* Values that describe a map of light. */
 #define MAP_VALUES \
     { "pixel_uas", "uas", "distance from one pixel to the next", false }, { "width_uas", "uas", "of the map", false }, \
@@ -119,7 +149,16 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                "g^4 "
                                "epsilon f, over the image plane" },
                              { "inside", "1", "share of the line between the first and the last edge" },
-                             { "error", "1", "estimated largest error of the cumulative share at any edge" } },
+                             { "error", "1", "estimated largest error of the cumulative share at any edge" },
+                             { "strength", "1",
+                               "equivalent width of the line over that in the gas's frame: photons of the line for "
+                               "each "
+                               "photon of the continuum per energy, where the gas emits one for each that it receives; "
+                               "null without a source" },
+                             { "direct_flux", "1",
+                               "continuum of the source at the observer over that of the same source at rest far from "
+                               "the hole; null without a source" },
+                             { "direct_g", "1", "mean redshift factor of that continuum; null without a source" } },
                            { { "energy_low", "unit of rest_energy", "edge of the bin" },
                              { "energy_high", "unit of rest_energy", "edge of the bin" },
                              { "share", "1", "share of the line's photons, or of its energy, in the bin" },
@@ -155,6 +194,36 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                    "4 pi D^2 nu F_nu, the luminosity of an isotropic source with this flux" } },
                                spectrum_sources,
                                spectrum_approximations },
+    [KD_INTEGRAL_IMPULSE] = { "echo of a flash on a thin disk, by energy and time",
+                              { ECHO_VALUES,
+                                { "inside", "1", "share of the line in all bins", false },
+                                { "mean_time", "M", "mean time of all photons of the line", false },
+                                { "error", "1",
+                                  "estimated largest error of the share of the line before a time and below an energy",
+                                  false } },
+                              { { "energy_low", "unit of rest_energy", "edge of the bin", false },
+                                { "energy_high", "unit of rest_energy", "edge of the bin", false },
+                                { "time_low", "M", "edge of the bin, after the direct light's mean arrival", false },
+                                { "time_high", "M", "edge of the bin", false },
+                                { "share", "1", "share of the line's photons in the bin", false } },
+                              echo_sources,
+                              echo_approximations },
+    [KD_INTEGRAL_LAGS] = { "lags of an echo by frequency and energy",
+                           { ECHO_VALUES, { "error", "M", "largest value of the column error", false } },
+                           { { "frequency", "c^3/GM", "Fourier frequency", false },
+                             { "frequency_hz", "Hz", "the same", false },
+                             { "energy_low", "unit of rest_energy", "edge of the bin", false },
+                             { "energy_high", "unit of rest_energy", "edge of the bin", false },
+                             { "lag", "M",
+                               "phase of the cross spectrum over 2 pi frequency; positive: the bin comes after the "
+                               "reference",
+                               false },
+                             { "lag_s", "s", "the same", false },
+                             { "reflected", "1", "share of the line in the bin's photons: R/(1 + R), the dilution",
+                               false },
+                             { "error", "M", "estimated error of the lag", false } },
+                           echo_sources,
+                           echo_approximations },
     [KD_INTEGRAL_VOLUME] = { "spectrum of a scene's volume, with one picture for each frequency",
                              { { "width", "pixels", "of each picture" },
                                { "height", "pixels", "of each picture" },
@@ -300,9 +369,27 @@ struct kd_line_params kd_integral_line_params(const struct kd_integral_request *
                                      .break_r = r->break_r,
                                      .height = r->height,
                                      .photon_index = r->photon_index,
+                                     .corona = kd_integral_corona(r),
                                      .tolerance = r->tolerance,
                                      .limb = r->limb,
                                      .energy = r->energy };
+}
+
+/* The light that reaches the observer from the source itself; not numbers without a source. */
+static enum kd_status continuum_of(const struct kd_integral_request *r, const struct kd_disk_image *image,
+                                   struct kd_corona_continuum *out, struct kd_error *error)
+{
+    struct kd_corona_shape shape = kd_integral_corona(r);
+    *out = (struct kd_corona_continuum) { NAN, NAN };
+    if (r->emissivity < KD_LINE_LAMPPOST)
+        return KD_OK;
+    if (r->emissivity == KD_LINE_LAMPPOST)
+        shape = (struct kd_corona_shape) { .height = r->height, .top = r->height };
+    if (!kd_corona_continuum_of(&image->hole, &shape, r->photon_index, image->cos_i, out))
+        return kd_error_field(error, "/height",
+                              "height and corona_radius are of a place from which no direct light to this inclination "
+                              "was found");
+    return KD_OK;
 }
 
 static enum kd_status compute_line(const struct kd_integral_request *r, const struct kd_disk_image *image,
@@ -322,7 +409,14 @@ static enum kd_status compute_line(const struct kd_integral_request *r, const st
     for (size_t i = 0; !status && i < r->bins; i++)
         /* guards against rounding */
         c[0][i] = r->edges.at[i], c[1][i] = r->edges.at[i + 1], c[3][i] = sum = fmin(sum + c[2][i], 1);
-    const double values[] = { image->isco, profile.total, sum, profile.error };
+    struct kd_corona_continuum direct;
+    if (!status)
+        status = continuum_of(r, image, &direct, error);
+    if (status)
+        return status;
+    const double one = profile.total * kd_limb_scale(r->limb) / (M_PI * direct.flux),
+                 values[] = { image->isco,           profile.total,          sum,     profile.error,
+                              r->energy ? NAN : one, 4 * M_PI * direct.flux, direct.g };
     for (size_t i = 0; !status && i < sizeof values / sizeof *values; i++)
         answer->values[i] = values[i];
 done:
@@ -431,7 +525,8 @@ enum kd_status kd_integral_compute(const struct kd_integral_request *request, st
 {
     static enum kd_status (*const compute[KD_INTEGRAL_VOLUME])(
         const struct kd_integral_request *, const struct kd_disk_image *, struct kd_integral_answer *,
-        struct kd_error *) = { compute_line, compute_transfer, compute_spectrum };
+        struct kd_error *) = { compute_line, compute_transfer, compute_spectrum, kd_integral_impulse,
+                               kd_integral_lags };
     struct kd_disk_image *image = NULL;
     enum kd_status status;
     *answer = (struct kd_integral_answer) { .request = request };

@@ -13,11 +13,14 @@
 #define LINE (1u << KD_INTEGRAL_LINE)
 #define TRANSFER (1u << KD_INTEGRAL_TRANSFER)
 #define SPECTRUM (1u << KD_INTEGRAL_SPECTRUM)
+#define IMPULSE (1u << KD_INTEGRAL_IMPULSE)
+#define LAGS (1u << KD_INTEGRAL_LAGS)
+#define ECHO (IMPULSE | LAGS)
 #define VOLUME (1u << KD_INTEGRAL_VOLUME)
 #define VISIBILITY (1u << KD_INTEGRAL_VISIBILITY)
 #define COMPARE (1u << KD_INTEGRAL_COMPARE | 1u << KD_INTEGRAL_SETS)
 #define OBSERVE (1u << KD_INTEGRAL_OBSERVE)
-#define ALL (LINE | TRANSFER | SPECTRUM)
+#define ALL (LINE | TRANSFER | SPECTRUM | ECHO)
 #define REAL(n, u, low, high, kinds, h) \
     { .name = #n, .kind = KD_KIND_REAL, .offset = AT(n), .least = low, .most = high, .unit = u, .of = kinds, .help = h }
 #define OR_WORD(n, u, low, high, word, kinds, h) \
@@ -91,37 +94,85 @@ const struct kd_row kd_integral_fields[] = {
       .unit = "M",
       .of = ALL,
       .help = "charge Q of the hole; the gas is neutral; a^2 + Q^2 < 1" },
-    INCLINATION(LINE | SPECTRUM, "0", "180"),
+    INCLINATION(LINE | SPECTRUM | ECHO, "0", "180"),
     INCLINATION(TRANSFER, "0.1", "179.9"),
     OR_WORD(inner, "M", 1, 1e6, "isco", ALL, "inner edge of the disk, the ISCO or beyond"),
     REAL(outer, "M", 1, 1e6, ALL, "outer edge of the disk"),
-    WORD(emissivity, emissivity, "power|broken|lamppost", LINE, "emissivity of the line as a function of radius"),
+    WORD(
+        emissivity, emissivity, "power|broken|lamppost|ring|disk|slab", LINE,
+        "emissivity of the line as a function of radius; that of the light that the disk receives: from a point on the "
+        "axis, a ring, a flat layer or a slab above the disk"),
+    { .name = "emissivity",
+      .kind = KD_KIND_WORD,
+      .offset = AT(emissivity),
+      .words = "lamppost|ring",
+      .first = KD_LINE_LAMPPOST,
+      .of = ECHO,
+      .help = "source of the light that the disk receives: a point on the axis, or a ring about it" },
     REAL(index, "", -10, 20, LINE, "power and broken: the light per area falls as r^-index"),
     REAL(outer_index, "", -10, 20, LINE, "broken: index beyond break_r"),
     REAL(break_r, "M", 1, 1e6, LINE, "broken: radius at which the index changes"),
-    REAL(height, "M", 1, 1e4, LINE, "lamppost: height of the source on the axis"),
-    REAL(photon_index, "", 0, 10, LINE, "lamppost: photon index of the source's power law"),
-    WORD(limb, limb, "isotropic|laor|haardt|scattering", LINE | SPECTRUM,
+    REAL(
+        height, "M", 0.1, 1e4, LINE | ECHO,
+        "lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); of a slab, of its lower side"),
+    REAL(corona_radius, "M", 1e-3, 1e4, LINE | ECHO,
+         "ring: distance from the axis, r sin(theta); disk, slab: outer radius of the source"),
+    REAL(corona_inner, "M", 0, 1e4, LINE, "disk, slab: inner radius of the source"),
+    REAL(corona_top, "M", 0.1, 1e4, LINE, "slab: height of its upper side"),
+    WORD(
+        motion, motion, "static|zamo|corotating", LINE | ECHO,
+        "ring, disk, slab: at rest, with zero angular momentum, or with the angular velocity of the gas of the disk at "
+        "the same distance from the axis, within the ISCO that of the ISCO"),
+    REAL(photon_index, "", 0, 10, LINE | ECHO, "lamppost, ring, disk, slab: photon index of the source's power law"),
+    WORD(limb, limb, "isotropic|laor|haardt|scattering", LINE | SPECTRUM | ECHO,
          "dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, ln(1 + "
          "1/mu), or that of a deep atmosphere of free electrons"),
     REAL(tolerance, "", 0, 0.1, LINE,
          "accepted error of the cumulative share: sums are refined until they meet it, or to the finest level; 0: "
          "always to the finest level"),
     WORD(counts, energy, "photons|energy", LINE, "quantity that a bin counts"),
-    REAL(rest_energy, "", 1e-9, 1e9, LINE,
+    REAL(rest_energy, "", 1e-9, 1e9, LINE | ECHO,
          "energy of the line in the gas's frame, in any unit; edges have the same unit"),
-    REAL(energy_min, "", 0, 1e9, LINE, "first edge of bins of equal width"),
-    OR_WORD(energy_max, "", 0, 1e9, "auto", LINE, "last edge; auto: 1.7 times rest_energy"),
-    INT(bins, 1, KD_INTEGRAL_ROWS, LINE, "number of bins of equal width"),
-    NUMBERS(edges, "", 0, 1e9, LINE, "edges of the bins in ascending order, instead of energy_min, energy_max and bins",
-            .fewest = 2),
+    REAL(energy_min, "", 0, 1e9, LINE | ECHO, "first edge of bins of equal width"),
+    OR_WORD(energy_max, "", 0, 1e9, "auto", LINE | ECHO, "last edge; auto: 1.7 times rest_energy"),
+    INT(bins, 1, KD_INTEGRAL_ROWS, LINE | ECHO, "number of bins of equal width"),
+    NUMBERS(edges, "", 0, 1e9, LINE | ECHO,
+            "edges of the bins in ascending order, instead of energy_min, energy_max and bins", .fewest = 2),
+    REAL(time_min, "M", -1e6, 1e6, IMPULSE, "first edge of the bins of time, after the direct light's mean arrival"),
+    REAL(time_max, "M", -1e6, 1e6, IMPULSE, "last edge of the bins of time"),
+    INT(times, 1, KD_INTEGRAL_ROWS, IMPULSE, "number of bins of time, of equal width"),
+    REAL(frequency_min, "c^3/GM", 1e-9, 10, LAGS, "first Fourier frequency"),
+    REAL(frequency_max, "c^3/GM", 1e-9, 10, LAGS, "last Fourier frequency"),
+    { .name = "frequencies",
+      .kind = KD_KIND_INT,
+      .offset = AT(frequencies),
+      .least = 1,
+      .most = KD_INTEGRAL_LAG_FREQUENCIES,
+      .of = LAGS,
+      .help = "number of Fourier frequencies, at equal ratios" },
+    { .name = "frequencies_m",
+      .kind = KD_KIND_LIST,
+      .offset = AT(frequencies_m),
+      .least = 1e-9,
+      .most = 10,
+      .room = KD_INTEGRAL_LAG_FREQUENCIES,
+      .unit = "c^3/GM",
+      .of = LAGS,
+      .help = "Fourier frequencies, instead of frequency_min, frequency_max and frequencies" },
+    REAL(reflection, "", 0, 1e6, LAGS,
+         "photons of the line at all energies over those of the continuum between the first and the last edge, both at "
+         "the observer"),
+    OR_WORD(reference_min, "", 1e-9, 1e9, "continuum", LAGS,
+            "lower end of the band that lags are measured against, in the unit of rest_energy; continuum: the direct "
+            "light alone"),
+    OR_WORD(reference_max, "", 1e-9, 1e9, "continuum", LAGS, "upper end of that band"),
     INT(rings, 1, 1000, TRANSFER, "number of radii, from inner to outer at equal ratios"),
     NUMBERS(radii, "M", 1, 1e6, TRANSFER, "radii, instead of rings; between inner and outer"),
     INT(g_stars, 1, 1000, TRANSFER, "number of values of g* at each radius: the centres of equal parts of 0 to 1"),
     NUMBERS(g_star, "", 0, 1, TRANSFER,
             "values of g* instead of g_stars, each between 0 (the reddest light of the ring) and 1 (the bluest)",
             .open = KD_OPEN),
-    REAL(mass_msun, "solar masses", 1e-5, 1e12, SPECTRUM, "mass of the hole"),
+    REAL(mass_msun, "solar masses", 1e-5, 1e12, SPECTRUM | ECHO, "mass of the hole"),
     REAL(distance_pc, "pc", 1e-3, 1e12, SPECTRUM, "distance of the hole"),
     REAL(mdot_edd, "Eddington rates", 1e-12, 1e3, SPECTRUM,
          "accretion rate as luminosity over the Eddington luminosity, with the efficiency of this spin"),
@@ -189,13 +240,15 @@ const struct kd_row kd_integral_fields[] = {
     WORD(check, unchecked, "finer|none", VOLUME | VISIBILITY | COMPARE | OBSERVE,
          "estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none"),
 };
-_Static_assert(sizeof kd_integral_fields / sizeof *kd_integral_fields <= 64, "a request has a bit for each field");
+_Static_assert(sizeof kd_integral_fields / sizeof *kd_integral_fields <= 128, "a request has a bit for each field");
 const size_t kd_n_integral_fields = sizeof kd_integral_fields / sizeof *kd_integral_fields;
 
 const char *kd_integral_name(enum kd_integral what)
 {
-    static const char *const names[KD_INTEGRALS] = { "line",       "transfer-function", "spectrum", "spectrum",
-                                                     "visibility", "compare",           "compare",  "observe" };
+    static const char *const names[KD_INTEGRALS] = {
+        "line",     "transfer-function", "spectrum", "impulse", "lags",
+        "spectrum", "visibility",        "compare",  "compare", "observe"
+    };
     return names[what];
 }
 
@@ -214,6 +267,7 @@ void kd_integral_request_init(struct kd_integral_request *request, enum kd_integ
         .inclination_deg = 30,
         .inner = NAN,
         .outer = 400,
+        .emissivity = 1u << what & ECHO ? KD_LINE_LAMPPOST : KD_LINE_POWER,
         .index = 3,
         .outer_index = 3,
         .break_r = 10,
@@ -221,8 +275,20 @@ void kd_integral_request_init(struct kd_integral_request *request, enum kd_integ
         .photon_index = 2,
         .tolerance = 1e-3,
         .rest_energy = 1,
+        .energy_min = what == KD_INTEGRAL_LAGS ? 0.3 : 0,
         .energy_max = NAN,
-        .bins = 500,
+        .bins = what == KD_INTEGRAL_IMPULSE ? 100
+                : what == KD_INTEGRAL_LAGS  ? 16
+                                            : 500,
+        .corona_radius = 10,
+        .corona_top = 15,
+        .time_max = 200,
+        .times = 100,
+        .reflection = 1,
+        .reference_min = NAN,
+        .reference_max = NAN,
+        .frequency_min = 1e-4,
+        .frequency_max = 0.1,
         .rings = 10,
         .g_stars = 20,
         .mass_msun = 10,
@@ -231,7 +297,9 @@ void kd_integral_request_init(struct kd_integral_request *request, enum kd_integ
         .colour_correction = 1.7,
         .frequency_min_hz = NAN,
         .frequency_max_hz = NAN,
-        .frequencies = what == KD_INTEGRAL_VOLUME ? 13 : 200,
+        .frequencies = what == KD_INTEGRAL_VOLUME ? 13
+                       : what == KD_INTEGRAL_LAGS ? 31
+                                                  : 200,
         .length_max = NAN,
         .baselines = 200,
         .products = (1u << KD_PRODUCT_VISIBILITY) - 1,

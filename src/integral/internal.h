@@ -27,8 +27,18 @@ enum kd_status kd_integral_check_beside(const struct kd_integral_request *reques
  * 1. */
 enum kd_status kd_integral_fill_list(struct kd_integral_request *request, const char *name, uint32_t n, double first,
                                      double last, struct kd_error *error);
+/* The corona of a request whose emissivity is ring, disk or slab. */
+struct kd_corona_shape kd_integral_corona(const struct kd_integral_request *request);
 enum kd_status kd_integral_check_frequencies(struct kd_integral_request *request, uint32_t most,
                                              struct kd_error *error);
+
+/* echo.c: integrals of an echo. image: of the disk of the request. */
+struct kd_disk_image;
+struct kd_integral_answer;
+enum kd_status kd_integral_impulse(const struct kd_integral_request *request, const struct kd_disk_image *image,
+                                   struct kd_integral_answer *answer, struct kd_error *error);
+enum kd_status kd_integral_lags(const struct kd_integral_request *request, const struct kd_disk_image *image,
+                                struct kd_integral_answer *answer, struct kd_error *error);
 
 /* compute.c: parameters of the line of a checked request. */
 struct kd_line_params kd_integral_line_params(const struct kd_integral_request *request);

@@ -8,9 +8,10 @@
 
 void kd_integral_request_finish(struct kd_integral_request *request)
 {
-    struct kd_number_list *const lists[] = { &request->edges,          &request->radii,     &request->g_star,
-                                             &request->frequencies_hz, &request->u,         &request->v,
-                                             &request->lengths,        &request->angles_deg };
+    struct kd_number_list *const lists[] = {
+        &request->edges, &request->radii, &request->g_star,  &request->frequencies_hz, &request->frequencies_m,
+        &request->u,     &request->v,     &request->lengths, &request->angles_deg
+    };
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         free(lists[i]->at);
         *lists[i] = (struct kd_number_list) { 0 };
@@ -69,7 +70,7 @@ enum kd_status kd_integral_request_read(struct kd_integral_request *request, con
     if (cJSON_IsObject(root))
         KD_TRY(read_others(request, root, error));
     const struct kd_document document = kd_integral_document(request->what);
-    KD_TRY(kd_document_read(&document, request, root, "", &request->seen, error));
+    KD_TRY(kd_document_read(&document, request, root, "", request->seen, error));
 done:
     kd_tree_free(root);
     return status;
@@ -86,5 +87,5 @@ enum kd_status kd_integral_request_set(struct kd_integral_request *request, cons
                                        struct kd_error *error)
 {
     const struct kd_document document = kd_integral_document(request->what);
-    return kd_document_set(&document, request, name, text, &request->seen, error);
+    return kd_document_set(&document, request, name, text, request->seen, error);
 }

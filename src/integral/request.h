@@ -19,9 +19,10 @@
 #define KD_INTEGRAL_LIST 20001u                /* maximum length of a list */
 #define KD_INTEGRAL_TRANSFERS 5000u            /* maximum rows of a transfer function: 0.1 ms each */
 #define KD_INTEGRAL_FREQUENCIES 1000u
-#define KD_INTEGRAL_PICTURES 200u /* maximum frequencies of a spectrum made of pictures */
-#define KD_INTEGRAL_LEAST_HZ 1e3  /* lowest frequency, and */
-#define KD_INTEGRAL_MOST_HZ 1e21  /* highest, as for volume.frequency_ghz */
+#define KD_INTEGRAL_LAG_FREQUENCIES 200u /* maximum frequencies of lags: some 10 ms each */
+#define KD_INTEGRAL_PICTURES 200u        /* maximum frequencies of a spectrum made of pictures */
+#define KD_INTEGRAL_LEAST_HZ 1e3         /* lowest frequency, and */
+#define KD_INTEGRAL_MOST_HZ 1e21         /* highest, as for volume.frequency_ghz */
 #define KD_INTEGRAL_FACE_ON \
     0.1 /* degrees from the axis within which no ring has a transfer function; INCLINATION of fields.c says so too */
 #define KD_INTEGRAL_ORDERS 8u /* image orders that are distinguished */

@@ -32,6 +32,9 @@ static const struct {
     { "break_r", "break_r" },
     { "height", "height" },
     { "photon_index", "photon_index" },
+    { "corona_radius", "corona_radius" },
+    { "corona_inner", "corona_inner" },
+    { "corona_top", "corona_top" },
 };
 enum { IMAGE_AXES = 3 };
 
@@ -69,7 +72,13 @@ static double *field_at(struct kd_integral_request *request, const struct kd_tab
     return (double *)(void *)((char *)request + axis->field->offset);
 }
 
-static uint64_t bit_of(const struct kd_row *field) { return UINT64_C(1) << (field - kd_integral_fields); }
+/* The word of `seen` that has the bit of a field, and the bit. */
+static uint64_t *seen_of(struct kd_integral_request *request, const struct kd_row *field)
+{
+    return &request->seen[(field - kd_integral_fields) / 64];
+}
+
+static uint64_t bit_of(const struct kd_row *field) { return UINT64_C(1) << (field - kd_integral_fields) % 64; }
 
 static const struct kd_row *field_named(const struct kd_integral_request *request, const char *name)
 {
@@ -198,7 +207,7 @@ static enum kd_status add_axis(struct kd_table *table, const char *text, struct 
     for (size_t i = 0; i < table->n_axes; i++)
         if (table->axes[i].field == axis.field)
             return kd_error_field(error, pointer, "%s has two axes; it must have one", axis.field->name);
-    if (table->base.seen & bit_of(axis.field))
+    if (kd_integral_given(&table->base, axis.field->name))
         return kd_error_field(error, pointer, "%s has an axis and a value; it must have one of them", axis.field->name);
     for (size_t i = table->n_axes; i-- > 0;)
         if (rank_of(&table->axes[i]) > rank_of(&axis))
@@ -218,7 +227,7 @@ static enum kd_status add_defaults(struct kd_table *table, struct kd_error *erro
         const struct kd_row *field = field_named(&table->base, name);
         for (size_t i = 0; i < table->n_axes; i++)
             there = there || table->axes[i].field == field;
-        if (!there && !(table->base.seen & bit_of(field)))
+        if (!there && !kd_integral_given(&table->base, field->name))
             KD_TRY(add_axis(table, defaults[k], error));
     }
 done:
@@ -264,7 +273,7 @@ static enum kd_status set_energies(struct kd_table *table, struct kd_error *erro
         return status;
     base->bins = first.bins;
     for (size_t i = 0; i < sizeof even / sizeof *even; i++)
-        base->seen &= ~bit_of(kd_integral_field_named(base, even[i]));
+        *seen_of(base, kd_integral_field_named(base, even[i])) &= ~bit_of(kd_integral_field_named(base, even[i]));
     for (size_t i = 0; i <= base->bins; i++)
         base->edges.at[i] = (double)(float)base->edges.at[i];
     if (!(base->edges.at[0] > 0))
@@ -296,7 +305,7 @@ enum kd_status kd_table_init(struct kd_table *table, struct kd_integral_request 
             KD_TRY(kd_error_field(error, pointer, "the axis %s has one value; it must have at least two",
                                   given_name(axis)));
         }
-        table->base.seen |= bit_of(axis->field);
+        *seen_of(&table->base, axis->field) |= bit_of(axis->field);
         table->nodes *= axis->n;
         table->run *= rank_of(axis) < IMAGE_AXES ? 1 : axis->n;
         if (table->nodes > KD_TABLE_NODES)
@@ -396,8 +405,8 @@ static enum kd_status put_request(const struct kd_table *table, struct kd_buffer
         bool is_even = !strcmp(f->name, "rest_energy"); /* a table has its own default */
         for (size_t k = 0; !edges && k < sizeof even / sizeof *even; k++)
             is_even = is_even || !strcmp(f->name, even[k]);
-        bool varies =
-            !(f->of & 1u << KD_INTEGRAL_LINE) || f->kind == KD_KIND_LIST || !(is_even || table->base.seen & bit_of(f));
+        bool varies = !(f->of & 1u << KD_INTEGRAL_LINE) || f->kind == KD_KIND_LIST ||
+                      !(is_even || kd_integral_given(&table->base, f->name));
         for (size_t k = 0; k < table->n_axes; k++)
             varies = varies || table->axes[k].field == f;
         if (!varies && f->words && f->kind == KD_KIND_REAL && isnan(kd_row_get(f, &table->base)))

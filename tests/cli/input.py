@@ -195,6 +195,8 @@ class Names(Case):
             (["line"], tabled, table),
             (["transfer-function"], tabled, table),
             (["spectrum"], tabled, table),
+            (["impulse"], tabled, table),
+            (["lags"], tabled, table),
             (["visibility"], tabled, table),
             (["compare"], tabled, table),
             (["orbit", "--case", "isco"], tabled, table),

@@ -143,6 +143,9 @@ class Integrals(Case):
             )
         )
         self.assertEqual([float(row["r"]) for row in rows], [6, 12])
+        self.assertEqual(len(self.good("impulse", "--bins", "2", "--times", "3", "-f", "csv").splitlines()), 7)
+        told = json.loads(self.good("lags", "--frequencies-m", "0.01,0.02", "--bins", "2"))
+        self.assertEqual(told["columns"]["frequency"], [0.01, 0.01, 0.02, 0.02])
         told = json.loads(self.good("spectrum", "--frequencies", "3", "--mass-msun", "1e6"))
         self.assertEqual(told["parameters"]["mass_msun"], 1e6)
 

@@ -153,6 +153,13 @@ RADII = (
     "outer is %.9g and inner is %.9g; outer must be larger than inner",
     "%s is %.17g, too close to an extremal hole for double precision to follow the disk's image at inclination_deg %.9g",
 )
+CORONA = (
+    "height is %.9g, where the source is %.9g M from the hole; it must be at least %.9g M away, %g times the ergosphere",
+    "height is %.9g; it must be at least %.9g, %g times corona_radius",
+    "motion is corotating, which is faster than light %.9g M from the axis and %.9g M above the plane; it must be static or zamo, or the corona must be elsewhere",
+    "height is %.9g; it must be at least %.9g, 1.05 times the horizon of this hole",
+    "height and corona_radius are of a place from which no direct light to this inclination was found",
+)
 SESSION = (
     "image.layers has %zu layers; in a session, which shows one picture, it must have one",
     "image.tile.width is %u; in a session, which shows whole pictures of any size, it must be 0",
@@ -218,9 +225,11 @@ TOGETHER = [
     (
         "POST /v1/line",
         RADII
+        + CORONA
         + (
+            "corona_inner is %.9g and corona_radius %.9g; corona_radius must be larger than corona_inner",
+            "corona_top is %.9g and height %.9g; corona_top must be larger than height",
             "%s is %.9g after %.9g; each must be larger than the one before",
-            "height is %.9g; it must be at least %.9g, 1.05 times the horizon of this hole",
             "energy_max is %.9g and energy_min %.9g; energy_max must be larger than energy_min",
             "height is %.9g, from where no rays to all radii of the disk were found",
             "%s is %.17g, so close to an extremal hole that the profile is not a number",
@@ -234,6 +243,33 @@ TOGETHER = [
             "%zu radii with %zu values of g* make too many rows (limit %u)",
             "a radius is %.9g, for which no extreme values of g were found at this inclination; the inclination must be further from face on and edge on",
             "a radius is %.9g, for which no position with g* %.9g was found",
+        ),
+    ),
+    (
+        "POST /v1/(impulse|lags)",
+        RADII
+        + CORONA
+        + (
+            "%s is %.9g after %.9g; each must be larger than the one before",
+            "energy_max is %.9g and energy_min %.9g; energy_max must be larger than energy_min",
+            "height and corona_radius are of a place from which no rays to all radii of the disk were found",
+            "inclination_deg is one for which no ray to the ring at %.9g was found",
+        ),
+    ),
+    (
+        "POST /v1/impulse",
+        (
+            "time_max is %.9g and time_min %.9g; time_max must be larger than time_min",
+            "%u bins of energy with %u of time make too many rows (limit %u)",
+        ),
+    ),
+    (
+        "POST /v1/lags",
+        (
+            "frequency_max is %.9g and frequency_min %.9g; frequency_max must be larger than frequency_min",
+            "reference_max is %.9g and reference_min %.9g; reference_max must be larger than reference_min",
+            "%u bins with %u frequencies make too many rows (limit %u)",
+            "the first edge is 0, where a power law has no number of photons; it must be above 0",
         ),
     ),
     (

@@ -111,6 +111,8 @@ class Memory(sweep.Case):
         self.sweep(self.post("/v1/line", {"bins": 4}), 200, "POST /v1/line")
         self.sweep(self.post("/v1/transfer-function", {"rings": 1, "g_stars": 1}), 200, "POST /v1/transfer-function")
         self.sweep(self.post("/v1/spectrum", {"frequencies": 2}), 200, "POST /v1/spectrum")
+        self.sweep(self.post("/v1/impulse", {"bins": 2, "times": 2}), 200, "POST /v1/impulse")
+        self.sweep(self.post("/v1/lags", {"bins": 2, "frequencies_m": [0.01]}), 200, "POST /v1/lags")
         self.sweep(
             self.post("/v1/visibility", {"baselines": 2, "pixels": 16, "check": "none"}), 200, "POST /v1/visibility"
         )

@@ -59,10 +59,11 @@ static void read_lines(enum kd_integral what, const uint8_t *data, size_t size)
 int kd_fuzz_integrals(const uint8_t *data, size_t size)
 {
     static const enum kd_integral known[] = { KD_INTEGRAL_LINE,       KD_INTEGRAL_TRANSFER, KD_INTEGRAL_SPECTRUM,
-                                              KD_INTEGRAL_VISIBILITY, KD_INTEGRAL_COMPARE,  KD_INTEGRAL_OBSERVE };
+                                              KD_INTEGRAL_VISIBILITY, KD_INTEGRAL_COMPARE,  KD_INTEGRAL_OBSERVE,
+                                              KD_INTEGRAL_IMPULSE,    KD_INTEGRAL_LAGS };
     if (!size)
         return 0;
-    const enum kd_integral what = known[*data % 6];
+    const enum kd_integral what = known[*data % 8];
     struct kd_fuzz_text text = kd_fuzz_bare(data + 1, size - 1);
     if (text.size && *text.at != '{')
         read_lines(what, (const uint8_t *)text.at, text.size);

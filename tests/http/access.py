@@ -25,6 +25,8 @@ QUESTIONS = {
     "/v1/pixel?at=3,4": SCENE,
     "/v1/line": {},
     "/v1/spectrum": {},
+    "/v1/impulse": {},
+    "/v1/lags": {},
     "/v1/transfer-function": {},
     "/v1/visibility": {"scene": SCENE},
     "/v1/compare": {"scene": SCENE, "observation": 64 * "0"},

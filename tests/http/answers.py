@@ -172,8 +172,16 @@ class Answers(daemon.Case):
         for name, document in (
             ("line", {"bins": 3}),
             ("line", {"edges": [0.2, 1.4], "emissivity": "lamppost", "limb": "haardt"}),
+            ("line", {"bins": 3, "emissivity": "disk", "motion": "corotating"}),
             ("transfer-function", {"rings": 2, "g_stars": 2}),
             ("spectrum", {"frequencies_hz": [1e16, 1e17]}),
+            ("impulse", {"bins": 2, "times": 3}),
+            (
+                "impulse",
+                {"emissivity": "ring", "corona_radius": 4, "motion": "corotating", "edges": [0.5, 1], "times": 2},
+            ),
+            ("lags", {"frequencies_m": [0.01], "bins": 2}),
+            ("lags", {"frequencies": 2, "edges": [0.5, 1], "reference_min": 1.2, "reference_max": 1.5}),
             ("spectrum", {"preset": "riaf", "frequencies_hz": [2e11], "pixels": 32}),
             ("visibility", {"preset": "sgra", "pixels": 32, "orders": 2, "baselines": 2}),
             ("visibility", {"preset": "riaf", "pixels": 16, "u": [0, 3], "v": [1, 2], "check": "none"}),

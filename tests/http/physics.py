@@ -506,6 +506,53 @@ class Integrals(daemon.Case):
             [list(row) for row in zip(*told["columns"].values())],
         )
 
+    def test_echoes(self):
+        """The energies of an echo are those of the line. Its times follow a flash over a flat disk from high above, and
+        lags at low frequencies are the mean of its times, diluted by the continuum."""
+        lamp = {"spin": 0.9, "inclination_deg": 50, "emissivity": "lamppost", "height": 6, "outer": 100}
+        echo = self.post("impulse", {**lamp, "bins": 20, "times": 50, "time_min": -20, "time_max": 380}).json()
+        line = self.post("line", {**lamp, "bins": 20}).json()
+        shares = echo["columns"]["share"]
+        for k, share in enumerate(line["columns"]["share"]):
+            self.assertAlmostEqual(sum(shares[50 * k : 50 * (k + 1)]), share, delta=1e-3)
+        mean = sum(s * (a + b) / 2 for s, a, b in zip(shares, *(echo["columns"][f"time_{x}"] for x in ("low", "high"))))
+        self.assertAlmostEqual(mean, echo["values"]["mean_time"], delta=0.2)
+        asked = {**lamp, "edges": [0.3, 1.5], "frequencies_m": [1e-6], "reflection": 0.25, "mass_msun": 1e7}
+        lags = self.post("lags", asked).json()
+        self.assertAlmostEqual(lags["columns"]["reflected"][0], 0.2, delta=1e-3)
+        self.assertAlmostEqual(lags["columns"]["lag"][0], 0.2 * echo["values"]["mean_time"], delta=0.02)
+        self.assertAlmostEqual(lags["columns"]["lag_s"][0] / lags["columns"]["lag"][0], 49.2549, delta=1e-3)
+        self.assertAlmostEqual(lags["columns"]["frequency_hz"][0], 1e-6 / 49.2549, delta=1e-12)
+        among = self.post("lags", {**asked, "edges": [0.9, 1.2], "reference_min": 0.9, "reference_max": 1.2}).json()
+        self.assertAlmostEqual(among["columns"]["lag"][0], 0, delta=1e-9)
+
+    def test_coronae(self):
+        """The line of a ring has the energies of its echo; a narrow layer and slab about it have its line, and tell the
+        same continuum. Far from the hole the continuum is that of flat space, and the line twice cos i as strong."""
+        hole = {"spin": 0.9, "inclination_deg": 40, "outer": 200, "bins": 30}
+        ring = {**hole, "emissivity": "ring", "corona_radius": 6, "height": 3, "motion": "corotating"}
+        line = self.post("line", ring).json()
+        echo = self.post("impulse", {**ring, "times": 1, "time_min": -100, "time_max": 1e4}).json()
+        for got, want in zip(echo["columns"]["share"], line["columns"]["share"]):
+            self.assertAlmostEqual(got, want, delta=1e-3)
+        for name in ("direct_flux", "direct_g"):
+            self.assertEqual(echo["values"][name], line["values"][name])
+        self.assertAlmostEqual(echo["values"]["strength"] / line["values"]["strength"], 1, delta=2e-3)
+        narrow = {"corona_inner": 5.99, "corona_radius": 6.01}
+        for change in {"emissivity": "disk"}, {"emissivity": "slab", "height": 2.99, "corona_top": 3.01}:
+            other = self.post("line", {**ring, **narrow, **change}).json()
+            for got, want in zip(other["columns"]["share"], line["columns"]["share"]):
+                self.assertAlmostEqual(got, want, delta=2e-3)
+            for name in ("direct_flux", "direct_g", "strength"):
+                self.assertAlmostEqual(other["values"][name] / line["values"][name], 1, delta=2e-3)
+        far = {**hole, "emissivity": "slab", "corona_radius": 3000, "height": 4000, "corona_top": 6000, "outer": 1e6}
+        values = self.post("line", far).json()["values"]
+        self.assertAlmostEqual(values["direct_flux"], 1, delta=2e-3)
+        self.assertAlmostEqual(values["direct_g"], 1, delta=1e-3)
+        self.assertAlmostEqual(values["strength"], 2 * math.cos(math.radians(40)), delta=0.015)
+        without = self.post("line", hole).json()["values"]
+        self.assertEqual((without["strength"], without["direct_flux"], without["direct_g"]), (None, None, None))
+
     def test_transfer_functions_are_lines(self):
         """The line of a narrow ring is the sum over its near and far side: F = pi r f g^2/sqrt(g* (1 - g*)) dg* dr,
         with g* = (1 - cos x)/2."""
@@ -888,6 +935,41 @@ class Integrals(daemon.Case):
             ("transfer-function", {"g_star": [1]}, "/g_star/0", "above 0 and below 1"),
             ("transfer-function", {"rings": 1000}, "/radii", "rows (limit 5000)"),
             ("transfer-function", {"index": 3}, "/index", "no field index"),
+            ("impulse", {"height": 1.5}, "/height", "at least 2.1, 1.05 times the horizon"),
+            (
+                "line",
+                {"emissivity": "ring", "height": 0.5, "corona_radius": 1},
+                "/height",
+                "at least 2.1 M away, 1.05 times the ergosphere",
+            ),
+            ("line", {"emissivity": "disk", "corona_inner": 10}, "/corona_inner", "corona_radius must be larger"),
+            ("line", {"emissivity": "slab", "corona_top": 3}, "/corona_top", "larger than height"),
+            ("line", {"emissivity": "disk", "height": 0.5}, "/height", "0.1 times corona_radius"),
+            ("line", {"emissivity": "ring", "corona_top": 30}, "/corona_top", "belongs to emissivity slab"),
+            (
+                "line",
+                {"emissivity": "lamppost", "motion": "zamo"},
+                "/motion",
+                "belongs to emissivity ring, disk and slab",
+            ),
+            (
+                "line",
+                {"spin": -0.99, "emissivity": "ring", "motion": "corotating", "corona_radius": 2.1, "height": 0.2},
+                "/motion",
+                "faster than light",
+            ),
+            ("impulse", {"motion": "zamo"}, "/motion", "belongs to emissivity ring"),
+            ("impulse", {"emissivity": "ring", "height": 0.3}, "/height", "0.5, 0.05 times corona_radius"),
+            ("impulse", {"emissivity": "power"}, "/emissivity", "lamppost"),
+            ("impulse", {"time_min": 5, "time_max": 5}, "/time_max", "larger than time_min"),
+            ("impulse", {"bins": 300}, "/bins", "rows (limit 20000)"),
+            ("lags", {"frequencies_m": [0.1, 0.1]}, "/frequencies_m/1", "larger than the one before"),
+            ("lags", {"frequencies_m": [0.1], "frequency_min": 1e-3}, "/frequencies_m", "frequency_min"),
+            ("lags", {"frequency_min": 0.1}, "/frequency_max", "larger than frequency_min"),
+            ("lags", {"reference_max": 2}, "/reference_min", "two numbers"),
+            ("lags", {"reference_min": 2, "reference_max": 1}, "/reference_max", "larger than reference_min"),
+            ("lags", {"edges": [0, 1]}, "/edges/0", "must be above 0"),
+            ("lags", {"bins": 2000}, "/bins", "rows (limit 20000)"),
             ("spectrum", {"frequencies_hz": [2, 1]}, "/frequencies_hz/1", "larger than the one before"),
             ("spectrum", {"returning": "yes", "inner": 8}, "/inner", 'with returning "yes" it must be the ISCO, 6 M'),
             ("spectrum", {"returning": "yes", "spin": 1 - 1e-11}, "/spin", "energy balance of returning light"),

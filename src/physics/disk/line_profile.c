@@ -21,15 +21,24 @@ enum {
     LOOKED = 128
 };
 
-static double emissivity(const struct kd_line_params *p, const struct kd_lamppost *lamp, double r)
+/* The light that the disk receives, of the emissivities that depend on it. */
+struct received {
+    struct kd_lamppost lamp;
+    struct kd_corona_light corona;
+};
+
+static double emissivity(const struct kd_line_params *p, const struct received *received, double r)
 {
     switch (p->emissivity) {
     case KD_LINE_POWER: return pow(r, -p->index);
     case KD_LINE_BROKEN:
         return pow(p->break_r, -p->index) * pow(r / p->break_r, r < p->break_r ? -p->index : -p->outer_index);
-    case KD_LINE_LAMPPOST: break;
+    case KD_LINE_LAMPPOST: return kd_lamppost_at(&received->lamp, r);
+    case KD_LINE_RING:
+    case KD_LINE_DISK:
+    case KD_LINE_SLAB: break;
     }
-    return kd_lamppost_at(lamp, r);
+    return kd_corona_light_at(&received->corona, r);
 }
 
 /* A ring's image: places, energies and brightness in each direction; the first direction is repeated at the end. */
@@ -113,10 +122,10 @@ static void straighten(double *f, int n, bool positive)
     f[n] = f[0];
 }
 
-static void fill_ring(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
-                      double r, int skip, int n, struct ring *ring)
+static void fill_ring(const struct kd_disk_image *image, const struct kd_line_params *p,
+                      const struct received *received, double r, int skip, int n, struct ring *ring)
 {
-    double bright = emissivity(p, lamp, r);
+    double bright = emissivity(p, received, r);
     kd_disk_image_ring(image, r, skip, n, ring->alpha, ring->beta);
     struct kd_disk_ring gas = kd_disk_image_gas(image, r);
     for (int j = 0; j < n; j++) {
@@ -175,22 +184,23 @@ struct work {
 struct looks { int coarse, skip; };
 
 /* Adds the rings from p->inner to p->outer, between which the emissivity must have no break. */
-static void add_rings(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
-                      struct looks looks, struct work *work, struct sum *s)
+static void add_rings(const struct kd_disk_image *image, const struct kd_line_params *p,
+                      const struct received *received, struct looks looks, struct work *work, struct sum *s)
 {
     int around = image->angles > 64 || image->cos_i < 0.6 ? KD_DISK_IMAGE_ANGLES : KD_DISK_IMAGE_ANGLES / 2;
     double rings_of_coarsest = ceil(log(p->outer / p->inner) / (STEP * COARSEST));
     int n = around / looks.coarse,
         m = (int)fmin(fmax(rings_of_coarsest, FEWEST / COARSEST), MOST / COARSEST) * (COARSEST / looks.coarse);
     struct ring *rings = work->rings;
-    bool outwards = emissivity(p, lamp, p->outer) * p->outer * p->outer >
-                    emissivity(p, lamp, p->inner) * p->inner * p->inner; /* light of a ring of equal width in ln r */
+    bool outwards =
+        emissivity(p, received, p->outer) * p->outer * p->outer >
+        emissivity(p, received, p->inner) * p->inner * p->inner; /* light of a ring of equal width in ln r */
     double before = 0, first = outwards ? 2 - BRIGHT : BRIGHT;
     for (int i = 0; i <= m; i++) {
         kd_pause_every((uint64_t)i, 4);
         double part = (double)i / m,
                r = i == m ? p->outer : p->inner * pow(p->outer / p->inner, part * (first + (1 - first) * part));
-        fill_ring(image, p, lamp, r, looks.skip, n, &rings[i & 1]);
+        fill_ring(image, p, received, r, looks.skip, n, &rings[i & 1]);
         if (i)
             add_strip(s, &rings[!(i & 1)], &rings[i & 1], log(r / before), n, &work->strip);
         before = r;
@@ -199,17 +209,17 @@ static void add_rings(const struct kd_disk_image *image, const struct kd_line_pa
 
 /* Integrates with a ring at the break of the emissivity; otherwise the error would depend on the position of the break
  * within a cell. */
-static void integrate(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
-                      struct looks looks, struct work *work, struct sum *s)
+static void integrate(const struct kd_disk_image *image, const struct kd_line_params *p,
+                      const struct received *received, struct looks looks, struct work *work, struct sum *s)
 {
     struct kd_line_params inside = *p, outside = *p;
     if (p->emissivity != KD_LINE_BROKEN || p->break_r <= p->inner || p->break_r >= p->outer) {
-        add_rings(image, p, lamp, looks, work, s);
+        add_rings(image, p, received, looks, work, s);
         return;
     }
     inside.outer = outside.inner = p->break_r;
-    add_rings(image, &inside, lamp, looks, work, s);
-    add_rings(image, &outside, lamp, looks, work, s);
+    add_rings(image, &inside, received, looks, work, s);
+    add_rings(image, &outside, received, looks, work, s);
 }
 
 /* Edges of the bins of the sums: the requested ones, and as many more between and beyond them as the error estimate
@@ -301,18 +311,18 @@ enum { LEVELS = 5 }; /* 16, 8, 4, 2 and 1 times fewer rings and angles */
  * quarter of what the halving before suggests is reported. The error of the table falls as the sixth power of its
  * step, so that twice the step shows 63 times the error: an eighth is reported, and near edge-on a quarter. */
 static double approach(const struct kd_disk_image *image, const struct kd_line_params *p,
-                       const struct kd_lamppost *lamp, const struct edges *edges, struct work *work,
+                       const struct received *received, const struct edges *edges, struct work *work,
                        struct sum sums[LEVELS + 1], int *n)
 {
     const bool edge_on = image->cos_i < EDGE_ON;
-    integrate(image, p, lamp, (struct looks) { COARSEST, 1 }, work, &sums[0]);
-    integrate(image, p, lamp, (struct looks) { COARSEST / 2, 1 }, work, &sums[1]);
-    integrate(image, p, lamp, (struct looks) { COARSEST / 2, 2 }, work, &sums[LEVELS]);
+    integrate(image, p, received, (struct looks) { COARSEST, 1 }, work, &sums[0]);
+    integrate(image, p, received, (struct looks) { COARSEST / 2, 1 }, work, &sums[1]);
+    integrate(image, p, received, (struct looks) { COARSEST / 2, 2 }, work, &sums[LEVELS]);
     double table = (edge_on ? 0.25 : 0.125) * apart(edges, &sums[1], &sums[LEVELS]),
            before = apart(edges, &sums[1], &sums[0]), error = INFINITY;
     for (*n = 1; *n < LEVELS - 1 && (*n < (edge_on ? 3 : 2) || !(error <= p->tolerance));) {
         ++*n;
-        integrate(image, p, lamp, (struct looks) { COARSEST >> *n, 1 }, work, &sums[*n]);
+        integrate(image, p, received, (struct looks) { COARSEST >> *n, 1 }, work, &sums[*n]);
         double here = apart(edges, &sums[*n], &sums[*n - 1]);
         error = (edge_on ? 1 : 0.75) * fmax(here, 0.25 * before) + table;
         before = here;
@@ -320,15 +330,22 @@ static double approach(const struct kd_disk_image *image, const struct kd_line_p
     return error;
 }
 
+static bool receive(const struct kd_hole *hole, const struct kd_line_params *p, struct received *received)
+{
+    if (p->emissivity == KD_LINE_LAMPPOST)
+        return kd_lamppost_init(&received->lamp, hole, p->height, p->photon_index, p->inner, p->outer);
+    return p->emissivity < KD_LINE_RING ||
+           kd_corona_light_of(hole, &p->corona, p->photon_index, p->inner, p->outer, &received->corona);
+}
+
 enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct kd_line_params *params,
                                const double *edges, int bins, double *share, struct kd_line_profile *profile,
                                struct kd_error *error)
 {
     const struct kd_hole_parameter largest = kd_hole_largest(&image->hole);
-    struct kd_lamppost lamp;
+    struct received received;
     struct sum sums[LEVELS + 1];
-    if (params->emissivity == KD_LINE_LAMPPOST &&
-        !kd_lamppost_init(&lamp, &image->hole, params->height, params->photon_index, params->inner, params->outer))
+    if (!receive(&image->hole, params, &received))
         return kd_error_field(error, "/height",
                               "height is %.9g, from where no rays to all radii of the disk were found", params->height);
     struct work *work = malloc(sizeof *work);
@@ -341,7 +358,7 @@ enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct k
         const struct edges all = edges_of(&line, edges, bins, in + most * (LEVELS + 1));
         for (int i = 0; i <= LEVELS; i++)
             sums[i] = (struct sum) { .edges = all.at, .bins = all.bins, .in = in + (size_t)i * most };
-        double left = approach(image, params, &lamp, &all, work, sums, &n);
+        double left = approach(image, params, &received, &all, work, sums, &n);
         *profile = (struct kd_line_profile) { .total = sums[n].total + (sums[n].total - sums[n - 1].total) / 3,
                                               .error = left };
         gather(&all, &sums[n], share);

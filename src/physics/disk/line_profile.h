@@ -16,17 +16,20 @@
 #define KD_PHYSICS_DISK_LINE_PROFILE_H
 
 #include "base/error.h"
+#include "physics/disk/corona.h"
 #include "physics/disk/disk_image.h"
 #include "physics/disk/limb.h"
 
-enum kd_line_emissivity { KD_LINE_POWER, KD_LINE_BROKEN, KD_LINE_LAMPPOST };
+enum kd_line_emissivity { KD_LINE_POWER, KD_LINE_BROKEN, KD_LINE_LAMPPOST, KD_LINE_RING, KD_LINE_DISK, KD_LINE_SLAB };
 
 struct kd_line_params {
     double inner, outer;
     enum kd_line_emissivity emissivity;
     double index;                /* POWER and BROKEN: epsilon = r^-index, for BROKEN up to break_r */
     double outer_index, break_r; /* BROKEN: (r/break_r)^-outer_index beyond, continuous */
-    double height, photon_index; /* LAMPPOST: epsilon is proportional to the received light */
+    /* The others: epsilon is proportional to the received light, that of a lamp at a height or of a corona. */
+    double height, photon_index;
+    struct kd_corona_shape corona;
     enum kd_limb limb;
     bool energy; /* count energies instead of photons */
     /* Largest allowed error of the cumulative share: the sum is refined until its estimated error is below this. 0: as

@@ -303,6 +303,16 @@ class AsyncClient:
         told: answers.TransferFunction = await self._run(calls.integral("transfer-function", settings))
         return told
 
+    async def impulse(self, **settings: Any) -> answers.ImpulseResponse:
+        """The echo of a flash on a thin disk, by energy and time. `columns` are arrays."""
+        told: answers.ImpulseResponse = await self._run(calls.integral("impulse", settings))
+        return told
+
+    async def lags(self, **settings: Any) -> answers.Lags:
+        """Lags of that echo, diluted by the continuum, by Fourier frequency and energy. `columns` are arrays."""
+        told: answers.Lags = await self._run(calls.integral("lags", settings))
+        return told
+
     async def spectrum(self, **settings: Any) -> answers.DiskSpectrum | answers.VolumeSpectrum:
         """The spectrum of a thin disk of black bodies, or of a scene's volume, in SI units. `columns` are arrays."""
         told: answers.DiskSpectrum | answers.VolumeSpectrum = await self._run(calls.integral("spectrum", settings))

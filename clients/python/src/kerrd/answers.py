@@ -384,6 +384,10 @@ class LineProfileParameters(TypedDict):
     outer_index: float
     break_r: float
     height: float
+    corona_radius: float
+    corona_inner: float
+    corona_top: float
+    motion: str
     photon_index: float
     limb: str
     tolerance: float
@@ -399,6 +403,9 @@ class LineProfileValues(TypedDict):
     total: float | None
     inside: float | None
     error: float | None
+    strength: float | None
+    direct_flux: float | None
+    direct_g: float | None
 
 
 class LineProfile(TypedDict):
@@ -429,6 +436,95 @@ class TransferFunction(TypedDict):
     integral: Literal['transfer-function']
     parameters: TransferFunctionParameters
     values: TransferFunctionValues
+    columns: Columns
+    units: dict[str, str]
+    sources: list[str]
+    approximations: list[str]
+
+
+class ImpulseResponseParameters(TypedDict):
+    spin: float
+    charge: float
+    inclination_deg: float
+    inner: float
+    outer: float
+    emissivity: str
+    height: float
+    corona_radius: float
+    motion: str
+    photon_index: float
+    limb: str
+    rest_energy: float
+    energy_min: float
+    energy_max: float
+    bins: float
+    time_min: float
+    time_max: float
+    times: float
+    mass_msun: float
+
+
+class ImpulseResponseValues(TypedDict):
+    isco: float | None
+    strength: float | None
+    direct_flux: float | None
+    direct_g: float | None
+    direct_time: float | None
+    unit_s: float | None
+    inside: float | None
+    mean_time: float | None
+    error: float | None
+
+
+class ImpulseResponse(TypedDict):
+    integral: Literal['impulse']
+    parameters: ImpulseResponseParameters
+    values: ImpulseResponseValues
+    columns: Columns
+    units: dict[str, str]
+    sources: list[str]
+    approximations: list[str]
+
+
+class LagsParameters(TypedDict):
+    spin: float
+    charge: float
+    inclination_deg: float
+    inner: float | None
+    outer: float
+    emissivity: str
+    height: float
+    corona_radius: float
+    motion: str
+    photon_index: float
+    limb: str
+    rest_energy: float
+    energy_min: float
+    energy_max: float | None
+    bins: float
+    frequency_min: float
+    frequency_max: float
+    frequencies: float
+    reflection: float
+    reference_min: float | None
+    reference_max: float | None
+    mass_msun: float
+
+
+class LagsValues(TypedDict):
+    isco: float | None
+    strength: float | None
+    direct_flux: float | None
+    direct_g: float | None
+    direct_time: float | None
+    unit_s: float | None
+    error: float | None
+
+
+class Lags(TypedDict):
+    integral: Literal['lags']
+    parameters: LagsParameters
+    values: LagsValues
     columns: Columns
     units: dict[str, str]
     sources: list[str]

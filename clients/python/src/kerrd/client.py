@@ -303,6 +303,16 @@ class Client:
         told: answers.TransferFunction = self._run(calls.integral("transfer-function", settings))
         return told
 
+    def impulse(self, **settings: Any) -> answers.ImpulseResponse:
+        """The echo of a flash on a thin disk, by energy and time. `columns` are arrays."""
+        told: answers.ImpulseResponse = self._run(calls.integral("impulse", settings))
+        return told
+
+    def lags(self, **settings: Any) -> answers.Lags:
+        """Lags of that echo, diluted by the continuum, by Fourier frequency and energy. `columns` are arrays."""
+        told: answers.Lags = self._run(calls.integral("lags", settings))
+        return told
+
     def spectrum(self, **settings: Any) -> answers.DiskSpectrum | answers.VolumeSpectrum:
         """The spectrum of a thin disk of black bodies, or of a scene's volume, in SI units. `columns` are arrays."""
         told: answers.DiskSpectrum | answers.VolumeSpectrum = self._run(calls.integral("spectrum", settings))

@@ -1,0 +1,588 @@
+#include "physics/disk/corona.h"
+
+#include "base/pause.h"
+#include "physics/math/quadrature.h"
+#include "physics/null/null_course.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/null/null_quartic.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/observer.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define EXACT 1e-8      /* error of ln r of a ray that meets a ring */
+#define RIGHT 1e-4      /* relative error of epsilon below which no more angles are taken */
+#define CORRECT 1e-10   /* error of a direction of the sky, in the chart below */
+#define FAR 1e7         /* M, where the course of light to infinity ends; the rest is added */
+#define DIFFERENCE 1e-5 /* step of differences on the source's sky, in radians */
+enum { FEWEST = 16, PLACES = 2000, NEWTON = 60 };
+
+bool kd_corona_source_of(const struct kd_hole *hole, double radius, double height, enum kd_corona_motion motion,
+                         struct kd_corona_source *out)
+{
+    const double r = hypot(radius, height), u = height / r, s = radius / r;
+    if (!(r >= KD_CORONA_LEAST * kd_kerr_ergosphere(hole, u)))
+        return false;
+    const struct kd_metric_scalars m = kd_metric_at(hole, r, u);
+    const double gas = kd_kerr_omega(hole, fmax(radius, kd_kerr_isco(hole)));
+    const double omega = motion == KD_CORONA_STATIC ? 0 : motion == KD_CORONA_ZAMO ? m.omega : gas;
+    const double speed = s > 0 ? (omega - m.omega) / kd_kerr_rotation_reach(hole, r, u, s) : 0;
+    if (!(fabs(speed) < 1))
+        return false;
+    const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);
+    const struct kd_vantage at = { .hole = *hole, .r = r, .u = u, .s = s };
+    const double gamma = 1 / sqrt((1 - speed) * (1 + speed));
+    *out = (struct kd_corona_source) { gamma / sqrt(m.lapse2), speed, gamma, kd_observer_tetrad(&zamo, &at) };
+    return true;
+}
+
+/* The ray of a photon that leaves along the unit vector m. Returns E, L and *solid as in struct kd_corona_photon, the
+ * photon having unit energy in the source's frame. A photon's path is that of one which arrives
+ * with the same E and L and the opposite p_r and p_theta, traced back (null_geodesic.h), because the metric does not
+ * change under (t, phi) -> (-t, -phi). */
+static struct kd_corona_photon send(const struct kd_corona_source *source, const double m[3], struct kd_null_ray *ray)
+{
+    const struct kd_vantage *at = &source->frame.at;
+    const struct kd_covector p = kd_tetrad_covector(&source->frame, (const double[]) { 1, m[0], m[1], m[2] });
+    const double energy = source->gamma * (1 - source->speed * m[2]);
+    *ray = (struct kd_null_ray) { .hole = at->hole,
+                                  .radius = at->r,
+                                  .cos_theta = at->u,
+                                  .sin_theta = at->s,
+                                  .alpha = -p.momentum / p.energy,
+                                  .beta = -p.polar / p.energy,
+                                  .outward = p.radial > 0,
+                                  .orders = 1 };
+    return (struct kd_corona_photon) { .energy = p.energy / energy,
+                                       .momentum = p.momentum * at->s / energy,
+                                       .solid = 1 / (energy * energy) };
+}
+
+struct kd_corona_photon kd_corona_emit(const struct kd_corona_source *source, double x, double chi)
+{
+    const double sine = 1 / cosh(x), m[3] = { tanh(x), -sine * sin(chi), sine * cos(chi) };
+    struct kd_null_ray ray;
+    struct kd_corona_photon p = send(source, m, &ray);
+    const struct kd_null_path path = kd_null_trace_fast(&ray);
+    p.r = path.crossings ? path.crossing[0].r : path.fate == KD_NULL_ESCAPED ? INFINITY : 0;
+    p.delay = path.crossings ? path.crossing[0].delay : NAN;
+    return p;
+}
+
+static double mismatch(const struct kd_corona_photon *p, double r) { return p->r > 0 ? log(p->r / r) : -INFINITY; }
+
+/* Finds the x = ln tan(delta/2) whose ray along chi meets the ring, from a guess of it and of d ln r/dx, by the secant
+ * method within a bracket: r grows with x. */
+static bool find(const struct kd_corona_source *source, double chi, double r, double slope, double *found,
+                 struct kd_corona_photon *photon)
+{
+    double low = -60, high = 40, x = *found, before = NAN, f_before = NAN, step = 0.25;
+    bool below = false, above = false;
+    for (int i = 0; i < 200; i++) {
+        *photon = kd_corona_emit(source, x, chi);
+        const double f = mismatch(photon, r);
+        if (fabs(f) < EXACT || high - low < 1e-15 * (1 + fabs(x))) {
+            *found = x;
+            return fabs(f) < 1e-6;
+        }
+        if (f < 0)
+            low = x, below = true;
+        else
+            high = x, above = true;
+        if (isfinite(f) && isfinite(f_before))
+            slope = (f - f_before) / (x - before);
+        double next = isfinite(f) && slope > 0 ? x - f / slope : NAN;
+        before = x, f_before = f;
+        if (!(next > low && next < high)) {
+            next = below && above ? 0.5 * (low + high) : f < 0 ? x + step : x - step;
+            step *= 2;
+        }
+        x = next;
+    }
+    return false;
+}
+
+static double node_of(const struct kd_corona_light *c, double log_r)
+{
+    return log_r + (c->width > 0 ? asinh((log_r - c->centre) / c->width) : 0);
+}
+
+/* Inverts node_of by Newton's method: it is monotone, with slopes between 1 and 1 + 1/width. */
+static double log_radius_of(const struct kd_corona_light *c, double s, double low, double high)
+{
+    double at = 0.5 * (low + high);
+    for (int i = 0; i < 200 && high - low > 1e-14 * (1 + fabs(at)); i++) {
+        const double off = node_of(c, at) - s, slope = 1 + (c->width > 0 ? 1 / hypot(c->width, at - c->centre) : 0);
+        *(off < 0 ? &low : &high) = at;
+        const double next = at - off / slope;
+        at = next > low && next < high ? next : 0.5 * (low + high);
+    }
+    return at;
+}
+
+static struct kd_corona_light nodes_of(double centre, double width, double inner, double outer)
+{
+    struct kd_corona_light light = { .centre = centre, .width = width, .error = INFINITY };
+    light.first = node_of(&light, log(inner));
+    light.step = (node_of(&light, log(outer)) - light.first) / (KD_CORONA_RINGS - 1);
+    return light;
+}
+
+static void fill_radii(const struct kd_corona_light *c, double radii[KD_CORONA_RINGS])
+{
+    const double last = c->first + (KD_CORONA_RINGS - 1) * c->step;
+    for (int k = 0; k < KD_CORONA_RINGS; k++) /* s is ln r plus something with the sign of ln r - centre */
+        radii[k] = exp(log_radius_of(c, c->first + k * c->step, fmin(c->first, c->centre), fmax(last, c->centre)));
+}
+
+/* d(values)/dk at k, by the polynomial through STENCIL neighbouring values. */
+enum { STENCIL = 7 };
+static double slope_at(const double *values, int k)
+{
+    const int first = k < STENCIL / 2                         ? 0
+                      : k > KD_CORONA_RINGS - 1 - STENCIL / 2 ? KD_CORONA_RINGS - STENCIL
+                                                              : k - STENCIL / 2;
+    double sum = 0;
+    for (int i = first; i < first + STENCIL; i++)
+        for (int j = first; j < first + STENCIL; j++) {
+            double term =
+                1. / (i - j); /* of the derivative of Lagrange's polynomial i, in which factor j is left out */
+            for (int l = first; l < first + STENCIL && j != i; l++)
+                term *= l == i || l == j ? 1 : (double)(k - l) / (i - l);
+            sum += j == i ? 0 : term * values[i];
+        }
+    return sum;
+}
+
+/* Makes the parts of one angle at all rings, from the innermost. */
+static bool make_angle(struct kd_corona *c, const struct kd_corona_source *source, double photon_index,
+                       const double *radii, int j)
+{
+    const struct kd_hole *hole = &source->frame.at.hole;
+    const int n = c->angles;
+    const double chi = 2 * M_PI * j / n;
+    double x[KD_CORONA_RINGS], guess = log(radii[0] / source->frame.at.r), slope = 1;
+    struct kd_corona_photon photon[KD_CORONA_RINGS];
+    for (int k = 0; k < KD_CORONA_RINGS; k++) {
+        if (k > 1)
+            slope = log(radii[k - 1] / radii[k - 2]) / (x[k - 1] - x[k - 2]);
+        x[k] = k > 2 ? 3 * (x[k - 1] - x[k - 2]) + x[k - 3] : k > 1 ? 2 * x[1] - x[0] : guess;
+        if (!find(source, chi, radii[k], slope, &x[k], &photon[k]))
+            return false;
+        guess = x[k];
+    }
+    for (int k = 0; k < KD_CORONA_RINGS; k++) {
+        const double r = radii[k], sine = 1 / cosh(x[k]), turned = slope_at(x, k) / c->light.step,
+                     per_s = 1 / (1 + (c->light.width > 0 ? 1 / hypot(c->light.width, log(r) - c->light.centre) : 0)),
+                     solid = photon[k].solid * sine * sine * turned / (per_s * r),
+                     g = kd_kerr_ut(hole, r) * (photon[k].energy - kd_kerr_omega(hole, r) * photon[k].momentum);
+        const int at = k * n + j;
+        if (!(turned > 0))
+            return false;
+        c->log_part[at] = log(solid / (4 * M_PI * n * r * source->ut)) + (photon_index - 1) * log(g);
+        c->time[at] = photon[k].delay;
+    }
+    kd_pause();
+    return true;
+}
+
+/* Sums the angles of each ring. Returns the largest relative change if every second one is left out. */
+static double add_up(struct kd_corona *c)
+{
+    double worst = 0;
+    for (int k = 0; k < KD_CORONA_RINGS; k++) {
+        double sum[2] = { 0, 0 };
+        for (int j = 0; j < c->angles; j++)
+            sum[j & 1] += exp(c->log_part[k * c->angles + j]);
+        c->light.log_epsilon[k] = log(sum[0] + sum[1]);
+        worst = fmax(worst, c->angles > 1 ? fabs(sum[0] - sum[1]) / (sum[0] + sum[1]) : 0);
+    }
+    return worst;
+}
+
+void kd_corona_finish(struct kd_corona *c)
+{
+    free(c->log_part);
+    free(c->time);
+    c->log_part = c->time = NULL;
+}
+
+/* Makes n angles, of which every second one is there already if n is more than the fewest. The sum over a period
+ * converges as a power of n, so that the square of the change by the last doubling is left; its power 1.5 is stated. */
+static bool take_angles(struct kd_corona *c, const struct kd_corona_source *source, double photon_index,
+                        const double *radii, int n)
+{
+    struct kd_corona before = *c;
+    c->angles = n;
+    c->log_part = malloc(sizeof(double) * KD_CORONA_RINGS * (size_t)n);
+    c->time = malloc(sizeof(double) * KD_CORONA_RINGS * (size_t)n);
+    bool made = c->log_part && c->time;
+    for (int j = 0; j < n && made; j++) {
+        if (!before.log_part || j % 2) {
+            made = make_angle(c, source, photon_index, radii, j);
+            continue;
+        }
+        for (int k = 0; k < KD_CORONA_RINGS; k++) {
+            c->log_part[k * n + j] = before.log_part[(k * n + j) / 2] - M_LN2;
+            c->time[k * n + j] = before.time[(k * n + j) / 2];
+        }
+    }
+    kd_corona_finish(&before);
+    c->light.error = made ? pow(add_up(c), 1.5) : INFINITY;
+    return made;
+}
+
+bool kd_corona_init(struct kd_corona *c, const struct kd_corona_source *source, double photon_index, double inner,
+                    double outer)
+{
+    const struct kd_vantage *at = &source->frame.at;
+    double radii[KD_CORONA_RINGS];
+    *c = (struct kd_corona) { .light = nodes_of(at->s > 0 ? log(at->r * at->s) : 0,
+                                                at->s > 0 ? fmin(1, at->u / at->s) : 0, inner, outer) };
+    fill_radii(&c->light, radii);
+    if (!(at->s > 0))
+        return take_angles(c, source, photon_index, radii, 1);
+    for (int n = FEWEST; n <= KD_CORONA_ANGLES && c->light.error > RIGHT; n *= 2)
+        if (!take_angles(c, source, photon_index, radii, n))
+            return false;
+    return true;
+}
+
+enum { POINTS = 4 }; /* nodes that an interpolation uses */
+
+static int weigh(const struct kd_corona_light *c, double r, double weight[POINTS])
+{
+    const double at = (node_of(c, log(r)) - c->first) / c->step;
+    const int first = (int)fmin(fmax(floor(at) - 1, 0), KD_CORONA_RINGS - POINTS);
+    for (int i = 0; i < POINTS; i++) {
+        weight[i] = 1;
+        for (int j = 0; j < POINTS; j++)
+            weight[i] *= j == i ? 1 : (at - first - j) / (i - j);
+    }
+    return first;
+}
+
+double kd_corona_light_at(const struct kd_corona_light *c, double r)
+{
+    double weight[POINTS], sum = 0;
+    const int first = weigh(c, r, weight);
+    for (int i = 0; i < POINTS; i++)
+        sum += weight[i] * c->log_epsilon[first + i];
+    return exp(sum);
+}
+
+void kd_corona_parts(const struct kd_corona *c, double r, double *part, double *time)
+{
+    double weight[POINTS];
+    const int first = weigh(&c->light, r, weight);
+    for (int j = 0; j < c->angles; j++) {
+        part[j] = time[j] = 0;
+        for (int i = 0; i < POINTS; i++) {
+            part[j] += weight[i] * c->log_part[(first + i) * c->angles + j];
+            time[j] += weight[i] * c->time[(first + i) * c->angles + j];
+        }
+        part[j] = exp(part[j]);
+    }
+}
+
+/* Directions at infinity in the chart tan(theta/2) (cos phi, sin phi), phi counted from the source; regular everywhere
+ * but at theta = pi. An area of the sky is 4 times that of the chart over (1 + x^2 + y^2)^2. */
+static bool arrive(const struct kd_corona_source *source, const double m[3], double out[2])
+{
+    struct kd_null_ray ray;
+    send(source, m, &ray);
+    const struct kd_null_path path = kd_null_trace_fast(&ray);
+    if (path.fate != KD_NULL_ESCAPED || path.crossings)
+        return false;
+    const double far = sqrt((1 - path.sky_u) / (1 + path.sky_u));
+    out[0] = far * cos(path.sky_phi), out[1] = far * sin(path.sky_phi);
+    return isfinite(out[0]) && isfinite(out[1]);
+}
+
+/* Two directions perpendicular to m. */
+static void across(const double m[3], double axes[2][3])
+{
+    const int k = fabs(m[0]) < fabs(m[1]) ? (fabs(m[0]) < fabs(m[2]) ? 0 : 2) : (fabs(m[1]) < fabs(m[2]) ? 1 : 2);
+    double size = 0;
+    for (int i = 0; i < 3; i++)
+        axes[0][i] = (i == k) - m[k] * m[i], size += axes[0][i] * axes[0][i];
+    for (int i = 0; i < 3; i++)
+        axes[0][i] /= sqrt(size);
+    for (int i = 0; i < 3; i++)
+        axes[1][i] = m[(i + 1) % 3] * axes[0][(i + 2) % 3] - m[(i + 2) % 3] * axes[0][(i + 1) % 3];
+}
+
+static void turn(const double m[3], double axes[2][3], double x, double y, double out[3])
+{
+    double size = 0;
+    for (int i = 0; i < 3; i++)
+        out[i] = m[i] + x * axes[0][i] + y * axes[1][i], size += out[i] * out[i];
+    for (int i = 0; i < 3; i++)
+        out[i] /= sqrt(size);
+}
+
+/* d(chart)/d(direction) at m, by central differences. */
+static bool slopes(const struct kd_corona_source *source, const double m[3], double axes[2][3], double rate[2][2])
+{
+    for (int j = 0; j < 2; j++) {
+        double ahead[3], behind[3], there[2], here[2];
+        turn(m, axes, j ? 0 : DIFFERENCE, j ? DIFFERENCE : 0, ahead);
+        turn(m, axes, j ? 0 : -DIFFERENCE, j ? -DIFFERENCE : 0, behind);
+        if (!arrive(source, ahead, there) || !arrive(source, behind, here))
+            return false;
+        for (int i = 0; i < 2; i++)
+            rate[i][j] = (there[i] - here[i]) / (2 * DIFFERENCE);
+    }
+    return true;
+}
+
+/* Finds the direction m whose light arrives at `want`, by Newton's method from m; *solid: the solid angle a unit of the
+ * chart's area. */
+static bool aim(const struct kd_corona_source *source, const double want[2], double m[3], double *solid)
+{
+    double at[2], axes[2][3], rate[2][2];
+    if (!arrive(source, m, at))
+        return false;
+    for (int i = 0; i < NEWTON; i++) {
+        const double off[2] = { want[0] - at[0], want[1] - at[1] }, size = hypot(off[0], off[1]);
+        across(m, axes);
+        if (!slopes(source, m, axes, rate))
+            return false;
+        const double det = rate[0][0] * rate[1][1] - rate[0][1] * rate[1][0];
+        *solid = 1 / fabs(det);
+        if (size < CORRECT)
+            return true;
+        double share = 1, step[2] = { (rate[1][1] * off[0] - rate[0][1] * off[1]) / det,
+                                      (rate[0][0] * off[1] - rate[1][0] * off[0]) / det };
+        const double long_step = hypot(step[0], step[1]);
+        share = long_step > 0.3 ? 0.3 / long_step : 1;
+        for (;; share *= 0.5) {
+            double to[3], there[2];
+            turn(m, axes, share * step[0], share * step[1], to);
+            if (arrive(source, to, there) && hypot(want[0] - there[0], want[1] - there[1]) < size) {
+                memcpy(m, to, sizeof to);
+                memcpy(at, there, sizeof there);
+                break;
+            }
+            if (share < 1e-6)
+                return size < 1e3 * CORRECT;
+        }
+    }
+    return false;
+}
+
+/* Coordinate time to infinity, less r_o + 2 ln r_o: that to FAR, and to first order in 1/FAR the rest, from dt/dr = 1 +
+ * 2/r + (4 - q^2 + a^2 u^2 - A/2)/r^2 (null_radial.h; A of null_quartic.h). */
+static double time_of(const struct kd_corona_source *source, const double m[3])
+{
+    struct kd_null_place places[PLACES];
+    struct kd_null_ray ray;
+    send(source, m, &ray);
+    const struct kd_null_motion motion =
+        kd_null_motion_of(&ray.hole, ray.cos_theta, ray.sin_theta, ray.alpha, ray.beta);
+    const struct kd_null_course course = kd_null_course_of(&ray, FAR, 1e-4, places, PLACES);
+    if (!course.n || course.end != KD_COURSE_ESCAPED)
+        return NAN;
+    const struct kd_null_place *last = &places[course.n - 1];
+    const double a = ray.hole.a, q = ray.hole.q, rest = 4 - q * q + a * a * last->u * last->u - 0.5 * motion.quadratic;
+    return last->delay - last->r - 2 * log(last->r) + rest / last->r;
+}
+
+/* The direction towards (theta, azimuth) without bending. */
+static void straight(const struct kd_corona_source *source, double cos_i, double azimuth, double m[3])
+{
+    const double sin_i = sqrt((1 - cos_i) * (1 + cos_i)), u = source->frame.at.u, s = source->frame.at.s;
+    m[0] = sin_i * cos(azimuth) * s + cos_i * u;
+    m[1] = sin_i * cos(azimuth) * u - cos_i * s;
+    m[2] = sin_i * sin(azimuth);
+}
+
+/* Aims from m by way of directions between that where its light arrives and the wanted one, in so many steps. */
+static bool aim_by_steps(const struct kd_corona_source *source, const double want[2], int steps, double m[3],
+                         double *solid)
+{
+    double from[2];
+    if (!arrive(source, m, from))
+        return false;
+    for (int i = 1; i <= steps; i++) {
+        const double share = (double)i / steps,
+                     to[2] = { from[0] + share * (want[0] - from[0]), from[1] + share * (want[1] - from[1]) };
+        if (!aim(source, to, m, solid))
+            return false;
+    }
+    return true;
+}
+
+/* Aims from m; or else from other lines, the first of which may be bent down to the plane or into the hole: further and
+ * further from it. */
+static bool aim_anew(const struct kd_corona_source *source, double cos_i, double azimuth, const double want[2],
+                     double m[3], double *solid)
+{
+    const double last[3] = { m[0], m[1], m[2] };
+    if (aim(source, want, m, solid))
+        return true;
+    for (int steps = 4; steps <= 64; steps *= 4) {
+        memcpy(m, last, sizeof last);
+        if (aim_by_steps(source, want, steps, m, solid))
+            return true;
+        for (double up = cos_i; up < 1; up += 0.15) {
+            straight(source, up, -azimuth, m);
+            if (aim_by_steps(source, want, steps, m, solid))
+                return true;
+        }
+        memcpy(m, (const double[]) { 1, 0, 0 }, sizeof last);
+        if (aim_by_steps(source, want, steps, m, solid))
+            return true;
+    }
+    return false;
+}
+
+bool kd_corona_direct_of(const struct kd_corona_source *source, double photon_index, double cos_i,
+                         struct kd_corona_direct *out)
+{
+    const double far = sqrt((1 - cos_i) / (1 + cos_i));
+    double m[3];
+    *out = (struct kd_corona_direct) { .n = source->frame.at.s > 0 ? KD_CORONA_AZIMUTHS : 1 };
+    straight(source, cos_i, 0, m);
+    for (int k = 0; k < out->n; k++) {
+        const double azimuth = 2 * M_PI * k / out->n, want[2] = { far * cos(azimuth), far * sin(azimuth) };
+        double solid;
+        kd_pause();
+        if (!aim_anew(source, cos_i, azimuth, want, m, &solid))
+            return false;
+        struct kd_null_ray ray;
+        const struct kd_corona_photon p = send(source, m, &ray);
+        const double area = 0.25 * pow(1 + far * far, 2);
+        out->part[k] = area * solid * p.solid * pow(p.energy, photon_index - 1) / (4 * M_PI * source->ut * out->n);
+        out->part_time[k] = time_of(source, m);
+        out->flux += out->part[k];
+        out->g += out->part[k] * p.energy;
+        out->time += out->part[k] * out->part_time[k];
+    }
+    out->g /= out->flux, out->time /= out->flux;
+    return isfinite(out->time) && out->flux > 0;
+}
+
+/* Gauss points a height of the corona; in z, and at least and at most in rho. */
+#define POINTS_A_HEIGHT 2
+enum { POINTS_Z = 3, FEWEST_RHO = 5, MOST_RHO = 20 };
+
+int kd_corona_rings(const struct kd_corona_shape *shape, struct kd_corona_ring out[KD_CORONA_PARTS])
+{
+    double rho[MOST_RHO], rho_weight[MOST_RHO], z[POINTS_Z], z_weight[POINTS_Z], all = 0;
+    const double wide = shape->outer - shape->inner, high = shape->top - shape->height;
+    const int across =
+                  wide > 0 ? (int)fmin(fmax(ceil(POINTS_A_HEIGHT * wide / shape->height), FEWEST_RHO), MOST_RHO) : 1,
+              up = high > 0 ? POINTS_Z : 1;
+    kd_gauss_legendre(across, rho, rho_weight);
+    kd_gauss_legendre(up, z, z_weight);
+    int n = 0;
+    for (int i = 0; i < across; i++)
+        for (int k = 0; k < up; k++, n++) {
+            const double radius = shape->inner + wide * rho[i],
+                         weight = (wide > 0 ? radius : 1) * rho_weight[i] * z_weight[k];
+            out[n] = (struct kd_corona_ring) { radius, shape->height + high * z[k], weight };
+            all += weight;
+        }
+    for (int i = 0; i < n; i++)
+        out[i].weight /= all;
+    return n;
+}
+
+/* Of a single ring the table is its own; of several it is even in ln r. */
+static bool make_light(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
+                       double inner, double outer, struct kd_corona_light *out)
+{
+    struct kd_corona_ring rings[KD_CORONA_PARTS];
+    double radii[KD_CORONA_RINGS], sum[KD_CORONA_RINGS] = { 0 };
+    const int n = kd_corona_rings(shape, rings);
+    *out = nodes_of(0, 0, inner, outer);
+    out->error = 0;
+    fill_radii(out, radii);
+    for (int i = 0; i < n; i++) {
+        struct kd_corona_source source;
+        struct kd_corona corona = { 0 };
+        const bool made = kd_corona_source_of(hole, rings[i].radius, rings[i].height, shape->motion, &source) &&
+                          kd_corona_init(&corona, &source, photon_index, inner, outer);
+        for (int k = 0; made && k < KD_CORONA_RINGS; k++)
+            sum[k] += rings[i].weight * kd_corona_light_at(&corona.light, radii[k]);
+        if (made && n == 1)
+            *out = corona.light;
+        out->error = made ? fmax(out->error, corona.light.error) : INFINITY;
+        kd_corona_finish(&corona);
+        if (!made)
+            return false;
+    }
+    for (int k = 0; n > 1 && k < KD_CORONA_RINGS; k++)
+        out->log_epsilon[k] = log(sum[k]);
+    return true;
+}
+
+enum { KEPT = 64 };
+struct key { double a, q, inner, outer, photon_index, from, to, height, top, motion; };
+static struct entry {
+    struct key key;
+    unsigned long used; /* time of last use; 0: empty */
+    struct kd_corona_light light;
+} entries[KEPT];
+static unsigned long uses;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+static bool look_up(const struct key *key, struct kd_corona_light *out)
+{
+    bool found = false;
+    pthread_mutex_lock(&lock);
+    for (int i = 0; i < KEPT && !found; i++)
+        if ((found = entries[i].used && !memcmp(&entries[i].key, key, sizeof *key))) {
+            entries[i].used = ++uses;
+            *out = entries[i].light;
+        }
+    pthread_mutex_unlock(&lock);
+    return found;
+}
+
+static void keep(const struct key *key, const struct kd_corona_light *light)
+{
+    pthread_mutex_lock(&lock);
+    struct entry *oldest = entries;
+    for (int i = 1; i < KEPT; i++)
+        if (entries[i].used < oldest->used)
+            oldest = &entries[i];
+    *oldest = (struct entry) { *key, ++uses, *light };
+    pthread_mutex_unlock(&lock);
+}
+
+bool kd_corona_light_of(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
+                        double inner, double outer, struct kd_corona_light *out)
+{
+    const struct key key = { hole->a,      hole->q,      inner,         outer,      photon_index,
+                             shape->inner, shape->outer, shape->height, shape->top, (double)shape->motion };
+    if (look_up(&key, out))
+        return true;
+    if (!make_light(hole, shape, photon_index, inner, outer, out))
+        return false;
+    keep(&key, out);
+    return true;
+}
+
+bool kd_corona_continuum_of(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
+                            double cos_i, struct kd_corona_continuum *out)
+{
+    struct kd_corona_ring rings[KD_CORONA_PARTS];
+    const int n = kd_corona_rings(shape, rings);
+    *out = (struct kd_corona_continuum) { 0, 0 };
+    for (int i = 0; i < n; i++) {
+        struct kd_corona_source source;
+        struct kd_corona_direct direct;
+        if (!kd_corona_source_of(hole, rings[i].radius, rings[i].height, shape->motion, &source) ||
+            !kd_corona_direct_of(&source, photon_index, cos_i, &direct))
+            return false;
+        out->flux += rings[i].weight * direct.flux;
+        out->g += rings[i].weight * direct.flux * direct.g;
+    }
+    out->g /= out->flux;
+    return true;
+}
