@@ -11,16 +11,19 @@
     F(fade)                /* reciprocal width of the outer fade, 1/M */ \
     F(opacity) \
     F(peak)                /* largest effective temperature times the hardening, K */ \
-    F(luminous)            /* log2 of the fraction that the eye perceives of a black body's light at that temperature */
+    F(luminous)            /* log2 of the fraction of such a black body's light that the eye perceives */ \
+    F(quanta)              /* x = h nu/(k T) of the observed frequency at that temperature */ \
+    F(quanta_mean)         /* (1 - exp(-x))/x */
 /* clang-format on */
 #define KD_ATMOSPHERE_ROWS 64
 /* disk: (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its difference to the next row. atmosphere:
  * emitted intensity over that of an isotropic surface of the same flux, against the square root of the cosine to the
  * normal; in each row the coefficients of a cubic of the place in its cell. */
 #define KD_TABLES_disk(T) T(disk, KD_DISK_TABLE) T(atmosphere, KD_ATMOSPHERE_ROWS)
-#define KD_TRAIT_VISIBLE 8u /* brightness weighted as by the eye instead of bolometric */
-#define KD_TRAIT_LIMB 128u  /* the light depends on the angle of emission: the table `atmosphere` */
-#define KD_TRAITS_disk(T) T(DOPPLER) T(REDSHIFT) T(VISIBLE) T(LIMB)
+#define KD_TRAIT_VISIBLE 8u      /* brightness weighted as by the eye instead of bolometric */
+#define KD_TRAIT_LIMB 128u       /* the light depends on the angle of emission: the table `atmosphere` */
+#define KD_TRAIT_FREQUENCY 4096u /* brightness is the intensity at one frequency */
+#define KD_TRAITS_disk(T) T(DOPPLER) T(REDSHIFT) T(VISIBLE) T(LIMB) T(FREQUENCY)
 #define KD_BUFFERS_disk(B)
 #define KD_PASS_disk(P)
 #endif
@@ -29,9 +32,21 @@
 /* Gas at a crossing: its observed temperature over the disk's largest, and its opacity. */
 struct kd_gas { float t, alpha; };
 
+/* B_nu(t T)/B_nu(T) for the disk's largest colour temperature T. With x = h nu/(k T) and m(y) = (1 - exp(-y))/y it is
+ * t exp(x (1 - 1/t)) m(x)/m(x/t), whose factors keep their digits for small and large x. */
+float kd_disk_intensity(float t)
+{
+    float x = emission.disk.quanta, y = min(x / t, 1e30),
+          mean = y < 0.25 ? 1.0 - y * (0.5 - y * (1.0 / 6.0 - y * (1.0 / 24.0 - y * (1.0 / 120.0 - y * (1.0 / 720.0)))))
+                          : (1.0 - exp(-y)) / y;
+    return t > 0.0 ? t * exp(x - y) * emission.disk.quanta_mean / mean : 0.0;
+}
+
 /* Light of a black body of temperature t, relative to the disk's largest temperature. */
 vec3 kd_black_body(float t, uint traits)
 {
+    if ((traits & KD_TRAIT_FREQUENCY) != 0u)
+        return vec3(kd_disk_intensity(t));
     kd_colour_place at = kd_colour_at(emission.disk.peak * t);
     float t2 = t * t, weight = t2 * t2;
     if ((traits & KD_TRAIT_VISIBLE) != 0u)

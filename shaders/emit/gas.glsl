@@ -44,7 +44,7 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-const uint KD_GAS_TAKEN = TRAITS_gas >> KD_TRAIT_GAS_SHIFT;
+const uint KD_GAS_TAKEN = (TRAITS_gas & KD_TRAIT_GAS_OCTAVES) >> KD_TRAIT_GAS_SHIFT;
 /* the scene's gas, thin or thick, is shown as it was when its light left it */
 const bool KD_GAS_SLOW = ((TRAITS_gas | TRAITS_thick) & KD_TRAIT_SLOW) != 0u;
 

@@ -11,7 +11,6 @@
     F(inner) F(outer)      /* M */ \
     F(frequency)           /* log2 of the observed frequency, GHz */ \
     F(light) F(depth)      /* log2 of the units of kd_radiates per M of length: of light; of optical depth */ \
-    F(kelvin) F(jansky)    /* for light 1: brightness temperature, K; Jy a steradian */ \
     F(gold_light) F(gold_depth) /* log2 of light and depth of a length M at density 1, at 230 GHz */ \
     F(gold_index) F(gold_flat) F(gold_momentum) \
     F(density) F(density_index) /* log2 of the density at r = 1 M, cm^-3; power of r at which it falls */ \

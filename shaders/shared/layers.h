@@ -37,8 +37,8 @@
     LIGHT(16, stokes_u, KD_LENS_SLOPE, light.z) \
     LIGHT(17, evpa, KD_LENS_SLOPE, kd_layer_evpa(light)) \
     LIGHT(18, polarization_fraction, KD_LENS_SLOPE, kd_layer_polarized(light)) \
-    LIGHT(19, brightness_temperature, 0u, light.x *emission.plasma.kelvin) \
-    LIGHT(20, specific_intensity, 0u, light.x *emission.plasma.jansky) \
+    LIGHT(19, brightness_temperature, 0u, light.x *emission.frame.kelvin) \
+    LIGHT(20, specific_intensity, 0u, light.x *emission.frame.jansky) \
     LIGHT(21, stokes_v, KD_LENS_SLOPE, light.w) \
     LIGHT(22, jy_per_pixel, 0u, light.x *emission.frame.jansky_pixel)
 

@@ -49,7 +49,7 @@ struct kd_scene kd_integral_scene(const struct kd_integral_request *r, unsigned 
               * frequency */
         scene.volume.normalise_ghz =
             isfinite(scene.volume.normalise_ghz) ? scene.volume.normalise_ghz : r->scene->volume.frequency_ghz;
-        scene.volume.frequency_ghz = r->frequencies_hz.at[picture / (r->unchecked ? 1 : 2)] * 1e-9;
+        kd_scene_set_frequency(&scene, r->frequencies_hz.at[picture / (r->unchecked ? 1 : 2)] * 1e-9);
     }
     return scene;
 }

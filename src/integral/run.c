@@ -8,6 +8,7 @@
 #include "observe/simulate.h"
 #include "physics/math/angle.h"
 #include "physics/math/constants.h"
+#include "render/emit/radio.h"
 #include "render/output/wcs.h"
 
 #include <math.h>
@@ -106,6 +107,12 @@ static double total(float *map, size_t n, double *undefined)
     return sum;
 }
 
+static void multiply(float *map, size_t n, float factor)
+{
+    for (size_t i = 0; i < n; i++)
+        map[i] *= factor;
+}
+
 /* Flux of a sky that has the border's mean brightness everywhere, as a fraction of the map's sum. */
 static double border_share(const float *map, uint32_t width, uint32_t height, double sum)
 {
@@ -161,6 +168,9 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
                                            height - wcs.at[1].pixel };
     for (unsigned k = bands(run); k--;) {
         float *map = (float *)run->maps.data + k * n;
+        if (k &&
+            kd_scene_is_radio_alone(scene)) /* the layer of an order has the unit of light, that of the whole Jy/sr */
+            multiply(map, n, (float)kd_radio_jansky_steradian(scene));
         sum = total(map, n, &undefined); /* map 0, total light, comes last and leaves its sum */
         run->map[k] = map;
     }

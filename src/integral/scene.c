@@ -61,24 +61,31 @@ done:
     return status;
 }
 
-/* Light of a thin disk, and of anything else beside a volume, has no particular frequency. */
 static enum kd_status check_radio(const struct kd_scene *scene, struct kd_error *error)
 {
-    if (!kd_scene_is_radio(scene))
+    if (!kd_scene_is_radio(scene) && !kd_scene_has_disk_frequency(scene))
         return kd_error_field(error, "/scene/volume/model",
-                              "volume.model has no light of one frequency in physical units, as a spectrum needs; it "
-                              "must be a model with volume.frequency_ghz, such as gold or riaf; without scene and "
-                              "preset the spectrum is that of a thin disk");
+                              "the scene has no light of one frequency in physical units, as a spectrum needs; "
+                              "volume.model must be a model with volume.frequency_ghz, such as gold or riaf, or "
+                              "disk.band \"frequency\"; without scene and preset the spectrum is that of a thin disk");
     if (!kd_scene_is_radio_alone(scene))
         return kd_error_field(error, "/scene",
-                              "a spectrum needs a scene where only the volume shines: disk.model and sky.model must be "
-                              "\"none\", and there must be no jets, spots or bodies");
+                              "a spectrum needs a scene where only a volume, or only a disk with disk.band "
+                              "\"frequency\", shines: sky.model must be \"none\", and there must be no jets, spots or "
+                              "bodies");
     return KD_OK;
+}
+
+/* The highest frequency at which the scene can be shown. */
+static double most_hz(const struct kd_scene *scene)
+{
+    return kd_scene_is_radio(scene) ? KD_INTEGRAL_MOST_HZ
+                                    : fmin(KD_INTEGRAL_MOST_HZ, kd_scene_disk_most_ghz(scene) * 1e9);
 }
 
 enum kd_status kd_integral_check_volume(struct kd_integral_request *r, struct kd_error *error)
 {
-    const double least = KD_INTEGRAL_LEAST_HZ, most = KD_INTEGRAL_MOST_HZ;
+    const double least = KD_INTEGRAL_LEAST_HZ, most = most_hz(r->scene);
     enum kd_status status = KD_OK;
     KD_TRY(check_radio(r->scene, error));
     if (!kd_scene_is_flat(r->scene))
@@ -86,17 +93,16 @@ enum kd_status kd_integral_check_volume(struct kd_integral_request *r, struct kd
             error, "/scene/camera/projection",
             "camera.projection does not preserve areas, as a flux needs; it must be plane or pinhole");
     if (isnan(r->frequency_min_hz))
-        r->frequency_min_hz = fmax(r->scene->volume.frequency_ghz * 1e9 / 30, least);
+        r->frequency_min_hz = fmax(kd_scene_frequency_ghz(r->scene) * 1e9 / 30, least);
     if (isnan(r->frequency_max_hz))
-        r->frequency_max_hz = fmin(r->scene->volume.frequency_ghz * 1e9 * 30, most);
+        r->frequency_max_hz = fmin(kd_scene_frequency_ghz(r->scene) * 1e9 * 30, most);
     KD_TRY(kd_integral_check_frequencies(r, KD_INTEGRAL_PICTURES, error));
     for (size_t i = 0; i < r->frequencies_hz.n; i++)
         if (r->frequencies_hz.at[i] < least || r->frequencies_hz.at[i] > most) {
             char pointer[60];
             snprintf(pointer, sizeof pointer, "/frequencies_hz/%zu", i);
-            return kd_error_field(error, pointer,
-                                  "a frequency is %.9g; it must be within volume.frequency_ghz, %.9g to %.9g Hz",
-                                  r->frequencies_hz.at[i], least, most);
+            return kd_error_field(error, pointer, "a frequency is %.9g; it must be within %s, %.9g to %.9g Hz",
+                                  r->frequencies_hz.at[i], kd_scene_frequency_path(r->scene), least, most);
         }
     r->pixels = r->pixels ? r->pixels : 128;
 done:

@@ -138,9 +138,10 @@
          "which polarization.model \"scattering\" polarises. Each law has the disk's flux", \
          "isotropic|laor|scattering") \
     ENUM(disk, band, LOOK, REST, KD_BAND_BOLOMETRIC, \
-         "brightness: bolometric, g^4 F; or visible, the luminance that the eye perceives of the Planck " \
-         "spectrum", \
-         "bolometric|visible") \
+         "brightness: bolometric, g^4 F; visible, the luminance that the eye perceives of the Planck " \
+         "spectrum; or frequency, the specific intensity at disk.frequency_ghz, in physical units", \
+         "bolometric|visible|frequency") \
+    REAL(disk, frequency_ghz, PHYSICS, REST, 230.0, 1e-6, 1e12, "GHz", "observed frequency (band: frequency)") \
     BOOL(disk, doppler, PHYSICS, REST, true, "include the Doppler shift and beaming of the orbiting gas") \
     BOOL(disk, redshift, PHYSICS, REST, true, \
          "include the gravitational redshift and time dilation of the orbiting gas") \
@@ -567,6 +568,7 @@
     SPAN("disk.outer", 3, 200) \
     WITH("disk.peak_temperature_k", "colour", KD_COLOUR_PEAK) SPAN("disk.peak_temperature_k", 1000, 1e5) \
     WITH("disk.mdot_edd", "colour", KD_COLOUR_ACCRETION) SPAN("disk.mdot_edd", 1e-3, 10) \
+    WITH("disk.frequency_ghz", "band", KD_BAND_FREQUENCY) SPAN("disk.frequency_ghz", 10, 1e9) \
     VARIES("disk.slow_light", "moves_with_time") \
     WITH("disk.particles", "model", KD_DISK_PARTICLES) \
     WITH("disk.seed", "model", KD_DISK_PARTICLES) SPAN("disk.seed", 0, 1000) \
@@ -691,7 +693,7 @@ enum kd_volume_flow { KD_VOLUME_ORBITS, KD_VOLUME_REST };
 enum kd_volume_electrons { KD_VOLUME_THERMAL, KD_VOLUME_POWER_LAW, KD_VOLUME_KAPPA };
 enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
 enum kd_atmosphere { KD_ATMOSPHERE_ISOTROPIC, KD_ATMOSPHERE_LAOR, KD_ATMOSPHERE_SCATTERING };
-enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };
+enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE, KD_BAND_FREQUENCY };
 enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID, KD_SKY_STARS, KD_SKY_CATALOGUE, KD_SKY_IMAGE };
 enum kd_sky_orientation { KD_SKY_GALACTIC, KD_SKY_EQUATORIAL, KD_SKY_SGRA, KD_SKY_M87 };
 enum { KD_STYLE_NONE, KD_STYLE_FILM };

@@ -310,6 +310,17 @@ static enum kd_status height(const struct kd_scene *scene, struct kd_error *erro
 }
 
 /* The light of a thick disk is integrated along rays: it has no surface. */
+static enum kd_status disk_frequency(const struct kd_scene *scene, struct kd_error *error)
+{
+    if (!kd_scene_has_disk_frequency(scene) || scene->disk.frequency_ghz <= kd_scene_disk_most_ghz(scene))
+        return KD_OK;
+    return kd_error_field(error, "/disk/frequency_ghz",
+                          "disk.frequency_ghz is %s GHz; it must be at most %s GHz, %d k T/h of the disk's largest "
+                          "colour temperature, beyond which the disk is dark",
+                          show(scene->disk.frequency_ghz).text,
+                          show(floor(kd_scene_disk_most_ghz(scene) * 1e9) * 1e-9).text, KD_DISK_QUANTA);
+}
+
 static enum kd_status atmosphere(const struct kd_scene *scene, struct kd_error *error)
 {
     if (!scene->disk.atmosphere || scene->disk.height == 0)
@@ -349,7 +360,8 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
         return kd_error_field(error, "/volume/gamma_max",
                               "volume.gamma_max is %s; it must be more than volume.gamma_min, %s",
                               show(v->gamma_max).text, show_bound(v->gamma_min).text);
-    if (v->normalise_to_jy > 0 && !(kd_scene_is_radio_alone(scene) && kd_scene_is_flat(scene)))
+    if (v->normalise_to_jy > 0 &&
+        !(kd_scene_is_radio(scene) && kd_scene_is_radio_alone(scene) && kd_scene_is_flat(scene)))
         return kd_error_field(error, "/volume/normalise_to_jy",
                               "volume.normalise_to_jy is %s Jy; it must be 0 unless only a volume at a radio frequency "
                               "shines, in the plane or pinhole projection",
@@ -615,6 +627,9 @@ const struct kd_rule kd_rules[] = {
     { "`disk.height` is 0, or at least 1e-5; it is 0 for a disk of particles.", height, "disk", "height", 0,
       LEAST_HEIGHT },
     { "`disk.atmosphere` is \"isotropic\" unless `disk.height` is 0.", atmosphere },
+    { "With `disk.band` \"frequency\", `disk.frequency_ghz` is at most 64 k T/h, with the disk's largest colour "
+      "temperature T.",
+      disk_frequency },
     { "If there is a volume, `volume.outer` is larger than the inner edge, which is at least 1 % outside the horizon, "
       "or 0.05 % for the models at a radio frequency. A torus has its inner edge between the photon orbit and "
       "`volume.torus_radius`, which is outside the ISCO, and an outer edge. With power-law electrons "

@@ -156,9 +156,25 @@ double kd_scene_volume_inner(const struct kd_scene *scene);
 bool kd_scene_is_radio(const struct kd_scene *scene);
 /* Whether the volume's light comes from electrons in a magnetic field. */
 bool kd_scene_is_magnetic(const struct kd_scene *scene);
-/* Whether the volume is seen at one radio frequency and nothing else is visible, so that the picture's flux is
- * physical. */
+/* Whether all light is of one frequency, so that the picture's flux is physical: only a volume at a radio frequency is
+ * visible, or only a disk with disk.band "frequency". */
 bool kd_scene_is_radio_alone(const struct kd_scene *scene);
+/* That frequency, and the path of the field that has it. Undefined for other scenes. */
+double kd_scene_frequency_ghz(const struct kd_scene *scene);
+const char *kd_scene_frequency_path(const struct kd_scene *scene);
+void kd_scene_set_frequency(struct kd_scene *scene, double ghz);
+/* Whether there is a disk, and it is seen at one frequency. */
+bool kd_scene_has_disk_frequency(const struct kd_scene *scene);
+/* The highest frequency that disk.frequency_ghz may be: KD_DISK_QUANTA k T/h with the disk's largest colour
+ * temperature. */
+#define KD_DISK_QUANTA 64
+double kd_scene_disk_most_ghz(const struct kd_scene *scene);
+
+/* The law of the disk's flux, its maximum, and the temperature in K there, in the gas's own frame: effective, without
+ * disk.hardening. */
+double kd_scene_disk_flux(const struct kd_scene *scene, double r);
+double kd_scene_disk_largest_flux(const struct kd_scene *scene);
+double kd_scene_disk_peak_k(const struct kd_scene *scene);
 
 /* kd_scene_spots lists the spots whose brightness is not zero, kd_scene_bodies the bodies whose radius is not zero,
  * both in order. They return the number. */

@@ -28,15 +28,6 @@ double kd_scene_volume_inner(const struct kd_scene *scene)
     return isinf(scene->volume.inner) ? least : fmax(scene->volume.inner, least);
 }
 
-bool kd_scene_is_radio_alone(const struct kd_scene *scene)
-{
-    const struct kd_spot *on[KD_SPOTS];
-    const struct kd_body *bodies[KD_SCENE_BODIES];
-    return kd_scene_is_radio(scene) && scene->disk.model == KD_DISK_NONE && scene->jets.brightness == 0 &&
-           scene->sky.model == KD_SKY_NONE && !kd_scene_spots(scene, on) && !kd_scene_bodies(scene, bodies) &&
-           !scene->dynamic.at;
-}
-
 #define SAME_SPIN 1e-6
 
 enum kd_status kd_asset_check_grid(double spin, const struct kd_scene *scene, struct kd_error *error)

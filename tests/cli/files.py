@@ -249,6 +249,29 @@ class Files(support.Case):
             "image.layers=jy_per_pixel",
         )
 
+    def test_a_disk_at_one_frequency_in_janskys(self):
+        """A disk alone at one frequency is written as a source of radio waves is, with its polarisation; light of
+        all frequencies, or beside a sky, is not."""
+        band = ["--set", "disk.band=frequency", "--set", "disk.frequency_ghz=3e5"]
+        self.good(
+            "render", *band, "--set", "polarization.model=scattering", "--size", "48x40", "-o", self.path("a.fits")
+        )
+        units = self.opened(self.path("a.fits"))
+        header = units[0].header
+        self.assertEqual([unit.name.lower() for unit in units], ["jy_per_pixel", "stokes_q", "stokes_u"])
+        self.assertEqual([unit.header["BUNIT"] for unit in units], ["JY/PIXEL"] * 3)
+        self.assertEqual([unit.header["STOKES"] for unit in units], ["I", "Q", "U"])
+        self.assertEqual(header["FREQ"], 3e14)
+        self.assertAlmostEqual(units[0].data.astype(float).sum() / header["FLUX_JY"], 1, delta=1e-5)
+        fraction = numpy.hypot(*(unit.data.astype(float) for unit in units[1:])) / units[0].data.max()
+        self.assertTrue(0.005 < fraction.max() < 0.117)  # Chandrasekhar's largest
+        for args in (band + ["--set", "sky.model=grid"], ["--set", "disk.frequency_ghz=3e5"]):
+            self.good("render", *args, "--size", "48x40", "-o", self.path("b.fits"))
+            units = self.opened(self.path("b.fits"))
+            self.assertEqual(units[0].name.lower(), "rgb")
+            self.assertNotIn("FLUX_JY", units[0].header)
+            self.assertEqual("FREQ" in units[0].header, args[0] == band[0] and args[1] == band[1])
+
     def test_a_radio_source_begins_with_janskys(self):
         """Without image.layers the file contains janskys, so that ehtim reads a preset's file directly. With
         image.layers it contains the given layers."""

@@ -206,6 +206,96 @@ class Visibility(Case):
             self.assertAlmostEqual(mine / its, 1, delta=1e-6)
         self.assertGreater(abs(rows[0] / rows[1] - 1), 0.05)
 
+    def test_a_spectrum_of_a_disk_at_one_frequency(self):
+        """Pictures of a disk at each frequency have the flux of kerrd's integral over the disk's image, in double
+        precision with rays in closed form, which has the direct image alone; and the visibility at no length is
+        it."""
+        disk = {
+            "inner": "isco",
+            "outer": 40,
+            "taper": 0,
+            "emission_opacity": 0,
+            "colour": "accretion",
+            "hardening": 1.7,
+            "band": "frequency",
+            "frequency_ghz": 2.4e8,
+            "gas": {"amplitude": 0},
+        }
+        scene = {
+            "spacetime": {"spin": 0.9, "mass_msun": 10, "distance_pc": 1000},
+            "camera": {"inclination_deg": 60, "field_m": 90},
+            "disk": disk | {"mdot_edd": 0.1},
+            "accuracy": {"orders": 1},
+            "image": {"width": 64, "height": 64},
+        }
+        hertz = [1e14, 1e16, 2.4e17, 5e18]
+        for limb in ("isotropic", "laor", "scattering"):
+            scene["disk"]["atmosphere"] = limb
+            asked = {"scene": scene, "frequencies_hz": hertz, "pixels": 384}
+            pictures = json.loads(self.good("spectrum", self.write("a.json", json.dumps(asked))))["columns"]
+            settings = "--spin 0.9 --inclination-deg 60 --outer 40 --mass-msun 10 --distance-pc 1000 --mdot-edd 0.1"
+            frequencies = ",".join(map(str, hertz))
+            integral = json.loads(
+                self.good(
+                    "spectrum",
+                    *settings.split(),
+                    *("--colour-correction", "1.7", "--limb", limb, "--frequencies-hz", frequencies),
+                )
+            )["columns"]
+            for mine, its in zip(pictures["flux_jy"], integral["flux_jy"], strict=True):
+                self.assertAlmostEqual(mine / its, 1, delta=4e-4)  # the rim lies within pixels
+        asked = {"scene": scene, "u": [0, 0], "v": [0, 3e6], "pixels": 384, "orders": 1}
+        told = json.loads(self.good("visibility", self.write("b.json", json.dumps(asked))))
+        self.assertAlmostEqual(told["values"]["flux_jy"] / integral["flux_jy"][2], 1, delta=4e-4)
+        columns = told["columns"]
+        for i in range(2):  # its only order is all of it
+            mine, its = (columns["amplitude"][2 * i + k] for k in range(2))
+            self.assertAlmostEqual(mine / its, 1, delta=1e-4)
+        self.assertAlmostEqual(columns["amplitude"][0] / told["values"]["flux_jy"], 1, delta=1e-5)
+
+    def test_a_disk_at_one_frequency_far_from_its_hole(self):
+        """Face-on, with the gas's shifts off, the disk has the flux Int B_nu(T) 2 pi b db/D^2 with Shakura and Sunyaev's
+        T; far from a hole without spin light that crosses the disk at r has the impact parameter b = r + M."""
+        inner, outer, peak = 200, 600, 3e5  # K, where the flux is largest: at 49/36 of the ISCO
+        nu, h, k, c = 6e14, 6.62607015e-27, 1.380649e-16, 2.99792458e10
+
+        def shape(r):
+            return r**-3 * (1 - math.sqrt(6 / r))
+
+        kelvin = [peak * (shape(r) / shape(6 * 49 / 36)) ** 0.25 for r in (inner, outer)]
+        self.assertTrue(all(0.1 < h * nu / (k * t) < 20 for t in kelvin), kelvin)  # neither end of Planck's law
+
+        def bright(r):
+            t = peak * (shape(r) / shape(6 * 49 / 36)) ** 0.25
+            return 2 * h * nu**3 / c**2 / math.expm1(h * nu / (k * t)) * 2 * math.pi * (r + 1)
+
+        n = 400
+        step = (outer - inner) / n
+        sums = sum(bright(inner + i * step) * (1 if i in (0, n) else 4 if i % 2 else 2) for i in range(n + 1))
+        gm = 1.3271244e26 * 1e3 / c**2
+        jansky = sums * step / 3 * gm**2 / (1e5 * 3.0856775814913673e18) ** 2 * 1e23
+        changes = {
+            "spacetime.spin": 0,
+            "spacetime.mass_msun": 1e3,
+            "spacetime.distance_pc": 1e5,
+            "camera.inclination_deg": 0,
+            "camera.field_m": 1300,
+            "disk.doppler": "false",
+            "disk.redshift": "false",
+            "disk.model": "shakura-sunyaev",
+            "disk.inner": inner,
+            "disk.outer": outer,
+            "disk.taper": 0,
+            "disk.emission_opacity": 0,
+            "disk.gas.amplitude": 0,
+            "disk.peak_temperature_k": peak,
+            "disk.band": "frequency",
+            "disk.frequency_ghz": nu / 1e9,
+        }
+        settings = [word for name, value in changes.items() for word in ("--set", f"{name}={value}")]
+        told = json.loads(run("render", *settings, "--size", "512x512", "--stats", "-o", self.path("a.png")).stderr)
+        self.assertAlmostEqual(told["flux_jy"] / jansky, 1, delta=1e-3)  # the rims lie within pixels
+
     @staticmethod
     def thin_sphere(radius, n, field, hz):
         """Pandya et al. 2016, table 4: j = n e^2 nu_c/c exp(-X^(1/3)) sqrt(2) pi/27 sin (X^(1/2) + 2^(11/12)

@@ -4,6 +4,7 @@
  *
  * The tolerance of a number is some last bits of a float, times the change of the number when the ray is changed by as
  * much. This change is measured on the oracle itself. */
+#include "cgs.h"
 #include "kerr_schild.h"
 #include "image/colour_map.h"
 #include "physics/disk/thin_disk.h"
@@ -523,6 +524,48 @@ static void test_tiny_fields(void **state)
     }
 }
 
+/* At one frequency a place is seen as B_nu(g T) f^-4, with T from the flux at its radius times the hardening f, from
+ * Rayleigh and Jeans's end to the highest frequency that is accepted. */
+static void test_one_frequency(void **state)
+{
+    (void)state;
+    static const double quanta[] = { 1e-7, 0.2, 3, 20, KD_DISK_QUANTA * (1 - 1e-9) };
+    static const double hardenings[] = { 1, 1.7 };
+    const double largest = kd_disk_flux_page_thorne(kd_hole(0.9), kd_disk_peak_page_thorne(kd_hole(0.9)));
+    for (size_t q = 0; q < 5; q++)
+        for (size_t h = 0; h < 2; h++) {
+            struct kd_scene scene = scene_of(0.9, 75, INFINITY, "specific_intensity,brightness_temperature,r_0,g_0");
+            const double f = hardenings[h], peak = 1e7, nu = quanta[q] * K * peak * f / H; /* Hz */
+            scene.disk.peak_temperature_k = peak;
+            scene.disk.band = KD_BAND_FREQUENCY;
+            scene.disk.hardening = f;
+            scene.disk.frequency_ghz = nu * 1e-9;
+            scene.accuracy.orders = 1;
+            OK(kd_scene_validate(&scene, &error));
+            struct kd_frame frame = frame_of(&scene);
+            const float *light = layer(&frame, "specific_intensity"), *t = layer(&frame, "brightness_temperature"),
+                        *r = layer(&frame, "r_0"), *g = layer(&frame, "g_0");
+            int n = 0;
+            for (int k = 0; k < PIXELS; k++) {
+                if (isnan(r[k]) || r[k] < 1.01 * kd_kerr_isco(kd_hole(0.9)))
+                    continue;
+                const double kelvin =
+                    f * peak * pow(kd_disk_flux_page_thorne(kd_hole(0.9), r[k]) / largest, 0.25) * g[k];
+                const double x = H * nu / (K * kelvin), i = 2 * H * nu * (nu / C) * (nu / C) / expm1(x) / pow(f, 4);
+                const double bound = 2e-5 + 2e-4 * x;                          /* the table of T is good to 2e-4 */
+                if (i * 1e23 < 1e-30 || i * C * C / (2 * K * nu * nu) < 1e-30) /* near a float's end */
+                    continue;
+                if (!(fabs(light[k] / (i * 1e23) - 1) < bound) ||
+                    !(fabs(t[k] / (i * C * C / (2 * K * nu * nu)) - 1) < bound))
+                    fail_msg("x %g, f %g, r %g, g %g: %g Jy/sr, not %g; %g K", quanta[q], f, r[k], g[k], light[k],
+                             i * 1e23, t[k]);
+                n++;
+            }
+            assert_true(n > (quanta[q] > 20 ? 0 : PIXELS / 8));
+            kd_frame_finish(&frame);
+        }
+}
+
 /* Light too bright for 32 bits is refused by name; other light is finite, and scales with the brightness of the
  * matter. */
 static void test_too_bright(void **state)
@@ -607,12 +650,13 @@ int main(int argc, char **argv)
     if (status)
         return status;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_crossings),    cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_light),        cmocka_unit_test(test_temperature),
-        cmocka_unit_test(test_plunge),       cmocka_unit_test(test_bands),
-        cmocka_unit_test(test_false_colour), cmocka_unit_test(test_picture_beside),
-        cmocka_unit_test(test_ends_beyond),  cmocka_unit_test(test_tiny_fields),
-        cmocka_unit_test(test_too_bright),   cmocka_unit_test(test_each_is_a_picture),
+        cmocka_unit_test(test_crossings),     cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_light),         cmocka_unit_test(test_temperature),
+        cmocka_unit_test(test_plunge),        cmocka_unit_test(test_bands),
+        cmocka_unit_test(test_false_colour),  cmocka_unit_test(test_picture_beside),
+        cmocka_unit_test(test_ends_beyond),   cmocka_unit_test(test_tiny_fields),
+        cmocka_unit_test(test_too_bright),    cmocka_unit_test(test_each_is_a_picture),
+        cmocka_unit_test(test_one_frequency),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

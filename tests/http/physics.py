@@ -769,7 +769,7 @@ class Integrals(daemon.Case):
         for name, document, pointer, words in (
             ("spectrum", {"scene": {}}, "/scene/volume/model", "volume.frequency_ghz"),
             ("spectrum", {"preset": "m87"}, "/scene/volume/model", "gold or riaf"),
-            ("spectrum", {"preset": "riaf", "scene": {"sky": {"model": "grid"}}}, "/scene", "only the volume shines"),
+            ("spectrum", {"preset": "riaf", "scene": {"sky": {"model": "grid"}}}, "/scene", "only a volume"),
             ("spectrum", {"preset": "riaf", "spin": 0}, "/spin", "no field spin"),
             ("spectrum", {"preset": "riaf", "frequencies": 201}, "/frequencies", "2 to 200"),
             ("spectrum", {"preset": "riaf", "frequencies_hz": [1]}, "/frequencies_hz/0", "1e+21"),

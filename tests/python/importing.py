@@ -41,6 +41,20 @@ GOLD = {
 LAPSE = math.sqrt(1 - 2 / 1000)  # of an observer at rest at 1000 M
 RIAF_60_JY = 3.0402554  # ipole's model/riaf/riaf.txt: 223.005 GHz, 60 degrees, unpolarised
 
+# S. Chandrasekhar 1960, Radiative Transfer, table XXIV: the cosine, and intensity and polarised fraction of light from
+# a deep atmosphere of electrons.
+CHANDRASEKHAR = (
+    [i / 20 for i in range(21)],
+    [
+        *(0.41441, 0.47490, 0.52397, 0.57001, 0.61439, 0.65770, 0.70029, 0.74234, 0.78398, 0.82530, 0.86637),
+        *(0.90722, 0.94789, 0.98842, 1.02882, 1.06911, 1.10931, 1.14943, 1.18947, 1.22945, 1.26938),
+    ],
+    [
+        *(0.11713, 0.08979, 0.07448, 0.06311, 0.05410, 0.04667, 0.04041, 0.03502, 0.03033, 0.02619, 0.02252),
+        *(0.01923, 0.01627, 0.01358, 0.011123, 0.008880, 0.006818, 0.004919, 0.003155, 0.001522, 0),
+    ],
+)
+
 
 def text_of(name):
     return (INPUTS / name).read_text()
@@ -309,6 +323,7 @@ class Ipole(Files):
             ("thin_disk.par", {}, "disk.mdot_edd", 0.0264),
             ("thin_disk.par", {"a": 0}, "disk.mdot_edd", 0.00572),
             ("thin_disk.par", {}, "disk.hardening", 1.8),
+            ("thin_disk.par", {"freqcgs": 6e14}, "disk.frequency_ghz", 6e5),
         ):
             found = self.imported(changed(name, **values))
             section, field = path.split(".")
@@ -333,6 +348,48 @@ class Ipole(Files):
         self.assertEqual(self.fates(found)["only_unpolarized"], "not said")
         found = self.imported(text_of("thin_disk.par")).document
         self.assertEqual((found["polarization"]["model"], found["disk"]["atmosphere"]), ("scattering", "scattering"))
+        self.assertEqual(found["disk"]["band"], "frequency")
+
+    def test_a_thin_disk_shines_as_in_ipole(self):
+        """I and Q/I of each place by the formulas of ipole's model/thin_disk: Page and Thorne's T with the closed form
+        of Krolik's book (1999), for 0.01 of the Eddington rate with an efficiency of 0.1; B_nu(f T)/f^4 with f = 1.8;
+        Chandrasekhar's table XXIV. Place, shift and angle are those of the pixel's ray."""
+        found = self.imported(changed("thin_disk.par", rotcam=0))
+        names = ["specific_intensity", "polarization_fraction", "r", "g", "emission_angle"]
+        with kerrd.local(binary=KERRD) as hole:
+            scene = found.document | {"accuracy": {"orders": 1}}
+            layers = hole.layers(scene, names, size=(80, 40))
+        light, part, r, g, angle = (np.asarray(layers[name], float) for name in names)
+        c, h, k, gm, sigma = 2.99792458e10, 6.62607015e-27, 1.380649e-16, 1.3271244e27, 5.670374419e-5
+        a, isco, nu, f = 0.99, kerr.isco(0.99), 2.417989e17, 1.8
+        rate = 0.01 * 4 * math.pi * gm * 1.67262192369e-24 / 0.1 / c / 6.6524587321e-25
+        top = 3 / (8 * math.pi) * gm * rate / (gm / c**2) ** 3 / sigma
+        y, y0 = np.sqrt(r), math.sqrt(isco)
+        roots = [2 * math.cos((math.acos(a) + turn) / 3) for turn in (-math.pi, math.pi)] + [
+            -2 * math.cos(math.acos(a) / 3)
+        ]
+        shape = 1 - y0 / y - 3 * a / (2 * y) * np.log(y / y0)
+        for i, root in enumerate(roots):
+            others = math.prod(root - other for j, other in enumerate(roots) if j != i)
+            shape -= 3 * (root - a) ** 2 / (y * root * others) * np.log((y - root) / (y0 - root))
+        kelvin = (top * shape / (1 - 3 / r + 2 * a / r**1.5) / r**3) ** 0.25
+        mu = np.cos(angle)
+        want = (
+            2
+            * h
+            * nu**3
+            / c**2
+            / np.expm1(h * nu / (k * g * f * kelvin))
+            / f**4
+            * np.interp(mu, *CHANDRASEKHAR[:2])
+            * 1e23
+        )
+        there = np.isfinite(r) & (r > 1.1 * isco) & (r < 99)
+        self.assertGreater(there.sum(), 1500)
+        # The table is linear in steps of 0.05, and T of the kernels good to 2e-4, near the ISCO to less.
+        np.testing.assert_allclose(light[there] / want[there], 1, atol=5e-3)
+        self.assertLess(abs(np.median(light[there] / want[there]) - 1), 5e-4)
+        np.testing.assert_allclose(part[there], np.interp(mu, *CHANDRASEKHAR[::2])[there], atol=1.5e-3)
 
     def test_what_is_not_said(self):
         for name, values, key, words in (
@@ -343,7 +400,6 @@ class Ipole(Files):
             ("riaf.par", {"emission_type": 3}, "emission_type", "thermal"),
             ("riaf.par", {"counterjet": 1}, "counterjet", "both hemispheres"),
             ("riaf.par", {"ny": 32}, "fovy_dsource", "pixels are square"),
-            ("thin_disk.par", {}, "freqcgs", "no single frequency"),
             ("grmhd.par", {}, "dump", "no file of a simulation"),
         ):
             notes = [note.text for note in self.imported(changed(name, **values)).not_said if note.key == key]

@@ -317,6 +317,30 @@ static void atmospheres_are_a_variant(void **state)
     }
 }
 
+/* Light of one frequency is a variant, and the picture has a flux only if the disk alone shines. */
+static void a_frequency_is_a_variant(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    uint32_t traits[KD_EMITTER_COUNT];
+    kd_scene_smooth(&scene);
+    scene.sky.model = KD_SKY_NONE;
+    kd_emit_traits(&scene, traits);
+    assert_true(!(traits[KD_EMITTER_disk] & KD_TRAIT_FREQUENCY) && !kd_scene_is_radio_alone(&scene));
+    scene.disk.band = KD_BAND_FREQUENCY;
+    kd_emit_traits(&scene, traits);
+    assert_true(traits[KD_EMITTER_disk] & KD_TRAIT_FREQUENCY && kd_scene_is_radio_alone(&scene));
+    assert_true(says(&scene, "disk: brightness is the specific intensity") && !says(&scene, "disk: brightness is bol"));
+    assert_false(says(&scene, "disk: light of one frequency is shown beside"));
+    scene.sky.model = KD_SKY_GRID;
+    assert_true(says(&scene, "disk: light of one frequency is shown beside") && !kd_scene_is_radio_alone(&scene));
+    scene.sky.model = KD_SKY_NONE;
+    scene.volume.model = KD_VOLUME_RIAF;
+    assert_false(kd_scene_is_radio_alone(&scene));
+    scene.disk.model = KD_DISK_NONE;
+    assert_true(kd_scene_is_radio_alone(&scene));
+}
+
 /* An emitter has only the variants that its GLSL lists, which do not overlap; a compile-time check ensures that. */
 #define LISTED(trait) | KD_TRAIT_##trait
 #define WORD(number, name) [number] = KD_TRAIT_PRESENT KD_TRAITS_##name(LISTED),
@@ -585,21 +609,14 @@ static void work_follows_emitters(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(work_follows_emitters),
-        cmocka_unit_test(all_are_there),
-        cmocka_unit_test(sentences_have_room),
-        cmocka_unit_test(names_are_short_and_differ),
-        cmocka_unit_test(what_a_report_counts_is_said),
-        cmocka_unit_test(what_is_off_says_and_needs_nothing),
-        cmocka_unit_test(numbers_follow_the_scene),
-        cmocka_unit_test(numbers_follow_each_field),
-        cmocka_unit_test(gas_replaces_the_disk),
-        cmocka_unit_test(skies),
-        cmocka_unit_test(pictures_of_the_sky),
-        cmocka_unit_test(brightness_of_skies),
-        cmocka_unit_test(none_of_a_thousand),
-        cmocka_unit_test(atmospheres_are_a_variant),
-        cmocka_unit_test(traits_are_listed),
+        cmocka_unit_test(work_follows_emitters),        cmocka_unit_test(all_are_there),
+        cmocka_unit_test(sentences_have_room),          cmocka_unit_test(names_are_short_and_differ),
+        cmocka_unit_test(what_a_report_counts_is_said), cmocka_unit_test(what_is_off_says_and_needs_nothing),
+        cmocka_unit_test(numbers_follow_the_scene),     cmocka_unit_test(numbers_follow_each_field),
+        cmocka_unit_test(gas_replaces_the_disk),        cmocka_unit_test(skies),
+        cmocka_unit_test(pictures_of_the_sky),          cmocka_unit_test(brightness_of_skies),
+        cmocka_unit_test(none_of_a_thousand),           cmocka_unit_test(atmospheres_are_a_variant),
+        cmocka_unit_test(a_frequency_is_a_variant),     cmocka_unit_test(traits_are_listed),
         cmocka_unit_test(what_shines_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -231,6 +231,13 @@ static const struct rule rules[] = {
     { "{\"spacetime\":{\"spin\":0},\"spots\":[{\"r\":2},{\"brightness\":1,\"r\":5}]}", "/spots/1/r",
       "spots.1.r is 5 M" },
     { "{\"volume\":{\"model\":\"torus\"}}", NULL, NULL },
+    { "{\"disk\":{\"band\":\"frequency\",\"peak_temperature_k\":10000,\"hardening\":2,\"frequency_ghz\":26670872}}",
+      NULL, NULL },
+    { "{\"disk\":{\"band\":\"frequency\",\"peak_temperature_k\":10000,\"hardening\":2,\"frequency_ghz\":26670873}}",
+      "/disk/frequency_ghz", "disk.frequency_ghz is 26670873 GHz; it must be at most 26670872.47" },
+    { "{\"disk\":{\"band\":\"bolometric\",\"peak_temperature_k\":10000,\"frequency_ghz\":26670873}}", NULL, NULL },
+    { "{\"disk\":{\"band\":\"frequency\",\"frequency_ghz\":230},\"volume\":{\"normalise_to_jy\":1}}",
+      "/volume/normalise_to_jy", "it must be 0" },
     { "{\"volume\":{\"model\":\"riaf\",\"normalise_to_jy\":2.4}}", "/volume/normalise_to_jy",
       "volume.normalise_to_jy is 2.4 Jy; it must be 0 unless only a volume at a radio frequency shines" },
     { "{\"disk\":{\"model\":\"none\"},\"sky\":{\"model\":\"none\"},\"volume\":{\"model\":\"riaf\",\"normalise_to_jy\":"

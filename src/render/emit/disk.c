@@ -3,7 +3,7 @@
 
 #include "physics/disk/colour.h"
 #include "physics/disk/limb.h"
-#include "physics/disk/thin_disk.h"
+#include "physics/math/constants.h"
 #include "physics/spacetime/kerr.h"
 #include "scene/hole.h"
 
@@ -23,27 +23,8 @@ uint32_t kd_disk_needs(const struct kd_scene *scene)
 uint32_t kd_disk_traits(const struct kd_scene *scene)
 {
     return kd_orbit_traits(scene) | (scene->disk.band == KD_BAND_VISIBLE ? KD_TRAIT_VISIBLE : 0) |
+           (scene->disk.band == KD_BAND_FREQUENCY ? KD_TRAIT_FREQUENCY : 0) |
            (scene->disk.atmosphere ? KD_TRAIT_LIMB : 0);
-}
-
-static kd_disk_flux_fn flux_of(const struct kd_scene *scene)
-{
-    return scene->disk.model == KD_DISK_SHAKURA_SUNYAEV ? kd_disk_flux_shakura_sunyaev : kd_disk_flux_page_thorne;
-}
-
-static double largest_flux(const struct kd_scene *scene)
-{
-    const struct kd_hole *hole = kd_scene_hole(scene);
-    bool newton = scene->disk.model == KD_DISK_SHAKURA_SUNYAEV;
-    return flux_of(scene)(hole, newton ? kd_disk_peak_shakura_sunyaev(hole) : kd_disk_peak_page_thorne(hole));
-}
-
-double kd_disk_peak_temperature(const struct kd_scene *scene)
-{
-    if (scene->disk.colour == KD_COLOUR_PEAK)
-        return scene->disk.peak_temperature_k;
-    return kd_disk_temperature(largest_flux(scene), kd_scene_hole(scene), scene->spacetime.mass_msun,
-                               scene->disk.mdot_edd);
 }
 
 double kd_disk_heat(const struct kd_scene *scene, double r)
@@ -51,7 +32,8 @@ double kd_disk_heat(const struct kd_scene *scene, double r)
     const double f = fmin(fmax((scene->disk.outer - r) / fmax(scene->disk.outer * scene->disk.taper, 1e-6), 0), 1),
                  fade = f * f * (3 - 2 * f);
     return r > kd_kerr_isco(kd_scene_hole(scene))
-               ? pow(scene->disk.opacity * fade * flux_of(scene)(kd_scene_hole(scene), r) / largest_flux(scene), 0.25)
+               ? pow(scene->disk.opacity * fade * kd_scene_disk_flux(scene, r) / kd_scene_disk_largest_flux(scene),
+                     0.25)
                : 0;
 }
 
@@ -79,7 +61,8 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD]) { kd_disk
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
     const struct kd_disk *d = &scene->disk;
-    double peak = kd_disk_peak_temperature(scene) * d->hardening;
+    double peak = kd_scene_disk_peak_k(scene) * d->hardening;
+    const double quanta = KD_H_J_S * d->frequency_ghz * 1e9 / (KD_K_J_K * peak);
     out->disk = (struct kd_disk_block) {
         .r_in = (float)kd_disk_inner(scene),
         .r_out = (float)d->outer,
@@ -87,6 +70,8 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
         .opacity = (float)d->opacity,
         .peak = (float)peak,
         .luminous = (float)log2(fmax(kd_colour_luminous_fraction(peak), 1e-300)),
+        .quanta = (float)quanta,
+        .quanta_mean = (float)(-expm1(-quanta) / quanta),
     };
 }
 
@@ -123,12 +108,10 @@ static void atmosphere_table(struct kd_emit_tables *out, enum kd_limb law)
  * a double zero, and finite at infinity, where T falls as r^(-3/4). */
 static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
-    kd_disk_flux_fn flux = flux_of(scene);
-    const struct kd_hole *hole = kd_scene_hole(scene);
-    double isco = kd_kerr_isco(hole), peak = largest_flux(scene);
+    const double isco = kd_kerr_isco(kd_scene_hole(scene)), peak = kd_scene_disk_largest_flux(scene);
     for (int i = 0; i < KD_DISK_TABLE; i++) {
         double y = fmin((double)i / (KD_DISK_TABLE - 1), 1 - 1e-6), r = isco / (1 - y * y);
-        out->disk[i][0] = (float)(pow(flux(hole, r) / peak, 0.25) * pow(r, 0.75));
+        out->disk[i][0] = (float)(pow(kd_scene_disk_flux(scene, r) / peak, 0.25) * pow(r, 0.75));
         if (i > 0)
             out->disk[i - 1][1] = out->disk[i][0] - out->disk[i - 1][0];
     }
@@ -143,6 +126,8 @@ WHEN(darkened, scene->disk.atmosphere)
 WHEN(newtonian, scene->disk.model == KD_DISK_SHAKURA_SUNYAEV)
 WHEN(chosen_peak, scene->disk.colour == KD_COLOUR_PEAK)
 WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
+WHEN(at_frequency, scene->disk.band == KD_BAND_FREQUENCY)
+WHEN(beside, scene->disk.band == KD_BAND_FREQUENCY && !kd_scene_is_radio_alone(scene))
 WHEN(without_doppler, !scene->disk.doppler)
 WHEN(without_redshift, !scene->disk.redshift)
 WHEN(fades, scene->disk.taper > 0)
@@ -168,6 +153,15 @@ static const struct kd_sentence sentences[] = {
       chosen_peak },
     { "disk.bolometric", "disk: brightness is bolometric (g^4), colour is that of the visible part of the spectrum",
       bolometric },
+    { "disk.frequency",
+      "disk: brightness is the specific intensity of a black body of the colour temperature at disk.frequency_ghz, "
+      "over "
+      "the fourth power of disk.hardening; 1 is that of the hottest place without a shift; the light is grey",
+      at_frequency },
+    { "disk.no-flux",
+      "disk: light of one frequency is shown beside light of other kinds, on different scales of brightness; the "
+      "picture has no flux",
+      beside },
     { "disk.no-doppler", "disk: Doppler shift and beaming of the gas are switched off", without_doppler },
     { "disk.no-redshift", "disk: gravitational redshift and time dilation of the gas are switched off",
       without_redshift },

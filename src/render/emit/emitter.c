@@ -282,6 +282,8 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
         .along_hollow = (float)hollow_of_all(scene),
         .along_knot = (float)knot_of_all(scene),
         .along_u = (float)height_of_all(scene),
+        .kelvin = (float)kd_radio_kelvin(scene),
+        .jansky = (float)fmin(kd_radio_jansky_steradian(scene), FLT_MAX),
         .jansky_pixel = isfinite(scene->camera.r) ? 0 : (float)fmin(kd_radio_jansky_pixel(scene), FLT_MAX),
         .r_isco = (float)kd_kerr_isco(kd_scene_hole(scene)),
         .one_minus_a = (float)(1 - scene->spacetime.spin),

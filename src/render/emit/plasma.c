@@ -193,7 +193,8 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
-    const double metre = scene->spacetime.mass_msun * KD_M_SUN_M, unit = kd_radio_unit(scene);
+    const double metre = scene->spacetime.mass_msun * KD_M_SUN_M,
+                 unit = kd_radio_unit(scene->volume.frequency_ghz, KD_RADIO_KELVIN);
     struct kd_plasma_block *to = &out->plasma;
     *to = (struct kd_plasma_block) {
         .inner = (float)kd_scene_volume_inner(scene),
@@ -201,8 +202,6 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
         .frequency = (float)log2(scene->volume.frequency_ghz),
         .light = (float)log2(kd_synchrotron_light_unit() * metre / unit),
         .depth = (float)log2(kd_synchrotron_depth_unit() * metre),
-        .kelvin = (float)KD_RADIO_KELVIN,
-        .jansky = (float)(unit / KD_JANSKY_SI),
     };
     fill_gold(to, &scene->volume, metre, unit);
     fill_electrons(to, &scene->volume);

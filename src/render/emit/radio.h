@@ -1,5 +1,6 @@
-/* Units of light at a radio frequency: 1 in the picture is a brightness temperature of KD_RADIO_KELVIN. Pure
- * functions of valid scenes, any thread. */
+/* Units of light of one frequency (kd_scene_is_radio_alone). Light 1 of a volume is a brightness temperature of
+ * KD_RADIO_KELVIN; light 1 of a disk is the intensity of its hottest place without a shift. Pure functions of valid
+ * scenes, any thread. */
 #ifndef KD_RENDER_EMIT_RADIO_H
 #define KD_RENDER_EMIT_RADIO_H
 
@@ -7,8 +8,12 @@
 
 #define KD_RADIO_KELVIN 1e10
 
-/* Specific intensity of light 1: 2 nu^2 k T/c^2, W m^-2 Hz^-1 sr^-1. */
-double kd_radio_unit(const struct kd_scene *scene);
+/* Specific intensity of a brightness temperature: 2 nu^2 k T/c^2, W m^-2 Hz^-1 sr^-1. */
+double kd_radio_unit(double ghz, double kelvin);
+
+/* Light 1: as brightness temperature c^2 I/(2 k nu^2), K; as Jy a steradian. */
+double kd_radio_kelvin(const struct kd_scene *scene);
+double kd_radio_jansky_steradian(const struct kd_scene *scene);
 
 /* Converts a flux of kd_light_report to Jy. That flux is light times solid angle: in M^2 of the image plane, or,
  * for a camera at a finite radius r, in sr. A flux in sr is multiplied by r^2, as if the picture had the same width

@@ -9,13 +9,15 @@
 #include <string.h>
 
 #define FREQUENCY "volume.frequency_ghz"
+#define DISK_FREQUENCY "disk.frequency_ghz"
 #define SECOND "F" /* letter of the alternate description */
 #define TABLE "FREQ"
 #define COLUMN "hz"
 
 static bool is_frequency(const struct kd_sweep_axis *axis)
 {
-    return axis->numeric && kd_scene_same_path(axis->path, FREQUENCY);
+    return axis->numeric &&
+           (kd_scene_same_path(axis->path, FREQUENCY) || kd_scene_same_path(axis->path, DISK_FREQUENCY));
 }
 
 bool kd_cube_has_frequencies(const struct kd_sweep_axis *axis) { return is_frequency(axis) && !axis->even; }

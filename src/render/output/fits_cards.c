@@ -157,8 +157,9 @@ enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene 
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         if (!varies(sweep, numbers[i].of[0]) && !(numbers[i].of[1] && varies(sweep, numbers[i].of[1])))
             KD_TRY(put_number(cards, numbers[i].key, numbers[i].value, numbers[i].comment));
-    if (kd_scene_is_radio(s) && !varies(sweep, "volume.frequency_ghz") && !varies(sweep, "volume.model"))
-        KD_TRY(kd_fits_real(cards, "FREQ", s->volume.frequency_ghz * 1e9, "Hz; that is observed"));
+    if ((kd_scene_is_radio(s) || kd_scene_has_disk_frequency(s)) && !varies(sweep, kd_scene_frequency_path(s)) &&
+        !varies(sweep, "volume.model") && !varies(sweep, "disk.band") && !varies(sweep, "disk.model"))
+        KD_TRY(kd_fits_real(cards, "FREQ", kd_scene_frequency_ghz(s) * 1e9, "Hz; that is observed"));
     if (s->dynamic.at) {
         KD_TRY(kd_fits_real(cards, "PLAY_T", s->dynamic.at->time, "M; time of the playground that is shown"));
         KD_TRY(kd_fits_real(cards, "PLAY_N", (double)s->dynamic.at->n, "its bodies"));

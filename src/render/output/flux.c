@@ -17,7 +17,8 @@ void kd_flux_text(const struct kd_scene *scene, const struct kd_frame *frame, ch
     const double jy = kd_flux_jy(scene, frame);
     *out = 0;
     if (!isnan(jy))
-        snprintf(out, KD_FLUX_TEXT, "jy=%.6g ghz=%.9g kelvin=%.6g", jy, scene->volume.frequency_ghz, KD_RADIO_KELVIN);
+        snprintf(out, KD_FLUX_TEXT, "jy=%.6g ghz=%.9g kelvin=%.6g", jy, kd_scene_frequency_ghz(scene),
+                 kd_radio_kelvin(scene));
     if (*out && scene->volume.normalise_to_jy > 0)
         snprintf(out + strlen(out), KD_FLUX_TEXT - strlen(out), " density_scale=%.9g", frame->density_scale);
 }

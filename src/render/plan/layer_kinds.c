@@ -113,8 +113,9 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
         !kd_scene_is_radio_alone(scene))
         return kd_error_field(
             error, "/image/layers",
-            "image.layers has %s, which needs a scene where only a volume at a radio frequency shines: volume.model "
-            "\"gold\", \"riaf\", \"torus\" or \"grid\", disk.model and sky.model \"none\", no jets, spots or bodies",
+            "image.layers has %s, which needs light of one frequency alone: of a volume.model \"gold\", \"riaf\", "
+            "\"torus\" or \"grid\", or of a disk with disk.band \"frequency\"; sky.model \"none\", no jets, spots or "
+            "bodies",
             name);
     if (layer.kind == KD_LAYER_jy_per_pixel && !kd_layers_have_flux(scene))
         return kd_error_field(

@@ -45,8 +45,7 @@ struct kd_plan_layer { int16_t kind, order; };
 size_t kd_layers_of(const struct kd_scene *scene, struct kd_plan_layer out[KD_WORDS_MOST], bool *rgb);
 /* KD_LENS_... quantities that all layers of image.layers need together. */
 uint32_t kd_layers_needs(const struct kd_scene *scene);
-/* Whether jy_per_pixel is defined: only a volume at a radio frequency emits light, and all pixels cover the same
- * part of the sky. */
+/* Whether jy_per_pixel is defined: all light is of one frequency, and all pixels cover the same part of the sky. */
 bool kd_layers_have_flux(const struct kd_scene *scene);
 /* Returns KD_EINVAL at a field for an impossible request: a layer of the disk in a scene without a disk, a layer of
  * coordinates that the projection does not have, a layer of an order that is not traced, or invalid ends of a

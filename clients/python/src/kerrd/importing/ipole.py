@@ -261,6 +261,7 @@ def _thin_disk(sheet: Sheet) -> float:
         "colour": "accretion",
         "hardening": DISK_HARDENING,
         "atmosphere": "scattering",
+        "band": "frequency",
         "gas": {"amplitude": 0},
     }
     for field, value in disk.items():
@@ -269,8 +270,9 @@ def _thin_disk(sheet: Sheet) -> float:
     rate = sheet.positive("Mdot", 0.01) * efficiency(spin) / DISK_EFFICIENCY
     sheet.draft.put("disk.mdot_edd", rate)
     sheet.say("Mdot", "disk.mdot_edd", rate)
-    sheet.number("freqcgs", low=0)
-    sheet.unsaid("freqcgs", "a disk's light has no single frequency in kerrd; disk.band is bolometric or visible")
+    gigahertz = sheet.positive("freqcgs") / 1e9
+    sheet.draft.put("disk.frequency_ghz", gigahertz)
+    sheet.say("freqcgs", "disk.frequency_ghz", gigahertz)
     for key in ("Rout", "Rh", "r_isco"):
         sheet.ignore(key, "not read by ipole, whose disk goes from the ISCO to 100 M")
     if sheet.whole("only_unpolarized", 0) == 0:

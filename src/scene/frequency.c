@@ -1,0 +1,71 @@
+/* Scenes that are seen at one frequency, and the temperature of their disk. */
+#include "scene/scene.h"
+
+#include "physics/disk/thin_disk.h"
+#include "physics/math/constants.h"
+#include "scene/hole.h"
+
+bool kd_scene_has_disk_frequency(const struct kd_scene *scene)
+{
+    return scene->disk.model != KD_DISK_NONE && scene->disk.band == KD_BAND_FREQUENCY;
+}
+
+static bool has_only_disk(const struct kd_scene *scene)
+{
+    return kd_scene_has_disk_frequency(scene) && scene->volume.model == KD_VOLUME_NONE;
+}
+
+static bool has_only_radio(const struct kd_scene *scene)
+{
+    return kd_scene_is_radio(scene) && scene->disk.model == KD_DISK_NONE;
+}
+
+bool kd_scene_is_radio_alone(const struct kd_scene *scene)
+{
+    const struct kd_spot *on[KD_SPOTS];
+    const struct kd_body *bodies[KD_SCENE_BODIES];
+    return (has_only_radio(scene) || has_only_disk(scene)) && scene->jets.brightness == 0 &&
+           scene->sky.model == KD_SKY_NONE && !kd_scene_spots(scene, on) && !kd_scene_bodies(scene, bodies) &&
+           !scene->dynamic.at;
+}
+
+double kd_scene_frequency_ghz(const struct kd_scene *scene)
+{
+    return kd_scene_is_radio(scene) ? scene->volume.frequency_ghz : scene->disk.frequency_ghz;
+}
+
+const char *kd_scene_frequency_path(const struct kd_scene *scene)
+{
+    return kd_scene_is_radio(scene) ? "volume.frequency_ghz" : "disk.frequency_ghz";
+}
+
+void kd_scene_set_frequency(struct kd_scene *scene, double ghz)
+{
+    *(kd_scene_is_radio(scene) ? &scene->volume.frequency_ghz : &scene->disk.frequency_ghz) = ghz;
+}
+
+static bool is_newtonian(const struct kd_scene *scene) { return scene->disk.model == KD_DISK_SHAKURA_SUNYAEV; }
+
+double kd_scene_disk_flux(const struct kd_scene *scene, double r)
+{
+    return (is_newtonian(scene) ? kd_disk_flux_shakura_sunyaev : kd_disk_flux_page_thorne)(kd_scene_hole(scene), r);
+}
+
+double kd_scene_disk_largest_flux(const struct kd_scene *scene)
+{
+    return kd_scene_disk_flux(
+        scene, (is_newtonian(scene) ? kd_disk_peak_shakura_sunyaev : kd_disk_peak_page_thorne)(kd_scene_hole(scene)));
+}
+
+double kd_scene_disk_peak_k(const struct kd_scene *scene)
+{
+    if (scene->disk.colour == KD_COLOUR_PEAK)
+        return scene->disk.peak_temperature_k;
+    return kd_disk_temperature(kd_scene_disk_largest_flux(scene), kd_scene_hole(scene), scene->spacetime.mass_msun,
+                               scene->disk.mdot_edd);
+}
+
+double kd_scene_disk_most_ghz(const struct kd_scene *scene)
+{
+    return KD_DISK_QUANTA * KD_K_J_K / KD_H_J_S * 1e-9 * kd_scene_disk_peak_k(scene) * scene->disk.hardening;
+}
