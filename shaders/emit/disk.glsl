@@ -16,14 +16,16 @@
     F(quanta_mean)         /* (1 - exp(-x))/x */
 /* clang-format on */
 #define KD_ATMOSPHERE_ROWS 64
-/* disk: (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its difference to the next row. atmosphere:
+/* disk: (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its difference to the next row; of reflected
+ * light T_c/T_peak, and r^3 times its flux over that of a black body of T_c. atmosphere:
  * emitted intensity over that of an isotropic surface of the same flux, against the square root of the cosine to the
  * normal; in each row the coefficients of a cubic of the place in its cell. */
 #define KD_TABLES_disk(T) T(disk, KD_DISK_TABLE) T(atmosphere, KD_ATMOSPHERE_ROWS)
 #define KD_TRAIT_VISIBLE 8u      /* brightness weighted as by the eye instead of bolometric */
 #define KD_TRAIT_LIMB 128u       /* the light depends on the angle of emission: the table `atmosphere` */
 #define KD_TRAIT_FREQUENCY 4096u /* brightness is the intensity at one frequency */
-#define KD_TRAITS_disk(T) T(DOPPLER) T(REDSHIFT) T(VISIBLE) T(LIMB) T(FREQUENCY)
+#define KD_TRAIT_REFLECTED 8192u /* the disk reflects light that returns to it */
+#define KD_TRAITS_disk(T) T(DOPPLER) T(REDSHIFT) T(VISIBLE) T(LIMB) T(FREQUENCY) T(REFLECTED)
 #define KD_BUFFERS_disk(B)
 #define KD_PASS_disk(P)
 #endif
@@ -54,10 +56,34 @@ vec3 kd_black_body(float t, uint traits)
     return weight * kd_colour_of(at);
 }
 
-/* The same for the disk's surface, by its atmosphere. */
+/* Place in the table of the disk: row, and share of the way to the next. */
+struct kd_disk_place {
+    uint row;
+    float x;
+};
+
+kd_disk_place kd_disk_at(float w)
+{
+    float y = sqrt(max(1.0 - emission.frame.r_isco * w, 0.0)) * float(KD_DISK_TABLE - 1);
+    uint i = min(uint(y), KD_DISK_TABLE - 2);
+    return kd_disk_place(i, y - float(i));
+}
+
+/* Reflected light of the disk: a dilute black body. */
+vec3 kd_disk_reflected(kd_sample s, uint traits)
+{
+    kd_disk_place at = kd_disk_at(s.w);
+    vec2 light = mix(kd_table_row(disk, at.row).zw, kd_table_row(disk, at.row + 1u).zw, at.x);
+    float g = kd_orbit_shift(s.w, s.energy, s.momentum, traits);
+    return g > 0.0 ? light.y * s.w * s.w * s.w * kd_black_body(light.x * g, traits) : vec3(0.0); /* g may be NaN */
+}
+
+/* Light of the disk's surface of the temperature t, by its atmosphere. */
 vec3 kd_disk_surface(float t, kd_sample s, uint traits)
 {
     vec3 light = kd_black_body(t, traits);
+    if ((traits & KD_TRAIT_REFLECTED) != 0u)
+        light += kd_disk_reflected(s, traits);
     if ((traits & KD_TRAIT_LIMB) != 0u) {
         float at = sqrt(clamp(s.cosine, 0.0, 1.0)) * float(KD_ATMOSPHERE_ROWS);
         uint row = min(uint(at), KD_ATMOSPHERE_ROWS - 1u);
@@ -71,10 +97,9 @@ vec3 kd_disk_surface(float t, kd_sample s, uint traits)
 /* T r^(3/4) at r = 1/w, with T relative to the disk's largest. */
 float kd_disk_heat(float w)
 {
-    float y = sqrt(max(1.0 - emission.frame.r_isco * w, 0.0)) * float(KD_DISK_TABLE - 1);
-    uint i = min(uint(y), KD_DISK_TABLE - 2);
-    vec4 row = kd_table_row(disk, i);
-    return row.x + (y - float(i)) * row.y;
+    kd_disk_place at = kd_disk_at(w);
+    vec4 row = kd_table_row(disk, at.row);
+    return row.x + at.x * row.y;
 }
 
 kd_gas kd_disk_gas(kd_sample s, uint traits)

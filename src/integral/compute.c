@@ -460,24 +460,15 @@ static enum kd_status compute_transfer(const struct kd_integral_request *r, cons
     return status;
 }
 
-/* The largest flux, from a fine grid: it is flat there. */
-static double largest_flux(const struct kd_returning *table)
-{
-    enum { STEPS = 2000 };
-    double largest = 0;
-    for (int i = 0; i <= STEPS; i++)
-        largest = fmax(largest, kd_returning_flux(table, table->isco * (1 + 3. * i / STEPS)));
-    return largest;
-}
-
 static enum kd_status returning_of(const struct kd_integral_request *r, struct kd_returning **table,
                                    struct kd_error *error)
 {
     const struct kd_hole *const hole = kd_integral_hole(r);
     const struct kd_hole_parameter largest = kd_hole_largest(hole);
     *table = malloc(sizeof **table);
-    if (!*table || !kd_returning_init(*table, hole, r->limb))
+    if (!*table)
         return kd_error_set(error, KD_ENOMEM, "out of memory for the kernel of returning light");
+    kd_returning_init(*table, hole, r->limb);
     if (!((*table)->error < KD_RETURNING_WRONG))
         return kd_error_field(
             error, largest.pointer,
@@ -510,7 +501,7 @@ static enum kd_status compute_spectrum(const struct kd_integral_request *r, cons
         c[3][i] = 4 * M_PI * distance * distance * c[0][i] * c[1][i];
     }
     answer->values[0] = image->isco;
-    answer->values[1] = kd_disk_temperature(table ? largest_flux(table) : kd_disk_flux_page_thorne(hole, hottest), hole,
+    answer->values[1] = kd_disk_temperature(table ? table->largest : kd_disk_flux_page_thorne(hole, hottest), hole,
                                             r->mass_msun, r->mdot_edd);
     answer->values[3] += table ? table->error : 0;
     answer->told[answer->n_told++] = table ? with_returning : no_returning;

@@ -61,8 +61,7 @@ static enum kd_status begin(const struct parameters *p, struct memory *m, struct
     const struct kd_hole_parameter largest = kd_hole_largest(&hole);
     if (kd_hole_check(&hole, error))
         return KD_EINVAL;
-    if (!kd_returning_init(&m->table, &hole, (enum kd_limb)p->limb))
-        return kd_error_set(error, KD_ENOMEM, "out of memory for the kernel of returning light");
+    kd_returning_init(&m->table, &hole, (enum kd_limb)p->limb);
     if (!(m->table.error < KD_RETURNING_WRONG))
         return kd_quantity_outside(error, largest.name, largest.value,
                                    "so close to an extremal hole that the energy balance is wrong by %.1g; it must be "

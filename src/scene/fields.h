@@ -137,6 +137,12 @@
          "gas's frame. isotropic; laor: as 1 + 2.06 mu; scattering: as from a deep atmosphere of free electrons, " \
          "which polarization.model \"scattering\" polarises. Each law has the disk's flux", \
          "isotropic|laor|scattering") \
+    ENUM(disk, returning, MODEL, REST, KD_RETURNS_NONE, \
+         "light of the disk that the hole bends back to it: none; thermalised, absorbed with its angular momentum " \
+         "and radiated again as by a black body; reflected, the share disk.albedo of it with the spectrum with " \
+         "which it came, the rest thermalised; any number of returns", \
+         "none|thermalised|reflected") \
+    REAL(disk, albedo, MODEL, REST, 0.5, 0.0, 1.0, "1", "share of the returning light that is reflected") \
     ENUM(disk, band, LOOK, REST, KD_BAND_BOLOMETRIC, \
          "brightness: bolometric, g^4 F; visible, the luminance that the eye perceives of the Planck " \
          "spectrum; or frequency, the specific intensity at disk.frequency_ghz, in physical units", \
@@ -569,6 +575,7 @@
     WITH("disk.peak_temperature_k", "colour", KD_COLOUR_PEAK) SPAN("disk.peak_temperature_k", 1000, 1e5) \
     WITH("disk.mdot_edd", "colour", KD_COLOUR_ACCRETION) SPAN("disk.mdot_edd", 1e-3, 10) \
     WITH("disk.frequency_ghz", "band", KD_BAND_FREQUENCY) SPAN("disk.frequency_ghz", 10, 1e9) \
+    WITH("disk.albedo", "returning", KD_RETURNS_REFLECTED) \
     VARIES("disk.slow_light", "moves_with_time") \
     WITH("disk.particles", "model", KD_DISK_PARTICLES) \
     WITH("disk.seed", "model", KD_DISK_PARTICLES) SPAN("disk.seed", 0, 1000) \
@@ -693,6 +700,7 @@ enum kd_volume_flow { KD_VOLUME_ORBITS, KD_VOLUME_REST };
 enum kd_volume_electrons { KD_VOLUME_THERMAL, KD_VOLUME_POWER_LAW, KD_VOLUME_KAPPA };
 enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
 enum kd_atmosphere { KD_ATMOSPHERE_ISOTROPIC, KD_ATMOSPHERE_LAOR, KD_ATMOSPHERE_SCATTERING };
+enum kd_returns { KD_RETURNS_NONE, KD_RETURNS_THERMALISED, KD_RETURNS_REFLECTED };
 enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE, KD_BAND_FREQUENCY };
 enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID, KD_SKY_STARS, KD_SKY_CATALOGUE, KD_SKY_IMAGE };
 enum kd_sky_orientation { KD_SKY_GALACTIC, KD_SKY_EQUATORIAL, KD_SKY_SGRA, KD_SKY_M87 };

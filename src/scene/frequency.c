@@ -44,28 +44,19 @@ void kd_scene_set_frequency(struct kd_scene *scene, double ghz)
     *(kd_scene_is_radio(scene) ? &scene->volume.frequency_ghz : &scene->disk.frequency_ghz) = ghz;
 }
 
-static bool is_newtonian(const struct kd_scene *scene) { return scene->disk.model == KD_DISK_SHAKURA_SUNYAEV; }
-
-double kd_scene_disk_flux(const struct kd_scene *scene, double r)
-{
-    return (is_newtonian(scene) ? kd_disk_flux_shakura_sunyaev : kd_disk_flux_page_thorne)(kd_scene_hole(scene), r);
-}
-
-double kd_scene_disk_largest_flux(const struct kd_scene *scene)
-{
-    return kd_scene_disk_flux(
-        scene, (is_newtonian(scene) ? kd_disk_peak_shakura_sunyaev : kd_disk_peak_page_thorne)(kd_scene_hole(scene)));
-}
-
-double kd_scene_disk_peak_k(const struct kd_scene *scene)
+/* The largest effective temperature of the disk without light that returns, in K in the gas's own frame. */
+static double peak_k(const struct kd_scene *scene)
 {
     if (scene->disk.colour == KD_COLOUR_PEAK)
         return scene->disk.peak_temperature_k;
-    return kd_disk_temperature(kd_scene_disk_largest_flux(scene), kd_scene_hole(scene), scene->spacetime.mass_msun,
-                               scene->disk.mdot_edd);
+    const struct kd_hole *hole = kd_scene_hole(scene);
+    const double flux = scene->disk.model == KD_DISK_SHAKURA_SUNYAEV
+                            ? kd_disk_flux_shakura_sunyaev(hole, kd_disk_peak_shakura_sunyaev(hole))
+                            : kd_disk_flux_page_thorne(hole, kd_disk_peak_page_thorne(hole));
+    return kd_disk_temperature(flux, hole, scene->spacetime.mass_msun, scene->disk.mdot_edd);
 }
 
 double kd_scene_disk_most_ghz(const struct kd_scene *scene)
 {
-    return KD_DISK_QUANTA * KD_K_J_K / KD_H_J_S * 1e-9 * kd_scene_disk_peak_k(scene) * scene->disk.hardening;
+    return KD_DISK_QUANTA * KD_K_J_K / KD_H_J_S * 1e-9 * peak_k(scene) * scene->disk.hardening;
 }

@@ -332,6 +332,43 @@ static enum kd_status atmosphere(const struct kd_scene *scene, struct kd_error *
                           show(scene->disk.height).text);
 }
 
+/* Bounds of the hole with returning light. Beyond the first the energy balance of the flux is wrong by more than 1e-3;
+ * beyond the second light that is reflected again and again would gain energy without bound. */
+#define FASTEST_RETURNS 0.999999
+#define FASTEST_REFLECTS 0.998
+
+/* The kernel of returning light is that of a thin disk of Page & Thorne's flux from the ISCO on. */
+static enum kd_status returning(const struct kd_scene *scene, struct kd_error *error)
+{
+    const bool reflects = scene->disk.returning == KD_RETURNS_REFLECTED;
+    const char *word = reflects ? "reflected" : "thermalised";
+    const double a = scene->spacetime.spin, q = scene->spacetime.charge,
+                 fastest = reflects ? FASTEST_REFLECTS : FASTEST_RETURNS;
+    if (!scene->disk.returning || scene->disk.model == KD_DISK_NONE)
+        return KD_OK;
+    if (scene->disk.model == KD_DISK_SHAKURA_SUNYAEV)
+        return kd_error_field(error, "/disk/returning",
+                              "disk.returning is \"%s\", which needs the exact flux; with disk.model "
+                              "\"shakura-sunyaev\" it must be \"none\"",
+                              word);
+    if (!isinf(scene->disk.inner))
+        return kd_error_field(error, "/disk/returning",
+                              "disk.returning is \"%s\", which needs disk.inner \"isco\"; with disk.inner %s M it must "
+                              "be \"none\"",
+                              word, show(scene->disk.inner).text);
+    if (scene->disk.height != 0)
+        return kd_error_field(error, "/disk/returning",
+                              "disk.returning is \"%s\", which needs a thin disk; with disk.height %s it must be "
+                              "\"none\"",
+                              word, show(scene->disk.height).text);
+    if (a * a + q * q > fastest * fastest)
+        return kd_error_field(error, "/disk/returning",
+                              "disk.returning is \"%s\", which needs a^2 + Q^2 of at most %s^2; with %s it must be "
+                              "\"none\"",
+                              word, show(fastest).text, show_hole(scene).text);
+    return KD_OK;
+}
+
 static enum kd_status volume(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_volume *v = &scene->volume;
@@ -626,6 +663,12 @@ const struct kd_rule kd_rules[] = {
     { "`disk.outer` is larger than the inner edge, if there is a disk.", outer_edge },
     { "`disk.height` is 0, or at least 1e-5; it is 0 for a disk of particles.", height, "disk", "height", 0,
       LEAST_HEIGHT },
+    { "`disk.returning` is \"none\" unless the disk, if there is one, is thin and has the exact flux from the ISCO on: "
+      "`disk.model` "
+      "\"novikov-thorne\" or \"particles\", `disk.inner` \"isco\", `disk.height` 0; and a^2 + Q^2 is at most "
+      "0.999999^2, "
+      "for \"reflected\" 0.998^2.",
+      returning },
     { "`disk.atmosphere` is \"isotropic\" unless `disk.height` is 0.", atmosphere },
     { "With `disk.band` \"frequency\", `disk.frequency_ghz` is at most 64 k T/h, with the disk's largest colour "
       "temperature T.",

@@ -166,15 +166,9 @@ void kd_scene_set_frequency(struct kd_scene *scene, double ghz);
 /* Whether there is a disk, and it is seen at one frequency. */
 bool kd_scene_has_disk_frequency(const struct kd_scene *scene);
 /* The highest frequency that disk.frequency_ghz may be: KD_DISK_QUANTA k T/h with the disk's largest colour
- * temperature. */
+ * temperature. Light that returns may raise that, but is not counted here. */
 #define KD_DISK_QUANTA 64
 double kd_scene_disk_most_ghz(const struct kd_scene *scene);
-
-/* The law of the disk's flux, its maximum, and the temperature in K there, in the gas's own frame: effective, without
- * disk.hardening. */
-double kd_scene_disk_flux(const struct kd_scene *scene, double r);
-double kd_scene_disk_largest_flux(const struct kd_scene *scene);
-double kd_scene_disk_peak_k(const struct kd_scene *scene);
 
 /* kd_scene_spots lists the spots whose brightness is not zero, kd_scene_bodies the bodies whose radius is not zero,
  * both in order. They return the number. */

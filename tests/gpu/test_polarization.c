@@ -2,7 +2,9 @@
  * Kerr-Schild coordinates (kerr_schild_transport.h) and shares no equation with the kernels' Walker-Penrose constant.
  * The Stokes layers must be consistent. The light of an atmosphere is compared with the oracle's angle of emission. */
 #include "kerr_schild_transport.h"
+#include "physics/disk/colour.h"
 #include "physics/disk/limb.h"
+#include "physics/disk/returning.h"
 #include "physics/disk/scattering.h"
 #include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
@@ -308,12 +310,67 @@ static void test_atmosphere(void **state)
     judge_atmosphere(&deep, "scattering", KD_LIMB_SCATTERING);
 }
 
+/* Pixels of a disk with returning light: their brightness is that of black bodies of its fluxes and temperatures, at
+ * the radius and the redshift of rays in Kerr-Schild coordinates. */
+static void judge_returning(const struct view *view, const char *word, const char *albedo, const char *band)
+{
+    struct kd_scene scene = scene_of(view, "intensity_0");
+    const struct kd_hole hole = kd_hole_charged(scene.spacetime.spin, scene.spacetime.charge);
+    struct kd_returning table;
+    struct kd_reflection reflection;
+    OK(kd_scene_set(&scene, "disk.returning", word, &error));
+    OK(kd_scene_set(&scene, "disk.albedo", albedo, &error));
+    OK(kd_scene_set(&scene, "disk.band", band, &error));
+    kd_returning_init(&table, &hole, KD_LIMB_ISOTROPIC);
+    kd_reflection_init(&reflection, &table, *word == 'r' ? strtod(albedo, NULL) : 0);
+    const double peak = scene.disk.peak_temperature_k, unit = pow(table.largest, 0.25);
+    const bool visible = *band == 'v';
+    struct kd_frame frame = frame_of(&scene);
+    double worst = 0;
+    int compared = 0;
+    for (int k = 0; k < PIXELS; k += 3) {
+        const struct ks_screen screen = screen_of(&scene, k);
+        const double got = (double)layer(&frame, "intensity_0")[k];
+        if (!(got > 0))
+            continue;
+        const struct ks_polarized at = ks_polarization(&screen, 0, view->field, 0);
+        assert_true(at.there);
+        const struct kd_reflected light = kd_reflection_at(&reflection, &table, at.r);
+        const double g = 1 / at.g, temperatures[2] = { pow(light.absorbed, 0.25), light.warm },
+                     fluxes[2] = { light.absorbed, light.flux };
+        double want = 0;
+        for (int part = 0; part < 2; part++)
+            want += scene.disk.opacity * fluxes[part] / table.largest * pow(g, 4) *
+                    (visible ? kd_colour_luminous_fraction(peak * g * temperatures[part] / unit) /
+                                   kd_colour_luminous_fraction(peak)
+                             : 1);
+        worst = fmax(worst, fabs(got / want - 1));
+        compared++;
+    }
+    printf("a %g, Q %g, i %g, %s, albedo %s, %s: %d pixels, brightness off by %.1e\n", view->spin,
+           scene.spacetime.charge, view->inclination, word, albedo, band, compared, worst);
+    assert_true(compared >= 20 && worst < (visible ? 2e-3 : 3e-4));
+    kd_frame_finish(&frame);
+}
+
+static void test_returning(void **state)
+{
+    (void)state;
+    static const size_t taken[] = { 1, 3, 5, 9 };
+    for (size_t i = 0; i < sizeof taken / sizeof *taken; i++) {
+        judge_returning(&views[taken[i]], "thermalised", "0.5", "bolometric");
+        judge_returning(&views[taken[i]], "reflected", "0.7", "bolometric");
+        judge_returning(&views[taken[i]], "reflected", "1", "visible");
+    }
+}
+
 int main(void)
 {
     int status = open_renderer();
     if (status)
         return status;
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_evpa), cmocka_unit_test(test_stokes),
-                                        cmocka_unit_test(test_face_on), cmocka_unit_test(test_atmosphere) };
+                                        cmocka_unit_test(test_face_on), cmocka_unit_test(test_atmosphere),
+                                        cmocka_unit_test(test_returning) };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

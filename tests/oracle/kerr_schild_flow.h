@@ -1,7 +1,7 @@
-/* The Hamiltonian flow of kerr_schild.h, for the files that are its oracle. Before it is included, `real` is the type of
- * all numbers, and these are bounds of a step's relative error: KS_FINE ends the extrapolation, KS_ACCEPT is the largest
- * that is accepted, below KS_GROW the next step is twice as long. KS_LAND bounds the distance from the plane in which a
- * step ends. */
+/* The Hamiltonian flow of kerr_schild.h, for the files that are its oracle. Before it is included, `real` is the type
+ * of all numbers, and these are bounds of a step's relative error: KS_FINE ends the extrapolation, KS_ACCEPT is the
+ * largest that is accepted, below KS_GROW the next step is twice as long. KS_LAND bounds the distance from the plane in
+ * which a step ends. */
 #ifndef KD_TESTS_KERR_SCHILD_FLOW_H
 #define KD_TESTS_KERR_SCHILD_FLOW_H
 
@@ -35,8 +35,7 @@ static void derivative(const struct system *s, const real *y, real *d)
     real along = l[0] * px + l[1] * py + l[2] * pz, sum = s->energy + along;
     real in_plane = x * px + yy * py;
     for (int i = 0; i < 3; i++) {
-        real df =
-            ((6 * r2 - 2 * charge2 * r) * dr[i] - f * (4 * r2 * r * dr[i] + (i == 2 ? 2 * a * a * z : 0))) / den;
+        real df = ((6 * r2 - 2 * charge2 * r) * dr[i] - f * (4 * r2 * r * dr[i] + (i == 2 ? 2 * a * a * z : 0))) / den;
         real dl = dr[i] * in_plane / q - (l[0] * px + l[1] * py) * 2 * r * dr[i] / q - z * pz / r2 * dr[i];
         dl += i == 0 ? (r * px - a * py) / q : i == 1 ? (r * py + a * px) / q : pz / r;
         d[i] = y[3 + i] - f * sum * l[i];

@@ -341,6 +341,29 @@ static void a_frequency_is_a_variant(void **state)
     assert_true(kd_scene_is_radio_alone(&scene));
 }
 
+/* Kernels have code for reflected light only if the scene's disk reflects. Light that is absorbed and radiated again
+ * only changes a table. */
+static void reflection_is_a_variant(void **state)
+{
+    (void)state;
+    static const char *const told[] = { "disk: light that the hole bends back", "disk: the light that returns",
+                                        "disk: the reflected share" };
+    for (int returning = KD_RETURNS_NONE; returning <= KD_RETURNS_REFLECTED; returning++)
+        for (int albedo = 0; albedo < 2; albedo++) {
+            struct kd_scene scene;
+            uint32_t traits[KD_EMITTER_COUNT];
+            const bool reflects = returning == KD_RETURNS_REFLECTED && albedo;
+            kd_scene_smooth(&scene);
+            scene.disk.returning = returning;
+            scene.disk.albedo = albedo;
+            kd_emit_traits(&scene, traits);
+            assert_int_equal(!!(traits[KD_EMITTER_disk] & KD_TRAIT_REFLECTED), reflects);
+            assert_int_equal(says(&scene, told[0]), !returning);
+            assert_int_equal(says(&scene, told[1]), !!returning);
+            assert_int_equal(says(&scene, told[2]), reflects);
+        }
+}
+
 /* An emitter has only the variants that its GLSL lists, which do not overlap; a compile-time check ensures that. */
 #define LISTED(trait) | KD_TRAIT_##trait
 #define WORD(number, name) [number] = KD_TRAIT_PRESENT KD_TRAITS_##name(LISTED),
@@ -349,7 +372,7 @@ static void traits_are_listed(void **state)
     (void)state;
     static const uint32_t listed[KD_EMITTER_COUNT] = { KD_EMITTERS(WORD, WORD, WORD, WORD, WORD, WORD) };
     static const char *const documents[] = {
-        "{}", BASE, GAS, "{\"disk\": {\"atmosphere\": \"scattering\"}}",
+        "{}", BASE, GAS, "{\"disk\": {\"atmosphere\": \"scattering\", \"returning\": \"reflected\"}}",
         "{\"disk\": {\"doppler\": false, \"gas\": {\"amplitude\": 1, \"octaves\": 8}}}"
     };
     for (size_t k = 0; k < sizeof documents / sizeof *documents; k++) {
@@ -533,6 +556,7 @@ static void work_follows_emitters(void **state)
     OTHER(disk.model, KD_DISK_PARTICLES);
     OTHER(disk.height, 0.1);
     OTHER(disk.atmosphere, true);
+    OTHER(disk.returning, KD_RETURNS_REFLECTED);
     OTHER(disk.emission_opacity, 1);
     OTHER(gas.amplitude, 0.5);
     OTHER(volume.model, KD_VOLUME_UNIFORM);
@@ -545,6 +569,7 @@ static void work_follows_emitters(void **state)
         assert_true(alike(&scene, &work)); \
     } while (0)
     ALIKE(disk.model, KD_DISK_SHAKURA_SUNYAEV);
+    ALIKE(disk.returning, KD_RETURNS_THERMALISED);
     ALIKE(disk.slow_light, true); /* slow light of a disk that does not move */
     ALIKE(disk.outer, 30);
     ALIKE(spacetime.spin, 0.3);
@@ -609,14 +634,23 @@ static void work_follows_emitters(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(work_follows_emitters),        cmocka_unit_test(all_are_there),
-        cmocka_unit_test(sentences_have_room),          cmocka_unit_test(names_are_short_and_differ),
-        cmocka_unit_test(what_a_report_counts_is_said), cmocka_unit_test(what_is_off_says_and_needs_nothing),
-        cmocka_unit_test(numbers_follow_the_scene),     cmocka_unit_test(numbers_follow_each_field),
-        cmocka_unit_test(gas_replaces_the_disk),        cmocka_unit_test(skies),
-        cmocka_unit_test(pictures_of_the_sky),          cmocka_unit_test(brightness_of_skies),
-        cmocka_unit_test(none_of_a_thousand),           cmocka_unit_test(atmospheres_are_a_variant),
-        cmocka_unit_test(a_frequency_is_a_variant),     cmocka_unit_test(traits_are_listed),
+        cmocka_unit_test(work_follows_emitters),
+        cmocka_unit_test(all_are_there),
+        cmocka_unit_test(sentences_have_room),
+        cmocka_unit_test(names_are_short_and_differ),
+        cmocka_unit_test(what_a_report_counts_is_said),
+        cmocka_unit_test(what_is_off_says_and_needs_nothing),
+        cmocka_unit_test(numbers_follow_the_scene),
+        cmocka_unit_test(numbers_follow_each_field),
+        cmocka_unit_test(gas_replaces_the_disk),
+        cmocka_unit_test(skies),
+        cmocka_unit_test(pictures_of_the_sky),
+        cmocka_unit_test(brightness_of_skies),
+        cmocka_unit_test(none_of_a_thousand),
+        cmocka_unit_test(atmospheres_are_a_variant),
+        cmocka_unit_test(a_frequency_is_a_variant),
+        cmocka_unit_test(reflection_is_a_variant),
+        cmocka_unit_test(traits_are_listed),
         cmocka_unit_test(what_shines_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -12,11 +12,18 @@ const has_disk = scene => scene.get('disk.model') !== 'none',
     is_map(scene) ||
     scene.get('camera.projection') === 'ring' ||
     scene.emitters.some(({ name }) => name !== 'sky');
+// a value that the scene refuses can be taken back
+const or_set = (path, possible) => scene => has_disk(scene) && (possible(scene) || scene.get(path) !== 'none');
 const only_with = {
   'disk.flare': scene => has_disk(scene) && scene.get('disk.height') > 0,
   // shown even for a thick disk, so that a refused atmosphere can be reset
   'disk.atmosphere': scene =>
     has_disk(scene) && (scene.get('disk.height') === 0 || scene.get('disk.atmosphere') !== 'isotropic'),
+  'disk.returning': or_set(
+    'disk.returning',
+    scene => scene.get('disk.height') === 0 && scene.get('disk.inner') === 'isco',
+  ),
+  'disk.albedo': has_disk,
   'style.ringdown_time': scene => scene.get('style.ringdown') > 0,
   // layers and rings show crossings of the plane within this radius
   'disk.outer': scene => has_disk(scene) || is_map(scene) || scene.get('camera.projection') === 'ring',

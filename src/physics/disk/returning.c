@@ -1,5 +1,6 @@
 #include "physics/disk/returning.h"
 
+#include "base/parallel.h"
 #include "base/pause.h"
 #include "physics/disk/thin_disk.h"
 #include "physics/math/quadrature.h"
@@ -9,7 +10,6 @@
 
 #include <math.h>
 #include <pthread.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -302,7 +302,7 @@ struct kernel {
     double stress_of[N][N]; /* r^3 F_t of the deficits */
 };
 
-static void receive(const struct kd_returning *table, struct kernel *kernel, int i, const struct ring *o,
+static void receive(struct kd_returning *table, struct kernel *kernel, int i, const struct ring *o,
                     const struct light *p, double solid, double from)
 {
     const struct kd_hole *hole = &table->hole;
@@ -310,6 +310,7 @@ static void receive(const struct kd_returning *table, struct kernel *kernel, int
                  part = pow(o->r, 3) * solid * p->seen / pow(left, 4) * emitted(table->limb, p->polar / (from * left)),
                  deficit = o->momentum - p->momentum / p->seen;
     const double own = part * kd_disk_flux_page_thorne(hole, from);
+    const double warmer = part * (p->seen / left) / pow(from, 3);
     double weights[N];
     kernel->flux[i] += own;
     kernel->deficit[i] += own * deficit;
@@ -319,10 +320,12 @@ static void receive(const struct kd_returning *table, struct kernel *kernel, int
         const double more = part / pow(from, 3) * weights[j];
         kernel->flux_of[i][j] += more;
         kernel->deficit_of[i][j] += more * deficit;
+        table->warmth_of[i][j] += warmer * pow(from, -0.75) * weights[j];
+        table->echo_of[i][j] += warmer * weights[j];
     }
 }
 
-static void receive_along(const struct kd_returning *table, struct kernel *kernel, int i, const struct ring *o,
+static void receive_along(struct kd_returning *table, struct kernel *kernel, int i, const struct ring *o,
                           const struct rule *rule, struct strip strip, int order)
 {
     for (int k = 0; k < DEPTH; k++) {
@@ -406,38 +409,69 @@ static void share_out(struct kd_returning *table, const struct kernel *kernel)
     table->error = fmax(fabs(arrives / table->first.returns - 1), fabs(total(&table->lastly) - 1));
 }
 
-static bool make(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
+/* The largest F within 4 ISCO: from a grid, then by thirds between the neighbours of its largest value. */
+static void find_hottest(struct kd_returning *table)
 {
-    struct kernel *kernel = calloc(1, sizeof *kernel);
-    const struct rule rule = rule_of();
+    enum { CELLS = 256, THIRDS = 40 };
+    const double cell = 3 * table->isco / CELLS;
+    for (int i = 0; i <= CELLS; i++) {
+        const double r = table->isco + cell * i, flux = kd_returning_flux(table, r);
+        if (flux > table->largest)
+            table->largest = flux, table->hottest = r;
+    }
+    double low = fmax(table->hottest - cell, table->isco), high = table->hottest + cell;
+    for (int i = 0; i < THIRDS; i++) {
+        const double third = (high - low) / 3;
+        if (kd_returning_flux(table, low + third) < kd_returning_flux(table, high - third))
+            low += third;
+        else
+            high -= third;
+    }
+    table->hottest = 0.5 * (low + high);
+    table->largest = kd_returning_flux(table, table->hottest);
+}
+
+/* The rows of the kernel and the shares of light do not depend on one another. */
+struct making {
+    struct kd_returning *table;
+    struct kernel kernel;
+    struct rule rule;
+};
+
+static void make_ring(void *user, size_t i)
+{
+    struct making *m = user;
+    struct kd_returning *table = m->table;
+    const struct kd_hole *hole = &table->hole;
+    const struct ring ring = ring_of(hole, table->isco / pow(table->s[i], 2));
+    struct sky sky = sky_of(hole, &ring, table->isco);
+    struct kd_returning_ring shares = { .error = 0 };
+    for (int j = 0; j < sides(&sky); j++) {
+        const struct side side = side_of(hole, &ring, table->isco, &m->rule, &sky, j);
+        const struct parts *parts = &sky.parts;
+        add_side(&ring, table->limb, &m->rule, parts, side, &shares);
+        for (int n = 0; n < parts->orders; n++)
+            receive_along(table, &m->kernel, (int)i, &ring, &m->rule, strip_of(side, parts->in[n], parts->out[n]), n);
+        kd_pause();
+    }
+    table->photons.returns[i] = shares.photons.returns, table->photons.falls_in[i] = shares.photons.falls_in;
+    table->energy.returns[i] = shares.energy.returns, table->energy.falls_in[i] = shares.energy.falls_in;
+}
+
+static void make(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
+{
+    struct making m = { .table = table, .rule = rule_of() };
     *table = (struct kd_returning) { .hole = *hole, .limb = limb, .isco = kd_kerr_isco(hole) };
-    if (!kernel)
-        return false;
     for (int i = 0; i < N; i++)
         table->s[i] = 0.5 * (1 + cos(M_PI * (i + 0.5) / N));
-    for (int i = 0; i < N; i++) {
-        const struct ring ring = ring_of(hole, table->isco / pow(table->s[i], 2));
-        struct sky sky = sky_of(hole, &ring, table->isco);
-        struct kd_returning_ring shares = { .error = 0 };
-        for (int j = 0; j < sides(&sky); j++) {
-            const struct side side = side_of(hole, &ring, table->isco, &rule, &sky, j);
-            const struct parts *parts = &sky.parts;
-            add_side(&ring, limb, &rule, parts, side, &shares);
-            for (int n = 0; n < parts->orders; n++)
-                receive_along(table, kernel, i, &ring, &rule, strip_of(side, parts->in[n], parts->out[n]), n);
-            kd_pause();
-        }
-        table->photons.returns[i] = shares.photons.returns, table->photons.falls_in[i] = shares.photons.falls_in;
-        table->energy.returns[i] = shares.energy.returns, table->energy.falls_in[i] = shares.energy.falls_in;
-    }
-    memcpy(table->once, kernel->flux, sizeof table->once);
+    kd_parallel_idle(N, make_ring, &m);
+    memcpy(table->once, m.kernel.flux, sizeof table->once);
     for (int i = 0; i < N; i++)
-        table->lacks[i] = kernel->deficit[i] * table->s[i];
-    fill_stress(table, &rule, kernel);
-    converge(table, kernel);
-    share_out(table, kernel);
-    free(kernel);
-    return true;
+        table->lacks[i] = m.kernel.deficit[i] * table->s[i];
+    fill_stress(table, &m.rule, &m.kernel);
+    converge(table, &m.kernel);
+    share_out(table, &m.kernel);
+    find_hottest(table);
 }
 
 /* The last tables. */
@@ -457,16 +491,14 @@ static bool recall(struct kd_returning *table, const struct kd_hole *hole, enum 
     return found;
 }
 
-bool kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
+void kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
 {
     if (recall(table, hole, limb))
-        return true;
-    if (!make(table, hole, limb))
-        return false;
+        return;
+    make(table, hole, limb);
     pthread_mutex_lock(&lock);
     kept[next_kept++ % KEPT] = *table;
     pthread_mutex_unlock(&lock);
-    return true;
 }
 
 double kd_returning_at(const struct kd_returning *table, const double list[N], double r)
@@ -485,4 +517,31 @@ struct kd_returning_shares kd_returning_shares_at(const struct kd_returning *tab
 double kd_returning_flux(const struct kd_returning *table, double r)
 {
     return kd_disk_flux_page_thorne(&table->hole, r) + kd_returning_at(table, table->more, r);
+}
+
+struct kd_reflected kd_reflection_at(const struct kd_reflection *reflection, const struct kd_returning *table, double r)
+{
+    const double all = kd_returning_flux(table, r),
+                 flux = fmin(reflection->albedo * kd_returning_at(table, table->back, r), all);
+    return (struct kd_reflected) { all - flux, flux, at_nodes(table->s, reflection->warm, sqrt(table->isco / r)) };
+}
+
+void kd_reflection_init(struct kd_reflection *reflection, const struct kd_returning *table, double albedo)
+{
+    *reflection = (struct kd_reflection) { .albedo = albedo };
+    for (double change = 1; change > 1e-9;) {
+        double own[N], again[N];
+        change = 0;
+        for (int j = 0; j < N; j++) {
+            const double r = table->isco / pow(table->s[j], 2);
+            const struct kd_reflected light = kd_reflection_at(reflection, table, r);
+            own[j] = pow(r, 3.75) * pow(light.absorbed, 1.25);
+            again[j] = pow(r, 3) * light.flux * reflection->warm[j];
+        }
+        for (int i = 0; i < N; i++) {
+            const double warm = (times(table->warmth_of[i], own) + times(table->echo_of[i], again)) / table->back[i];
+            change = fmax(change, fabs(warm / reflection->warm[i] - 1));
+            reflection->warm[i] = warm;
+        }
+    }
 }

@@ -29,8 +29,6 @@
 #include "physics/disk/limb.h"
 #include "physics/spacetime/hole.h"
 
-#include <stdbool.h>
-
 enum { KD_RETURNING_RINGS = 24 };
 
 /* Shares of a ring's light. The sum of each kind is 1. */
@@ -58,16 +56,20 @@ struct kd_returning {
     struct kd_returning_list { double returns[KD_RETURNING_RINGS], falls_in[KD_RETURNING_RINGS]; } photons, energy;
     struct kd_returning_shares first;  /* of the luminosity of the disk of Page & Thorne: where its light goes first */
     struct kd_returning_shares lastly; /* of the same luminosity: where it ends at last; `returns` is 0 */
-    double error;                      /* relative: of the energy that arrives, against that which returns; or of the
-                                        * sum of `lastly`, if larger */
-    int steps;                         /* of the iteration, to 1e-12 */
+    double hottest, largest;           /* the radius of the largest F, and this F, over Mdot */
+    /* r^3 times the flux of light that returns, times the factor g of its photons' energies, as a matrix: over r^(15/4)
+     * and over r^3 times the flux that rings emit. */
+    double warmth_of[KD_RETURNING_RINGS][KD_RETURNING_RINGS], echo_of[KD_RETURNING_RINGS][KD_RETURNING_RINGS];
+    double error; /* relative: of the energy that arrives, against that which returns; or of the
+                   * sum of `lastly`, if larger */
+    int steps;    /* of the iteration, to 1e-12 */
 };
 
 /* Error of the energy balance from which answers are refused: at 1 - |a| of some 1e-9. */
 #define KD_RETURNING_WRONG 1e-2
 
-/* Takes 0.1 to 0.3 s. The last 8 are kept and copied. Returns false if memory is short. */
-bool kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb);
+/* Takes 0.1 to 0.3 s on one core; idle cores help. The last 8 are kept and copied. */
+void kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb);
 
 /* F at r >= ISCO; and one of the table's lists at r, divided by r^3. */
 double kd_returning_flux(const struct kd_returning *table, double r);
@@ -76,5 +78,25 @@ double kd_returning_at(const struct kd_returning *table, const double list[KD_RE
 /* The shares of kd_returning_ring, from table->photons or table->energy: within 1e-4 of them. */
 struct kd_returning_shares kd_returning_shares_at(const struct kd_returning *table,
                                                   const struct kd_returning_list *list, double r);
+
+/* Light of a disk that reflects the share `albedo` of the light that returns, and absorbs the rest. Reflected light
+ * leaves with the law of the disk's own light, so it carries away L of the gas, and F is that of a disk that absorbs
+ * all: only the spectrum differs. It keeps the spectrum with which it came, which is taken as a dilute black body of
+ * the mean temperature of its photons' sources, by flux and as seen by the gas:
+ *
+ *   T_c(r) F_ret(r) = Int g^5 (F_th T_th + F_r T_c)/pi f(mu_e) mu dOmega      F_th = F - F_r,  F_r = A F_ret
+ *
+ * Where F_th would be negative (next to the ISCO and for A near 1, where returning light takes away more angular
+ * momentum than the gas has to lose), F_th is 0 and F_r is F. */
+struct kd_reflection {
+    double albedo;
+    double warm[KD_RETURNING_RINGS]; /* T_c at the nodes, with F = T^4 over Mdot */
+};
+void kd_reflection_init(struct kd_reflection *reflection, const struct kd_returning *table, double albedo);
+
+/* F_th, F_r and T_c at r >= ISCO; both fluxes over Mdot. */
+struct kd_reflected { double absorbed, flux, warm; };
+struct kd_reflected kd_reflection_at(const struct kd_reflection *reflection, const struct kd_returning *table,
+                                     double r);
 
 #endif

@@ -137,7 +137,7 @@ static uint32_t traits(const struct kd_scene *scene)
 static struct kd_bodies_view view_of(const struct kd_scene *scene)
 {
     return (struct kd_bodies_view) { *kd_scene_hole(scene), scene->camera.azimuth_deg * (M_PI / 180),
-                                     kd_scene_disk_peak_k(scene) * scene->disk.hardening, NULL };
+                                     kd_disk_peak_temperature(scene) * scene->disk.hardening, NULL };
 }
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)

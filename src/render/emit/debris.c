@@ -57,7 +57,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
         .first_column = (float)d->first_column,
         .rows_octave = (float)(M_LN2 / cell),
         .depth = (float)fmin(REFERENCE * d->depth / (cell * cell), 1e30),
-        .temperature = (float)(d->temperature_k / (kd_scene_disk_peak_k(scene) * scene->disk.hardening)),
+        .temperature = (float)(d->temperature_k / (kd_disk_peak_temperature(scene) * scene->disk.hardening)),
     };
 }
 

@@ -3,6 +3,8 @@
 
 #include "physics/disk/colour.h"
 #include "physics/disk/limb.h"
+#include "physics/disk/returning.h"
+#include "physics/disk/thin_disk.h"
 #include "physics/math/constants.h"
 #include "physics/spacetime/kerr.h"
 #include "scene/hole.h"
@@ -20,21 +22,68 @@ uint32_t kd_disk_needs(const struct kd_scene *scene)
     return KD_LENS_W | (scene->disk.atmosphere && scene->camera.projection == KD_PROJECTION_RING ? KD_LENS_SLOPE : 0);
 }
 
+static bool reflects(const struct kd_scene *scene)
+{
+    return scene->disk.returning == KD_RETURNS_REFLECTED && scene->disk.albedo > 0;
+}
+
 uint32_t kd_disk_traits(const struct kd_scene *scene)
 {
     return kd_orbit_traits(scene) | (scene->disk.band == KD_BAND_VISIBLE ? KD_TRAIT_VISIBLE : 0) |
            (scene->disk.band == KD_BAND_FREQUENCY ? KD_TRAIT_FREQUENCY : 0) |
-           (scene->disk.atmosphere ? KD_TRAIT_LIMB : 0);
+           (scene->disk.atmosphere ? KD_TRAIT_LIMB : 0) | (reflects(scene) ? KD_TRAIT_REFLECTED : 0);
+}
+
+/* The law of limb darkening of a scene's disk. */
+static enum kd_limb limb_of(const struct kd_scene *scene)
+{
+    return scene->disk.atmosphere == KD_ATMOSPHERE_LAOR         ? KD_LIMB_LAOR
+           : scene->disk.atmosphere == KD_ATMOSPHERE_SCATTERING ? KD_LIMB_SCATTERING
+                                                                : KD_LIMB_ISOTROPIC;
+}
+
+/* The flux of a scene's disk, over Mdot. With returning light it is that of a table. */
+struct profile {
+    struct kd_hole hole;
+    kd_disk_flux_fn own;
+    double largest;
+    bool returns;
+    struct kd_returning returning;
+};
+
+static struct profile profile_of(const struct kd_scene *scene)
+{
+    const bool newton = scene->disk.model == KD_DISK_SHAKURA_SUNYAEV;
+    struct profile p = { .hole = *kd_scene_hole(scene),
+                         .own = newton ? kd_disk_flux_shakura_sunyaev : kd_disk_flux_page_thorne,
+                         .returns = scene->disk.returning };
+    if (p.returns)
+        kd_returning_init(&p.returning, &p.hole, limb_of(scene));
+    p.largest =
+        p.returns ? p.returning.largest
+                  : p.own(&p.hole, newton ? kd_disk_peak_shakura_sunyaev(&p.hole) : kd_disk_peak_page_thorne(&p.hole));
+    return p;
+}
+
+static double flux_at(const struct profile *p, double r)
+{
+    return p->returns ? kd_returning_flux(&p->returning, r) : p->own(&p->hole, r);
+}
+
+double kd_disk_peak_temperature(const struct kd_scene *scene)
+{
+    if (scene->disk.colour == KD_COLOUR_PEAK)
+        return scene->disk.peak_temperature_k;
+    const struct profile p = profile_of(scene);
+    return kd_disk_temperature(p.largest, &p.hole, scene->spacetime.mass_msun, scene->disk.mdot_edd);
 }
 
 double kd_disk_heat(const struct kd_scene *scene, double r)
 {
+    const struct profile p = profile_of(scene);
     const double f = fmin(fmax((scene->disk.outer - r) / fmax(scene->disk.outer * scene->disk.taper, 1e-6), 0), 1),
                  fade = f * f * (3 - 2 * f);
-    return r > kd_kerr_isco(kd_scene_hole(scene))
-               ? pow(scene->disk.opacity * fade * kd_scene_disk_flux(scene, r) / kd_scene_disk_largest_flux(scene),
-                     0.25)
-               : 0;
+    return r > kd_kerr_isco(&p.hole) ? pow(scene->disk.opacity * fade * flux_at(&p, r) / p.largest, 0.25) : 0;
 }
 
 double kd_disk_inner(const struct kd_scene *scene)
@@ -61,7 +110,7 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD]) { kd_disk
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
     const struct kd_disk *d = &scene->disk;
-    double peak = kd_scene_disk_peak_k(scene) * d->hardening;
+    double peak = kd_disk_peak_temperature(scene) * d->hardening;
     const double quanta = KD_H_J_S * d->frequency_ghz * 1e9 / (KD_K_J_K * peak);
     out->disk = (struct kd_disk_block) {
         .r_in = (float)kd_disk_inner(scene),
@@ -73,14 +122,6 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
         .quanta = (float)quanta,
         .quanta_mean = (float)(-expm1(-quanta) / quanta),
     };
-}
-
-/* The law of limb darkening of a scene's disk. */
-static enum kd_limb limb_of(const struct kd_scene *scene)
-{
-    return scene->disk.atmosphere == KD_ATMOSPHERE_LAOR         ? KD_LIMB_LAOR
-           : scene->disk.atmosphere == KD_ATMOSPHERE_SCATTERING ? KD_LIMB_SCATTERING
-                                                                : KD_LIMB_ISOTROPIC;
 }
 
 /* The cubic through the ends of a cell and the places at a third and two thirds of it. */
@@ -104,14 +145,32 @@ static void atmosphere_table(struct kd_emit_tables *out, enum kd_limb law)
     }
 }
 
+static void reflected_table(struct kd_emit_tables *out, const struct profile *p, int i, double r,
+                            const struct kd_reflected *light)
+{
+    out->disk[i][2] = (float)(light->warm * pow(p->largest, -0.25));
+    out->disk[i][3] = (float)(light->flux * pow(r, 3) / pow(light->warm, 4));
+}
+
 /* Tables over y = sqrt(1 - r_isco/r), in which T r^(3/4) is smooth and bounded: linear at the ISCO, where the flux has
  * a double zero, and finite at infinity, where T falls as r^(-3/4). */
 static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
-    const double isco = kd_kerr_isco(kd_scene_hole(scene)), peak = kd_scene_disk_largest_flux(scene);
+    const struct profile p = profile_of(scene);
+    const double isco = kd_kerr_isco(&p.hole);
+    struct kd_reflection reflection;
+    if (reflects(scene))
+        kd_reflection_init(&reflection, &p.returning, scene->disk.albedo);
     for (int i = 0; i < KD_DISK_TABLE; i++) {
-        double y = fmin((double)i / (KD_DISK_TABLE - 1), 1 - 1e-6), r = isco / (1 - y * y);
-        out->disk[i][0] = (float)(pow(kd_scene_disk_flux(scene, r) / peak, 0.25) * pow(r, 0.75));
+        double y = fmin((double)i / (KD_DISK_TABLE - 1), 1 - 1e-6), r = isco / (1 - y * y), flux;
+        if (reflects(scene)) {
+            const struct kd_reflected light = kd_reflection_at(&reflection, &p.returning, r);
+            reflected_table(out, &p, i, r, &light);
+            flux = light.absorbed;
+        } else {
+            flux = flux_at(&p, r);
+        }
+        out->disk[i][0] = (float)(pow(flux / p.largest, 0.25) * pow(r, 0.75));
         if (i > 0)
             out->disk[i - 1][1] = out->disk[i][0] - out->disk[i - 1][0];
     }
@@ -123,6 +182,9 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 WHEN(thin, scene->disk.height == 0)
 WHEN(isotropic, !scene->disk.atmosphere)
 WHEN(darkened, scene->disk.atmosphere)
+WHEN(without_returning, !scene->disk.returning)
+WHEN(with_returning, scene->disk.returning)
+WHEN(reflected, reflects(scene))
 WHEN(newtonian, scene->disk.model == KD_DISK_SHAKURA_SUNYAEV)
 WHEN(chosen_peak, scene->disk.colour == KD_COLOUR_PEAK)
 WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
@@ -138,14 +200,20 @@ static const struct kd_sentence sentences[] = {
       "disk: geometrically thin, in the equatorial plane; its gas moves on circular Kerr orbits and ends at the "
       "inner edge",
       thin },
-    { "disk.isotropic",
-      "disk: each element shines as an isotropic black body; no limb darkening, no irradiation by returning light",
-      isotropic },
+    { "disk.isotropic", "disk: each element shines as an isotropic black body; no limb darkening", isotropic },
     { "disk.atmosphere",
       "disk: the limb darkening of a deep, plane atmosphere at all wavelengths alike; each element has the spectrum of "
-      "a "
-      "black body; no irradiation by returning light",
+      "a black body",
       darkened },
+    { "disk.no-returning", "disk: light that the hole bends back to the disk is ignored", without_returning },
+    { "disk.returning",
+      "disk: the light that returns is that of a smooth, opaque disk from the ISCO to infinity; where it arrives it is "
+      "absorbed, with its angular momentum, and radiated again",
+      with_returning },
+    { "disk.reflected",
+      "disk: the reflected share of returning light leaves with the law and the angular momentum of the disk's own "
+      "light, as a dilute black body of the mean temperature of its sources as the gas sees them",
+      reflected },
     { "disk.newtonian",
       "disk: the flux of the Newtonian thin disk, cut at the ISCO, instead of the Page-Thorne integral", newtonian },
     { "disk.temperature",

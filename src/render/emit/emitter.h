@@ -150,8 +150,10 @@ void kd_disk_tell(const struct kd_scene *scene, const char *noun, char out[KD_EM
 uint32_t kd_orbit_traits(const struct kd_scene *scene);
 uint32_t kd_orbit_needs(const struct kd_scene *scene);
 unsigned kd_orbit_varies(const struct kd_scene *scene);
+/* The largest effective temperature of the disk, in K in the gas's own frame; with light that returns. */
+double kd_disk_peak_temperature(const struct kd_scene *scene);
 /* The temperature of a black body as bright as the smooth disk at r, including fade and opacity, relative to
- * kd_scene_disk_peak_k. */
+ * kd_disk_peak_temperature. */
 double kd_disk_heat(const struct kd_scene *scene, double r);
 /* The inner edge of the disk, M. */
 double kd_disk_inner(const struct kd_scene *scene);

@@ -76,11 +76,11 @@ static const struct kd_sentence sentences[] = {
       by_field },
     { "polarization.scatter",
       "polarization: scattering: the fraction is that of a deep, plane atmosphere of electrons (Chandrasekhar 1960); "
-      "its limb darkening, and light that returns to the disk, are ignored",
+      "its limb darkening, and the polarisation of light that returned to the disk, are ignored",
       by_electrons },
     { "polarization.darkened",
       "polarization: scattering: brightness and fraction are those of a deep, plane atmosphere of electrons "
-      "(Chandrasekhar 1960); light that returns to the disk is ignored",
+      "(Chandrasekhar 1960); light that returned to the disk is polarised like all other",
       by_atmosphere },
     { "polarization.none", "polarization: light of volumes, bodies and the sky is unpolarised", beside },
 };

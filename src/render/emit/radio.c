@@ -1,5 +1,7 @@
 #include "render/emit/radio.h"
 
+#include "render/emit/emitter.h"
+
 #include "physics/math/constants.h"
 #include "render/view/camera.h"
 
@@ -18,7 +20,7 @@ double kd_radio_kelvin(const struct kd_scene *scene)
     if (kd_scene_is_radio(scene) || !kd_scene_has_disk_frequency(scene))
         return KD_RADIO_KELVIN;
     const double quantum = KD_H_J_S * scene->disk.frequency_ghz * 1e9 / KD_K_J_K;
-    return quantum / expm1(quantum / (kd_scene_disk_peak_k(scene) * scene->disk.hardening)) /
+    return quantum / expm1(quantum / (kd_disk_peak_temperature(scene) * scene->disk.hardening)) /
            pow(scene->disk.hardening, 4);
 }
 
