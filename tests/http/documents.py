@@ -187,7 +187,7 @@ class Documents(unittest.TestCase):
         self.run_all("docs/rays.md", 3)
 
     def test_integrals(self):
-        self.run_all("docs/physics/integrals.md", 8)
+        self.run_all("docs/physics/integrals.md", 11)
 
     def test_quantities(self):
         self.run_all("docs/physics-quantities.md", 1)

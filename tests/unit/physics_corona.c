@@ -50,8 +50,8 @@ static void test_axis(void **state)
             struct kd_lamppost reference;
             struct kd_corona on, beside;
             assert_true(kd_lamppost_init(&reference, &hole, h, 2.3, isco, 400));
-            assert_true(kd_corona_init(&on, &lamp, 2.3, isco, 400));
-            assert_true(kd_corona_init(&beside, &near, 2.3, isco, 400));
+            assert_int_equal(kd_corona_init(&on, &lamp, 2.3, isco, 400), KD_OK);
+            assert_int_equal(kd_corona_init(&beside, &near, 2.3, isco, 400), KD_OK);
             assert_int_equal(on.angles, 1);
             for (double r = isco; r < 400; r *= 1.37) {
                 within("lamp", hole.a, r, kd_corona_light_at(&on.light, r) / kd_lamppost_at(&reference, r), 1, 2e-5);
@@ -70,7 +70,7 @@ static void test_flat_ring(void **state)
     const struct kd_corona_source source = source_of(kd_hole(0), radius, height, KD_CORONA_STATIC);
     struct kd_corona corona;
     (void)state;
-    assert_true(kd_corona_init(&corona, &source, 2, 500, 9000));
+    assert_int_equal(kd_corona_init(&corona, &source, 2, 500, 9000), KD_OK);
     for (double r = 600; r < 9000; r *= 1.4) {
         double want = 0;
         for (int k = 0; k < 500; k++)
@@ -139,7 +139,7 @@ static void test_shapes(void **state)
         struct kd_corona_light light;
         struct kd_corona_continuum direct;
         double sum[COUNT(radii)] = { 0 }, all = 0, flux = 0;
-        assert_true(kd_corona_light_of(kd_hole(a), s, 2.2, 3.4, 50, &light));
+        assert_int_equal(kd_corona_light_of(kd_hole(a), s, 2.2, 3.4, 50, &light), KD_OK);
         assert_true(kd_corona_continuum_of(kd_hole(a), s, 2.2, cos_i, &direct));
         for (int i = 0; i < ACROSS * up; i++) {
             const double rho = s->inner + (s->outer - s->inner) * (i / up + 0.5) / ACROSS,
@@ -147,7 +147,7 @@ static void test_shapes(void **state)
             const struct kd_corona_source source = source_of(kd_hole(a), rho, z, s->motion);
             struct kd_corona ring;
             struct kd_corona_direct part;
-            assert_true(kd_corona_init(&ring, &source, 2.2, 3.4, 50));
+            assert_int_equal(kd_corona_init(&ring, &source, 2.2, 3.4, 50), KD_OK);
             assert_true(kd_corona_direct_of(&source, 2.2, cos_i, &part));
             for (size_t n = 0; n < COUNT(radii); n++)
                 sum[n] += rho * kd_corona_light_at(&ring.light, radii[n]);
@@ -241,7 +241,7 @@ static void test_photons(void **state)
         struct kd_corona corona;
         static double part[KD_CORONA_ANGLES], time[KD_CORONA_ANGLES];
         send(a, rings[k].radius, rings[k].height, rings[k].motion, 2.4, PHOTONS, photons);
-        assert_true(kd_corona_init(&corona, &source, 2.4, isco, 110 * isco));
+        assert_int_equal(kd_corona_init(&corona, &source, 2.4, isco, 110 * isco), KD_OK);
         for (size_t b = 0; b + 1 < COUNT(bins); b++) {
             double want = 0, late = 0, got = 0, got_late = 0;
             int n = 0;
@@ -328,7 +328,7 @@ static void test_echo(void **state)
         struct kd_corona corona;
         assert_true(kd_disk_image_init(&image, kd_hole(a), i * RADIAN));
         assert_int_equal(kd_echo_impulse(&image, &params, edges, BINS, -6, step, TIMES, share, &echo, &error), KD_OK);
-        assert_true(kd_corona_init(&corona, &params.source, 2.4, isco, outer));
+        assert_int_equal(kd_corona_init(&corona, &params.source, 2.4, isco, outer), KD_OK);
         send(a, rings[k].radius, rings[k].height, rings[k].motion, 2.4, PHOTONS, photons);
         qsort(photons, PHOTONS, sizeof *photons, by_radius);
         int met = 0;

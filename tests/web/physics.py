@@ -84,6 +84,14 @@ class Physics(Browser):
             page.fill('[data-path="spacetime.spin"] input[type=number]', "0.7")
             page.keyboard.press("Tab")
         self.assertEqual(asked.value.post_data_json["spin"], 0.7)
+        choose("impulse", "Echo of a flash")
+        self.there(page, "The answer comes", figure)
+        with page.expect_request("**/v1/impulse") as asked:
+            page.fill("#in-impulse-height", "12")
+            page.keyboard.press("Tab")
+        self.assertEqual(asked.value.post_data_json["height"], 12)
+        self.there(page, "The answer comes", figure)
+        self.shot(page, "integrals-echo", full_page=True)
         choose("visibility", "Visibility by baseline")
         self.there(page, "share of all light", figure)
         self.assertTrue(

@@ -212,14 +212,15 @@ void kd_corona_finish(struct kd_corona *c)
 
 /* Makes n angles, of which every second one is there already if n is more than the fewest. The sum over a period
  * converges as a power of n, so that the square of the change by the last doubling is left; its power 1.5 is stated. */
-static bool take_angles(struct kd_corona *c, const struct kd_corona_source *source, double photon_index,
-                        const double *radii, int n)
+static enum kd_status take_angles(struct kd_corona *c, const struct kd_corona_source *source, double photon_index,
+                                  const double *radii, int n)
 {
     struct kd_corona before = *c;
     c->angles = n;
     c->log_part = malloc(sizeof(double) * KD_CORONA_RINGS * (size_t)n);
     c->time = malloc(sizeof(double) * KD_CORONA_RINGS * (size_t)n);
-    bool made = c->log_part && c->time;
+    const bool room = c->log_part && c->time;
+    bool made = room;
     for (int j = 0; j < n && made; j++) {
         if (!before.log_part || j % 2) {
             made = make_angle(c, source, photon_index, radii, j);
@@ -232,23 +233,24 @@ static bool take_angles(struct kd_corona *c, const struct kd_corona_source *sour
     }
     kd_corona_finish(&before);
     c->light.error = made ? pow(add_up(c), 1.5) : INFINITY;
-    return made;
+    return made ? KD_OK : room ? KD_EINVAL : KD_ENOMEM;
 }
 
-bool kd_corona_init(struct kd_corona *c, const struct kd_corona_source *source, double photon_index, double inner,
-                    double outer)
+enum kd_status kd_corona_init(struct kd_corona *c, const struct kd_corona_source *source, double photon_index,
+                              double inner, double outer)
 {
     const struct kd_vantage *at = &source->frame.at;
     double radii[KD_CORONA_RINGS];
+    enum kd_status status = KD_OK;
     *c = (struct kd_corona) { .light = nodes_of(at->s > 0 ? log(at->r * at->s) : 0,
                                                 at->s > 0 ? fmin(1, at->u / at->s) : 0, inner, outer) };
     fill_radii(&c->light, radii);
     if (!(at->s > 0))
         return take_angles(c, source, photon_index, radii, 1);
     for (int n = FEWEST; n <= KD_CORONA_ANGLES && c->light.error > RIGHT; n *= 2)
-        if (!take_angles(c, source, photon_index, radii, n))
-            return false;
-    return true;
+        KD_TRY(take_angles(c, source, photon_index, radii, n));
+done:
+    return status;
 }
 
 enum { POINTS = 4 }; /* nodes that an interpolation uses */
@@ -493,32 +495,32 @@ int kd_corona_rings(const struct kd_corona_shape *shape, struct kd_corona_ring o
 }
 
 /* Of a single ring the table is its own; of several it is even in ln r. */
-static bool make_light(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
-                       double inner, double outer, struct kd_corona_light *out)
+static enum kd_status make_light(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
+                                 double inner, double outer, struct kd_corona_light *out)
 {
     struct kd_corona_ring rings[KD_CORONA_PARTS];
     double radii[KD_CORONA_RINGS], sum[KD_CORONA_RINGS] = { 0 };
     const int n = kd_corona_rings(shape, rings);
+    enum kd_status status = KD_OK;
     *out = nodes_of(0, 0, inner, outer);
     out->error = 0;
     fill_radii(out, radii);
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < n && !status; i++) {
         struct kd_corona_source source;
         struct kd_corona corona = { 0 };
-        const bool made = kd_corona_source_of(hole, rings[i].radius, rings[i].height, shape->motion, &source) &&
-                          kd_corona_init(&corona, &source, photon_index, inner, outer);
-        for (int k = 0; made && k < KD_CORONA_RINGS; k++)
+        if (!kd_corona_source_of(hole, rings[i].radius, rings[i].height, shape->motion, &source))
+            return KD_EINVAL;
+        status = kd_corona_init(&corona, &source, photon_index, inner, outer);
+        for (int k = 0; !status && k < KD_CORONA_RINGS; k++)
             sum[k] += rings[i].weight * kd_corona_light_at(&corona.light, radii[k]);
-        if (made && n == 1)
+        if (!status && n == 1)
             *out = corona.light;
-        out->error = made ? fmax(out->error, corona.light.error) : INFINITY;
+        out->error = fmax(out->error, corona.light.error);
         kd_corona_finish(&corona);
-        if (!made)
-            return false;
     }
     for (int k = 0; n > 1 && k < KD_CORONA_RINGS; k++)
         out->log_epsilon[k] = log(sum[k]);
-    return true;
+    return status;
 }
 
 enum { KEPT = 64 };
@@ -555,17 +557,17 @@ static void keep(const struct key *key, const struct kd_corona_light *light)
     pthread_mutex_unlock(&lock);
 }
 
-bool kd_corona_light_of(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
-                        double inner, double outer, struct kd_corona_light *out)
+enum kd_status kd_corona_light_of(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
+                                  double inner, double outer, struct kd_corona_light *out)
 {
     const struct key key = { hole->a,      hole->q,      inner,         outer,      photon_index,
                              shape->inner, shape->outer, shape->height, shape->top, (double)shape->motion };
     if (look_up(&key, out))
-        return true;
-    if (!make_light(hole, shape, photon_index, inner, outer, out))
-        return false;
-    keep(&key, out);
-    return true;
+        return KD_OK;
+    const enum kd_status status = make_light(hole, shape, photon_index, inner, outer, out);
+    if (!status)
+        keep(&key, out);
+    return status;
 }
 
 bool kd_corona_continuum_of(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,

@@ -23,6 +23,7 @@
 #ifndef KD_PHYSICS_DISK_CORONA_H
 #define KD_PHYSICS_DISK_CORONA_H
 
+#include "base/error.h"
 #include "physics/spacetime/hole.h"
 #include "physics/spacetime/tetrad.h"
 
@@ -69,9 +70,9 @@ struct kd_corona_light { double first, step, centre, width, log_epsilon[KD_CORON
 double kd_corona_light_at(const struct kd_corona_light *light, double r);
 
 /* The light of a whole corona, from the ISCO or beyond to outer: the mean over its rings. 0.1 s for a ring, seconds for
- * others; the last 64 are kept. False as kd_corona_init. Every ring must exist. */
-bool kd_corona_light_of(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
-                        double inner, double outer, struct kd_corona_light *out);
+ * others; the last 64 are kept. Fails as kd_corona_init. Every ring must exist. */
+enum kd_status kd_corona_light_of(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
+                                  double inner, double outer, struct kd_corona_light *out);
 
 /* Rings that stand for a corona, by Gauss's rule. The weights add up to 1. Returns their number. */
 enum { KD_CORONA_PARTS = 64 };
@@ -86,11 +87,11 @@ struct kd_corona {
     double *log_part, *time;
 };
 
-/* Radii from inner, which is the ISCO or larger, to outer. Some 30 ms to 1 s. False if memory is short, or if a ring of
- * the disk is not met once along each chi, as next to the hole and the plane at once. Free it with kd_corona_finish in
+/* Radii from inner, which is the ISCO or larger, to outer. Some 30 ms to 1 s. KD_ENOMEM; KD_EINVAL: a ring of the disk
+ * is not met once along each chi, as next to the hole and the plane at once. Free it with kd_corona_finish in
  * any case. */
-bool kd_corona_init(struct kd_corona *corona, const struct kd_corona_source *source, double photon_index, double inner,
-                    double outer);
+enum kd_status kd_corona_init(struct kd_corona *corona, const struct kd_corona_source *source, double photon_index,
+                              double inner, double outer);
 void kd_corona_finish(struct kd_corona *corona);
 /* The parts and times of all angles at r. */
 void kd_corona_parts(const struct kd_corona *corona, double r, double *part, double *time);

@@ -66,7 +66,10 @@ static enum kd_status make_view(const struct kd_disk_image *image, const struct 
         return kd_error_field(error, "/height",
                               "height and corona_radius are of a place from which no direct light to "
                               "this inclination was found");
-    if (!kd_corona_init(&view->corona, &p->source, p->photon_index, p->inner, p->outer))
+    const enum kd_status status = kd_corona_init(&view->corona, &p->source, p->photon_index, p->inner, p->outer);
+    if (status == KD_ENOMEM)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the light of a corona");
+    if (status)
         return kd_error_field(
             error, "/height",
             "height and corona_radius are of a place from which no rays to all radii of the disk were "

@@ -330,12 +330,21 @@ static double approach(const struct kd_disk_image *image, const struct kd_line_p
     return error;
 }
 
-static bool receive(const struct kd_hole *hole, const struct kd_line_params *p, struct received *received)
+static enum kd_status receive(const struct kd_hole *hole, const struct kd_line_params *p, struct received *received,
+                              struct kd_error *error)
 {
+    enum kd_status status = KD_OK;
     if (p->emissivity == KD_LINE_LAMPPOST)
-        return kd_lamppost_init(&received->lamp, hole, p->height, p->photon_index, p->inner, p->outer);
-    return p->emissivity < KD_LINE_RING ||
-           kd_corona_light_of(hole, &p->corona, p->photon_index, p->inner, p->outer, &received->corona);
+        status =
+            kd_lamppost_init(&received->lamp, hole, p->height, p->photon_index, p->inner, p->outer) ? KD_OK : KD_EINVAL;
+    else if (p->emissivity >= KD_LINE_RING)
+        status = kd_corona_light_of(hole, &p->corona, p->photon_index, p->inner, p->outer, &received->corona);
+    if (status == KD_ENOMEM)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the light of a corona");
+    if (status)
+        return kd_error_field(error, "/height",
+                              "height is %.9g, from where no rays to all radii of the disk were found", p->height);
+    return KD_OK;
 }
 
 enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct kd_line_params *params,
@@ -345,9 +354,9 @@ enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct k
     const struct kd_hole_parameter largest = kd_hole_largest(&image->hole);
     struct received received;
     struct sum sums[LEVELS + 1];
-    if (!receive(&image->hole, params, &received))
-        return kd_error_field(error, "/height",
-                              "height is %.9g, from where no rays to all radii of the disk were found", params->height);
+    const enum kd_status lit = receive(&image->hole, params, &received, error);
+    if (lit)
+        return lit;
     struct work *work = malloc(sizeof *work);
     const size_t most = (size_t)bins + 2 * LOOKED + 4;
     double *in = calloc(most * (LEVELS + 2), sizeof *in);

@@ -108,6 +108,65 @@ const kinds = {
       };
     },
   },
+  impulse: {
+    path: 'impulse',
+    inputs: () => [
+      {
+        name: 'height',
+        label: t('integrals.height-of-the-lamp', 'Height of the lamp'),
+        unit: 'M',
+        value: 6,
+        min: 2.2,
+        max: 1000,
+        step: 0.1,
+        nature: 'model',
+        about: t('integrals.above-the-hole-on', 'Above the hole, on its axis'),
+      },
+      {
+        name: 'time_max',
+        label: t('integrals.to', 'To'),
+        unit: 'M',
+        value: 100,
+        min: 1,
+        max: 1e5,
+        nature: 'look',
+        about: t('integrals.last-time-of-the', 'Last time of the plot, after the flash itself is seen'),
+      },
+    ],
+    ask: (scene, given) => ({
+      ...disk(scene),
+      mass_msun: scene.get('spacetime.mass_msun'),
+      ...given,
+      edges: [0, 1, 1.7],
+      times: 200,
+    }),
+    show: ({ values, columns }, scene) => {
+      const times = columns.share.length / 2, // each for light that is redder than the gas sends it, then bluer
+        wide = columns.time_high[0] - columns.time_low[0],
+        x = columns.time_low.slice(0, times).map(low => low + wide / 2),
+        part = from => columns.share.slice(from, from + times).map(share => share / wide),
+        [red, blue] = [part(0), part(times)],
+        all = red.map((share, i) => share + blue[i]);
+      return {
+        title: t('integrals.echo-of-a-flash', 'Echo of a flash'),
+        note:
+          t(
+            'integrals.a-lamp-above-the',
+            'A lamp above the hole flashes, and the disk’s gas answers with a line. The answer comes {0} M after the flash on the mean, {1} s for this mass; {2} % of it lies in this range.',
+            number(values.mean_time, 3),
+            number(values.mean_time * values.unit_s, 3),
+            number(100 * values.inside, 3),
+          ) + elsewhere(scene),
+        x: { label: t('integrals.time-after-the-flash', 'time after the flash, M'), min: 0 },
+        y: { label: t('integrals.share-of-photons-an-m', 'share of the photons an M'), ...limits(all) },
+        series: [
+          { name: t('common.photons', 'photons'), x, y: all },
+          { name: t('integrals.redder-than-at-rest', 'redder than at rest'), x, y: red },
+          { name: t('integrals.bluer-than-at-rest', 'bluer than at rest'), x, y: blue },
+        ],
+      };
+    },
+  },
   spectrum: {
     path: 'spectrum',
     inputs: () => [
