@@ -284,7 +284,7 @@ def sent(arrivals, answers):
 
 
 def alone(arrivals, answers):
-    """Seconds beyond Server-Timing of the answers whose requests met no other one."""
+    """For each request that ran alone: the seconds of its answer beyond those in Server-Timing."""
     free = 0.0
     for at, (status, took, timing, late) in zip(arrivals, answers):
         if at > free and status == 200:

@@ -115,7 +115,7 @@ def p95(log):
 
 
 def curve(n, measured):
-    """p95 of the answers' seconds by load."""
+    """The 95th percentile of the answers' seconds, for each load."""
     out = {}
     for load in (
         LOADS if n < 1000 else (load for load in LOADS if load < 1)

@@ -74,7 +74,7 @@ STREAMS = "text/event-stream", "multipart/x-mixed-replace", "application/x-kerrd
 
 
 def openapi(kerrd):
-    """The document; it is served, not printed, by a server for a moment."""
+    """Fetches /openapi.json from a server that is started for it."""
     server = subprocess.Popen([kerrd, "serve", "--port", "0"], stdout=subprocess.PIPE, text=True)
     try:
         address = server.stdout.readline().split()[-1]

@@ -3,7 +3,7 @@
 /* clang-format off */
 #define KD_BLOCK_frame(F, U, A) \
     U(pixels_x)            /* a row */ \
-    U(band_pixels)         /* pixels whose light one buffer holds; the separate luminance follows */ \
+    U(band_pixels)         /* number of pixels whose light one buffer holds; the separate luminance follows it */ \
     F(azimuth)             /* of the observer, radians */ \
     F(delay)               /* the light delay for which moving emitters are shown at the scene's time, M */ \
     F(w_least) F(w_most)   /* 1/r of crossings at which something may emit light */ \

@@ -161,7 +161,7 @@
     U(tiles)                /* capacity for small tiles */ \
     U(stars)                /* number of stars in the list: temperatures follow directions and fluxes */ \
     U(pixels_y)             /* rows of pixels that the buffer of light holds */ \
-    /* signed integers: rows and columns of the picture's pixels plus these are those of the light */ \
+    /* signed integers that convert the picture's rows and columns of pixels to those of the light, by addition */ \
     U(up) U(rightward) \
     U(rim)                  /* rim: start of the current grid's table (render/view/rim_grid.h) */ \
     /* far, fall: distance of the grid's first row from the curve, and the decrease from row to row */ \

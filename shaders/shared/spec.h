@@ -26,7 +26,7 @@
     U(5, X1, 0) U(6, Y1, 0) U(7, X2, 0) U(8, Y2, 0) U(9, X3, 0) U(10, Y3, 0) U(11, X4, 0) U(12, Y4, 0)
 /* clang-format on */
 
-/* For lens_cells.comp. KD_SPEC_FILL, for lens_fill.comp; OF_SKY: fill in the ends of rays instead of crossings. */
+/* KD_SPEC_SAMPLE: for lens_cells.comp. KD_SPEC_FILL: for lens_fill.comp. OF_SKY: fill ends of rays, not crossings. */
 #define KD_SPEC_SAMPLE(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3)
 #define KD_SPEC_FILL(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3) B(2, OF_SKY, false)
 

@@ -13,8 +13,7 @@ struct kd_named_asset {
 struct kd_asset_options { /* initialise to 0 */
     struct kd_named_asset *list;
     size_t n;
-    /* documents besides the scene may use assets; they are read first, and kd_asset_options_check is called after
-     * them */
+    /* documents other than the scene may use assets; the caller reads them before it calls kd_asset_options_check */
     bool later;
 };
 

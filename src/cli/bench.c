@@ -66,8 +66,8 @@ static enum kd_status put_error(struct kd_buffer *out, double value)
     return isfinite(value) ? kd_buffer_printf(out, " %9.1e", value) : kd_buffer_printf(out, " %9s", "-");
 }
 
-/* Prints one line for each row: its speed, its median errors over the bulk set, and the tolerance for which it is good
- * enough. */
+/* Prints one line for each row: its speed, its median errors over the bulk set, and the largest tolerance that it
+ * meets. */
 static enum kd_status summarise(const struct kd_accuracy_table *t, struct kd_buffer *out)
 {
     enum kd_status status;
@@ -174,7 +174,7 @@ static char *command_of(int argc, char **argv)
     struct kd_buffer text = { 0 };
     for (int i = 0; i < argc; i++)
         if (kd_buffer_printf(&text, "%s%s", i ? " " : "", argv[i])) {
-            kd_buffer_finish(&text); /* without it, because a truncated command would mislead */
+            kd_buffer_finish(&text); /* discards the text, because a truncated command would mislead */
             break;
         }
     return (char *)text.data;

@@ -80,7 +80,7 @@ enum kd_status kd_cli_prefix(struct kd_error *error, const char *name)
 {
     char message[sizeof error->message];
     memcpy(message, error->message, sizeof message);
-    /* Both are truncated if necessary. The message matters more than the end of a long path. */
+    /* Name and message are truncated if necessary. The message matters more than the end of a long path. */
     snprintf(error->message, sizeof error->message, "%.120s: %.350s", name, message);
     return error->status;
 }
@@ -94,7 +94,7 @@ _Noreturn void kd_cli_device_lost(const struct kd_error *error)
 
 void kd_cli_stdout_failed(int number)
 {
-    static bool told; /* the failure is reported once, although kd_cli_close_stdout fails as well */
+    static bool told; /* ensures that the failure is reported once, although kd_cli_close_stdout fails as well */
     if (number == EPIPE) {
         signal(SIGPIPE, SIG_DFL);
         raise(SIGPIPE);

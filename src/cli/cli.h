@@ -45,8 +45,8 @@ void kd_cli_stdout_failed(int number);
 /* For atexit: flushes stdout, so that the exit code is 1 if help or a list could not be written. */
 void kd_cli_close_stdout(void);
 
-/* Both parse an option's text. If it is not valid they return false and leave *out unchanged. KD_CLI_BYTES_ALLOWED
- * describes the accepted sizes in messages. */
+/* Both functions parse an option's text. If it is not valid they return false and leave *out unchanged.
+ * KD_CLI_BYTES_ALLOWED describes the accepted sizes in messages. */
 bool kd_cli_read_number(const char *text, unsigned minimum, unsigned maximum, unsigned *out);
 bool kd_cli_read_bytes(const char *text, uint64_t *out);
 #define KD_CLI_BYTES_ALLOWED "a size from 64M to 1024T, as in 1536M or 2G"

@@ -13,8 +13,8 @@
 const struct kd_format *kd_cli_picture_format(const struct argp_state *state, const char *option, const char *path,
                                               bool required);
 
-/* Plans and renders what the format needs of a scene; Ctrl-C stops it. *ms: render time. Exits if the device is lost.
- * The caller must finish *frame, even after an error. */
+/* Plans a scene and renders what the format needs; Ctrl-C stops it. *ms: render time. Exits if the device is lost. The
+ * caller must finish *frame, even after an error. */
 enum kd_status kd_cli_draw(struct kd_renderer *renderer, const struct kd_format *format, struct kd_scene *scene,
                            struct kd_plan *plan, struct kd_frame *frame, double *ms, struct kd_error *error);
 

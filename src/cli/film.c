@@ -180,7 +180,7 @@ done:
     return status;
 }
 
-/* Computes a hash of everything that frames depend on: the request, the options, and the contents of the files that
+/* Computes a hash of everything on which frames depend: the request, the options, and the contents of the files that
  * these name. */
 static enum kd_status identify(struct work *w, struct kd_error *error)
 {

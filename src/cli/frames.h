@@ -7,7 +7,7 @@
 
 struct kd_frames {
     unsigned n;
-    const char *noun;               /* what a frame is called in errors, such as "scene" */
+    const char *noun;               /* name of a frame in errors, such as "scene" */
     const struct kd_format *format; /* format of the frames; may be NULL if there is no folder */
     int store, folder, lock;        /* descriptors; -1: none */
     bool shared;
@@ -15,12 +15,12 @@ struct kd_frames {
 };
 #define KD_FRAMES_NONE { .store = -1, .folder = -1, .lock = -1 }
 
-/* Opens temporary storage. Before, initialise *frames with KD_FRAMES_NONE and set n, noun and format. KD_EIO,
- * KD_ENOMEM; the caller must finish it in any case. */
+/* Opens temporary storage. Before the call, initialise *frames with KD_FRAMES_NONE and set n, noun and format. KD_EIO,
+ * KD_ENOMEM; the caller must finish *frames in any case. */
 enum kd_status kd_frames_open(struct kd_frames *frames, struct kd_error *error);
 /* Like kd_frames_open, in a folder, which is created if needed. If `shared` is set, processes that render other frames
- * of the film share the folder; otherwise this process alone has it. Returns KD_EINVAL if another process has locked it
- * otherwise. Call kd_frames_find next. */
+ * of the film may use the folder at the same time; otherwise this process locks it for itself. Returns KD_EINVAL if
+ * another process has locked it. Call kd_frames_find next. */
 enum kd_status kd_frames_open_folder(struct kd_frames *frames, const char *path, bool shared, struct kd_error *error);
 /* Counts the frames in the folder. Removes unfinished files, unless the folder is shared. It is an error if a folder or
  * a link has the name of a frame. */
@@ -33,7 +33,7 @@ enum kd_status kd_frames_put(struct kd_frames *frames, unsigned frame, const str
 bool kd_frames_read(void *frames, unsigned frame, uint64_t at, void *to, size_t size);
 
 /* Combines all frames into one file. sweep: the scenes of the frames; NULL: they are not a sweep. rate: frame rate of a
- * film in 1/s. go_on is called repeatedly while another program works; if it returns false, that stops with
+ * film in 1/s. go_on is called repeatedly while another program works; if it returns false, the work stops with
  * KD_ECANCELLED. */
 struct kd_frames_whole {
     const struct kd_gather_format *format;

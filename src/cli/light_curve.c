@@ -57,7 +57,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* Parses the first and the last time. They have the range and the messages of the scene's own time. */
+/* Parses the first and the last time. Their range and messages are those of the scene's own time. */
 static enum kd_status span(const struct arguments *arguments, struct kd_scene *scene, double *to,
                            struct kd_error *error)
 {

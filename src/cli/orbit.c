@@ -176,7 +176,8 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
 
 static void set_options(struct argp_option *options)
 {
-    /* A case first, and a state last: the meaning of --r depends on the constants. */
+    /* Options that define an orbit. A case comes first and a state last, because the meaning of --r depends on the
+     * constants. */
     static const struct {
         enum kd_orbit_form form;
         const char *about;

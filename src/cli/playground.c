@@ -35,7 +35,7 @@ struct arguments {
     const char *sets[SETS_MAX];
     size_t n_sets;
     double time;
-    /* bounded: --set budget was given; otherwise the budget, which is meant for servers, does not apply */
+    /* bounded: --set budget was given; otherwise there is no budget, because it is meant for servers */
     bool list, bounded;
     struct kd_pictures_asked pictures;
 };
@@ -177,10 +177,10 @@ done:
 }
 
 /* Events since the beginning, one on each line. If a sub-step has more than KD_PLAYGROUND_EVENTS events, the oldest are
- * lost; a line says how many. */
+ * lost; a line states how many. */
 struct story {
     struct kd_buffer text;
-    uint64_t told, lost;      /* told: number of the last event written; lost: how many were lost */
+    uint64_t told, lost;      /* told: number of the last event written; lost: number of lost events */
     struct kd_error short_of; /* why the simulation ended early; its status is KD_OK if it did not */
 };
 

@@ -23,7 +23,8 @@ static struct kd_row_options rows;
 struct arguments {
     const char *input, *output, *device, *format;
     struct kd_row_texts fields;
-    bool trace, points;          /* trace: the ray's steps; points: points of its path instead of the steps */
+    bool trace, points;          /* trace: write the ray's steps; points: write points of its path instead of the
+                                  * steps */
     struct kd_rays_request more; /* the rays that --ray gives */
 };
 
@@ -48,8 +49,7 @@ static void add_ray(struct arguments *arguments, const char *text, struct argp_s
         argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--ray");
 }
 
-/* If no format is given, takes it from the output's name. Text is possible for steps only, arrays only without
- * steps. */
+/* If no format is given, takes it from the output's name. Text is possible for steps only, NPY only without steps. */
 static void settle_format(struct arguments *arguments, const struct argp_state *state)
 {
     const char *const *known = arguments->trace ? KD_ENDINGS("text", "json", "csv") : KD_ENDINGS("json", "npy", "csv");

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What an option's argument is called in --help. */
+/* Writes the placeholder of an option's argument in --help. */
 static void name_value(const struct kd_row *row, char *out, size_t size)
 {
     const bool word = row->kind == KD_KIND_REAL && row->words;
@@ -21,7 +21,8 @@ static void name_value(const struct kd_row *row, char *out, size_t size)
     snprintf(out, size, "%s%s%s", plain, word ? "|" : "", word ? row->words : "");
 }
 
-/* Describes the value that a row has in a request before anything is given. Nothing if it has none, or is a list. */
+/* Describes the value that a row has in a request before anything is given. Writes nothing if the row has no such
+ * value, or is a list. */
 static void name_default(const struct kd_row *row, const void *from, char *out, size_t size)
 {
     const void *at = from ? (const char *)from + row->offset : NULL;
@@ -29,7 +30,7 @@ static void name_default(const struct kd_row *row, const void *from, char *out, 
     int word = 0;
     double number = NAN;
     *out = 0;
-    if (!at || row->needed || strstr(row->help, "default")) /* the help says it better */
+    if (!at || row->needed || strstr(row->help, "default")) /* the help states the default itself */
         return;
     switch (row->kind) {
     case KD_KIND_WORD:

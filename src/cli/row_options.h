@@ -15,16 +15,16 @@ struct kd_row_options {
     char options[KD_ROW_OPTIONS][64], values[KD_ROW_OPTIONS][48], helps[KD_ROW_OPTIONS][320];
 };
 
-/* What was given for each of these options; NULL: nothing. */
+/* Text of each of these options; NULL: the option was not given. */
 struct kd_row_texts { const char *of[KD_ROW_OPTIONS]; };
 
-/* Adds an option for each row of the document whose name has no option yet, to the table, which has room and whose
- * next place is *n. from: what the rows have before anything is given, for the help; NULL: unknown. about: begins the
- * help; may be "". objects: an option begins with the name of the row's object. */
+/* Adds an option for each row of the document, unless an option already has the row's name. The table must have room;
+ * its next place is *n. from: the values that the rows have before anything is given, for the help; NULL: unknown.
+ * about: begins the help; may be "". objects: an option begins with the name of the row's object. */
 void kd_row_options_add(struct kd_row_options *to, struct argp_option *table, size_t *n,
                         const struct kd_document *document, const void *from, const char *about, bool objects,
                         int group);
-/* Whether the key is that of one of these options, whose text is then kept. */
+/* Whether the key belongs to one of these options. If so, the text is stored. */
 bool kd_row_options_take(struct kd_row_texts *texts, int key, const char *text);
 /* Index of a field's option. The field must have one. */
 size_t kd_row_options_find(const struct kd_row_options *options, const char *name);

@@ -29,7 +29,7 @@ static void add_row(struct kd_json *rows, const struct kd_selftest_row *row)
     kd_json_string(rows, "what", row->what);
     kd_json_string(rows, "by", row->by);
     kd_json_number(rows, "compared", row->compared);
-    if (isfinite(row->error)) /* a number that does not exist is left out, as everywhere */
+    if (isfinite(row->error)) /* a value that is not finite is left out, as in all JSON of kerrd */
         kd_json_number(rows, "error", row->error);
     kd_json_number(rows, "bound", row->bound);
     kd_json_bool(rows, "ok", row->ok);

@@ -102,8 +102,8 @@ static void announce(const char *address, uint16_t port, const char *base_path, 
     clearerr(stdout);
 }
 
-/* Waits for the end of standard input. The parent holds the other end of it, which is closed even if the parent is
- * killed. */
+/* Waits for the end of standard input. The parent holds the other end of the pipe, which is closed even if the parent
+ * is killed. */
 static void *await_eof(void *unused)
 {
     char bytes[64];

@@ -90,7 +90,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* Looks for the longest end of the path that is a route for links, with or without folders in its name. */
+/* Looks for the longest end of the path that is a route for links. folders: whether to look at routes whose names
+ * contain folders, or at the others. */
 static enum kd_status find_end(const char *path, bool folders, struct kd_buffer *out, bool *found)
 {
     enum kd_status status = KD_OK;

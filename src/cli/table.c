@@ -153,7 +153,7 @@ static enum kd_status read_at(const struct part *part, void *bytes, size_t size,
     return KD_OK;
 }
 
-/* Whether the file begins with the head for a sum of rows. bytes: as much room as a head has. */
+/* Whether the file begins with the table's head for this sum of rows. bytes: a buffer with room for a head. */
 static enum kd_status begins_with(const struct part *part, const struct kd_table *table, uint32_t sum, uint8_t *bytes,
                                   bool *does, struct kd_error *error)
 {
@@ -167,8 +167,8 @@ done:
     return status;
 }
 
-/* Sums the rows that the file has, and checks that the file begins with this table's head: for no rows, or for all of
- * them if only the file's name was missing. */
+/* Sums the rows that the file has, and checks that the file begins with this table's head. The head is that of an
+ * unfinished table, or that of all rows if only the renaming of the file was missing. */
 static enum kd_status resume(struct part *part, const struct kd_table *table, uint64_t size, struct kd_error *error)
 {
     const size_t row = kd_table_row_bytes(table), room = part->head.size > row ? part->head.size : row;
@@ -244,7 +244,7 @@ done:
     return status;
 }
 
-/* Rows between two writes: pieces of successive nodes with one hole and inclination, computed side by side. */
+/* Rows between two writes: pieces of consecutive nodes with the same hole and inclination, computed in parallel. */
 struct batch {
     const struct kd_table *table;
     uint8_t *rows;

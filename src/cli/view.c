@@ -67,7 +67,7 @@ static enum kd_status choose(const struct arguments *arguments, const struct kd_
                         getenv("TMUX") ? ", or the tmux in front of it," : "", remedy);
 }
 
-/* If the document is a picture that kerrd has made, reads it. Otherwise *picture stays empty, and the options of the
+/* Reads the document if it is a picture that kerrd has made. Otherwise *picture stays empty, and the options of the
  * scene read the document. */
 static enum kd_status look(const struct arguments *arguments, struct kd_buffer *picture, struct kd_scene *scene,
                            struct kd_error *error)

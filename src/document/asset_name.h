@@ -4,11 +4,11 @@
 
 #include <stdbool.h>
 
-/* Room for an asset's SHA-256 in hexadecimal digits, or for its name, and a NUL. */
+/* Room for the SHA-256 of an asset in hexadecimal digits, or for its name, with a NUL. */
 #define KD_ASSET_NAME 65
 
 bool kd_asset_is_hash(const char *text);
-/* Whether it may be a name: a letter, then letters, digits, '.', '_' and '-'; fewer than 64. */
+/* Whether the text may be a name: a letter, then letters, digits, '.', '_' and '-', fewer than 64 characters. */
 bool kd_asset_is_name(const char *text);
 
 #endif

@@ -1,15 +1,16 @@
-/* One engine for everything that is asked in words. A table has one row for each field of a document. From the table
- * follow the defaults, the reader of JSON and of typed text, refusals, the writer and the JSON Schema. The engine knows
- * nothing about the meaning of a field. Constant data and pure functions, any thread.
+/* Documents: requests and scenes as tables of fields. A table has one row for each field of a document. From the table
+ * follow the defaults, the reader of JSON and of typed text, refusals, the writer and the JSON Schema. This module does
+ * not know the meaning of a field. Constant data and pure functions, any thread.
  *
  *     struct tea { double minutes; uint32_t cups; int leaf; bool milk; };
  *     #define AT(member) offsetof(struct tea, member)
  *     static const struct kd_row rows[] = {
  *         { .name = "minutes", .kind = KD_KIND_REAL, .offset = AT(minutes), .initial = 3, .least = 0, .most = 10,
- *           .unit = "min", .help = "how long it draws" },
- *         { .name = "cups", .kind = KD_KIND_INT, .offset = AT(cups), .initial = 1, .least = 1, .most = 8, .help = "how
- * many" }, { .name = "leaf", .kind = KD_KIND_WORD, .offset = AT(leaf), .words = "green|black", .help = "kind of leaf"
- * }, { .object = "with", .name = "milk", .kind = KD_KIND_BOOL, .offset = AT(milk), .help = "with milk or not" },
+ *           .unit = "min", .help = "time to draw" },
+ *         { .name = "cups", .kind = KD_KIND_INT, .offset = AT(cups), .initial = 1, .least = 1, .most = 8,
+ *           .help = "number of cups" },
+ *         { .name = "leaf", .kind = KD_KIND_WORD, .offset = AT(leaf), .words = "green|black", .help = "kind of leaf" },
+ *         { .object = "with", .name = "milk", .kind = KD_KIND_BOOL, .offset = AT(milk), .help = "with milk or not" },
  *     };
  *     static const struct kd_document document = { rows, sizeof rows / sizeof *rows };
  *
@@ -37,19 +38,19 @@
 #include <stdint.h>
 
 enum kd_kind {
-    KD_KIND_REAL,   /* double; with `words`, a number or that one word */
+    KD_KIND_REAL,   /* double: a number or, with `words`, also that one word */
     KD_KIND_INT,    /* uint32_t */
     KD_KIND_BOOL,   /* bool */
-    KD_KIND_WORD,   /* int or an enumeration: one of `words`, as its index plus `first` */
-    KD_KIND_WORDS,  /* uint32_t: a set of at least `least` of `words`, as bits */
-    KD_KIND_LIST,   /* struct kd_number_list: an array of `fewest` (0: one) to `room` numbers in the range */
-    KD_KIND_VECTOR, /* double[room]: an array of `room` numbers in the range */
+    KD_KIND_WORD,   /* int or an enumeration: one of `words`, stored as its index plus `first` */
+    KD_KIND_WORDS,  /* uint32_t: a set of at least `least` of `words`, stored as bits */
+    KD_KIND_LIST,   /* struct kd_number_list: an array of `fewest` (0: one) to `room` numbers within the range */
+    KD_KIND_VECTOR, /* double[room]: an array of `room` numbers within the range */
     KD_KIND_TEXT,   /* char[room]: a string shorter than that */
     KD_KIND_ASSET,  /* char[KD_ASSET_NAME]: null, stored as "", or an asset (document/asset_name.h) */
     KD_KIND_SERIES, /* struct kd_words: some of `words` in any order, each once (document/words.h) */
     KD_KIND_JSON,   /* const cJSON *: any value, which the caller reads while the tree exists; NULL: not given */
 };
-enum kd_open { KD_CLOSED, KD_OPEN, KD_OPEN_ABOVE, KD_OPEN_BELOW }; /* ends that a range excludes */
+enum kd_open { KD_CLOSED, KD_OPEN, KD_OPEN_ABOVE, KD_OPEN_BELOW }; /* ends that the range excludes */
 
 struct kd_number_list {
     double *at; /* malloc'd */
@@ -57,24 +58,26 @@ struct kd_number_list {
 };
 
 struct kd_row {
-    /* object: the member of the document that has the field, or "disk.gas", the member of a member; NULL or "": the
+    /* object: the member of the document that contains the field, or a nested one such as "disk.gas"; NULL or "": the
      * document itself */
     const char *object, *name;
     enum kd_kind kind;
-    bool needed, fixed;          /* must be given; cannot be changed afterwards */
-    size_t offset;               /* in the struct that is filled */
-    double initial, least, most; /* of numbers; initial also of a WORD and a BOOL */
+    bool needed, fixed;          /* needed: must be given; fixed: cannot be changed afterwards */
+    size_t offset;               /* offset in the struct that is filled */
+    double initial, least, most; /* for numbers; initial also for a WORD and a BOOL */
     enum kd_open open;
-    double above_0;    /* numbers above 0 are at least this */
+    double above_0;    /* the least value of numbers above 0 */
     const char *words; /* "a|b|c" */
-    double stands;     /* what the word of a REAL stands for: INFINITY or NAN; that of an INT is stored as 0 */
+    double stands;     /* value for which the word of a REAL stands: INFINITY or NAN; the word of an INT is stored as
+                        * 0 */
     int first;
-    const char *typed; /* default as typed text, of a row that may be a range (kd_row_range) */
+    const char *typed; /* default as typed text, for a row that may be a range (kd_row_range) */
     size_t room, fewest;
     unsigned of;             /* bit mask of the kinds of documents that have the field; 0: all */
     const char *unit, *help; /* unit NULL, "" or "1": none */
-    /* Replace what the engine says: the allowed values in words, and the members of the JSON Schema but for the
-     * description, such as "\"type\":\"number\"". For limits that the reader cannot check by one field alone. */
+    /* These replace what the engine writes by itself: the allowed values in words, and the members of the JSON Schema
+     * without the description, such as "\"type\":\"number\"". They are for limits that the reader cannot check by one
+     * field alone. */
     const char *allowed, *schema;
 };
 
@@ -94,13 +97,15 @@ struct kd_document {
     size_t n;
     unsigned of;        /* only rows of these kinds of documents; 0: all rows */
     const char *others; /* "a|b": further members, which the caller reads; NULL: none */
-    /* What an object's members may not be together, as JSON Schema; ends with a NULL name. May be NULL. */
+    /* Combinations of members that an object cannot have, as JSON Schema; the list ends with a NULL name. May be
+     * NULL. */
     const struct kd_document_not { const char *object, *schema; } *nots;
     const struct kd_list *lists;
     size_t n_lists;
     const struct kd_former *formers;
     size_t n_formers;
-    bool paths; /* a typed name is the whole path of a field: "table.milk", "spots.0.r"; false: "milk" will do */
+    bool paths; /* true: a typed name is the whole path of a field, such as "table.milk" or "spots.0.r"; false: "milk"
+                 * is sufficient */
 };
 
 void kd_document_defaults(const struct kd_document *document, void *to);
@@ -115,7 +120,8 @@ const struct kd_row *kd_document_find(const struct kd_document *document, const 
  * former name of an element creates the elements before it, and removes those that are left with all defaults. */
 enum kd_status kd_document_read(const struct kd_document *document, void *to, const cJSON *object, const char *pointer,
                                 uint64_t *given, struct kd_error *error);
-/* As a merge patch (RFC 7396): null resets a field, or all fields of an object or element, and empties a list. */
+/* Like kd_document_read, as a merge patch (RFC 7396): null resets a field, or all fields of an object or element, and
+ * empties a list. */
 enum kd_status kd_document_patch(const struct kd_document *document, void *to, const cJSON *object, const char *pointer,
                                  uint64_t *given, struct kd_error *error);
 /* Sets one field by "name" or "object.name" from typed text; lists and sets have commas between their items. */
@@ -141,7 +147,8 @@ enum kd_status kd_list_check(const struct kd_list *list, size_t size, struct kd_
 /* Sets one field that is no array from a value. called: its name in messages. */
 enum kd_status kd_row_put(const struct kd_row *row, void *to, const struct kd_value *value, const char *called,
                           const char *pointer, struct kd_error *error);
-/* The two halves of kd_row_put: whether the row takes the value; and KD_EINVAL with "X is V; it must be ...". */
+/* The two halves of kd_row_put. kd_row_take stores the value and returns whether the row accepts it. The other returns
+ * KD_EINVAL with "X is V; it must be ...". */
 bool kd_row_take(const struct kd_row *row, void *to, const struct kd_value *value);
 enum kd_status kd_row_refuse(const struct kd_row *row, const struct kd_value *value, const char *called,
                              const char *pointer, struct kd_error *error);
@@ -152,7 +159,7 @@ double kd_row_get(const struct kd_row *row, const void *from);
 void kd_row_put_number(const struct kd_row *row, void *to, double value);
 /* Whether the row allows this value: it is in the row's range, whole if the kind is, or stands for the row's word. */
 bool kd_row_holds(const struct kd_row *row, double value);
-/* Replaces a LIST by room for n numbers. KD_EINVAL at the pointer if the row does not allow as many. */
+/* Replaces a LIST by room for n numbers. KD_EINVAL at the pointer if the row does not allow n numbers. */
 enum kd_status kd_row_make_room(const struct kd_row *row, void *to, size_t n, const char *pointer,
                                 struct kd_number_list **list, struct kd_error *error);
 /* Evenly spaced numbers, both ends included. */
@@ -162,14 +169,14 @@ struct kd_range {
     size_t count; /* 1: a single number */
 };
 double kd_range_at(const struct kd_range *range, size_t i);
-/* Reads a row of numbers from typed text: a number or the row's word, or "first:last:count". Of a WORD, the range is
+/* Reads a row of numbers from typed text: a number or the row's word, or "first:last:count". For a WORD, the range is
  * its index. On an error *range is unchanged. */
 enum kd_status kd_row_range(const struct kd_row *row, const char *text, const char *pointer, struct kd_range *range,
                             struct kd_error *error);
 /* Writes the schema of what kd_row_range reads, with the default, as a member. */
 void kd_row_range_schema(struct kd_json *json, const char *name, const struct kd_row *row);
 
-/* "there is no parameter X; did you mean Y?", or "known are ...". */
+/* KD_EINVAL with "there is no parameter X; did you mean Y?", or with a list of the known ones. */
 enum kd_status kd_document_unknown(const struct kd_document *document, const char *name, struct kd_error *error);
 /* Describes what a row allows: "0 to 10 M, or \"isco\"". */
 void kd_row_allowed(const struct kd_row *row, char out[KD_ALLOWED_SIZE]);

@@ -4,7 +4,8 @@
 
 #include "document/document.h"
 
-/* An object of a document that is read: "" is the document itself. list: that which has it as an element, or NULL. */
+/* An object of the document that is being read; "" is the document itself. list: the list of which it is an element, or
+ * NULL. */
 struct kd_object {
     const char *name;
     const struct kd_list *list;
@@ -13,10 +14,10 @@ struct kd_object {
 
 /* A place in a document: its pointer, and its name in messages. */
 struct kd_mention { char pointer[sizeof((struct kd_error *)0)->pointer], called[120]; };
-/* name: a member of the object; NULL: the object itself. place.c */
+/* place.c: the place of a member of the object. name NULL: the object itself. */
 struct kd_mention kd_mention_of(const char *pointer, const struct kd_object *object, const char *name);
 
-/* Whether a row is one of the document's, and in this object; NULL or "": in the document itself. find.c */
+/* find.c: whether a row belongs to the document and to this object. object NULL or "": the document itself. */
 bool kd_row_is_of(const struct kd_document *document, const struct kd_row *row, const char *object);
 const struct kd_row *kd_find_row(const struct kd_document *document, const char *object, const char *name,
                                  const struct kd_row *after);
@@ -26,14 +27,14 @@ const struct kd_former *kd_find_former(const struct kd_document *document, const
 /* Whether the row is the first of an object that is a member of this one. */
 bool kd_row_opens(const struct kd_document *document, const struct kd_row *row, const char *object);
 
-/* "there is no field X here; did you mean Y?". typed: a name on a command line. unknown.c */
+/* unknown.c: KD_EINVAL with "there is no field X here; did you mean Y?". typed: the name comes from a command line. */
 enum kd_status kd_unknown(const struct kd_document *document, const struct kd_object *object, const char *name,
                           bool typed, const char *pointer, struct kd_error *error);
 
 /* Sets a row to its default. put.c */
 void kd_row_reset(const struct kd_row *row, void *to);
-/* Reads an index, such as "3", below the list's limit; checks that it is not beyond the next free one; removes elements
- * with all defaults from the end, but keeps `least`. list.c */
+/* list.c: reads an index, such as "3", below the list's limit and not beyond the next free index. Removes elements with
+ * all defaults from the end, but keeps `least`. */
 enum kd_status kd_list_index(const struct kd_list *list, const char *token, const char *pointer, size_t *index,
                              struct kd_error *error);
 enum kd_status kd_list_reach(const struct kd_list *list, size_t size, size_t index, const char *pointer,

@@ -38,7 +38,8 @@ static size_t exponent(const char *text, size_t i, size_t length)
     return end > i ? end : 0;
 }
 
-/* Length of the number at the beginning of text. open: on one side of the decimal point the digits may be missing. */
+/* Length of the number at the beginning of the text. open: the digits before or after the decimal point may be
+ * missing. */
 static size_t span(const char *text, size_t length, bool open)
 {
     size_t start = length && text[0] == '-', point = digits(text, start, length), end = point, whole = point - start,

@@ -32,8 +32,8 @@ struct kd_mention kd_mention_of(const char *pointer, const struct kd_object *obj
     return place;
 }
 
-/* Copies the part of the path before the next dot; "" if there is no dot or the part is too long. *rest is what follows
- * the dot. */
+/* Copies the part of the path before the next dot; "" if there is no dot or the part is too long. *rest is the text
+ * after the dot. */
 static void next_token(const char **rest, char out[TOKEN_SIZE])
 {
     const char *dot = strchr(*rest, '.');
@@ -46,7 +46,7 @@ static void next_token(const char **rest, char out[TOKEN_SIZE])
     *rest = dot + 1;
 }
 
-/* The path ends at an object, a list or an element. */
+/* Refuses a path that ends at an object, a list or an element. */
 static enum kd_status whole(const struct kd_document *document, const struct kd_object *object, const char *what,
                             struct kd_error *error)
 {
@@ -109,7 +109,7 @@ static enum kd_status find_object(const struct kd_document *document, const char
         enum kd_status status = kd_list_index(object->list, *token ? token : *name, "", &object->index, error);
         return status || *token ? status : whole_element(document, object, error);
     } else if (*token)
-        *name = *name - strlen(token) - 1; /* no object within this one: the name has a dot */
+        *name = *name - strlen(token) - 1; /* this object has no such member: the name itself contains a dot */
     return KD_OK;
 }
 

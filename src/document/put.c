@@ -1,4 +1,4 @@
-/* Checks values against rows, stores them, and says what a row allows. */
+/* Checks values against rows, stores them, and describes what a row allows. */
 #include "document/internal.h"
 
 #include "base/utf8.h"
@@ -62,7 +62,10 @@ void kd_row_put_number(const struct kd_row *row, void *to, double value)
 {
     void *at = (char *)to + row->offset;
     switch (row->kind) {
-    case KD_KIND_REAL: *(double *)at = value == 0 ? 0 : value; break; /* no -0: equal documents have equal texts */
+    case KD_KIND_REAL:
+        *(double *)at = value == 0 ? 0 : value;
+        break; /* no -0, so that equal documents have equal
+                * texts */
     case KD_KIND_INT: *(uint32_t *)at = isinf(value) ? 0 : (uint32_t)(int64_t)value; break;
     case KD_KIND_BOOL: *(bool *)at = value != 0; break;
     case KD_KIND_WORD: memcpy(at, &(int) { (int)value + row->first }, sizeof(int)); break;
@@ -88,7 +91,7 @@ static void list_words(const char *words, char out[KD_ALLOWED_SIZE])
                                  kd_text_or((size_t)i, (size_t)i + (kd_word_at(words, i + 1, next) ? 2 : 1)), word);
 }
 
-/* "1 to 3 of a, b[_N] and c, each once, N a number". */
+/* Describes the words as in "1 to 3 of a, b[_N] and c, each once, N a number". */
 static void list_series(const char *words, char out[KD_ALLOWED_SIZE])
 {
     const int count = kd_word_count(words);
@@ -146,7 +149,7 @@ void kd_row_allowed(const struct kd_row *row, char out[KD_ALLOWED_SIZE])
         list_range(row, out);
 }
 
-/* The value as a number that the row may hold; NAN: it is of another type, or none of the words. */
+/* The value as a number that the row may hold; NAN: the value has another type, or is none of the words. */
 static double convert(const struct kd_row *row, const struct kd_value *value)
 {
     const bool string = value->kind == KD_VALUE_STRING;

@@ -40,7 +40,8 @@ static bool parse(const char *text, struct kd_range *range, double *count)
 
 static bool holds(const struct kd_row *row, double value) { return isfinite(value) && kd_row_holds(row, value); }
 
-/* Whether all values are allowed. If not, *wrong is one that is not; an end of the range, where possible. */
+/* Whether the row allows all values of the range. If not, *wrong is a value that it does not allow, if possible an end
+ * of the range. */
 static bool all_hold(const struct kd_row *row, const struct kd_range *range, double *wrong)
 {
     const size_t inner = row->kind == KD_KIND_INT ? range->count : 0;
@@ -53,7 +54,8 @@ static bool all_hold(const struct kd_row *row, const struct kd_range *range, dou
     return true;
 }
 
-/* Checks a number or range that was typed. On failure describes in `fault` what is wrong; empty: its form. */
+/* Checks a number or range that was typed. On failure `fault` describes what is wrong; it is empty if the form is
+ * wrong. */
 static bool check(const struct kd_row *row, const char *text, struct kd_range *range, char fault[KD_VALUE_SIZE])
 {
     char told[KD_NUMBER_SIZE];
@@ -92,7 +94,7 @@ enum kd_status kd_row_range(const struct kd_row *row, const char *text, const ch
         kd_row_allowed(row, allowed);
         snprintf(allowed + strlen(allowed), sizeof allowed - strlen(allowed),
                  ", or a range first:last:count of 2 to %d such values", KD_RANGE_MOST);
-        if (strchr(text, ':')) { /* a range, and not a string where a number is needed */
+        if (strchr(text, ':')) { /* a range, not a string in place of a number */
             kd_value_describe(&value, given);
             return kd_error_field(error, pointer, "%s is %s%s; it must be %s", row->name, given, fault, allowed);
         }
@@ -103,7 +105,7 @@ enum kd_status kd_row_range(const struct kd_row *row, const char *text, const ch
     return KD_OK;
 }
 
-/* The count is that of KD_RANGE_MOST. */
+/* The largest count is KD_RANGE_MOST. */
 #define PATTERN "^" KD_SCHEMA_DECIMAL ":" KD_SCHEMA_DECIMAL ":([2-9]|[1-9][0-9]{1,4}|100000)$"
 _Static_assert(KD_RANGE_MOST == 100000, "the pattern says so");
 

@@ -8,7 +8,7 @@
 
 /* Items of an array, or of typed text with commas. */
 struct items {
-    const cJSON *item; /* the next one; NULL: those of the text */
+    const cJSON *item; /* next item of the array; NULL: items come from the text */
     const char *text;
     size_t n;
     char one[KD_WORD_ROOM];
@@ -119,7 +119,7 @@ static enum kd_status read_array_row(const struct kd_row *row, void *to, const c
                  : read_numbers(row, to, &items, called, pointer, error);
 }
 
-/* Reads a row from an item, or from typed text. named: its name in messages, if it is not its place. */
+/* Reads a row from an item, or from typed text. named: its name in messages, if that is not its path. */
 static enum kd_status read_row(const struct kd_row *row, void *to, const cJSON *item, const char *text,
                                const struct kd_object *object, const char *pointer, const char *named,
                                struct kd_error *error)
@@ -142,7 +142,7 @@ static enum kd_status read_row(const struct kd_row *row, void *to, const cJSON *
 struct reader {
     const struct kd_document *document;
     void *to;
-    const char *pointer; /* that of the document */
+    const char *pointer; /* pointer of the document */
     uint64_t *given;
     struct kd_error *error;
     bool patch; /* null resets */
@@ -292,7 +292,8 @@ static enum kd_status read_list(struct reader *r, const struct kd_list *list, co
     return refuse(r, &object, item, allowed);
 }
 
-/* The element may lie beyond the next free index; then the elements in between are created with defaults. */
+/* Creates the element of a former name. If it lies beyond the next free index, the elements before it are created with
+ * defaults. */
 static enum kd_status read_former(struct reader *r, const struct kd_former *former, const cJSON *members,
                                   const cJSON *item)
 {
@@ -306,7 +307,7 @@ static enum kd_status read_former(struct reader *r, const struct kd_former *form
     return status;
 }
 
-/* Reads a member that is no field. */
+/* Reads a member that is not a field. */
 static enum kd_status read_part(struct reader *r, const struct kd_object *object, const cJSON *members,
                                 const cJSON *item, bool patch)
 {
@@ -330,7 +331,8 @@ static enum kd_status read_part(struct reader *r, const struct kd_object *object
 static enum kd_status read_members(struct reader *r, const struct kd_object *object, const cJSON *members, bool patch)
 {
     enum kd_status status = KD_OK;
-    const struct kd_row *last = NULL, *highest = NULL; /* of the rows that were given; one beyond is given once */
+    const struct kd_row *last = NULL, *highest = NULL; /* rows that were given: the last one, and the highest one; a row
+                                                        * beyond the highest is given for the first time */
     for (const cJSON *item = members->child; item && !status; item = item->next) {
         const struct kd_row *row = kd_find_row(r->document, object->name, item->string, last);
         if (!row) {

@@ -1,8 +1,9 @@
-/* Finds, in one pass over the bytes, what cJSON accepts although a scene document must not contain it. Any thread.
+/* Checks in one pass over the bytes for everything that cJSON accepts but a scene document must not contain. Any
+ * thread.
  *
  * cJSON skips any byte below 33 as if it were a blank. It accepts 01, 1. and raw control characters in strings. It cuts
- * a key at an escaped NUL, and takes \u00zz for one. It reads only 63 bytes of a number, recurses 1000 levels deep,
- * and does not check UTF-8. */
+ * a key at an escaped NUL, and reads \u00zz as such a NUL. It reads only 63 bytes of a number, recurses 1000 levels
+ * deep, and does not check UTF-8. */
 #ifndef KD_DOCUMENT_SCAN_H
 #define KD_DOCUMENT_SCAN_H
 

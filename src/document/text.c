@@ -23,7 +23,7 @@ void kd_text_clip(char *out, size_t size, const char *text)
         used += plain ? n : 1;
         i += step;
         if (used + 3 < size)
-            whole = used; /* the last end of a character after which there is room for the dots */
+            whole = used; /* end of the last character after which the dots still fit */
     }
     out[used] = 0;
 }

@@ -29,13 +29,14 @@ cJSON *kd_tree_read(const char *text, size_t length, bool *starved)
     struct kd_number_locale locale = kd_number_locale_enter();
     errno = 0;
     cJSON *root = cJSON_ParseWithLength(text, length);
-    /* cJSON does not distinguish this from text that is not JSON, but malloc does */
+    /* cJSON reports this like text that is not JSON, but malloc sets errno */
     *starved = !root && errno == ENOMEM;
     kd_number_locale_leave(locale);
     return root;
 }
 
-/* While this thread reads or frees a large tree, other requests may run first. cJSON takes up to a second for that. */
+/* True while this thread reads or frees a large tree. cJSON takes up to a second for that, so other requests may run in
+ * between. */
 static _Thread_local bool shares;
 static _Thread_local uint64_t allocations;
 

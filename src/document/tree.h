@@ -9,9 +9,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* text need not end in a NUL. KD_EINVAL without a pointer: it is not a JSON document, or has more than `most` bytes or
- * `values` values. While it reads, other requests may run (base/pause.h). Free *out with kd_tree_free, during which
- * they may run too; cJSON_Delete is enough if the tree cannot be large. */
+/* Reads a document. The text need not end in a NUL. KD_EINVAL without a pointer: the text is not a JSON document, or
+ * has more than `most` bytes or `values` values. While it reads, other requests may run (base/pause.h). Free *out with
+ * kd_tree_free, during which they may run too; for a small tree cJSON_Delete is sufficient. */
 enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_t values, cJSON **out,
                              struct kd_error *error);
 void kd_tree_free(cJSON *root); /* accepts NULL */

@@ -11,7 +11,7 @@ struct search {
     const struct kd_document *document;
     const struct kd_object *in;
     const char *name;
-    bool bare; /* names are typed without their objects */
+    bool bare; /* names are typed without the names of their objects */
     int best;
     char meant[120];
 };
@@ -25,8 +25,8 @@ static void offer(struct search *s, const char *known, int worse, const char *me
     }
 }
 
-/* Another object counts as one edit, and a much different one as two: the same name in another object is as near as a
- * misspelt one in this. */
+/* A name in another object counts as one edit, and one in an object with a much different name as two. The same name in
+ * another object is then as near as a misspelt name in this one. */
 static void offer_row(struct search *s, const struct kd_row *row)
 {
     const char *object = row->object ? row->object : "";

@@ -1,4 +1,4 @@
-/* Values from a document or a command line, before anything is known of what they are for. Any thread. */
+/* Values from a document or a command line, before their fields are known. Any thread. */
 #ifndef KD_DOCUMENT_VALUE_H
 #define KD_DOCUMENT_VALUE_H
 
@@ -13,8 +13,8 @@ struct kd_value {
 /* Interprets typed text like a value of a document: as a number, as true or false, otherwise as a string. */
 struct kd_value kd_value_typed(const char *text);
 
-/* What a message adds after a value if a number is required and the value is none: ", a string where a number is
- * wanted". Otherwise "". */
+/* Text that a message adds after a value if a number is required and the value is not a number, such as ", a string
+ * where a number is needed"; otherwise "". */
 const char *kd_value_unwanted(const struct kd_value *value);
 
 /* Describes a value for messages. */

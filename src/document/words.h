@@ -21,8 +21,8 @@ bool kd_word_at(const char *words, int i, char out[KD_WORD_ROOM]);
 /* Index of a word, -1: none of them. */
 int kd_word_index(const char *words, const char *text);
 
-/* number: the N of a word "b_N"; -1: the word has none. Entries from count on are 0, so that equal series have equal
- * bytes. */
+/* A series of words. number: the N of a word "b_N"; -1: the word has none. Entries from count on are 0, so that equal
+ * series have equal bytes. */
 struct kd_words {
     int32_t count;
     struct kd_numbered_word { int16_t word, number; } at[KD_WORDS_MOST];
@@ -30,7 +30,7 @@ struct kd_words {
 
 /* Word i without its "_N". *numbered: whether it has "_N". */
 struct kd_word kd_words_root(const char *known, int i, bool *numbered);
-/* Adds a word. Returns false if it is not known, is there already, or exceeds the room; *words is then unchanged. */
+/* Adds a word. Returns false if it is not known, is already there, or does not fit; *words is then unchanged. */
 bool kd_words_add(const char *known, const char *text, size_t length, struct kd_words *words);
 /* Reads "a,b_1" from a command line or a link. Returns false if kd_words_add does, or if the text is empty. */
 bool kd_words_read(const char *known, const char *text, struct kd_words *out);

@@ -44,7 +44,7 @@ void kd_row_write_value(struct kd_json *json, const char *name, const struct kd_
     case KD_KIND_ASSET: kd_json_null(json, name); break;
     case KD_KIND_SERIES: write_series(json, name, row, &(struct kd_words) { 1, { { (int16_t)value, -1 } } }); break;
     default:
-        if (row->words && isinf(value)) /* NAN, a value that a request leaves open, is null */
+        if (row->words && isinf(value)) /* NAN stands for a value that the request leaves open; it is written as null */
             kd_json_string(json, name, row->words);
         else
             kd_json_number(json, name, value);
@@ -173,7 +173,8 @@ static void add_number_or_word(struct kd_json *json, const struct kd_row *row)
     kd_json_end(json);
 }
 
-/* Appends the words of a series that may be followed by a number (numbered true), or the others, as alternatives. */
+/* Appends words of a series as alternatives: those that may be followed by a number if numbered is true, otherwise the
+ * others. */
 static size_t add_roots(char *pattern, size_t used, size_t size, const char *words, bool numbered)
 {
     const char *separator = "";

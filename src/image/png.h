@@ -16,7 +16,7 @@ struct kd_png_text { const char *key, *value; }; /* UTF-8; written as iTXt if tE
 struct kd_png_params {
     uint32_t width, height;
     int bit_depth; /* 8 or 16 */
-    /* 0..8: 0 stored, 1 fastest, from 2 on each row with its best filter. These are levels of libdeflate; each
+    /* Level of libdeflate, 0 to 8. 0: the data are stored; 1: fastest; from 2 on each row has its best filter. A level
      * makes files as large as zlib's at the same level, in a third of the time */
     int compression;
     const void *pixels;

@@ -7,14 +7,14 @@
 #include <string.h>
 
 enum { STARTS = 3, SIMPLEX_STEPS = 90, SHIFT_CELLS = KD_ALIGN_SHIFTS / 2, NEWTON_STEPS = 30 };
-#define SPREAD 1e-9 /* of chi^2 within the last simplex, relative */
+#define SPREAD 1e-9 /* relative spread of chi^2 within the last simplex */
 
 struct search {
     const struct kd_comparison *c;
     const struct kd_align_params *p;
     double given_scale, longest; /* longest: u or v of a compared visibility, in wavelengths */
     double (*model)[2];
-    double *cell; /* of the grid of shifts */
+    double *cell; /* cells of the grid of shifts */
     struct kd_alignment best;
     double best_total;
 };
@@ -255,7 +255,7 @@ void kd_align(const struct kd_comparison *c, const struct kd_align_params *param
                         .best = KD_ALIGNMENT_NONE,
                         .best_total = INFINITY };
     s.best.scale = s.given_scale;
-    memset(s.best.converged, 0, sizeof s.best.converged); /* if chi^2 is nowhere finite */
+    memset(s.best.converged, 0, sizeof s.best.converged); /* for the case that chi^2 is nowhere finite */
     for (size_t i = 0; i < c->n; i++)
         s.longest = fmax(s.longest, fmax(fabs(c->at[i].u), fabs(c->at[i].v)));
     search_grid(&s, room->grid, sizes, angles, step);

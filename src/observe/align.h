@@ -2,8 +2,9 @@
  *
  * chi^2 is summed over all data of the comparison. Size and orientation are searched on a grid first, because closure
  * phases give chi^2 several minima. The best places of the grid are then refined by the simplex method of J. A. Nelder
- * & R. Mead 1965, Comput. J. 7, 308. At each of them the flux follows in closed form (kd_comparison_scale), and the
- * shift from a grid and Newton's method: only the sum of Re(d* m exp(2 pi i (u x + v y)))/sigma^2 depends on it. */
+ * & R. Mead 1965, Comput. J. 7, 308. At each of them the flux follows in closed form (kd_comparison_scale). The shift
+ * follows from a grid and Newton's method, because it affects only the sum of Re(d* m exp(2 pi i (u x + v
+ * y)))/sigma^2. */
 #ifndef KD_OBSERVE_ALIGN_H
 #define KD_OBSERVE_ALIGN_H
 
@@ -11,7 +12,7 @@
 
 enum { KD_ALIGN_FLUX = 1, KD_ALIGN_SIZE = 2, KD_ALIGN_ANGLE = 4, KD_ALIGN_SHIFT = 8 };
 
-/* Steps of the grid: 7.5 degrees and 9 percent turn a fringe of the EHT's longest baselines over a ring of 50 uas by
+/* Steps of the grid. 7.5 degrees and 9 percent move a fringe of the EHT's longest baselines over a ring of 50 uas by
  * less than a sixth of a turn. */
 enum { KD_ALIGN_SIZES = 17, KD_ALIGN_ANGLES = 48, KD_ALIGN_SHIFTS = 65 };
 
@@ -24,7 +25,7 @@ struct kd_alignment {
     double east, north; /* shift, in radians */
     double scale;       /* factor of the flux */
     unsigned evaluations;
-    bool converged[4]; /* flux, size, angle, shift; true for what is not searched */
+    bool converged[4]; /* flux, size, angle, shift; true for quantities that are not searched */
 };
 #define KD_ALIGNMENT_NONE ((struct kd_alignment) { .size = 1, .scale = 1, .converged = { true, true, true, true } })
 
@@ -45,8 +46,8 @@ struct kd_align_room {
 
 /* Number of evaluations of the model that a search needs at most. */
 unsigned kd_align_evaluations(unsigned solve);
-/* Searches. *out holds the result and, at first, the scale to be used if the flux is not solved for. Afterwards
- * model[i] is the model's visibility at *out with its shift, without the scale. */
+/* Searches. On entry *out has the scale to be used if the flux is not solved for; on return it has the result. model[i]
+ * is then the model's visibility at *out with its shift, without the scale. */
 void kd_align(const struct kd_comparison *comparison, const struct kd_align_params *params, struct kd_align_room *room,
               double (*model)[2], struct kd_alignment *out);
 /* Shifts a model to the east and to the north, by radians. */

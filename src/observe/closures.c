@@ -114,7 +114,8 @@ done:
     return status;
 }
 
-/* Minimal set. Each quadrangle has the first station, one from the fourth on, and two of those between. */
+/* Minimal set. Each quadrangle has the first station, one station from the fourth on, and two of the stations between
+ * them. */
 static enum kd_status quadrangles(struct kd_comparison *c, const struct table *t, const struct kd_comparison_params *p,
                                   const uint8_t *s, int n, struct kd_comparison_row *row, struct kd_error *error)
 {

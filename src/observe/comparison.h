@@ -64,8 +64,8 @@ enum kd_status kd_comparison_make(const struct kd_observation *observation, cons
                                   struct kd_comparison *out, struct kd_error *error);
 void kd_comparison_finish(struct kd_comparison *comparison);
 
-/* Factor by which the model must be multiplied to minimise the chi^2 of amplitudes and visibilities: the sum of
- * d m / sigma^2 divided by the sum of m^2 / sigma^2, where d is the data and m the model. NaN if there are neither, if
+/* Factor by which the model must be multiplied to minimise the chi^2 of amplitudes and visibilities: the sum of d m /
+ * sigma^2 divided by the sum of m^2 / sigma^2, where d is the data and m the model. NaN if there are no such data, if
  * the model has no light, or if no factor above 0 is best. */
 double kd_comparison_scale(const struct kd_comparison *comparison, const double (*model)[2]);
 /* Fills `model` of each row and computes chi^2 divided by the number of data; NaN for a product without data. */

@@ -79,7 +79,7 @@ static void fill_file(const struct kd_simulation *s, const struct groups *g, con
     }
 }
 
-/* Empties the groups that no visibility of the observation comes from: second ones of the same time and baseline.
+/* Sets groups to zero that no visibility of the observation comes from: repetitions of the same time and baseline.
  * Flagged groups have no positive weight, and become 0 too. */
 static void empty_others(const struct kd_simulation *s, const struct groups *g)
 {

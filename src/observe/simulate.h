@@ -12,8 +12,8 @@ enum { KD_SIMULATION_MARKS = KD_OBSERVATION_ROWS / 8 };
 
 struct kd_simulation {
     const struct kd_observation *observation;
-    /* bytes of the observation's uvfits file; NULL: it was no uvfits. kd_simulate writes the model's visibilities into
-     * them. Weights stay as they are, and so does what is flagged. */
+    /* bytes of the observation's uvfits file; NULL: the observation was not uvfits. kd_simulate writes the model's
+     * visibilities into them. Weights and flagged data stay unchanged. */
     uint8_t *file;
     size_t size;
     uint8_t *marks; /* with a file: KD_SIMULATION_MARKS bytes, all 0 */
@@ -21,8 +21,8 @@ struct kd_simulation {
     uint64_t seed;
 };
 
-/* model[i]: visibility in Jy at observation->at[i]. out[i]: the simulated one, as the reader reads it from the file.
- * The cross hands of a file, whose light is not simulated, become 0 with the weight 0; so does what the observation
+/* model[i]: visibility in Jy at observation->at[i]. out[i]: the simulated visibility, as the reader reads it from the
+ * file. Cross hands of the file are not simulated and become 0 with the weight 0; so do groups that the observation
  * does not contain. */
 void kd_simulate(const struct kd_simulation *simulation, const double (*model)[2], double (*out)[2]);
 

@@ -358,7 +358,7 @@ static double mean_of(const struct groups *g, const uint8_t *data, size_t hand, 
     return weight;
 }
 
-/* Error that a weight stands for. It is computed in single precision, as in ehtim; weights are stored in it too. Where
+/* Error for a weight. It is computed in single precision, as in ehtim; weights are stored in it too. Where
  * an amplitude is about as large as its error, the result of sqrt(|V|^2 - sigma^2) depends on that precision. */
 static double error_of(double weight) { return (double)(1 / sqrtf((float)weight)); }
 

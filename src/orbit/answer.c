@@ -50,7 +50,7 @@ static void columns_of(const struct kd_orbit_sample *s, double to[COLUMNS])
     memcpy(to, all, sizeof all);
 }
 
-/* An output that keeps its first failure: after it nothing more is written. */
+/* An output that stores its first failure; after it nothing more is written. */
 struct text {
     struct kd_buffer *out;
     enum kd_status status;
@@ -140,8 +140,8 @@ static void frequencies(struct text *t, const struct kd_orbit_run *run)
     close(t);
 }
 
-/* A circle has no periastron. The formula would give the advance of its smallest oscillation, which is infinite at
- * the ISCO. */
+/* A circle has no periastron. For it the formula would give the advance of its smallest oscillation, which is infinite
+ * at the ISCO. */
 static double periastron_advance(const struct kd_orbit_run *run)
 {
     return run->closed && !run->orbit.circular ? kd_orbit_periastron_advance(&run->bound) : NAN;

@@ -1,6 +1,6 @@
 /* Writes the answers to requests for orbits. Pure; any thread.
  *
- * A document has a head (what is known before the first step), the series, and a result (what the integration gave):
+ * A document has a head (known before the first step), the series, and a result (from the integration):
  *
  *     JSON     {head, "series": {"columns": [...], "rows": [[...], ...]}, "result": {...}}; {"orbits": [...]} for
  *              many

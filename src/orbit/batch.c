@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#define FEW 64         /* orbits in a turn: some 10 ms if each has ten periods */
+#define FEW 64         /* orbits in a turn: some 10 ms if each lasts ten periods */
 #define STEPS 1000000u /* steps between two calls of stop */
 
 size_t kd_orbit_batch_bytes(const struct kd_orbit_request *request)
@@ -72,7 +72,7 @@ static int by_steps(const void *a, const void *b)
     return (x->steps > y->steps) - (x->steps < y->steps);
 }
 
-/* Follows a few orbits; those that can run side by side in SIMD lanes do so, grouped by similar duration. */
+/* Follows a few orbits. Those that can run in SIMD lanes do so, grouped by similar duration. */
 static enum kd_status follow_few(struct kd_orbit_batch *batch, size_t first, size_t last, struct kd_error *error)
 {
     struct kd_orbit_run *all[FEW], *abreast[FEW];

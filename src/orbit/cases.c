@@ -27,7 +27,7 @@ struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin, d
         return mercury(spin, q);
     struct kd_orbit_spec spec = { .form = KD_ORBIT_SHAPE, .spin = isnan(spin) ? 0.9 : spin, .charge = q };
     const struct kd_hole hole = kd_hole_charged(spec.spin, q);
-    if (!kd_hole_exists(&hole)) /* which is refused later */
+    if (!kd_hole_exists(&hole)) /* such a hole is refused later */
         return spec;
     switch (which) {
     case KD_CASE_ZOOM_WHIRL: /* a ten-thousandth outside the separatrix: several turns of whirl for each radial period

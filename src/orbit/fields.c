@@ -6,12 +6,12 @@
 #define CONSTANTS (1u << KD_ORBIT_CONSTANTS)
 #define STATE (1u << KD_ORBIT_STATE)
 #define CASE (1u << KD_ORBIT_CASE)
-/* What holds for every request, so that a schema can express it. Stricter limits, such as the horizon of the given
- * spin, are checked later. A horizon is above 1 M: 1 + sqrt(1 - a^2), Bardeen, Press & Teukolsky 1972. */
+/* Ranges that hold for every request, so that a schema can express them. Stricter limits, such as the horizon for the
+ * given spin, are checked later. A horizon is above 1 M: 1 + sqrt(1 - a^2), Bardeen, Press & Teukolsky 1972. */
 #define RADIUS(most) "\"type\":\"number\",\"exclusiveMinimum\":1,\"maximum\":" most
 _Static_assert(KD_ORBIT_SAMPLES_MAX == 200000, "the schema says so");
 
-/* The rows of the hole, for a request and for a single orbit. AT is that of the table. */
+/* The rows of the hole, for a request and for a single orbit. AT is the macro of the table. */
 #define HOLE \
     { .name = "spin", \
       .kind = KD_KIND_REAL, \
@@ -277,7 +277,7 @@ const struct kd_row kd_orbit_fields[] = {
 };
 _Static_assert(sizeof kd_orbit_fields / sizeof *kd_orbit_fields == KD_ORBIT_N_FIELDS, "as many as the header says");
 
-/* A duration has one length; or_end is for durations without periods. An observer needs a place. */
+/* A duration is given by one member; or_end belongs to durations without periods. An observer needs a place. */
 static const struct kd_document_not nots[] = {
     { "duration", "{\"anyOf\":[{\"required\":[\"periods\",\"time\"]},{\"required\":[\"or_end\"],\"properties\":{\"or_"
                   "end\":{\"const\":true}},\"not\":{\"required\":[\"periods\"]}}]}" },

@@ -201,7 +201,7 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     const struct kd_orbit_params *p = &request->params;
     if (!request->n)
         return kd_error_field(error, "/orbit", "orbit is missing: one orbit, or orbits with a list");
-    if (!request->many) { /* fields come by name, one at a time: check whether the orbit is complete */
+    if (!request->many) { /* fields were set by name, one at a time, so the orbit may be incomplete */
         struct kd_orbit_spec spec = *request->specs;
         enum kd_status status = settle(&spec, "/orbit", error);
         if (status)
@@ -234,7 +234,7 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     return KD_OK;
 }
 
-/* Error of a whirl that is caused by rounding of the constants: 4 ulp times kd_orbit_whirl. */
+/* Error of a whirl due to rounding of the constants: 4 ulp times kd_orbit_whirl. */
 static double rounding_of(const struct kd_orbit_spec *s, const struct kd_orbit *orbit,
                           const struct kd_orbit_state *start)
 {

@@ -56,8 +56,8 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
 
 /* Solves for the motion that a spec describes. KD_EINVAL has the pointer within the request, such as "/orbits/17/p".
  * The result does not include the initial azimuth. *rounding: if the constants lead to a whirl, close to an unstable
- * circular orbit, their rounding causes this error, relative to the whole path. Above KD_ORBIT_ROUNDING_MAX the orbit
- * is refused. */
+ * circular orbit, the error that their rounding causes, relative to the whole path. Above KD_ORBIT_ROUNDING_MAX the
+ * orbit is refused. */
 enum kd_status kd_orbit_request_solve(const struct kd_orbit_request *request, size_t index, struct kd_orbit *orbit,
                                       struct kd_orbit_state *start, double *rounding, struct kd_error *error);
 

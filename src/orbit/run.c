@@ -90,8 +90,8 @@ static double mino_at(const struct kd_orbit_run *run, double time)
     return high;
 }
 
-/* True if a step went where the constants of motion forbid: through a turning point, or back without one. A step
- * that is too long does this close to a whirl. */
+/* True if a step went where the constants of motion forbid: through a turning point, or back without one. Close to a
+ * whirl a step that is too long does this. */
 static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before, const struct kd_orbit_path *path)
 {
     bool fallen = !(path->place[KD_PATH_W].value < 1 / o->hole.outer); /* or NAN */
@@ -104,8 +104,8 @@ static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before,
     5e6 /* minimum number of steps before giving up, some one second in all: far out the steps may be too short to \
            ever arrive */
 
-/* Finds the end of an unbound path by following it once in steps of h. The end is at the horizon, far away, or where
- * its time is over. Returns false if the path strays, or does not reach the requested end. */
+/* Finds the end of an unbound path by following it once in steps of h. The end is at the horizon, far away, or at the
+ * end of its time. Returns false if the path strays, or does not reach the requested end. */
 static bool find_end(struct kd_orbit_run *run, double h)
 {
     const struct kd_orbit *o = &run->orbit;
@@ -130,7 +130,7 @@ static bool find_end(struct kd_orbit_run *run, double h)
             return false;
         double w = path.place[KD_PATH_W].value, rate = path.rate[KD_PATH_W].value;
         bool falls = o->fate == KD_ORBIT_PLUNGE && w >= horizon;
-        /* the path turned within the step; it comes from infinity if E = 1 */
+        /* the path turned within the step; for E = 1 it comes from infinity */
         bool back = before.rate[KD_PATH_W].value < 0 && rate >= 0;
         bool leaves = o->fate == KD_ORBIT_ESCAPE && ((w <= far && rate < 0) || back);
         if (falls || leaves) {
@@ -179,7 +179,7 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
     for (int i = 0; i < HALVINGS; i++, h *= 0.5) {
         if (!find_end(run, h))
             continue;
-        /* This is close enough for a whirl: steps are tried up to this end, and beyond it is infinity */
+        /* Close enough for a whirl: steps are tried up to this end, and infinity lies beyond it */
         found = true;
         if (!(run->rounding > 1e-12) || fabs(run->mino_end - before) < 1e-9 * run->mino_end)
             return KD_OK;
@@ -218,7 +218,7 @@ static enum kd_status cut(struct kd_orbit_run *run, struct kd_error *error)
     return KD_OK;
 }
 
-/* A whirl magnifies the error of the steps, so the end is searched for with the steps that the run will use. */
+/* Finds the end again with the steps that the run will use, because a whirl magnifies the error of the steps. */
 static enum kd_status find_end_again(struct kd_orbit_run *run, struct kd_error *error)
 {
     for (int i = 0; i < 6; i++) {

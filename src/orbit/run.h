@@ -24,14 +24,15 @@ enum kd_status kd_orbit_run_prepare(struct kd_orbit_run *const *runs, size_t n, 
 
 /* Advances by up to `steps` steps and `room` samples; returns the number of samples written. */
 size_t kd_orbit_run_advance(struct kd_orbit_run *run, uint64_t steps, struct kd_orbit_sample *samples, size_t room);
-/* The same for up to KD_ORBIT_LANES runs in SIMD lanes. All must satisfy kd_orbit_run_abreast: prepared, and without
+/* Advances up to KD_ORBIT_LANES runs in SIMD lanes. All must satisfy kd_orbit_run_abreast: prepared, and without
  * samples. */
 bool kd_orbit_run_abreast(const struct kd_orbit_run *run);
 void kd_orbit_run_advance_abreast(struct kd_orbit_run *const *runs, int n, uint64_t steps);
 bool kd_orbit_run_done(const struct kd_orbit_run *run);
 double kd_orbit_run_fraction(const struct kd_orbit_run *run);
 
-/* Azimuth between periastra beyond a full turn, averaged over those passed; NAN before the second. */
+/* Azimuth between successive periastra beyond a full turn, averaged over the periastra passed; NAN before the second
+ * one. */
 double kd_orbit_run_advance_measured(const struct kd_orbit_run *run);
 
 #endif

@@ -17,7 +17,8 @@ struct kd_orbit_run {
     double phi;       /* at the start */
     double mass_msun; /* NAN: none */
     double rounding;  /* as kd_orbit_request_solve */
-    bool closed;      /* has a closed form: fate BOUND. Otherwise `bound`, `frequencies` and `period` are not set */
+    bool closed;      /* fate BOUND, so that the motion has a closed form; otherwise `bound`, `frequencies` and `period`
+                       * are not set */
     struct kd_orbit_bound bound;
     struct kd_orbit_frequencies frequencies;
     double period; /* Mino time of a radial period; of a turn in phi if r is constant */
@@ -28,8 +29,8 @@ struct kd_orbit_run {
     uint64_t steps, done;
     uint32_t samples, sampled;
     /* Relative error of the place after a period (or at the end of the whole path). It is estimated from a run with
-     * half as many steps, or is `rounding` if that is larger. NAN if neither is known: `steps` was given, or the closed
-     * form is used, and there is no whirl. */
+     * half the number of steps, or is `rounding` if that is larger. NAN if neither is known: `steps` was given, or the
+     * closed form is used, and there is no whirl. */
     double error_estimate;
     /* updated by kd_orbit_run_advance */
     struct kd_orbit_path path;

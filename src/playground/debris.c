@@ -30,7 +30,7 @@ enum kd_status kd_debris_resize(struct kd_playground_debris *debris, uint32_t ca
         calloc(capacity + 1, sizeof *pieces); /* one more, so that the allocation is never empty */
     if (!pieces)
         return kd_error_set(error, KD_ENOMEM, "no memory for %u pieces of debris", capacity);
-    /* From the newest piece, just before `next`, backwards. */
+    /* Copies from the newest piece, just before `next`, backwards. */
     const uint32_t kept = debris->alive < capacity ? debris->alive : capacity;
     for (uint32_t i = 0, left = kept; i < debris->used; i++) {
         kd_pause_every(i, 65536);
@@ -129,7 +129,7 @@ void kd_debris_shed(struct kd_playground_debris *debris, struct kd_debris_source
     directions(shed->x, shed->v, e);
     const double energy = kd_playground_specific(shed->x, shed->v);
     for (uint32_t i = 0; i < shed->n; i++) {
-        /* stratified: one in each of n equal intervals */
+        /* stratified sampling: one in each of n equal intervals */
         const double u = 2 * (i + kd_random_drawn(shed->seed, shed->random)) / shed->n - 1;
         source->pieces++;
         if (!debris->capacity) {

@@ -36,13 +36,13 @@ struct kd_debris_source {
     double worth;            /* weight of a piece for pictures, as a fraction of a whole body */
     double spread;           /* half width of the pieces' energies, R/r_t^2 */
     uint32_t pieces;         /* torn off so far */
-    uint32_t captured, lost; /* captured by the hole; overwritten by newer pieces */
+    uint32_t captured, lost; /* captured by the hole; replaced by newer pieces */
     uint32_t back[KD_DEBRIS_BINS], all_back;
 };
 
 struct kd_playground_debris {
     struct kd_debris_piece *pieces;
-    uint32_t capacity, used, next; /* slots ever used; slot of the next piece */
+    uint32_t capacity, used, next; /* used: number of slots ever used; next: slot of the next piece */
     uint32_t last_source;          /* number of the newest source; its index is number % KD_DEBRIS_SOURCES */
     uint32_t alive;
     double haste; /* sum of 1/(r - 2) over the pieces at t: C times the number of their sub-steps in 1 M */
@@ -61,9 +61,9 @@ struct kd_debris_source *kd_debris_source_begin(struct kd_playground_debris *deb
 /* The source of this number; NULL if it was dropped. */
 struct kd_debris_source *kd_debris_source_of(struct kd_playground_debris *debris, uint32_t number);
 
-/* Tears n pieces off a body of this radius at x, v. Their energies are spread evenly within `spread` of the body's:
- * pieces of lower energy start nearer to the hole, pieces of higher energy farther away. After that the energies are
- * frozen in, and each piece moves freely (M. Rees 1988, Nature 333, 523; N. Stone et al. 2013, MNRAS 435, 1809). */
+/* Tears n pieces off a body of this radius at x, v. Their energies are spread evenly within `spread` of the body's.
+ * Pieces of lower energy start nearer to the hole, pieces of higher energy farther away. After that the energies do not
+ * change, and each piece moves freely (M. Rees 1988, Nature 333, 523; N. Stone et al. 2013, MNRAS 435, 1809). */
 struct kd_debris_shed {
     const double *x, *v;
     double radius;
@@ -73,10 +73,11 @@ struct kd_debris_shed {
 void kd_debris_shed(struct kd_playground_debris *debris, struct kd_debris_source *source,
                     const struct kd_debris_shed *shed);
 
-/* Moves all pieces to time t. With `feeds`, a piece that comes back is counted and removed, as it joins the disk. */
+/* Moves all pieces to time t. With `feeds`, a piece that comes back is counted and removed, because it joins the
+ * disk. */
 void kd_debris_advance(struct kd_playground_debris *debris, double t, double safety, bool feeds);
-/* Longest stride in which all pieces together need no more sub-steps than fit into a fraction of a second. INFINITY if
- * there are no pieces. */
+/* Longest stride for which the sub-steps of all pieces together take a fraction of a second. INFINITY if there are no
+ * pieces. */
 double kd_debris_stride(const struct kd_playground_debris *debris, double safety);
 
 /* For a bin: its central time and width, and the rate at which mass came back. line: the rate of Rees for a flat

@@ -13,8 +13,8 @@
 
 #define KD_GEODESIC_FAR 1e6 /* M; a body farther out is removed */
 #define KD_GEODESIC_NEAR \
-    1.05 /* captured within this times the horizon's radius, which it never reaches in the time of distant observers \
-          */
+    1.05 /* a body is captured within this multiple of the horizon's radius, because by the time of distant observers \
+          * it never reaches the horizon */
 
 struct kd_playground_geodesic {
     double from_x[3], from_v[3], from_t; /* initial conditions, which give the constants of motion */
@@ -29,15 +29,15 @@ enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, const struct 
                                  const double v[3], double t, struct kd_error *error);
 
 /* Advances up to the step that would pass time t, or until the body is captured or far away. t must not decrease from
- * call to call. Takes at most *steps steps and counts them down. Returns false if no steps are left; the next call then
- * continues. */
+ * call to call. *steps is the limit of steps; they are subtracted from it. Returns false if no steps are left; the next
+ * call then continues. */
 bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *steps);
 enum kd_geodesic_fate { KD_GEODESIC_GOES, KD_GEODESIC_CAPTURED, KD_GEODESIC_AWAY };
 void kd_geodesic_back(struct kd_playground_geodesic *g);
 /* Number of steps in a unit of coordinate time, at the present position. */
 double kd_geodesic_pace(const struct kd_playground_geodesic *g);
-/* Position and velocity at time t, which must have been approached. Afterwards kd_geodesic_back cannot return to
- * before t. */
+/* Position and velocity at time t, which must have been approached. After this call kd_geodesic_back cannot return to
+ * an earlier time. */
 enum kd_geodesic_fate kd_geodesic_at(struct kd_playground_geodesic *g, double t, double x[3], double v[3]);
 
 /* State for a snapshot, besides the initial conditions: restores exactly the state that kd_geodesic_back returns to. */

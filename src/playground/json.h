@@ -1,11 +1,12 @@
-/* Playgrounds as JSON: documents that create one, patches, and snapshots that continue exactly. Any thread.
+/* Playgrounds as JSON: documents that create one, patches, and snapshots from which a playground continues exactly. Any
+ * thread.
  *
  *     {"preset": "system", "waves": true, "bodies": [{"name", "mass", "radius", "temperature_k", "position": [x, y,
  *       z], "velocity": [x, y, z]}]}
  *
- * creates one: first the preset's settings and bodies, if any, then the given settings and bodies. A snapshot is
- * such a document with a "state", which holds everything else that the motion depends on: after kd_playground_read
- * the motion continues bit for bit.
+ * creates one: first the preset's settings and bodies, if any, then the given settings and bodies. A snapshot is such a
+ * document with a "state", which holds everything else on which the motion depends. After kd_playground_read the motion
+ * continues bit for bit.
  *
  *     {"amplification": 100, "add": [{...}], "change": [{"id": 3, "velocity": [0, 0.1, 0]}], "remove": [1, 2]}
  *
@@ -24,8 +25,8 @@
 enum kd_status kd_playground_read(const char *text, size_t length, struct kd_playground **out, struct kd_error *error);
 /* Replaces *p; on an error *p is unchanged. */
 enum kd_status kd_playground_patch(struct kd_playground **p, const char *text, size_t length, struct kd_error *error);
-/* The same in two steps, for a caller with members of its own, such as "rate", which it removes from the tree in
- * between. Free *tree with cJSON_Delete. */
+/* Creates a playground in two steps, for a caller with members of its own, such as "rate", which it removes from the
+ * tree in between. Free *tree with cJSON_Delete. */
 enum kd_status kd_playground_parse(const char *text, size_t length, cJSON **tree, struct kd_error *error);
 enum kd_status kd_playground_read_tree(const cJSON *tree, struct kd_playground **out, struct kd_error *error);
 enum kd_status kd_playground_patch_tree(struct kd_playground **p, const cJSON *tree, struct kd_error *error);

@@ -5,8 +5,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Compiles for the widest vectors, selected when the program starts. Sums and their order are the same in all
- * versions: there is no fused arithmetic. Sanitizers are not initialised yet when the selection runs. */
+/* Compiled for several vector widths; the widest available one is selected when the program starts. Sums and their
+ * order are the same in all versions, and there is no fused arithmetic. Sanitizers are not initialised yet when the
+ * selection runs, so such builds have one version. */
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define WIDE __attribute__((target_clones("default", "avx2", "avx512f")))
@@ -42,8 +43,8 @@ void kd_playground_mutual_finish(struct kd_playground_mutual *mutual)
     *mutual = (struct kd_playground_mutual) { 0 };
 }
 
-/* The pull of all n bodies on LANES of them, from `first` on. The lanes run side by side, in vectors if available.
- * Each lane sums over the others in order, so that the result does not depend on the vector width. */
+/* The acceleration by all n bodies of LANES of them, from `first` on. The lanes run in parallel, in vectors if
+ * available. Each lane sums over the other bodies in order, so that the result does not depend on the vector width. */
 WIDE static void pull(const struct kd_playground_mutual *p, size_t first, size_t n, double softening2, double margin)
 {
     double x[LANES], y[LANES], z[LANES], mass[LANES], radius[LANES], self[LANES], sum[SUMS][LANES] = { 0 };

@@ -18,7 +18,8 @@ struct kd_playground_mutual {
     double *x, *y, *z, *mass, *radius;
     double *ax, *ay, *az;
     double *potential; /* per unit mass */
-    double *rate;      /* sum of (m_i + m_j)/s^3 over its pairs: squared rate, at least that of the fastest pair */
+    double *rate;      /* sum of (m_i + m_j)/s^3 over its pairs: the square of a rate that is at least the rate of the
+                        * fastest pair */
     double *near;      /* number of bodies within R_i + R_j + margin */
     void *block;
 };

@@ -49,7 +49,7 @@ struct kd_playground_spent {
     double capped_momentum[3];     /* momentum removed by capping, where the pull of other bodies dominated */
     double radiated;               /* energy of gravitational waves */
     double torn_mass, torn_energy; /* converted to debris */
-    /* Energy added or removed from outside: bodies added, removed or changed, and recomputations of the mutual
+    /* Energy added or removed from outside: by adding, removing or changing bodies, and by recomputing the mutual
      * potential. */
     double given;
 };
@@ -61,9 +61,9 @@ struct kd_playground {
     struct kd_playground_body *bodies; /* n of them, in order of creation */
     size_t n, room;
     uint32_t last_id;
-    double rate;     /* 1/h of the step before; 0: the next step starts afresh */
+    double rate;     /* 1/h of the previous step; 0: the next step does not depend on it */
     uint64_t random; /* number of random numbers drawn */
-    bool held;       /* at some time the loss to waves was limited to a tenth of the pull */
+    bool held;       /* the loss to waves was limited to a tenth of the attraction at least once */
     struct kd_playground_spent spent;
     struct kd_playground_events events;
     struct kd_playground_debris debris;
@@ -72,10 +72,10 @@ struct kd_playground {
     /* Derived from the above: */
     struct kd_playground_mutual mutual;
     bool disturbed;
-    double before; /* bodies were changed from outside since the last step; the energy before that */
+    double before; /* bodies were changed from outside since the last step: the energy before the change */
     double aim;
-    /* Gravity "kerr": the time that the geodesics approach, and the number of geodesics that have arrived there. Bodies
-     * move when all have arrived. */
+    /* Gravity "kerr": the time that the geodesics approach, and the number of geodesics that have reached it. Bodies
+     * move when all have reached it. */
     size_t approached;
     bool forced;                  /* `mutual` is up to date */
     double margin;                /* margin that `mutual` was computed with */
@@ -109,9 +109,9 @@ struct kd_playground_progress {
 /* Advances by `time` > 0, or by as many sub-steps as the budget allows. */
 void kd_playground_advance(struct kd_playground *p, double time, struct kd_playground_progress *progress);
 
-/* The same in pieces, to interleave other work: call begin, then go_on until it returns false. The result is bit for
- * bit that of kd_playground_advance. A piece is a sub-step, or 256 steps of geodesics with gravity "kerr". A
- * sub-step with a million pieces of debris takes tens of milliseconds. */
+/* Advances in pieces, to interleave other work: call begin, then go_on until it returns false. The result is bit for
+ * bit that of kd_playground_advance. A piece is a sub-step, or 256 steps of geodesics with gravity "kerr". A sub-step
+ * with a million pieces of debris takes tens of milliseconds. */
 struct kd_playground_run {
     double begin, end;
     double stride; /* gravity "kerr": time between updates of the bodies */
@@ -145,7 +145,7 @@ struct kd_playground_totals kd_playground_totals(struct kd_playground *p);
 
 /* Writes the present values as a row of `series`. */
 void kd_playground_series_row(struct kd_playground *p, double row[KD_SERIES_N]);
-/* Restarts the series here: over the next `span` M, or open-ended if 0 (series.h), which is the default. */
+/* Restarts the series at the present time. span: its length in M; 0, the default: open-ended (series.h). */
 void kd_playground_series_begin(struct kd_playground *p, double span);
 
 /* Writes the approximations in force, as an array of strings. */

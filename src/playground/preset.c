@@ -50,8 +50,8 @@ static enum kd_status disruption(struct kd_playground *p, struct kd_error *error
     return add(p, "star", passing(1e-6, 0.47, 5800, 300), error);
 }
 
-/* A white dwarf of one solar mass and 5500 km radius, and a hole of a thousand solar masses, on an equally deep
- * parabola. The tidal radius is 37 M. The most tightly bound debris comes back after 16 000 M, which is 78 s. */
+/* A white dwarf of one solar mass and 5500 km radius, on a parabola as deep as the star's, and a hole of a thousand
+ * solar masses. The tidal radius is 37 M. The most tightly bound debris comes back after 16 000 M, which is 78 s. */
 static void dwarf_settings(struct kd_playground_params *s)
 {
     s->h_max = 5;

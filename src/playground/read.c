@@ -27,7 +27,7 @@ static enum kd_status read_name(struct kd_playground_body *body, const cJSON *it
 }
 
 /* Reads the given fields; the others keep their values. id: set to the member "id"; NULL if a body may not have one.
- * grown: factor on the largest mass and radius of a new body, since mergers add up. */
+ * grown: factor on the limits of mass and radius of a new body, because merged bodies may be larger. */
 static enum kd_status read_body(struct kd_playground_body *body, const cJSON *item, const char *pointer, uint32_t *id,
                                 double grown, struct kd_error *error)
 {

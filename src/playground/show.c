@@ -108,8 +108,8 @@ static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, u
 }
 
 /* Chooses the smallest cells that leave enough pieces in each occupied cell. Their number is estimated from the
- * coarsest grid. A stream of debris is narrower than the cells of that grid, and so fills fewer small ones. A grid that
- * does not go all round has one more column of nodes at its end. */
+ * coarsest grid. A stream of debris is narrower than the cells of that grid, so it occupies a smaller fraction of small
+ * cells. A grid that does not go all round has one more column of nodes at its end. */
 void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_dynamic_bodies_debris *out)
 {
     struct taken taken;

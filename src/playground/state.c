@@ -213,7 +213,7 @@ static bool look(struct kd_playground_debris *d)
         haste += 1 / (r - KD_PLAYGROUND_HORIZON);
         d->alive++;
     }
-    /* `haste` determines the sub-steps of all pieces in one stride, so that a wrong value is refused */
+    /* `haste` determines the sub-steps of all pieces in one stride, so a wrong value is refused */
     return !d->alive || (d->haste > 0.5 * haste && d->haste < 1e9);
 }
 

@@ -8,8 +8,8 @@
 
 #define PIECE 256 /* steps of geodesics in a piece, a microsecond or two each */
 #define CLEARANCE \
-    1.25 /* rate aimed at over the minimum: the rate of single steps oscillates about that required at the positions \
-          */
+    1.25 /* ratio of the rate aimed at to the minimum, because the rate of single steps oscillates about the rate that \
+          * the positions require */
 
 void kd_playground_force(struct kd_playground *p)
 {
@@ -33,8 +33,8 @@ static double demanded(const struct kd_playground *p)
     return rate;
 }
 
-/* Caps the speed at 1. others: the pull of other bodies exceeds that of the hole. If the hole gave the speed, capping
- * it changes no momentum balance, because the hole has no momentum. */
+/* Caps the speed at 1. others: the attraction of other bodies exceeds that of the hole. If the hole caused the speed,
+ * capping it changes no balance of momentum, because the hole's momentum is not counted. */
 static void hold(struct kd_playground *p, struct kd_playground_body *body, bool others)
 {
     const double v = kd_playground_radius(body->v);
@@ -287,8 +287,8 @@ static double affordable(const struct kd_playground *p, uint32_t left)
     return pace > 0 ? 0.5 * left / pace : INFINITY;
 }
 
-/* Gravity "kerr": moves by strides. The geodesics approach the stride's end one after the other; then all bodies
- * move. If the budget is spent in between, no body has moved, and the next run continues towards the same end. */
+/* Gravity "kerr": moves by strides. The geodesics approach the stride's end one after the other; then all bodies move.
+ * If the budget is spent before that, no body has moved, and the next run continues towards the same end. */
 static void follow_on(struct kd_playground *p, struct kd_playground_run *run)
 {
     if (!(p->aim > p->t)) {

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* maximum of the loss over the pull: beyond it there is no orbit, and the formula might add energy */
+/* maximum of the ratio of the loss to the attraction: beyond it there is no orbit, and the formula might add energy */
 #define MOST 0.1
 
 /* The reaction for m1 m2 = product and the total mass m. */

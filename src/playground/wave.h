@@ -11,7 +11,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#define KD_WAVE_PAIRS_MAX 256 /* bodies searched for pairs; with more, each radiates with the hole alone */
+#define KD_WAVE_PAIRS_MAX \
+    256 /* limit of the bodies that are searched for pairs; if there are more, each radiates with \
+         * the hole alone */
 
 struct kd_playground_body;
 
@@ -25,7 +27,7 @@ bool kd_wave_reaction(double m1, double m2, const double x[3], const double v[3]
  * less on r than -1/(2 r): 1.3 times at r = 10. */
 bool kd_wave_reaction_hole(double m, const double x[3], const double v[3], double amplification, double a[3]);
 
-/* For each of n bodies: the index of the body that pulls it most, if that one is also pulled most by this one and the
+/* For each of n bodies: the index of the body that attracts it most, if the attraction is mutual in this sense and the
  * two are bound to each other; otherwise n. */
 void kd_wave_partners(const struct kd_playground_body *bodies, size_t n, double softening, size_t *partners);
 

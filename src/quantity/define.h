@@ -80,7 +80,7 @@
         .fall_energy = (p)->infall_energy, .fall_momentum = (p)->infall_momentum, \
     }
 
-/* KD_EINVAL at "/name". The message is "r is 1.2, " and the reason, which should end with what is allowed. */
+/* Returns KD_EINVAL at "/name". The message is "r is 1.2, " and the reason, which should end with what is allowed. */
 enum kd_status kd_quantity_outside(struct kd_error *error, const char *name, double value, const char *reason, ...)
     __attribute__((format(printf, 4, 5)));
 /* Checks that r is at or outside the hole's horizon; otherwise returns the error of kd_quantity_outside. */

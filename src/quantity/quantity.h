@@ -33,8 +33,9 @@ enum {
     KD_QUANTITY_POINTS = KD_RANGE_MOST, /* maximum for one answer */
 };
 
-/* A parameter is a row whose value is a number or a word. A number may be limited to whole numbers, and may have a
- * word that the function gets as INFINITY. Of words the function gets the index. The default is `typed`. */
+/* A parameter is a row whose value is a number or a word. A number may be limited to whole numbers. It may have a word,
+ * for which the function gets INFINITY. For a parameter with words the function gets the index. The default is
+ * `typed`. */
 
 /* An output is NaN where it is undefined (help says when): null in JSON, an empty field in CSV. */
 struct kd_output {
@@ -97,7 +98,7 @@ enum kd_status kd_quantity_evaluate(const struct kd_quantity_request *request, s
                                     struct kd_error *error);
 void kd_quantity_answer_finish(struct kd_quantity_answer *answer);
 
-/* The same one point at a time, for callers that interleave other work: call begin, then next until point equals
+/* Evaluates one point at a time, for callers that interleave other work: call begin, then next until point equals
  * answer.points. */
 struct kd_quantity_run {
     struct kd_quantity_answer answer;

@@ -72,8 +72,8 @@ static double parameter_of(const struct kd_quantity_answer *answer, const char *
     return answer->request.axes[parameter(answer->request.quantity, name)].first;
 }
 
-/* Unstretched, every mode is short enough: that of the greatest quality, 285 (l = m = 4, a = 0.9999), fades by e in
- * 4.5 s at 20 Hz. */
+/* Limits the stretch. Unstretched, every mode is short enough: the mode with the highest quality factor, 285 (l = m =
+ * 4, a = 0.9999), fades by e in 4.5 s at 20 Hz. */
 static enum kd_status short_enough(const struct kd_quantity_answer *answer, struct kd_error *error)
 {
     double fades = output(answer, "sound_damping_s"), stretch = parameter_of(answer, "stretch");

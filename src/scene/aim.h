@@ -1,5 +1,5 @@
-/* Where a camera looks while it moves: at the hole, at a place, or in a direction. The aberration of light by the
- * observer's motion is taken into account, the bending of light is not. Double precision, pure, any thread. */
+/* Where a camera looks while it moves: at the hole, at a place, or in a direction. The aberration by the observer's
+ * motion is included, the bending of light is not. Double precision, pure, any thread. */
 #ifndef KD_SCENE_AIM_H
 #define KD_SCENE_AIM_H
 
@@ -18,9 +18,9 @@ struct kd_aim {
     double r, theta_deg, phi_deg;
 };
 
-/* Computes the viewing direction of a camera with this aim. It is a unit vector with components right, up and inwards,
- * as yaw and pitch define them. The scene must be valid. KD_EINVAL if its camera is at infinity, or at the place
- * itself. */
+/* Computes the viewing direction of a camera with this aim. The result is a unit vector with components right, up and
+ * inwards, as yaw and pitch define them. The scene must be valid. KD_EINVAL if its camera is at infinity, or at the
+ * place at which it aims. */
 enum kd_status kd_aim_look(const struct kd_aim *aim, const struct kd_scene *scene, double look[3],
                            struct kd_error *error);
 

@@ -1,7 +1,7 @@
 /* Assets are files of bytes that a scene refers to but does not contain. A document names an asset by the SHA-256 of
- * its bytes, or by a name that the reader of the document knows. A name is replaced by the hash before the scene is
- * used, so that the identity of a scene, and of its picture, depends on the content only. Names never cause a download.
- * Any thread. */
+ * its bytes, or by a name that the reader of the document knows. Before a scene is used, each name is replaced by the
+ * hash. The identity of a scene, and of its picture, therefore depends on the content only. Names never cause a
+ * download. Any thread. */
 #ifndef KD_SCENE_ASSET_H
 #define KD_SCENE_ASSET_H
 

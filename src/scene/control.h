@@ -1,4 +1,4 @@
-/* Further data for the page's control of a field, which the field's row does not have: the table KD_SCENE_CONTROLS of
+/* Further data for the page's control of a field, in addition to the field's row: the table KD_SCENE_CONTROLS of
  * scene/fields.h. In the JSON Schema they are x-span, x-first, x-switch, x-with, x-varies and x-button. Constant data
  * and pure functions, any thread. */
 #ifndef KD_SCENE_CONTROL_H
@@ -14,8 +14,8 @@ struct kd_control {
         /* While the field has its least value or its first word, the other fields of its section, or of its list
          * element, have no effect. */
         KD_CONTROL_SWITCH,
-        /* The field has an effect only while the field `text` of its section has the value a, or the a of another such
-         * row. */
+        /* The field has an effect only while the field `text` of its section has the value a; with several such rows,
+         * one of their values. */
         KD_CONTROL_WITH,
         /* the field has an effect only if the picture varies in one of the ways "a|b" in `text` (docs/live.md) */
         KD_CONTROL_VARIES,

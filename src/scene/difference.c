@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* State while a difference is written: `base` with all fields applied that are written so far. */
+/* State while a difference is written: `base` with all fields applied that have been written so far. */
 struct telling {
     const struct kd_scene *scene;
     struct kd_scene made;
@@ -23,7 +23,7 @@ static void strip(char *text)
     *to = 0;
 }
 
-/* Compares values themselves. Comparing them as text would be most of the work: a link compares 30 presets. */
+/* Compares values, not their texts. Writing texts would be most of the work, because a link compares 30 presets. */
 static bool same(const struct kd_scene *a, const struct kd_scene *b, const struct kd_row *field, size_t index)
 {
     if (field->kind == KD_KIND_ASSET)
@@ -66,8 +66,8 @@ static enum kd_status tell(struct telling *t, const struct kd_row *field, size_t
     return status ? status : kd_buffer_printf(t->out, "%s=%s", path, value);
 }
 
-/* Writes the fields of a section or list element that differ. An element that the base lacks is written even if it has
- * all defaults: its first field creates it. */
+/* Writes the fields of a section or list element that differ. If the base lacks the element, the first field is written
+ * even if it has its default, because it creates the element. */
 static enum kd_status tell_fields(struct telling *t, const struct kd_section *section, size_t index)
 {
     enum kd_status status = KD_OK;

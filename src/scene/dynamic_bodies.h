@@ -41,7 +41,7 @@ struct kd_seen_body {
 struct kd_dynamic_bodies_debris {
     uint32_t turn, rows, columns, first_column; /* rows 0: there is no debris */
     int32_t first_row;
-    /* KD_CROWD_NODE numbers for each node: the amount of debris, in units of one body, and that amount times its
+    /* KD_CROWD_NODE numbers for each node: the amount of debris, in units of one body, and this amount times the
      * velocity along e_r and along e_phi, in the frame of kd_seen_body. */
     float *nodes;
     uint32_t pieces; /* number of pieces of debris that are on the nodes */
@@ -65,8 +65,8 @@ struct kd_dynamic_bodies {
     struct kd_dynamic_bodies_debris debris;
 };
 
-/* Creates a set of n bodies and of nodes of debris, all 0. The caller owns a reference and fills the set. Afterwards it
- * must not be changed. KD_ENOMEM. */
+/* Creates a set of n bodies and of nodes of debris, all 0. The caller owns a reference and fills the set. Afterwards
+ * the set must not be changed. KD_ENOMEM. */
 enum kd_status kd_dynamic_bodies_create(size_t n, uint32_t rows, uint32_t columns, struct kd_dynamic_bodies **out,
                                         struct kd_error *error);
 void kd_dynamic_bodies_keep(struct kd_dynamic_bodies *dynamic); /* takes a reference; accepts NULL */

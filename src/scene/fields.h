@@ -519,15 +519,13 @@
 #define KD_SCENE_PARTS(PART, s) PART(s, gas, disk) PART(s, tile, image)
 
 /* Styles. A document that names one in style.name sets these fields, except those that it sets itself (scene/style.h).
- * ROW(section, name, values) has one value for each word of style.name but "none". Values have the form that
- * kd_field_put accepts, and the fields belong to sections that are not lists. NAN: the style leaves the field
- * unchanged.
+ * ROW(section, name, values) has one value for each word of style.name except "none". Values have the form that
+ * kd_field_put accepts. The fields belong to sections that are not lists. NAN: the style leaves the field unchanged.
  *
- * film: a bright scene that is seen by the eye through a lens. raw: light without post-processing. dngr: as in
- * Interstellar, whose disk lacks the frequency shifts of its gas, with lens flare (O. James et al. 2015, section 4.3).
- * eht: as the Event Horizon Telescope shows its pictures, at its resolution of about 20 microarcseconds (EHT
- * Collaboration 2019, ApJL 875, L4). starless: no disk, but a synthetic sky, lensed; after R. Antonelli's ray tracer of
- * that name (2015). */
+ * film: a bright scene, seen by the eye through a lens. raw: light without post-processing. dngr: as in Interstellar,
+ * without the frequency shifts of the disk's gas, with lens flare (O. James et al. 2015, section 4.3). eht: as the
+ * Event Horizon Telescope shows its pictures, at its resolution of about 20 microarcseconds (EHT Collaboration 2019,
+ * ApJL 875, L4). starless: no disk, but a lensed synthetic sky, as in R. Antonelli's ray tracer of that name (2015). */
 #define KD_STYLES 5
 #define KD_SCENE_STYLES(ROW) \
     /*                      film               raw                dngr               eht                starless */ \

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#define TOLD 4 /* limit of the changes that a preview lists */
+#define TOLD 4 /* limit of the changes that a preview mentions */
 
 enum kd_status kd_scene_link_check(const struct kd_scene *scene, struct kd_error *error)
 {

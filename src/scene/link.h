@@ -5,12 +5,12 @@
 
 #include "scene/scene.h"
 
-/* Appends the shortest link, out of those from each preset and from the default scene, and a NUL that out->size does
- * not count. Equal scenes give equal links; the default scene gives "". KD_EINVAL with a pointer: the scene names an
- * asset. KD_ENOMEM. */
+/* Appends the shortest link among those from each preset and from the default scene, and a NUL that out->size does not
+ * count. Equal scenes have equal links; the link of the default scene is "". KD_EINVAL with a pointer: the scene names
+ * an asset. KD_ENOMEM. */
 enum kd_status kd_scene_link(const struct kd_scene *scene, struct kd_buffer *out, struct kd_error *error);
 
-/* Checks that a scene names no asset, because the server that the reader uses may not have it. */
+/* Checks that a scene names no asset. Another server that reads the link may not have it. */
 enum kd_status kd_scene_link_check(const struct kd_scene *scene, struct kd_error *error);
 
 /* Describes n changed fields of a link for people, as in "camera inclination 60°, camera r 30 M and 3 more". */

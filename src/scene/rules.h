@@ -1,4 +1,4 @@
-/* Rules about several fields. Each is a sentence for the reference, and the check that enforces it. Any thread. */
+/* Rules about several fields. Each has a sentence for the reference, and a function that checks it. Any thread. */
 #ifndef KD_SCENE_RULES_H
 #define KD_SCENE_RULES_H
 
@@ -7,8 +7,8 @@
 struct kd_rule {
     const char *text;
     enum kd_status (*check)(const struct kd_scene *scene, struct kd_error *error);
-    /* Only for rules that a JSON Schema can express; otherwise NULL, NULL, 0, 0. The rule is that an integer is a
-     * multiple of `multiple`, or that a number is 0 or at least `above_0`. */
+    /* For rules that a JSON Schema can express: an integer is a multiple of `multiple`, or a number is 0 or at least
+     * `above_0`. Otherwise NULL, NULL, 0, 0. */
     const char *section, *name;
     int32_t multiple;
     double above_0;

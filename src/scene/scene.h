@@ -90,8 +90,8 @@ bool kd_scene_same_path(const char *a, const char *b);
 enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *error);
 
 /* For live sessions. kd_scene_advance moves azimuth, time and the observer by their rates for `seconds`. Three further
- * functions tell whether time advances, whether azimuth advances, and whether the observer falls. Whether that changes
- * the picture depends on the emitters (render/emit/emitter.h). */
+ * functions return whether time advances, whether azimuth advances, and whether the observer falls. The emitters decide
+ * whether that changes the picture (render/emit/emitter.h). */
 void kd_scene_advance(struct kd_scene *scene, double seconds);
 /* Adds `time`, in M, to the scene's time, which stops at the ends of its range. */
 void kd_scene_pass(struct kd_scene *scene, double time);
@@ -116,8 +116,8 @@ bool kd_scene_is_flat(const struct kd_scene *scene);
 
 /* Makes the scene of one eye: -1 is the left one, 1 the right one. The scene must be valid, at a finite radius, and its
  * camera.stereo must be "pair". The eye is the camera of the same observer at the same time, moved sideways by half of
- * camera.eye_distance. It is moved along a leg of the observer's local frame, to first order. Its axis and its up
- * direction are kept as in flat space. The result has camera.stereo "none". */
+ * camera.eye_distance along a leg of the observer's local frame, to first order. Its axis and its up direction stay
+ * parallel as in flat space. The result has camera.stereo "none". */
 struct kd_scene kd_scene_eye(const struct kd_scene *scene, int side);
 
 /* The pixels that are rendered: those of image.tile, or the whole picture. */
@@ -145,9 +145,10 @@ double kd_scene_width_uas(const struct kd_scene *scene);
 /* The value of sky.brightness; "auto" is replaced by a number. */
 double kd_scene_sky_brightness(const struct kd_scene *scene);
 
-/* Upper limit of style.exposure "auto", in stops. It keeps a sky with nothing brighter before it from becoming grey: 21
- * magnitudes a square arcsecond become a quarter of white. INFINITY if there are no stars and no Milky Way, in false
- * colour, and if sky.brightness is given and something else shines, because then the given ratio counts. */
+/* Upper limit of style.exposure "auto", in stops. It keeps empty sky from becoming grey if nothing brighter is in
+ * front: 21 magnitudes a square arcsecond become at most a quarter of white. INFINITY if there are no stars and no
+ * Milky Way, or in false colour. INFINITY also if sky.brightness is given and something else shines, because then the
+ * given ratio counts. */
 double kd_scene_exposure_most(const struct kd_scene *scene);
 
 /* kd_scene_volume_inner: inner edge of the scene's volume in M. kd_scene_is_radio: whether the volume is seen at one

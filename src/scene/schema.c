@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Writes what the rules of a field are in a schema. */
+/* Writes the rules of a field that a schema can express. */
 static void add_rules(struct kd_json *json, const struct kd_row *field)
 {
     for (size_t i = 0; i < kd_rule_count; i++) {

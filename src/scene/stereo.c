@@ -49,8 +49,8 @@ static struct view view_of(const struct kd_camera *c)
 /* Converts a unit length along a leg of the tetrad to coordinates: dr, r dtheta, r sin(theta) dphi. For a falling
  * observer the azimuth is that of ingoing Kerr-Schild coordinates. The conversion starts from p_mu and uses Sigma p^r,
  * Sigma p^theta = p_theta and Sigma p^phi = L/sin^2 - a E + a (P + w)/Delta. Here P = E (r^2 + a^2) - a L; w = Sigma
- * p^r for a falling observer, and w = 0 for others. At the horizon the last term is 0/0 for a falling observer, so it
- * is evaluated next to the horizon. */
+ * p^r for a falling observer, and w = 0 for others. At the horizon the last term is 0/0 for a falling observer; there
+ * it is evaluated next to the horizon. */
 static void along(const struct kd_vantage *at, const struct kd_covector *leg, bool falls, double out[3])
 {
     const double a = at->hole.a, r = at->r, s = at->s, sigma = r * r + a * a * at->u * at->u, w2 = r * r + a * a;

@@ -5,12 +5,12 @@
  *      "disk.model": ["novikov-thorne", "particles"]}
  *
  * Scenes are numbered from 0. The last axis changes fastest, as the last index of an array in C. A field is named by
- * its path, as for kd_scene_set. The axes are applied in order, except that a style is applied first, because it sets
- * many fields.
+ * its path, as for kd_scene_set. The axes are applied in order, but a style is applied first, because it sets many
+ * fields.
  *
  * A range START:STOP:STEP is START, START + STEP, ... up to STOP. STOP is included if a whole number of steps reaches
- * it: "10:80:15" is 10, 25, 40, 55, 70, and so is "10:70:15". START:STOP/N is N evenly spaced values, which include
- * both ends. Values of ranges are rounded to 15 digits. */
+ * it: "10:80:15" is 10, 25, 40, 55, 70, and so is "10:70:15". START:STOP/N has N evenly spaced values, including both
+ * ends. Values of ranges are rounded to 15 digits. */
 #ifndef KD_SCENE_SWEEP_H
 #define KD_SCENE_SWEEP_H
 
@@ -33,7 +33,7 @@ struct kd_sweep_axis {
     struct kd_sweep_value {
         char *text;    /* in the form that kd_scene_set accepts; for an asset its hash, once the name is resolved */
         double number; /* NAN if the value is not a number */
-        uint64_t grid_nodes; /* of a volume.grid whose name is resolved; otherwise 0 */
+        uint64_t grid_nodes; /* nodes of a volume.grid whose name is resolved; otherwise 0 */
     } *values;
 };
 

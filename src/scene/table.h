@@ -34,7 +34,7 @@ enum {
     KD_FIELD_COUNT = 0 KD_SCENE_SECTIONS(KD_COUNT_ROWS, KD_COUNT_LIST_ROWS),
     KD_SECTION_COUNT = 0 KD_SCENE_SECTIONS(KD_ONE, KD_ONE),
     KD_OLD_NAME_COUNT = 0 KD_SCENE_OLD_NAMES(KD_ONE),
-    KD_FIELD_WORDS = (KD_FIELD_COUNT + 63) / 64, /* of bits that tell which fields a document has */
+    KD_FIELD_WORDS = (KD_FIELD_COUNT + 63) / 64, /* words of the bit mask of the fields that a document has */
 };
 
 /* The rows of a list exist once, so functions on fields also take the index of the element. For other sections it is
@@ -63,7 +63,7 @@ const struct kd_row *kd_field_find(const char *section, const char *name);
 size_t kd_section_size(const struct kd_scene *scene, const struct kd_section *section);
 void kd_section_resize(struct kd_scene *scene, const struct kd_section *section, size_t size);
 
-/* The struct that has the field: the scene, moved to an element of a list. For functions of rows. */
+/* The struct that has the field: the scene, moved to an element of a list. Functions of rows take this pointer. */
 const void *kd_field_in(const struct kd_scene *scene, const struct kd_row *field, size_t index);
 /* Whether a document has the field (kd_document_read). */
 static inline bool kd_field_is_given(const uint64_t *given, const struct kd_row *field)
@@ -71,14 +71,14 @@ static inline bool kd_field_is_given(const uint64_t *given, const struct kd_row 
     const size_t i = (size_t)(field - kd_fields);
     return given[i / 64] >> i % 64 & 1;
 }
-/* As kd_row_get and kd_row_put_number. */
+/* Like kd_row_get and kd_row_put_number. */
 double kd_field_get(const struct kd_scene *scene, const struct kd_row *field, size_t index);
 void kd_field_put(struct kd_scene *scene, const struct kd_row *field, size_t index, double value);
 /* Stores the value. On failure returns KD_EINVAL with the field's pointer, the value and what is allowed; *scene is
  * then unchanged. */
 enum kd_status kd_field_store(struct kd_scene *scene, const struct kd_row *field, size_t index,
                               const struct kd_value *value, struct kd_error *error);
-/* Whether the scene's value is one that the row allows, and an asset named by its hash. */
+/* Whether the row allows the scene's value, and an asset is named by its hash. */
 bool kd_field_is_sound(const struct kd_scene *scene, const struct kd_row *field, size_t index);
 /* The text of an ASSET; "": none. */
 const char *kd_field_asset(const struct kd_scene *scene, const struct kd_row *field, size_t index);
@@ -87,7 +87,7 @@ struct kd_json kd_scene_json(struct kd_buffer *out);
 /* Checks the member "version", which must be 1. */
 enum kd_status kd_scene_version(const struct kd_value *value, struct kd_error *error);
 
-/* Finds a field by its dotted path, in the way of kd_scene_set, and the index of its element, which need not exist yet.
+/* Finds a field by its dotted path, like kd_scene_set, and the index of its element, which need not exist yet.
  * KD_EINVAL with a pointer. */
 enum kd_status kd_field_at(const char *path, const struct kd_row **out, size_t *index, struct kd_error *error);
 

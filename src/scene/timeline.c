@@ -23,7 +23,7 @@ struct column {
     const struct kd_timeline *timeline;
     const struct kd_row *field;
     size_t index;
-    size_t from; /* the key at which t is 0; whole turns of other keys are counted from this one */
+    size_t from; /* the key at which t is 0; at other keys whole turns are counted from this one */
     bool ratios; /* it is interpolated logarithmically */
     bool turns;  /* it is an angle that takes the shorter way from key to key */
     enum kd_interpolation by;
@@ -128,8 +128,8 @@ static bool stays(const struct kd_timeline *timeline, size_t key, const struct k
            kd_field_get(from, field, index) == kd_field_get(to, field, index);
 }
 
-/* Interpolates a section. An element of a list that only one of the two keyframes has counts in the other as having all
- * defaults. */
+/* Interpolates a section. If only one of the two keyframes has an element of a list, the element counts in the other as
+ * having all defaults. */
 static void section_between(const struct kd_timeline *timeline, size_t key, double t, const struct kd_section *section,
                             struct kd_scene *out)
 {

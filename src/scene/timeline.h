@@ -7,12 +7,12 @@
  * A keyframe's scene is a merge patch on the scene of the keyframe before. Real numbers are interpolated between
  * keyframes; everything else keeps the value of the keyframe before. After the last keyframe nothing changes.
  *
- * "smooth" is a monotone cubic: it is at rest at both ends and at turning points, and never goes beyond the given
- * values. "catmull-rom" passes through the keyframes without stopping, and may go beyond the given values. It is
- * Hermite's cubic. Its slope at a key is that of the parabola through the key and its two neighbours; at either end it
- * is that of the straight line to the neighbour (E. Catmull & R. Rom 1974, in Computer Aided Geometric Design, 317; P.
- * Barry & R. Goldman 1988, SIGGRAPH Comput. Graph. 22, 199, with the keys' places as knots; for evenly spaced keys it
- * is the uniform one).
+ * "smooth" is a monotone cubic: it is at rest at both ends and at turning points, and never exceeds the given values.
+ * "catmull-rom" passes through the keyframes without stopping, and may exceed the given values. It is Hermite's cubic.
+ * Its slope at a key is that of the parabola through the key and its two neighbours; at either end it is that of the
+ * straight line to the neighbour (E. Catmull & R. Rom 1974, in Computer Aided Geometric Design, 317; P. Barry & R.
+ * Goldman 1988, SIGGRAPH Comput. Graph. 22, 199, with the keys' places as knots). For evenly spaced keys it is the
+ * uniform Catmull-Rom spline.
  *
  * "ease" replaces the fraction t of [0, 1] by t^2 ("in"), 1 - (1 - t)^2 ("out") or 3 t^2 - 2 t^3 ("in-out"). The ease
  * of a keyframe applies to the interval that ends at the keyframe. The ease of the timeline applies to the whole: a
@@ -22,14 +22,14 @@
  * 10 through 0.
  *
  * "look_at" aims the camera (scene/aim.h) at "hole" or at a place, and overrides yaw and pitch. With "free" yaw and
- * pitch decide. A keyframe without it inherits that of the keyframe before; the first keyframe inherits that of the
- * timeline. Between two different aims the camera turns along a great circle.
+ * pitch decide. A keyframe without "look_at" inherits that of the keyframe before; the first keyframe inherits that of
+ * the timeline. Between two different aims the camera turns along a great circle.
  *
  * "proper_time" moves the observer along its own path (physics/spacetime/worldline.h), from its place in the scene. It
  * is the proper time since the beginning, in M. For a falling observer it may also be "horizon" or "end": the time at
- * which the observer reaches the outer horizon, or the last place that a camera can have. A keyframe without it
- * inherits that of the keyframe before; the first has 0. It is interpolated like other numbers, but with "catmull-rom"
- * by the monotone cubic; the resulting place is exact.
+ * which the observer reaches the outer horizon, or the last place that a camera can have. A keyframe without
+ * "proper_time" inherits that of the keyframe before; the first has 0. It is interpolated like other numbers, but with
+ * "catmull-rom" by the monotone cubic; the resulting place is exact.
  *
  * With "distances": "geometric", camera.r, camera.field_m and camera.field_uas are interpolated logarithmically. */
 #ifndef KD_SCENE_TIMELINE_H
@@ -84,7 +84,7 @@ struct kd_timeline_form {
 
 /* The members of a request that make up a timeline; NULL: the member is missing. */
 struct kd_timeline_items { const cJSON *keyframes, *interpolation, *distances, *angles, *ease, *look_at; };
-/* Rows of them, in a struct of this type that has them as `items`. */
+/* Rows of these members, in a struct of this type that has them as `items`. */
 #define KD_TIMELINE_ROW_(type, items, member) \
     { .name = #member, \
       .kind = KD_KIND_JSON, \

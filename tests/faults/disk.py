@@ -189,7 +189,7 @@ class Operations(Case):
                     )
                     self.assertEqual(server.get("/v1/assets/" + asset["sha256"]).status, 200, n)
                     self.assertEqual(server.stop(), 0)
-                faults.record(errno.errorcode[number], "a start with what is kept", outcomes, count)
+                faults.record(errno.errorcode[number], "a start with stored jobs and assets", outcomes, count)
 
     def starts(self):
         errors = os.path.join(self.folder, "errors")

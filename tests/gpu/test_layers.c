@@ -416,9 +416,9 @@ static void assert_same_picture(const char *json, const char *layers)
     kd_store_empty(&renderer->store); /* removes the modified maps */
 }
 
-/* The picture is the same bit for bit whatever layers are requested with it, even if they need more of the lens map,
- * and for rays given up on their way where there is no sky. Only the delay is left out, because it follows rays
- * differently. */
+/* The picture is the same bit for bit whatever layers are requested with it, even if they need more of the lens map.
+ * This holds also for rays that were given up in a scene without sky. The layer `delay` is left out, because its rays
+ * are followed differently. */
 static void test_picture_beside(void **state)
 {
     (void)state;

@@ -45,7 +45,8 @@ static struct ks_photon photon(const struct kd_scene *scene, double x, double y)
 {
     const struct kd_camera *c = &scene->camera;
     double t = tan(0.5 * c->fov_deg * RADIAN), n = 1 / sqrt(1 + t * t * (x * x + y * y));
-    const double m[3] = { n, t * y * n, -t * x * n }; /* it flies along m and is seen along -m, inwards in the middle */
+    /* The photon moves along m and is seen along -m, which points inwards for the middle of the picture. */
+    const double m[3] = { n, t * y * n, -t * x * n };
     double along = v[0] * m[0] + v[1] * m[1] + v[2] * m[2], energy = gamma_ * (1 + along), k[3];
     for (int i = 0; i < 3; i++)
         k[i] = -(m[i] + v[i] * (gamma_ + gamma_ * gamma_ / (gamma_ + 1) * along)) / energy;

@@ -1,4 +1,4 @@
-/* Made by tests/oracle/whirl_reference.py; do not edit. Bodies that come to whirl, by quadrature. */
+/* Made by tests/oracle/whirl_reference.py; do not edit. Orbits that whirl, by quadrature. */
 #ifndef KD_TESTS_WHIRL_REFERENCE_H
 #define KD_TESTS_WHIRL_REFERENCE_H
 

@@ -115,7 +115,7 @@ def row(a, energy_text, beside):
 
 
 def main():
-    print("/* Made by tests/oracle/whirl_reference.py; do not edit. Bodies that come to whirl, by quadrature. */")
+    print("/* Made by tests/oracle/whirl_reference.py; do not edit. Orbits that whirl, by quadrature. */")
     print(
         '#ifndef KD_TESTS_WHIRL_REFERENCE_H\n#define KD_TESTS_WHIRL_REFERENCE_H\n\n#include "physics/orbit/timelike.h"\n'
     )

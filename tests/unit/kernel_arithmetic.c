@@ -147,7 +147,7 @@ static int decorated(const struct spirv *s)
     return n;
 }
 
-/* Precise operations stay precise where functions are inlined: there are at least as many. */
+/* Precise operations stay precise where functions are inlined: a kernel has at least as many of them afterwards. */
 static void what_is_precise_stays_so(void **state)
 {
     (void)state;

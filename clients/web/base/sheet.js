@@ -14,7 +14,7 @@ const flick_px_ms = 0.5; // a faster drag moves the sheet to the next height
 
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
-// The picture of each panel, which is scrolled to where the sheet leaves it visible.
+// The picture of each panel. The page is scrolled so that the picture is visible above the sheet.
 const pinned = { 'orbit-panel': '#orbit-picture', 'scale-panel': '#scale-pictures', 'play-panel': '#play-pictures' };
 
 export function sheet(node) {

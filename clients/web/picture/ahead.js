@@ -16,7 +16,7 @@ const plain =
   first_view && !document.hidden && link.entries('').every(([key]) => ['lang', 'pace'].includes(key)) && fits(stage);
 if (plain) stage.dataset.still = true; // until its first picture comes
 let left = null, // the session, until take() returns it
-  shown = null; // a promise of the end of showing its first picture
+  shown = null; // a promise that resolves when its first picture is shown
 
 async function show(answer) {
   const seen = URL.createObjectURL(await answer.blob()),

@@ -7,7 +7,7 @@ import { holeOf, module, physics } from '../base/server.js';
 
 const begin_r = 20; // M, the radius where the fall begins if the camera is at infinity
 const wide_deg = 100;
-const fold_s = 3; // seconds of watching in which the proper time left to the end shrinks by about a factor e,
+const fold_s = 3; // seconds in which the proper time left to the end shrinks by about a factor e
 const fold_pictures = 5; // least number of pictures in that time, so that a slow server shows the fall as well
 const fastest = 1e6; // M a second: the server's limit
 const uneven = 0.1; // the pace is sent again when it has changed by more than this, as a logarithm

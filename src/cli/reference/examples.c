@@ -1,4 +1,4 @@
-/* Examples and environment variables of the manual. */
+/* Examples and environment variables of the manual pages. */
 #include "cli/reference/manual.h"
 
 const struct kd_example kd_examples[] = {

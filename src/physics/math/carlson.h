@@ -26,8 +26,8 @@ double kd_carlson_rj(double x, double y, double z, double p);
 /* x, y >= 0, at most one of them 0; z > 0. */
 double kd_carlson_rd(double x, double y, double z);
 
-/* The same where y and z are either real and >= 0 or complex conjugates, in real arithmetic: only the sums that are
- * real in both cases are stored,
+/* R_F, R_J and R_D in real arithmetic, where y and z are either real and >= 0 or complex conjugates. Only the sums that
+ * are real in both cases are stored,
  *
  *   first = sqrt(x),   sum = sqrt(y) + sqrt(z),   root = sqrt(y z),
  *

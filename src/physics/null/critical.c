@@ -68,8 +68,8 @@ static struct place see(const struct kd_critical *c, double at)
 
 static double beta2_at(const void *curve, double at) { return label(curve, at).beta2; }
 
-/* The place of an end of the curve. An observer in the equatorial plane sees the equatorial orbit itself there. Others
- * see the orbit whose turning point is at the observer's latitude. Near the axis its place is far from that of the
+/* The place of an end of the curve. An observer in the equatorial plane sees the equatorial orbit itself there. Other
+ * observers see the orbit whose turning point is at their latitude. Near the axis its place is far from that of the
  * equatorial orbit, in units of sin i. */
 static double end(const struct kd_critical *c, double equatorial)
 {
@@ -129,8 +129,8 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
     return c;
 }
 
-/* Parameters of `miss`, a function of the place whose root is the point at the requested angle; it rises with x. Near
- * the sides beta is the root of a difference, so that its square is used. */
+/* Parameters of `miss`, a function of the place whose root is the point at the requested angle. It rises with x. Near
+ * the sides beta is the root of a difference, so its square is used. */
 struct aim {
     const struct kd_critical *curve;
     double cosine, sine;
@@ -235,7 +235,7 @@ struct kd_critical_point kd_critical_round(const struct kd_critical *c, double a
 }
 
 /* Sums over the upper half of the curve, with half the weight at the ends. Half the width is subtracted from rho, so
- * that the squares keep their digits. */
+ * that squares keep their digits. */
 struct sums { double off, off2, area; };
 
 static void add(const struct kd_critical *c, double angle, double weight, struct sums *s)

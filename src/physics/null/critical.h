@@ -67,9 +67,9 @@ struct kd_critical {
     double centre;
 };
 
-/* For an observer that moves along theta the lower half of the curve is not the mirror image of the upper one. Then
+/* For an observer that moves along theta the lower half of the curve is not the mirror image of the upper half. Then
  * `along`, angle, rho, centre, left and right refer to an observer of zero angular momentum at the same place. Only
- * right, up and inwards of a point are those that this observer sees. Measures are NaN.
+ * right, up and inwards of a point are the components that this observer sees. Measures are NaN.
  *
  * Check `status`: all other functions require a curve with KD_CRITICAL_OK. */
 struct kd_critical kd_critical_of(const struct kd_critical_observer *observer);
@@ -84,12 +84,12 @@ struct kd_critical_point {
 /* The point of the curve at `angle`, which may be any real number. Takes some two microseconds. */
 struct kd_critical_point kd_critical_at(const struct kd_critical *curve, double angle);
 
-/* A point of the upper half. The other half is its mirror image; both are as seen only after kd_critical_see.
- * `along` goes from 0 at the left end to 1 at the right one, not uniformly in any angle or length. Needs no root
- * finding: ten times as fast, for drawing the curve. At the ends `up` is accurate to some 1e-8 M. */
+/* A point of the upper half. The other half is its mirror image; kd_critical_see converts both to what the observer
+ * sees. `along` goes from 0 at the left end to 1 at the right one, not uniformly in any angle or length. Needs no root
+ * finding, so it is ten times as fast, for drawing the curve. At the ends `up` is accurate to some 1e-8 M. */
 struct kd_critical_point kd_critical_upper(const struct kd_critical *curve, double along);
 
-/* The same, but a smooth function of `along`. kd_critical_upper has a kink in `along`; here the orbits' radii are
+/* Like kd_critical_upper, but a smooth function of `along`. kd_critical_upper has a kink; here the orbits' radii are
  * smooth, because they are spaced by ln(r - 1). */
 struct kd_critical_point kd_critical_round(const struct kd_critical *curve, double along);
 

@@ -42,7 +42,7 @@ struct far {
 /* With w = w0 sin(psi) the first root cancels in w'^2 = w0^2 cos^2(psi) D(psi), and
  *   alpha = 2 Int_0^{pi/2} (phi'/sqrt(D) - 1) dpsi,   s = sin(psi),
  *   D = b^2 - a^2 - (b - a)^2 w0 (2 (s + 1/(1 + s)) - q^2 w0 (1 + s^2)).
- * phi'^2 - D, written out, is free of b^2: no term of the order of the flat pi remains to cancel. */
+ * phi'^2 - D, written out, has no b^2. So no term as large as the pi of a straight ray has to cancel. */
 static double far_bending(double x, double y, const void *context)
 {
     const struct far *f = context;
@@ -121,8 +121,9 @@ struct critical {
 
 static double rest_of(const struct critical *c, double w) { return c->linear * (w - c->w1) - c->quartic * w * w; }
 
-/* The integrand without its pole at w_c: (rate(w) - rate(w_c))/(1 - w/w_c) for rate = (b + chi')/sqrt(rest). The factor
- * is taken out of both differences, that of chi' and that of the root. */
+/* The integrand without its pole at w_c: (rate(w) - rate(w_c))/(1 - w/w_c) for rate = (b + chi')/sqrt(rest). The
+ * numerator is a sum of two differences, one of chi' and one of the root. In each of them 1 - w/w_c is cancelled
+ * algebraically. */
 static double regular(double x, double y, const void *context)
 {
     (void)y;

@@ -7,8 +7,9 @@
 
 #include <math.h>
 
-/* Where |d| is below this, a ray's roots are computed from its displacement from the curve. Farther out they are
- * computed from its constants of motion, whose `pair` is then accurate to some 1e-14. */
+/* d: relative distance of a ray from the critical curve (lensing.h). For |d| below this, the ray's roots are computed
+ * from its displacement from the curve. For larger |d| they are computed from its constants of motion, whose `pair` is
+ * then accurate to some 1e-14. */
 #define NEAR 0.03
 
 /* At this distance a ray cannot be distinguished from the critical one: the two crossings differ by less than
@@ -72,8 +73,8 @@ static struct ray ray_of(const struct search *q, double s)
     return ray_at(q->curve, q->point, q->n, q->side * exp(s));
 }
 
-/* Mino time of the crossing less that of the arrival at the source's radius; the negative of this on the way in to a
- * turning point. Rises from negative values at the curve to positive ones. */
+/* Mino time of the crossing minus that of the arrival at the source's radius. On the way in to a turning point it is
+ * the negative of this difference. It rises from negative values at the curve to positive ones. */
 static double late(const void *user, double s)
 {
     const struct search *q = user;
@@ -92,8 +93,8 @@ static double beyond(const void *user, double s)
     return (ray.radial.turns ? ray.radial.roots.r4 : 0) - q->source;
 }
 
-/* Finds a root of f: steps in the exponent, from the expected position of an edge of this order to a sign change of f,
- * at most up to `end`. */
+/* Finds a root of f. It steps in the exponent from the expected position of an edge of this order to a sign change of
+ * f, at most up to `end`. */
 static double solve(kd_root_fn f, const struct search *q, double expected, double end)
 {
     double low = fmin(expected, end) - 1, high = fmin(low + 2, end);
@@ -119,8 +120,8 @@ double kd_lensing_edge(const struct kd_critical *c, const struct kd_critical_poi
     if (inside)
         return -exp(solve(late, &q, expected, log(CENTRE)));
     if (isfinite(source)) {
-        /* Up to this distance a ray meets the source twice: on its way in, which is the earlier the farther out the ray
-         * is, and on its way out. */
+        /* Up to this distance a ray meets the source twice: on its way in and on its way out. The farther out the ray
+         * is, the earlier it meets the source on its way in. */
         far = solve(beyond, &q, 0, far);
         struct ray turn = ray_of(&q, far);
         q.out = !(turn.crossing < turn.radial.turn.tau);

@@ -26,8 +26,8 @@
  * seen almost edge-on), or the rays lie in the equatorial plane. Takes some ten microseconds. */
 double kd_lensing_edge(const struct kd_critical *curve, const struct kd_critical_point *point, int n, double source);
 
-/* Radius seen at distance d in order n >= 1. INFINITY: the ray escapes before its n-th crossing; 0: it falls in
- * before. */
+/* Radius seen at distance d in order n >= 1. INFINITY: the ray escapes before its n-th crossing; 0: the ray falls into
+ * the hole before it. */
 double kd_lensing_source(const struct kd_critical *curve, const struct kd_critical_point *point, int n, double d);
 
 #endif

@@ -26,9 +26,9 @@ struct kd_null_bend {
     double t_theta, t_phi; /* a unit vector */
 };
 
-/* Returns false, and leaves *out undefined, if the ray does not escape, crosses no equator (eta <= 0), or is outside
- * the domain of null_geodesic.h. Takes some 1.5 us. The error is 1e-14 over the distance from the critical curve.
- * ray->orders is ignored. */
+/* Returns false, and leaves *out undefined, if the ray does not escape, does not cross the equator (eta <= 0), or is
+ * outside the domain of null_geodesic.h. Takes some 1.5 us. The error is 1e-14 divided by the distance from the
+ * critical curve. ray->orders is ignored. */
 bool kd_null_bend_of(const struct kd_null_ray *ray, struct kd_null_bend *out);
 
 /* Computes only the tangent, which needs no integral. */

@@ -114,8 +114,8 @@ static double drift(const struct course *c, const struct state *s)
     return worst;
 }
 
-/* Advances the azimuth to a state. A ray through the axis turns by pi there: one with alpha = 0 towards -phi, one
- * from an observer on the axis as its neighbours, whose lambda has the sign of -alpha (null_polar.h). */
+/* Advances the azimuth to a state. A ray through the axis turns by pi there. With alpha = 0 it turns towards -phi. A
+ * ray from an observer on the axis turns like its neighbours, whose lambda has the sign of -alpha (null_polar.h). */
 static void turn(struct course *c, const struct state *s)
 {
     const double x = s->y[NX], y = s->y[NY], dot = c->last_x * x + c->last_y * y, cross = c->last_x * y - c->last_y * x;
@@ -216,7 +216,7 @@ static bool is_dark(const struct course *c)
     return c->ingoing * (1 + c->m.hole.a * (c->m.hole.a - c->m.lambda) * c->horizon * c->horizon) <= 0;
 }
 
-/* True if chi and t have a pole where the ray would reach the horizon next. */
+/* True if chi and t have a pole at the horizon that the ray would reach next. */
 static bool has_pole(const struct course *c)
 {
     return c->ingoing == 0 || c->now.y[DW] > 0 || (c->now.y[W] > c->horizon && is_dark(c));
@@ -240,7 +240,7 @@ static bool go(struct course *c, double h)
     turn(c, &next);
     if (!crosses)
         return true;
-    /* From here on the other side counts, regardless of rounding in u. */
+    /* from here on the side of the plane counts, regardless of rounding in u */
     const double side = next.y[VZ];
     c->now.y[NZ] = copysign(1e-300, side);
     const bool room = next.y[W] < c->first || put(c, &next, c->order);

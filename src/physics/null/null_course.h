@@ -55,10 +55,10 @@ struct kd_null_course {
 struct kd_null_course kd_null_course_of(const struct kd_null_ray *ray, double far, double near,
                                         struct kd_null_place *out, size_t most);
 
-/* The same in ingoing azimuth and time, for an observer anywhere outside the inner horizon. reversed: the labels belong
- * to a ray with negative energy at infinity, whose azimuth and time run opposite to those of a positive one. A ray that
- * does not come from outside and ends at the horizon from within is CAPTURED. far may be INFINITY: the last place of an
- * escaping ray is then at infinity and has its direction. */
+/* Like kd_null_course_of, in ingoing azimuth and time, for an observer anywhere outside the inner horizon. reversed:
+ * the labels belong to a ray with negative energy at infinity, whose azimuth and time run opposite to those of a
+ * positive one. A ray that does not come from outside and ends at the horizon from within is CAPTURED. far may be
+ * INFINITY: the last place of an escaping ray is then at infinity and has its direction. */
 struct kd_null_course kd_null_course_ingoing(const struct kd_null_ray *ray, bool reversed, double far, double near,
                                              struct kd_null_place *out, size_t most);
 

@@ -82,9 +82,10 @@ static void disturb(const struct motion *m, double tau, struct kd_null_crossing 
     x->error_delay = passed * rate.t;
 }
 
-/* The place at Mino time `tau` from the observer, without the polar parts of azimuth and time. r is rounded. Where
- * dr/dtau is small (long stays near the photon sphere), or phi' and t' are large (the horizon), that affects phi and
- * t: their integrals belong to the Mino time of the rounded r, which is known, and are corrected by the difference. */
+/* The place at Mino time `tau` from the observer, without the polar parts of azimuth and time. r is rounded. That
+ * affects phi and t where dr/dtau is small (long stays near the photon sphere), or phi' and t' are large (the horizon).
+ * Their integrals belong to the Mino time of the rounded r. This time is known, so the integrals are corrected by the
+ * difference. */
 static bool reach(const struct motion *m, double tau, struct kd_null_crossing *x)
 {
     const struct kd_null_radial *q = &m->radial;
@@ -222,10 +223,10 @@ static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path,
         *sky += lost ? INFINITY : (fabs(there.sky_u - path->sky_u) + fabs(there.sky_phi - path->sky_phi)) / step;
 }
 
-/* Rounding errors of a chain of operations, in units of the machine epsilon. They were calibrated with some 1e5 rays
- * that were repeated with 64-bit significands: the worst error was 2.5 times its estimate, and one in ten thousand
- * exceeded it. Near maximal spin three roots crowd at the horizon, and disturbances that slopes in alpha and beta do
- * not show have the weight 1/(r+ - r-). */
+/* Weight of rounding errors of a chain of operations, in units of the machine epsilon. It was calibrated with some 1e5
+ * rays that were repeated with 64-bit significands: the worst error was 2.5 times its estimate, and one in ten thousand
+ * exceeded it. Near maximal spin three roots crowd at the horizon. Slopes in alpha and beta do not show the resulting
+ * disturbances, which have the weight 1/(r+ - r-). */
 static double weight_of(const struct kd_null_ray *ray) { return 8 + 2 / (ray->hole.outer - ray->hole.inner); }
 
 /* Rounding as a disturbance of the labels, of the answer itself, and of r where phi and t diverge as ln(r - r+). The
@@ -249,8 +250,8 @@ struct kd_null_path kd_null_trace(const struct kd_null_ray *ray)
         return path;
     struct kd_null_motion k = kd_null_motion_of(&ray->hole, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     struct kd_null_roots roots = kd_null_roots_of(&k);
-    /* The step is short against the distance from the critical curve and long against rounding. It leads away from
-     * that curve, so that the ray stays on its side. */
+    /* The step is short compared with the distance from the critical curve, and long compared with rounding. It leads
+     * away from that curve, so that the ray stays on its side. */
     double step = fmin(fmax(1e-2 * roots.margin, 1e-13), 1e-11);
     if (roots.kind != KD_NULL_FOUR_REAL)
         step = -step;

@@ -1,17 +1,18 @@
 /* Null geodesics of Kerr and Kerr-Newman in closed form: where the ray seen at (alpha, beta) crosses the equatorial
  * plane, when, and where it came from. Double precision; pure functions, any thread. Lengths and times in M (G = c = M
- * = 1), angles in radians. It uses no integrator and shares nothing with the shaders: it is the reference that they are
- * tested against.
+ * = 1), angles in radians. It uses no integrator and shares nothing with the shaders, because it is the reference in
+ * their tests.
  *
  * Sources: Gralla & Lupsasca 2020, arXiv:1910.12881 (the motion in Mino time, four cases of roots) and 1910.12873;
- * Kapec & Lupsasca 2019, arXiv:1905.11406; Carlson 1995 and DLMF 19.29 (the integrals). The parts are
- * null_quartic.h, null_polar.h, null_radial.h, each with its own formulas.
+ * Kapec & Lupsasca 2019, arXiv:1905.11406; Carlson 1995 and DLMF 19.29 (the integrals). The parts are null_quartic.h,
+ * null_polar.h, null_radial.h, each with its own formulas.
  *
- * Accuracy: each crossing carries `error_*`, estimated as the numerical derivatives of the answer in (alpha, beta)
- * times some ten times the machine epsilon. The true error is below it except for one crossing in ten thousand, and
- * typically a twentieth of it. Relative error of r: 2e-16 in the median, 1e-13 for 99 % of the crossings of orders
- * 0-3 within 8 M; phi and delay are similar, less accurate near the horizon. 1e-10 from the critical curve, order 3
- * keeps 1e-11. At 1 - |a| = 1e-12 phi and delay lose up to six digits because the horizons nearly meet. */
+ * Accuracy: each crossing has `error_*`, estimated as the numerical derivatives of the answer in (alpha, beta) times
+ * some ten times the machine epsilon. The true error is below it except for one crossing in ten thousand, and typically
+ * a twentieth of it. The relative error of r is 2e-16 in the median, and 1e-13 for 99 % of the crossings of orders 0-3
+ * within 8 M. phi and delay are similar, less accurate near the horizon. At a distance of 1e-10 from the critical curve
+ * order 3 still has an error of 1e-11. At 1 - |a| = 1e-12 phi and delay lose up to six digits because the horizons
+ * nearly meet. */
 #ifndef KD_PHYSICS_NULL_NULL_GEODESIC_H
 #define KD_PHYSICS_NULL_NULL_GEODESIC_H
 

@@ -36,7 +36,8 @@ struct kd_null_polar {
     bool vortical;                    /* eta < 0 */
     bool crosses;                     /* the equatorial plane: eta > 0 and not `fixed` */
     struct kd_null_polar_sum quarter; /* from a turning point to the plane; if vortical, to the other turning point */
-    struct kd_null_polar_sum start;   /* from the turning point at z, next or last, to the observer; negative if next */
+    struct kd_null_polar_sum start;   /* from the turning point at z, the next or the last one, to the observer;
+                                       * negative if it is the next one */
     double first, first_phi;          /* Mino time and azimuth from the observer to the first crossing             */
 };
 

@@ -48,7 +48,7 @@ struct kd_null_roots {
     double margin;      /* |pair| / mean^2: the relative distance from the critical curve, roughly */
 };
 
-/* Error: as if the coefficients had been changed by a few 1e-16. An exactly double root r3 = r4 is split by 1e-11
+/* The error is as if the coefficients had been changed by a few 1e-16. An exactly double root r3 = r4 is split by 1e-11
  * into a conjugate pair. All roots are 0 for a = alpha = beta = 0. */
 struct kd_null_roots kd_null_roots_of(const struct kd_null_motion *m);
 

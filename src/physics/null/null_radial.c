@@ -224,9 +224,9 @@ struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const st
 }
 
 /* Compares the time from infinity with `tau`, by U12, U13 + U14 and U13 U14 of span_outer alone. If a bound shows that
- * the time exceeds `tau`, which most often needs no integral, returns a value between the two. The bound: R_F is never
- * less than with three equal arguments of the same mean, because it is convex, and symmetric in all of its arguments
- * (DLMF 19.16.1). */
+ * the time exceeds `tau`, it returns a value between the two. Most often the bound suffices, and no integral is needed.
+ * The bound: R_F is never less than with three equal arguments of the same mean, because it is convex, and symmetric in
+ * all of its arguments (DLMF 19.16.1). */
 static double time_from_infinity(const struct kd_null_radius *at, double tau)
 {
     double y1 = sqrt(at->d1), y2 = sqrt(at->d2), p = at->pair;

@@ -43,7 +43,7 @@ struct kd_shell_orbit { double a, r, y, w, lambda, eta, n; };
 struct kd_shell kd_shell_of(const struct kd_hole *hole);
 
 /* The orbits of one hole, in order from prograde to retrograde. `place` is w where y >= y_P/2. Below that it continues
- * with the logarithm of y, so that orbits at r = 1 are distinguished. Beyond the two equatorial orbits eta < 0, and
+ * with the logarithm of y, so that it distinguishes orbits at r = 1. Beyond the two equatorial orbits eta < 0, and
  * there is no orbit. */
 struct kd_shell_orbit kd_shell_orbit_at(const struct kd_shell *shell, double place);
 

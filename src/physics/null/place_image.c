@@ -14,7 +14,9 @@ enum { PLACES = 1500, GUESSES = 96, TRIES = 5, ITERATIONS = 14 };
 #define LEAST 0.01
 #define NEAR 1.5
 #define FAR 9
-#define MOST (1.4 * M_PI) /* maximum turn of the direct image's ray about the hole; half a turn, were there no spin */
+#define MOST \
+    (1.4 * M_PI) /* maximum turn of the direct image's ray about the hole; without spin it would be half a \
+                  * turn */
 
 /* A vector in (r, theta, phi), which are treated as flat spherical coordinates; this is good enough to compare
  * distances. */
@@ -146,7 +148,7 @@ static struct miss nearest(const struct search *s, const struct kd_null_place *f
     return best;
 }
 
-/* Removes crossings: they may lie close to other places, where a cubic through both would be ill-conditioned. */
+/* Removes crossings. They may lie close to other places, and a cubic through both would be ill-conditioned. */
 static size_t apart_in_time(struct kd_null_place *p, size_t n)
 {
     size_t kept = 0;
@@ -287,7 +289,7 @@ static bool search_along(const struct search *s, double way, double turned, doub
     return false;
 }
 
-/* A spinning hole turns the image round the hole, so several directions are tried. */
+/* Searches in several directions, because a spinning hole turns the image round itself. */
 static bool search(const struct search *s, double at[2], struct miss *m)
 {
     static const double turns[] = { 0, 0.35, -0.35, 0.8, -0.8 };

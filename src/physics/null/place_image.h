@@ -1,11 +1,11 @@
-/* The image of a place near the hole: the ray that leads from an observer back to it. Double precision; pure
- * functions, any thread. Units G = c = M = 1, angles in radians.
+/* The image of a place near the hole: the ray that leads from an observer back to it. Double precision; pure functions,
+ * any thread. Units G = c = M = 1, angles in radians.
  *
- * The ray is found by Newton's method in two angles, which makes the transverse offset between the place and the
- * ray's closest point vanish. Rays are those of null_course.h, interpolated by a cubic in Mino time. The first
- * guesses are on the place's side of the hole, or the image of a neighbour. Without a neighbour the direct image, of
- * order 0, is found; of several images behind a caustic of a spinning hole, one of them. With a neighbour it is the
- * continuation of that image, which may have gone round the hole when seen nearly edge-on. */
+ * Newton's method in two angles makes the transverse offset between the place and the ray's closest point vanish. Rays
+ * are those of null_course.h, interpolated by a cubic in Mino time. The first guesses are on the place's side of the
+ * hole, or the image of a neighbour. Without a neighbour the direct image, of order 0, is found. Behind a caustic of a
+ * spinning hole there are several, and one of them is found. With a neighbour the result continues that image, which
+ * may have gone round the hole when seen nearly edge-on. */
 #ifndef KD_PHYSICS_NULL_PLACE_IMAGE_H
 #define KD_PHYSICS_NULL_PLACE_IMAGE_H
 

@@ -10,10 +10,11 @@
 #define TABLE 1e-7 /* allowed error of ln r, which is sufficient for a table */
 #define TURN 1.0   /* maximum change of phi between nodes: near pi its direction would be ambiguous */
 #define STRETCH \
-    0.2 /* maximum change of ln rho between nodes: at a corner of the image phi may turn by 2 pi, unseen by TURN */
+    0.2 /* maximum change of ln rho between nodes; at a corner of the image phi may turn by 2 pi, which TURN does not \
+         * detect */
 
-/* alpha and beta of the point at the distance e^log_rho in the direction chi. chi advances evenly round a ring that is
- * seen unlensed from afar, (cos chi, cos i sin chi). */
+/* alpha and beta of the point at the distance e^log_rho in the direction chi. chi is uniform round a ring that is seen
+ * unlensed from afar, (cos chi, cos i sin chi). */
 static void place(const struct kd_ring_image *ring, double chi, double log_rho, double *alpha, double *beta)
 {
     double x = cos(chi), y = ring->flatten * sin(chi), rho = exp(log_rho) / hypot(x, y);
@@ -127,7 +128,7 @@ bool kd_ring_image_init(struct kd_ring_image *ring, const struct kd_hole *hole, 
     return fabs(ring->phi[ring->nodes - 1] - ring->phi[0] - 2 * M_PI) < 1e-3;
 }
 
-/* The azimuth at which the image in the direction chi is, less the wanted one; *log_rho is a guess on entry. */
+/* The azimuth of the image in the direction chi, minus the requested one. *log_rho is a guess on entry. */
 static bool azimuth(const struct kd_ring_image *ring, double phi, double chi, double *log_rho, double *miss)
 {
     struct kd_null_crossing crossing;
@@ -185,7 +186,7 @@ static double newton(const struct kd_ring_image *ring, double phi, double *chi, 
     if (!isfinite(f))
         return INFINITY;
     double f_rho = slope(ring, *chi, *log_rho, f, &g_rho, here->phi);
-    /* Along the ring's image r_n hardly changes, so one of the two difference steps is taken along it. */
+    /* Along the ring's image r_n hardly changes. One of the two difference steps is taken along the image. */
     double f_chi = mismatch(ring, *chi + h, *log_rho, &shifted) - f, along = isfinite(f_chi) ? f_chi / f_rho : NAN;
     double f_on = (mismatch(ring, *chi + h, *log_rho - along, &shifted) - f) / h,
            g_on = turn(shifted.phi - here->phi) / h;

@@ -35,7 +35,7 @@ struct kd_ring_view_point {
 };
 
 /* Returns false if no direction is found whose crossing is within 1e-6 of r. No such case is known: the largest
- * difference was 1e-8 of r, near the singularity, where rounding of the direction is amplified. Takes some 0.3 ms. */
+ * difference was 1e-8 of r, near the singularity, which amplifies rounding of the direction. Takes some 0.3 ms. */
 bool kd_ring_view_seen(const struct kd_ring_view *view, double chi, struct kd_ring_view_point *out);
 
 #endif

@@ -35,9 +35,9 @@ static double polygon(const double c[3], double points[EDGE_POINTS][3], int stri
     return sum;
 }
 
-/* Solid angle enclosed by the edge. It is the area of three polygons, whose errors are powers of the squared step,
- * extrapolated (Romberg). The triangles of a polygon meet in a direction inside. If most of the edge is closer to the
- * opposite direction, they meet there, and the sum differs only by 4 pi. */
+/* Solid angle enclosed by the edge. It is extrapolated (Romberg) from the areas of three polygons, whose errors are
+ * powers of the squared step. The triangles of a polygon meet in a direction inside it. If most of the edge is closer
+ * to the opposite direction, they meet there, and the sum differs only by 4 pi. */
 static double enclosed(const struct kd_critical *edge, double points[EDGE_POINTS][3])
 {
     struct kd_critical_point middle = { .right = sin(edge->centre), .inwards = cos(edge->centre) };

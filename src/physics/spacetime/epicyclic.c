@@ -20,7 +20,7 @@ double kd_epicyclic_radial(const struct kd_hole *hole, double r)
     return kd_kerr_omega(hole, r) * sqrt(q) / r;
 }
 
-/* The vertical one has x^4 - 4ax + 3a^2 instead, whose root at a = x = 1 is double. */
+/* The vertical frequency has x^4 - 4ax + 3a^2 instead, whose root at a = x = 1 is double. */
 double kd_epicyclic_vertical(const struct kd_hole *hole, double r)
 {
     if (kd_hole_is_charged(hole)) {

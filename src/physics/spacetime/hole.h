@@ -1,9 +1,9 @@
-/* The hole as a value: made once, and passed as a const pointer to every function that computes in its spacetime;
- * the pointer need live no longer than the call. Double precision, pure, any thread. Units G = c = M = 1. Domain |a|
- * < 1; outside it undefined numbers are NaN.
+/* The hole as a value. It is made once, and passed as a const pointer to every function that computes in its spacetime;
+ * the pointer need not outlive the call. Double precision, pure, any thread. Units G = c = M = 1. Domain |a| < 1;
+ * outside it undefined numbers are NaN.
  *
- * The spin a is signed: a < 0 means that the orbit or disk, which always turns towards +phi, is retrograde to the
- * hole. The horizons are r± = 1 ± root with root = sqrt(1 - a^2 - q^2). */
+ * The spin a is signed: a < 0 means that the orbit or disk, which always turns towards +phi, is retrograde to the hole.
+ * The horizons are r± = 1 ± root with root = sqrt(1 - a^2 - q^2). */
 #ifndef KD_PHYSICS_SPACETIME_HOLE_H
 #define KD_PHYSICS_SPACETIME_HOLE_H
 
@@ -33,7 +33,7 @@ static inline struct kd_hole kd_hole_of(double a)
  * those of kd_hole_of to the bit. */
 struct kd_hole kd_hole_charged(double a, double q);
 
-/* q^2, by which the charge acts on everything; for those who hand it on. */
+/* q^2, on which all effects of the charge depend; for functions that need it alone. */
 static inline double kd_hole_charge2(const struct kd_hole *hole) { return hole->q * hole->q; }
 
 /* Whether the charge has any effect: its square does not underflow. */
@@ -45,7 +45,7 @@ static inline bool kd_hole_exists(const struct kd_hole *hole)
     return hole->a * hole->a + hole->q * hole->q <= 1 && hole->root > 0 && hole->outer > 1;
 }
 
-/* KD_EINVAL at "/spin" or "/charge", with what is allowed, if it does not. */
+/* KD_EINVAL at "/spin" or "/charge", with the allowed range, if the hole does not exist. */
 enum kd_status kd_hole_check(const struct kd_hole *hole, struct kd_error *error);
 
 /* The larger of spin and charge, for errors about nearly extremal holes. */
@@ -74,8 +74,9 @@ static inline double kd_hole_delta(const struct kd_hole *hole, double r)
     return (r - hole->outer) * (r - hole->inner);
 }
 
-/* Delta/r^2 = 1 - 2w + (a^2 + q^2) w^2 at w = 1/r, as (1 - w)^2 - (root w)^2. 1 - w is exact near the horizon of a
- * fast hole, and the two factors keep their accuracy where the horizons almost coincide. The error is that of w. */
+/* Delta/r^2 = 1 - 2w + (a^2 + q^2) w^2 at w = 1/r, as (1 - w)^2 - (root w)^2. 1 - w is exact near the horizon of a hole
+ * that spins fast, and the two factors keep their accuracy where the horizons almost coincide. The error is that of
+ * w. */
 static inline double kd_hole_delta_w(const struct kd_hole *hole, double w)
 {
     double d = 1 - w, h = hole->root * w;

@@ -53,8 +53,8 @@ static double momentum_inwards(const struct fall *f, double r)
     return f->energy * (r * r + a * a) - a * f->momentum;
 }
 
-/* -Sigma r'; y: distance from the upper end over the span. Between the horizons (Sigma r')^2 = P^2 - Delta (r^2 + K) is
- * a sum of positive terms; the polynomial cancels there where the horizons almost coincide. */
+/* -Sigma r'. y: distance from the upper end over the span. Between the horizons (Sigma r')^2 = P^2 - Delta (r^2 + K) is
+ * a sum of positive terms. The polynomial would cancel there where the horizons almost coincide. */
 static double speed(const struct fall *f, double r, double y)
 {
     double speed2 = 0, delta = kd_hole_delta(&f->hole, r), p = momentum_inwards(f, r);

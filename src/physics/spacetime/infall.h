@@ -6,8 +6,8 @@
 #include "physics/spacetime/hole.h"
 #include "physics/spacetime/observer.h"
 
-/* True if the latitude is constant, so that proper time is a function of the radius alone: rain, without spin, in
- * the equatorial plane, and on the axis. */
+/* True if the latitude is constant, so that proper time is a function of the radius alone. It is constant for rain,
+ * without spin, in the equatorial plane, and on the axis. */
 bool kd_infall_is_level(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 
 /* Proper time from `at` down to the radius r, for an infall that exists there and is level. The smallest allowed r is

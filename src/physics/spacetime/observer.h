@@ -52,7 +52,7 @@ static inline int kd_observer_sense(enum kd_observer observer)
 {
     return (observer == KD_OBSERVER_KEPLERIAN) - (observer == KD_OBSERVER_RETROGRADE);
 }
-#define KD_OBSERVER_CIRCULAR "keplerian and retrograde" /* words of these two */
+#define KD_OBSERVER_CIRCULAR "keplerian and retrograde" /* the two circular kinds, in messages */
 
 /* Motion of an observer. All members but the first are parameters of one kind of observer and ignored for the
  * others. */

@@ -155,7 +155,7 @@ class Draft:
         self.notes.append(Note(key, line, fate, text))
 
     def lacks(self, text: str) -> None:
-        """Notes something that the file does not have."""
+        """Adds a note on a value that the file does not state."""
         self.note("", None, "not said", text)
 
     def done(self, code: str) -> Imported:
