@@ -1489,7 +1489,7 @@ export interface VisibilityRequest {
 export interface Visibilities {
   integral: 'visibility';
   parameters: {
-    length_max: number | null;
+    length_max: number | string;
     baselines: number;
     orders: number;
     pixels: number;
@@ -1622,7 +1622,7 @@ export interface Comparison {
     closures: string;
     pulse: string;
     scattering: string;
-    flux_jy: number | null;
+    flux_jy: number | string;
     solve: string[];
     pixels: number;
     check: string;
@@ -1751,7 +1751,7 @@ export interface ComparisonOfSets {
     closures: string;
     pulse: string;
     scattering: string;
-    flux_jy: number | null;
+    flux_jy: number | string;
     solve: string[];
     pixels: number;
     check: string;
@@ -1869,7 +1869,7 @@ export interface Simulation {
   parameters: {
     pulse: string;
     scattering: string;
-    flux_jy: number | null;
+    flux_jy: number | string;
     noise: string;
     seed: number;
     pixels: number;

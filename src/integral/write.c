@@ -290,7 +290,7 @@ static void add_parameters(struct kd_json *json, enum kd_integral what)
         raw(json, names[n++] = f->name,
             f->kind == KD_KIND_WORD                   ? "{\"type\":\"string\"}"
             : f->kind == KD_KIND_WORDS                ? STRINGS
-            : f->words && kd_integral_is_mapped(what) ? "{\"type\":[\"number\",\"null\"]}"
+            : f->words && kd_integral_is_mapped(what) ? "{\"type\":[\"number\",\"string\"]}"
                                                       : "{\"type\":\"number\"}");
     }
     kd_schema_end_strict(json, names, n);
