@@ -38,6 +38,15 @@ IPOLE_DEG = {
     60: 3.0402553586023138,
     75: 3.021039735088821,
 }
+# ipole's observer at 1000 M is Kerr-Schild's normal observer, who moves inwards at 2/r: docs/physics/volume.md has what
+# is left then
+OF_IPOLE_THERE = 0.004
+IPOLE_CAMERA = {
+    "camera__r": 1000,
+    "camera__fov_deg": 2.24056,
+    "camera__observer": "velocity",
+    "camera__velocity_r": -0.002,
+}
 # the same with polarised transfer, which lowers I
 IPOLE_POLARISED_DEG = {5: 1.864400335340764, 30: 2.1902815688664155, 60: 2.6534246703175217, 75: 2.6304077917851245}
 IPOLE_GHZ = {
@@ -89,7 +98,15 @@ def rows(kerrd, size):
         )
     for degrees, ipole in IPOLE_DEG.items():
         jy, _ = flux(kerrd, "riaf", size, camera__inclination_deg=degrees)
-        yield f"riaf, {degrees} degrees", jy, {"ipole": (ipole, jy / ipole - 1, OF_IPOLE)}
+        there, _ = flux(kerrd, "riaf", size, camera__inclination_deg=degrees, **IPOLE_CAMERA)
+        yield (
+            f"riaf, {degrees} degrees",
+            jy,
+            {
+                "ipole": (ipole, jy / ipole - 1, OF_IPOLE),
+                "as ipole's camera": (ipole, there / ipole - 1, OF_IPOLE_THERE),
+            },
+        )
     for degrees, ipole in IPOLE_POLARISED_DEG.items():
         jy, _ = flux(kerrd, "riaf", size, camera__inclination_deg=degrees, polarization__model="transfer")
         yield f"riaf, polarised, {degrees} degrees", jy, {"ipole": (ipole, jy / ipole - 1, OF_IPOLE_POLARISED)}

@@ -1780,7 +1780,7 @@ export interface VisibilityRequest {
 export interface Visibilities {
   integral: 'visibility';
   parameters: {
-    length_max: number | null;
+    length_max: number | string;
     baselines: number;
     orders: number;
     pixels: number;
@@ -1913,7 +1913,7 @@ export interface Comparison {
     closures: string;
     pulse: string;
     scattering: string;
-    flux_jy: number | null;
+    flux_jy: number | string;
     solve: string[];
     pixels: number;
     check: string;
@@ -2042,7 +2042,7 @@ export interface ComparisonOfSets {
     closures: string;
     pulse: string;
     scattering: string;
-    flux_jy: number | null;
+    flux_jy: number | string;
     solve: string[];
     pixels: number;
     check: string;
@@ -2160,7 +2160,7 @@ export interface Simulation {
   parameters: {
     pulse: string;
     scattering: string;
-    flux_jy: number | null;
+    flux_jy: number | string;
     noise: string;
     seed: number;
     pixels: number;

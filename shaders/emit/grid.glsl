@@ -66,6 +66,17 @@ kd_grid_place kd_grid_place_at(kd_midst p, float log2_r)
     return at;
 }
 
+/* Adds the nodes at the corners of a cell, in the two layers next to the place. node: reads a node. */
+#define KD_GRID_SUM(node, times) \
+    for (uint n = 0u; n < (times); n++) { \
+        uint k = first + n, from = at + (k < layers ? k : 0u); \
+        vec4 w = weights * (layers == 1u ? 1.0 : n == 0u ? 1.0 - past : past); \
+        kd_grid_add(sum, node(from), w.x); \
+        kd_grid_add(sum, node(from + row), w.y); \
+        kd_grid_add(sum, node(from + layers), w.z); \
+        kd_grid_add(sum, node(from + layers + row), w.w); \
+    }
+
 kd_grid_node kd_grid_at(kd_midst p, float log2_r)
 {
     kd_grid_place place = kd_grid_place_at(p, log2_r);
@@ -79,23 +90,9 @@ kd_grid_node kd_grid_at(kd_midst p, float log2_r)
     uint first = uint(clamp(layer - floor(layer / float(layers)) * float(layers), 0.0, float(layers - 1u)));
     kd_grid_node sum = kd_grid_node(vec4(0.0), vec4(0.0));
     vec4 weights = vec4(1.0 - part.x, part.x, 1.0 - part.x, part.x) * vec4(1.0 - part.yy, part.yy);
-    /* loops as above; one of the two has no rounds */
-    for (uint n = 0u; n < (emission.plasma.grid_packed == 0u ? rounds : 0u); n++) {
-        uint k = first + n, from = at + (k < layers ? k : 0u);
-        vec4 w = weights * (layers == 1u ? 1.0 : n == 0u ? 1.0 - past : past);
-        kd_grid_add(sum, kd_grid_whole(from), w.x);
-        kd_grid_add(sum, kd_grid_whole(from + row), w.y);
-        kd_grid_add(sum, kd_grid_whole(from + layers), w.z);
-        kd_grid_add(sum, kd_grid_whole(from + layers + row), w.w);
-    }
-    for (uint n = 0u; n < (emission.plasma.grid_packed == 0u ? 0u : rounds); n++) {
-        uint k = first + n, from = at + (k < layers ? k : 0u);
-        vec4 w = weights * (layers == 1u ? 1.0 : n == 0u ? 1.0 - past : past);
-        kd_grid_add(sum, kd_grid_packed(from), w.x);
-        kd_grid_add(sum, kd_grid_packed(from + row), w.y);
-        kd_grid_add(sum, kd_grid_packed(from + layers), w.z);
-        kd_grid_add(sum, kd_grid_packed(from + layers + row), w.w);
-    }
+    /* loops as above, of which one has no rounds */
+    KD_GRID_SUM(kd_grid_whole, emission.plasma.grid_packed == 0u ? rounds : 0u)
+    KD_GRID_SUM(kd_grid_packed, emission.plasma.grid_packed == 0u ? 0u : rounds)
     return sum;
 }
 

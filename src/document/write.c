@@ -44,7 +44,7 @@ void kd_row_write_value(struct kd_json *json, const char *name, const struct kd_
     case KD_KIND_ASSET: kd_json_null(json, name); break;
     case KD_KIND_SERIES: write_series(json, name, row, &(struct kd_words) { 1, { { (int16_t)value, -1 } } }); break;
     default:
-        if (row->words && isinf(value)) /* NAN stands for a value that the request leaves open; it is written as null */
+        if (row->words && (isinf(value) || (isnan(value) && isnan(row->stands))))
             kd_json_string(json, name, row->words);
         else
             kd_json_number(json, name, value);

@@ -409,9 +409,7 @@ static enum kd_status put_request(const struct kd_table *table, struct kd_buffer
                       !(is_even || kd_integral_given(&table->base, f->name));
         for (size_t k = 0; k < table->n_axes; k++)
             varies = varies || table->axes[k].field == f;
-        if (!varies && f->words && f->kind == KD_KIND_REAL && isnan(kd_row_get(f, &table->base)))
-            kd_json_string(&json, f->name, f->words); /* a request, unlike an answer, has the word */
-        else if (!varies)
+        if (!varies)
             kd_row_write(&json, f, &table->base);
     }
     if (edges)

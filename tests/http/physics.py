@@ -831,6 +831,8 @@ class Integrals(daemon.Case):
             self.assertEqual((told["integral"], told["n"]["amplitude"]), ("compare", 46))
             self.assertAlmostEqual(told["values"]["flux_jy"], 0.6, delta=1e-12)
             self.assertEqual(told["parameters"]["systematic"]["closure_phase_deg"], 2)
+        open_ = self.post("compare", {name: value for name, value in document.items() if name != "flux_jy"}).json()
+        self.assertEqual((told["parameters"]["flux_jy"], open_["parameters"]["flux_jy"]), (0.6, "auto"))
         self.assertAlmostEqual(sent["csv"]["chi2"]["amplitude"] / sent["uvfits"]["chi2"]["amplitude"], 1, delta=1e-4)
         found = self.post("compare", {**document, "solve": ["size", "position_angle"], "scattering": "sgra"}).json()
         self.assertEqual([one["name"] for one in found["solved"]], ["size", "position_angle_deg"])

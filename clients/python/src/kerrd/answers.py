@@ -591,7 +591,7 @@ class VolumeSpectrum(TypedDict):
 
 
 class VisibilitiesParameters(TypedDict):
-    length_max: float | None
+    length_max: float | str
     baselines: float
     orders: float
     pixels: float
@@ -636,7 +636,7 @@ class ComparisonParameters(TypedDict):
     closures: str
     pulse: str
     scattering: str
-    flux_jy: float | None
+    flux_jy: float | str
     solve: list[str]
     pixels: float
     check: str
@@ -728,7 +728,7 @@ class ComparisonOfSetsParameters(TypedDict):
     closures: str
     pulse: str
     scattering: str
-    flux_jy: float | None
+    flux_jy: float | str
     solve: list[str]
     pixels: float
     check: str
@@ -779,7 +779,7 @@ class ComparisonOfSets(TypedDict):
 class SimulationParameters(TypedDict):
     pulse: str
     scattering: str
-    flux_jy: float | None
+    flux_jy: float | str
     noise: str
     seed: float
     pixels: float
