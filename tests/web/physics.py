@@ -1,5 +1,6 @@
 """Tests of the curves, the sound of a ringdown, and the view of real scale: physics.py KERRD FOLDER (browser.py)."""
 
+import math
 import pathlib
 import re
 
@@ -279,6 +280,13 @@ class Physics(Browser):
         self.assertEqual(page.title(), "Real size: M87* – kerrd")
         for hole in ("m87", "sgra"):
             page.wait_for_selector(f"#sky-{hole} .beam:not([hidden])")
+        # The rings of the pictures, measured as the telescope's are, are as wide as those within their errors.
+        page.wait_for_selector("#sky-sgra [data-ring]")
+        for hole, wide, off in (("m87", 42, 3), ("sgra", 51.8, 2.3)):
+            ring = float(page.get_attribute(f"#sky-{hole} .sky-stack", "data-ring"))
+            self.assertAlmostEqual(ring, wide, delta=off)
+            self.assertIn("by the same fit", page.get_attribute(f"#sky-{hole} .sky-stack", "aria-label"))
+        page.wait_for_selector("#scale-data:not([hidden]) canvas")
         self.shot(page, "scale")
         self.assertIn("a ring 42 ± 3 µas across", page.get_attribute("#sky-m87 .sky-stack", "aria-label"))
         self.assertIn("a ring 51.8 ± 2.3 µas across", page.get_attribute("#sky-sgra .sky-stack", "aria-label"))
@@ -306,6 +314,7 @@ class Physics(Browser):
 
     def test_from_our_picture_to_the_measured_ring(self):
         page = self.open("lang=en&view=scale", "#sky-sgra .beam:not([hidden])")
+        page.wait_for_selector("#sky-sgra [data-ring]")
         shown = lambda: page.evaluate(
             """() => ['.sharp', '.beam', '.sky-ring-width'].map(part => Number(getComputedStyle(document.querySelector('#sky-m87 ' + part)).opacity))"""
         )
@@ -319,8 +328,78 @@ class Physics(Browser):
         page.wait_for_function('() => location.hash.includes("scale.beside=2")')
         asked = [r.url for r in self.requests if "/v1/render?" in r.url]
         self.assertEqual(
-            (len(asked), sum("beam_uas=20" in url for url in asked)), (4, 2), "the slider asks for nothing"
+            [sum(part in url for url in asked) for part in ("beam_uas=20", "layers=intensity", "bloom")],
+            [2, 2, 6],
+            "the slider asks for nothing",
         )
+
+    def test_the_ring_of_a_known_picture(self):
+        """A thin ring of radius R, off the centre, through a Gaussian beam is brightest at r/R = I1(z)/I0(z), with z =
+        rR/sigma^2: the profile is exp(-(r^2 + R^2)/2 sigma^2) I0(z)."""
+        side, pixel, wide, beam, middle = 75, 2.0, 3.0, 20.0, (2.6, -3.2)
+
+        def bessel(order, z):  # by its integral
+            return sum(
+                math.exp(z * (math.cos(t) - 1)) * math.cos(order * t)
+                for t in (math.pi * (k + 0.5) / 400 for k in range(400))
+            )
+
+        page = self.open("lang=en&view=scale", "#scale-rows tr")
+        for radius in (17.0, 21.0, 28.0):
+            points = [
+                (middle[0] + radius * math.cos(t), middle[1] + radius * math.sin(t))
+                for t in (2 * math.pi * k / 120 for k in range(120))
+            ]
+            axis = [(i - (side - 1) / 2) * pixel for i in range(side)]
+            light = [
+                sum(math.exp(-((x - u) ** 2 + (y - v) ** 2) / (2 * wide**2)) for u, v in points)
+                for y in axis
+                for x in axis
+            ]
+            square = wide**2 + (beam / (2 * math.sqrt(2 * math.log(2)))) ** 2
+            r = radius
+            for _ in range(100):
+                r = radius * bessel(1, r * radius / square) / bessel(0, r * radius / square)
+            found = page.evaluate(
+                "async given => (await import('./web/views/scale/ring.js')).ringOf(...given)",
+                [light, side, pixel, beam],
+            )
+            self.assertAlmostEqual(found["diameter"], 2 * r, delta=0.4)  # radii are in steps of 0.25
+            self.assertLess(found["spread"], 1)  # maxima between pixels, interpolated linearly
+            self.assertAlmostEqual(found["x"], middle[0], delta=0.5)
+            self.assertAlmostEqual(found["y"], middle[1], delta=0.5)
+
+    def test_measurements_beside_the_model(self):
+        """Amplitudes and closure phases of M87* with those of the model, which follow the sliders."""
+        page = self.open("lang=en&view=scale", "#scale-data:not([hidden]) canvas")
+        amplitudes, phases = page.locator("#scale-data figure").all()
+        self.assertIn("M87*: amplitudes", amplitudes.inner_text())
+        self.assertIn("M87*: closure phases", phases.inner_text())
+
+        def table(figure):
+            if not figure.locator("tbody tr").count():
+                figure.locator("summary").click()
+            rows = figure.locator("tbody tr").all()
+            return [
+                [float(cell.replace("\u2212", "-").replace("×10", "e")) for cell in row.inner_text().split()[:3]]
+                for row in rows[:6]
+            ]
+
+        before = table(amplitudes)
+        self.assertEqual([row[0] for row in before], sorted(row[0] for row in before), "by length")
+        self.assertTrue(all(0.1 < row[0] < 9 and 0 <= row[1] < 2 and 0 < row[2] < 2 for row in before), before)
+        with page.expect_response(lambda r: r.url.endswith("/v1/compare")) as answer:
+            page.fill("#in-scale-spin", "0.2")
+            page.keyboard.press("Tab")
+        told = answer.value.json()
+        self.assertTrue(told["n"]["amplitude"] > 40 and told["n"]["closure_phase"] > 15, told["n"])
+        self.assertTrue(daemon.eventually(lambda: table(amplitudes) != before))
+        after = table(amplitudes)
+        self.assertEqual([row[:2] for row in after], [row[:2] for row in before], "the data stay")
+        uploads = [r for r in self.requests if r.url.endswith("/v1/assets")]
+        self.assertEqual([r.method for r in uploads], ["PUT"], "the file is sent once")
+        page.select_option("#in-scale-hole", "none")
+        page.wait_for_selector("#scale-data", state="hidden")
 
 
 if __name__ == "__main__":

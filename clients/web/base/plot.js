@@ -87,6 +87,30 @@ function drawMarks(u, marks) {
   ctx.restore();
 }
 
+// Errors of dots, as upright lines.
+function drawErrors(u, { series, y: { log } }) {
+  const { ctx, bbox } = u;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  ctx.lineWidth = devicePixelRatio;
+  series.forEach((s, i) => {
+    if (!s.error || !u.series[i + 1].show) return;
+    ctx.strokeStyle = colour(strokes[i % strokes.length][0]);
+    ctx.beginPath();
+    s.x.forEach((x, k) => {
+      if (!finite(s.y[k]) || !finite(s.error[k])) return;
+      const at = u.valToPos(x, 'x', true),
+        low = s.y[k] - s.error[k];
+      ctx.moveTo(at, log && low <= 0 ? bbox.top + bbox.height : u.valToPos(low, 'y', true));
+      ctx.lineTo(at, u.valToPos(s.y[k] + s.error[k], 'y', true));
+    });
+    ctx.stroke();
+  });
+  ctx.restore();
+}
+
 function axis(label, values, more) {
   return {
     label,
@@ -114,8 +138,9 @@ function key(style) {
   );
 }
 
-// spec: { title, note, csv, live, x: { label, min, max, log }, y: the same, series: [{ name, x, y, style }], marks: [{
-// x or y, label, low, left }] }. Returns the figure, with a method draw(spec) that shows other numbers.
+// spec: { title, note, csv, live, x: { label, min, max, log }, y: likewise, series: [{ name, x, y, style, error }],
+// marks: [{ x or y, label, low, left }] }. style: "dim", or "dots" without a line between them, with errors. Returns
+// the figure, with a method draw(spec) that shows other numbers.
 export function plot(first) {
   const id = 'plot-' + ++count,
     caption = el('figcaption', { id });
@@ -183,14 +208,17 @@ export function plot(first) {
             return {
               stroke: colour(stroke),
               dash,
-              width: s.style === 'dim' ? 1.5 : 2,
+              width: s.style === 'dots' ? 0 : s.style === 'dim' ? 1.5 : 2,
               show: !hidden.has(s.name),
               pxAlign: 0,
-              points: { show: false },
+              points: { show: s.style === 'dots', size: 5, fill: colour(stroke) },
             };
           }),
         ],
-        hooks: { draw: [() => drawMarks(u, spec.marks ?? [])], setCursor: [() => u && read()] },
+        hooks: {
+          draw: [() => drawErrors(u, spec), () => drawMarks(u, spec.marks ?? [])],
+          setCursor: [() => u && read()],
+        },
       },
       columns(spec),
       chart,
@@ -203,7 +231,7 @@ export function plot(first) {
     const button = el(
       'button',
       { type: 'button', 'aria-pressed': !hidden.has(s.name) },
-      key(s.style ?? i % strokes.length),
+      key(s.style === 'dim' ? s.style : i % strokes.length),
       name,
       el('b', {}),
     );

@@ -1,13 +1,14 @@
 """Write files as C arrays: embed.py MINIFIER OUTPUT FILE...
 
-Each file is written as it is, and also compressed by gzip unless it is a picture or a film. Files are named by their paths below
-the folder of the first one. MINIFIER is the program esbuild, which minifies scripts and styles. If it is "", they stay
-as they are written.
+Each file is written as it is, and also compressed by gzip unless it is a picture or a film. Files are named by their
+paths below the folder of the first one, others by their folder and name. MINIFIER is the program esbuild, which
+minifies scripts and styles. If it is "", they stay as they are written.
 """
 
 import gzip
 import hashlib
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -19,12 +20,14 @@ TYPES = {
     ".mjs": "text/javascript; charset=utf-8",
     ".css": "text/css; charset=utf-8",
     ".json": "application/json; charset=utf-8",
+    ".csv": "text/csv; charset=utf-8",
     ".svg": "image/svg+xml",
     ".jpg": "image/jpeg",
     ".webm": "video/webm",
     "": "text/plain; charset=utf-8",
 }
-minifier, output, files = sys.argv[1], pathlib.Path(sys.argv[2]), [pathlib.Path(f) for f in sys.argv[3:]]
+minifier, output = sys.argv[1], pathlib.Path(sys.argv[2])
+files = [pathlib.Path(os.path.normpath(file)) for file in sys.argv[3:]]
 folder = files[0].parent
 lines = ['#include "server/http/served.h"', ""]
 rows = []
@@ -67,10 +70,9 @@ for i, file in enumerate(files):
     if file.suffix == ".json":
         data = json.dumps(json.loads(data), ensure_ascii=False, separators=(",", ":")).encode()
     packed = "{ 0 }" if file.suffix in (".jpg", ".webm") else form(f"gzip_{i}", gzip.compress(data, 9, mtime=0))
-    rows.append(
-        f'    {{ "{file.relative_to(folder).as_posix()}", "{TYPES[file.suffix]}", {form(f"plain_{i}", data)},\n'
-        f"      {packed} }},"
-    )
+    inside = folder in file.parents
+    name = file.relative_to(folder).as_posix() if inside else f"{file.parent.name}/{file.name}"
+    rows.append(f'    {{ "{name}", "{TYPES[file.suffix]}", {form(f"plain_{i}", data)},\n      {packed} }},')
 lines += [
     "const struct kd_served kd_page_files[] = {",
     *rows,

@@ -5,6 +5,8 @@ import { persistent } from '../../base/again.js';
 import { number, t } from '../../words/i18n.js';
 import * as link from '../../base/link.js';
 import { ask, drawn, physics } from '../../base/server.js';
+import { measurements } from './data.js';
+import { ringOf } from './ring.js';
 
 const across_uas = 150; // width of each panel on the sky, so that both have the same scale
 const alone_m = 36; // width in M of a hole without a measured ring
@@ -14,11 +16,38 @@ const key = 'scale.beside';
 
 // How each is seen: M87* with its jet at a position angle of 288 degrees and the spin pointing away from us (ApJL 875,
 // L5), north up. The inclination of Sgr A* is low (ApJL 930, L16); its orientation on the sky is unknown.
+// inner, density: of the hot flow, whose inner edge (M) is chosen so that the ring through the beam is as wide as
+// measured, and its density (1/cm^3) so that its flux at 230 GHz is about that measured, 0.6 and 2.4 Jy.
 export const seen = {
-  m87: { name: 'M87*', inclination: 163, roll: 108 },
-  sgra: { name: 'Sgr A*', inclination: 30, roll: 0 },
+  m87: { name: 'M87*', inclination: 163, roll: 108, inner: 4.5, density: 9.5e5 },
+  sgra: { name: 'Sgr A*', inclination: 30, roll: 0, inner: 3.2, density: 2.1e7 },
   none: { name: '', inclination: 60, roll: 0 },
 };
+
+// Fields of the flow round a hole; without a measured ring, of a thin disk.
+const matter = hole =>
+  hole === 'none'
+    ? { 'disk.outer': 15 }
+    : {
+        'disk.model': 'none',
+        'volume.model': 'riaf',
+        'volume.inner': seen[hole].inner,
+        'volume.outer': 60,
+        'volume.density_cm3': seen[hole].density,
+        'volume.height': 0.3,
+        'volume.electron_temperature_k': 3e11,
+        'volume.frequency_ghz': 230,
+      };
+
+// A document from fields by their paths.
+function nested(fields) {
+  const out = {};
+  for (const [path, value] of Object.entries(fields)) {
+    const [section, name] = path.split('.');
+    (out[section] ??= {})[name] = value;
+  }
+  return out;
+}
 
 export const stops = [
   [0, t('eht.our-picture', 'our picture')],
@@ -31,7 +60,10 @@ function panel(hole) {
   const stack = el('div', { class: 'sky-stack', role: 'img', 'aria-label': seen[hole].name }),
     pictures = ['sharp', 'beam'].map(kind => el('img', { class: kind, alt: '', draggable: false, hidden: true })),
     lines = svg('svg', { class: 'sky-lines', 'aria-hidden': 'true' }),
-    words = el('p', { class: 'help' });
+    words = el('p', { class: 'help' }),
+    side = 75; // pixels of the picture in which the ring is measured
+  let facts = '',
+    fitted = '';
   stack.append(...pictures, lines);
   const node = el(
     'figure',
@@ -42,16 +74,20 @@ function panel(hole) {
   );
   const shown = []; // the addresses from which the pictures were loaded
 
+  const scene = look => ({
+    'spacetime.spin': look.spin,
+    'spacetime.mass_msun': look.mass,
+    'spacetime.distance_pc': look.distance,
+    'camera.inclination_deg': look.inclination,
+    'camera.roll_deg': look.roll,
+    'camera.field_m': look.field,
+    ...matter(hole),
+  });
+
   function query(look, more) {
     const size = Math.min(2 * Math.round((stack.clientWidth * Math.min(devicePixelRatio || 1, 2)) / 2), most_px) || 360;
     return new URLSearchParams({
-      'spacetime.spin': look.spin,
-      'spacetime.mass_msun': look.mass,
-      'spacetime.distance_pc': look.distance,
-      'camera.inclination_deg': look.inclination,
-      'camera.roll_deg': look.roll,
-      'camera.field_m': look.field,
-      'disk.outer': 15,
+      ...scene(look),
       'style.bloom': 0,
       'style.tone_map': 'srgb',
       'style.palette': 'heat',
@@ -73,6 +109,24 @@ function panel(hole) {
     pictures[i].hidden = false;
     shown[i] = address;
     URL.revokeObjectURL(old);
+  }
+
+  // The ring of the picture through the beam.
+  async function measure(look) {
+    const address =
+        'v1/render?' +
+        query(look, { 'image.width': side, 'image.height': side, 'image.samples': 1, 'image.layers': 'intensity' }),
+      answer = await (await ask(address, { headers: { Accept: 'application/x-npy' } })).arrayBuffer(),
+      light = new Float32Array(answer.slice(answer.byteLength - 4 * side * side)), // after the header of NPY
+      { diameter, spread } = ringOf(light, side, across_uas / side, beam_uas);
+    fitted = t(
+      'eht.the-ring-of-our',
+      ' The ring of our picture, through the beam: {0} ± {1} µas across, by the same fit at 48 angles.',
+      number(diameter, 3),
+      number(spread, 2),
+    );
+    stack.dataset.ring = diameter;
+    tell();
   }
 
   // Lengths are in microarcseconds, or in M where they are too small for that.
@@ -133,21 +187,27 @@ function panel(hole) {
           number(v.shadow_uas, 3),
         )
       : '';
-    words.textContent = t('eht.edge-of-the-shadow', 'Edge of the shadow: {0}.{1}', shadow, ring);
+    facts = t('eht.edge-of-the-shadow', 'Edge of the shadow: {0}.{1}', shadow, ring);
+    fitted = '';
+    delete stack.dataset.ring;
+    tell();
+  }
+  function tell() {
+    words.textContent = facts + fitted;
     stack.setAttribute('aria-label', `${seen[hole].name} ${words.textContent}`.trim());
   }
 
   return {
     node,
-    // v: values of the quantity `scale`. Draws the lines, and returns functions that load the pictures, the coarse one
-    // first.
+    // v: values of the quantity `scale`. Draws the lines, and returns functions that load the pictures and measure the
+    // ring, and the scene as a document.
     async show(spin, inclination, v) {
       const edge = (await physics('shadow', { spin, inclination_deg: inclination, angle_deg: '0:358:180', ...drawn }))
           .values,
         measured = hole !== 'none',
         look = {
-          spin,
-          inclination,
+          spin: Number(spin),
+          inclination: Number(inclination),
           roll: seen[hole].roll,
           mass: v.mass,
           distance: v.distance,
@@ -157,9 +217,15 @@ function panel(hole) {
         };
       draw(look, edge, v);
       say(v, edge);
-      return [() => picture(0, look, {}), measured && (() => picture(1, look, { 'style.beam_uas': beam_uas }))].filter(
-        Boolean,
-      );
+      const tasks = [
+        () => picture(0, look, {}),
+        measured && (() => picture(1, look, { 'style.beam_uas': beam_uas })),
+        measured && (() => measure(look)),
+      ];
+      return {
+        tasks: tasks.filter(Boolean),
+        scene: nested({ ...scene(look), 'image.width': 64, 'image.height': 64 }),
+      };
     },
   };
 }
@@ -212,26 +278,29 @@ export function beside(root) {
     ),
     control,
   );
+  const compare = measurements(root);
   return async (hole, spin, inclination, values) => {
     for (const [name, { node }] of Object.entries(panels)) {
       node.hidden = hole === 'none' ? name !== 'none' : name === 'none';
       node.toggleAttribute('data-chosen', name === hole);
     }
     control.hidden = byId('scale-caption').hidden = hole === 'none';
-    const pictures = await panels[hole].show(spin, inclination, values),
+    const scenes = {},
+      shown = await panels[hole].show(spin, inclination, values),
+      pictures = shown.tasks,
       other = { m87: 'sgra', sgra: 'm87' }[hole];
     if (other) {
-      const tilt = seen[other].inclination;
-      pictures.push(
-        ...(await panels[other].show(
+      const tilt = seen[other].inclination,
+        second = await panels[other].show(
           spin,
           tilt,
-          (
-            await physics('scale', { hole: other, spin, inclination_deg: tilt })
-          ).values,
-        )),
-      );
+          (await physics('scale', { hole: other, spin, inclination_deg: tilt })).values,
+        );
+      pictures.push(...second.tasks);
+      scenes[other] = second.scene;
     }
+    scenes[hole] = shown.scene;
     paint(pictures); // the numbers need not wait for the pictures
+    compare(scenes.m87 ?? null);
   };
 }
