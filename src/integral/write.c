@@ -288,10 +288,10 @@ static void add_parameters(struct kd_json *json, enum kd_integral what)
             continue;
         }
         raw(json, names[n++] = f->name,
-            f->kind == KD_KIND_WORD                   ? "{\"type\":\"string\"}"
-            : f->kind == KD_KIND_WORDS                ? STRINGS
+            f->kind == KD_KIND_WORD                     ? "{\"type\":\"string\"}"
+            : f->kind == KD_KIND_WORDS                  ? STRINGS
             : f->words && kd_integral_leaves_open(what) ? "{\"type\":[\"number\",\"string\"]}"
-                                                      : "{\"type\":\"number\"}");
+                                                        : "{\"type\":\"number\"}");
     }
     kd_schema_end_strict(json, names, n);
 }
