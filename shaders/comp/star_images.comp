@@ -275,6 +275,8 @@ void images(uint at, uint k)
     vec2 found0 = vec2(-1e9), found1 = found0, found2 = found0, found3 = found0;
     uint fresh = 0u; /* bits of the roots that count */
     int starts = is_plain(m) ? 1 : 4;
+    /* This loop tests at its head: with the test at its end, images are lost on lavapipe (Mesa 22.3). Why is not known.
+     */
     [[dont_unroll]] for (int i = 0; i < starts; i++) {
         vec2 p = root(m, q, starts == 1 ? vec2(0.0) : vec2((i & 1) == 0 ? -0.3 : 0.3, i < 2 ? -0.3 : 0.3));
         bool counts = m.there && share(p.x) * share(p.y) > 0.0 && distance(p, found0) > 0.02 &&
