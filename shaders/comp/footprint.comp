@@ -53,10 +53,16 @@ struct kd_spot {
     bool there;
 };
 
-/* n: number of the crossing; ORDERS: the sky. */
-kd_spot spot(uint n, uint at, bool there)
+/* Which spot of a ray: the one in the sky, or that of crossing n. */
+struct kd_which {
+    bool sky;
+    uint n;
+};
+
+kd_spot spot(kd_which which, uint at, bool there)
 {
-    if (n < ORDERS) {
+    uint n = which.n;
+    if (!which.sky) {
         float w = map_at(at + n * push.stride);
         return kd_spot(vec3(w, map_at(at + (kd_plane(KD_LENS_PHI) + n) * push.stride), 0.0), there && w > 0.0);
     }
@@ -67,10 +73,10 @@ kd_spot spot(uint n, uint at, bool there)
 }
 
 /* Difference from the ray's own spot to another's, with azimuths reduced to half a turn. */
-vec3 apart(uint n, kd_spot own, kd_spot other)
+vec3 apart(kd_which which, kd_spot own, kd_spot other)
 {
     vec3 d = other.at - own.at;
-    if (n < ORDERS)
+    if (!which.sky)
         d.y = kd_turned(d.y);
     return d;
 }
@@ -83,13 +89,14 @@ struct kd_change {
 
 /* The change along the axis for the ray at index `place` of `places`; step_: distance of neighbours in a plane of the
  * map. */
-kd_change change(uint n, kd_spot own, uint at, uint place, uint places, uint step_)
+kd_change change(kd_which which, kd_spot own, uint at, uint place, uint places, uint step_)
 {
     bool first = place == 0, last = place + 1 == places;
     int o = first ? 1 : -1, p = first ? 2 : last ? -2 : 1; /* the two neighbours used */
     bool has_o = places > 1, has_p = int(place) + p >= 0 && int(place) + p < int(places);
-    kd_spot near = spot(n, has_o ? at + o * step_ : at, has_o), other = spot(n, has_p ? at + p * step_ : at, has_p);
-    vec3 d = apart(n, own, near), e = apart(n, own, other);
+    kd_spot near = spot(which, has_o ? at + o * step_ : at, has_o),
+            other = spot(which, has_p ? at + p * step_ : at, has_p);
+    vec3 d = apart(which, own, near), e = apart(which, own, other);
     float fo = float(o), fp = float(p), unit = 1.0 / (fo * fp * (fp - fo));
     if (near.there && other.there) /* derivatives of the parabola through all three */
         return kd_change((fp * fp * d - fo * fo * e) * unit, (fo * e - fp * d) * unit, true);
@@ -99,23 +106,24 @@ kd_change change(uint n, kd_spot own, uint at, uint place, uint places, uint ste
 }
 
 /* Metric at a spot: converts steps of w and phi to M; for the sky they are in radians. */
-vec3 scale(uint n, kd_spot own)
+vec3 scale(kd_which which, kd_spot own)
 {
     float r = 1.0 / own.at.x;
-    return n < ORDERS ? vec3(r * r, r, 0.0) : vec3(1.0);
+    return which.sky ? vec3(1.0) : vec3(r * r, r, 0.0);
 }
 
 /* The ray's place in a grid that is stored completely in the map, row by row. */
 struct kd_grid { uint x, y, width, rows; };
 
-kd_oval on_grid(uint n, uint at, kd_grid grid)
+kd_oval on_grid(kd_which which, uint at, kd_grid grid)
 {
-    kd_spot own = spot(n, at, true);
-    kd_change across = change(n, own, at, grid.x, grid.width, 1),
-              down = change(n, own, at, grid.y, grid.rows, grid.width);
-    vec3 m = scale(n, own), i = m * across.slope, j = m * down.slope, bend_i = m * across.bend, bend_j = m * down.bend;
+    kd_spot own = spot(which, at, true);
+    kd_change across = change(which, own, at, grid.x, grid.width, 1),
+              down = change(which, own, at, grid.y, grid.rows, grid.width);
+    vec3 m = scale(which, own), i = m * across.slope, j = m * down.slope, bend_i = m * across.bend,
+         bend_j = m * down.bend;
     kd_oval o = kd_oval(kd_longest(dot(i, i) + dot(bend_i, bend_i), dot(j, j) + dot(bend_j, bend_j), dot(i, j)), 0.0);
-    if (SHAPED && n < ORDERS) {
+    if (SHAPED && !which.sky) {
         vec3 rr = i * i + j * j + bend_i * bend_i + bend_j * bend_j;
         o.shape = kd_oval_of(rr.x, rr.y, i.x * i.y + j.x * j.y + bend_i.x * bend_i.y + bend_j.x * bend_j.y).shape;
     }
@@ -144,12 +152,12 @@ kd_beside beside(uint pixel)
 }
 
 /* Adds a neighbour of ray k, at the vector (vx, vy), to the fit. The neighbour may be in an adjacent pixel. */
-void count(inout kd_fit fit, uint n, kd_spot own, vec3 m, kd_beside all, uint at, uint k, int vx, int vy)
+void count(inout kd_fit fit, kd_which which, kd_spot own, vec3 m, kd_beside all, uint at, uint k, int vx, int vy)
 {
     int row = int((k * GENERATOR + SHIFT) % max(CRITICAL, 1)), x = int(k) + vx, y = row + vy;
     bool inside = (x >= 0 || all.left) && (x < int(CRITICAL) || all.right) && y >= 0 && y < int(CRITICAL);
-    kd_spot other = spot(n, inside ? at + vx : at, inside);
-    vec3 d = m * apart(n, own, other), v = vec3(vx, vy, 0.0);
+    kd_spot other = spot(which, inside ? at + vx : at, inside);
+    vec3 d = m * apart(which, own, other), v = vec3(vx, vy, 0.0);
     float there = other.there ? 1.0 : 0.0;
     if (!other.there)
         d = vec3(0.0); /* the difference may be NaN */
@@ -163,16 +171,16 @@ void count(inout kd_fit fit, uint n, kd_spot own, vec3 m, kd_beside all, uint at
     fit.lacks += inside ? 1.0 - there : 0.0;
 }
 
-kd_oval on_lattice(uint n, uint at)
+kd_oval on_lattice(kd_which which, uint at)
 {
     uint k = at % max(CRITICAL, 1);
     kd_beside all = beside(at / max(CRITICAL, 1));
-    kd_spot own = spot(n, at, true);
+    kd_spot own = spot(which, at, true);
     kd_fit fit = kd_fit(0.0, 0.0, 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
-    vec3 m = scale(n, own);
+    vec3 m = scale(which, own);
 #define BOTH(vx, vy) \
-    count(fit, n, own, m, all, at, k, int(vx), int(vy)); \
-    count(fit, n, own, m, all, at, k, -int(vx), -int(vy))
+    count(fit, which, own, m, all, at, k, int(vx), int(vy)); \
+    count(fit, which, own, m, all, at, k, -int(vx), -int(vy))
     BOTH(X1, Y1);
     BOTH(X2, Y2);
     BOTH(X3, Y3);
@@ -183,7 +191,7 @@ kd_oval on_lattice(uint n, uint at)
     float left = max(fit.dd - dot(i, fit.dx) - dot(j, fit.dy), 0.0) / max(fit.count, 1.0);
     kd_oval o =
         kd_oval(kd_longest(area * dot(i, i) + left, area * dot(j, j) + left, area * dot(i, j)), KD_NO_OVAL.shape);
-    if (SHAPED && n < ORDERS)
+    if (SHAPED && !which.sky)
         o.shape = kd_oval_of(area * (i.x * i.x + j.x * j.x) + left, area * (i.y * i.y + j.y * j.y) + left,
                              area * (i.x * i.y + j.x * j.y))
                       .shape;
@@ -196,12 +204,15 @@ kd_oval on_lattice(uint n, uint at)
     return o;
 }
 
-kd_oval footprint(uint n, uint at, kd_grid grid)
+kd_oval footprint(kd_which which, uint at, kd_grid grid)
 {
     if (CRITICAL > 0 && GENERATOR > 0)
-        return on_lattice(n, at);
-    return on_grid(n, at, grid);
+        return on_lattice(which, at);
+    return on_grid(which, at, grid);
 }
+
+/* Stores through max because of lavapipe, as in lens_fill.comp. */
+void put(uint at, float value) { lens[at] = max(value, -KD_FOOTPRINT_EDGE); }
 
 /* Marks the footprints of a crossing, or of the sky, as missing, because neighbouring rays are not traced yet. */
 void mark(uint at) { lens[at + kd_plane(FIRST) * push.stride] = KD_FOOTPRINT_WANTED; }
@@ -237,19 +248,23 @@ void main()
     }
     if ((QUANTITIES & KD_LENS_FOOTPRINT) != 0u) {
         uint plane = at + kd_plane(KD_LENS_FOOTPRINT) * push.stride, n = 0;
-        for (; n < ORDERS; n++) { /* crossings have no gaps */
-            if (map_at(at + n * push.stride) <= 0.0)
-                break;
-            kd_oval o = footprint(n, at, grid);
-            lens[plane + n * push.stride] = o.size;
-            if (SHAPED)
-                lens[at + (kd_plane(KD_LENS_SHAPE) + n) * push.stride] = o.shape;
-        }
+        bool crosses = ORDERS > 0u && map_at(at) > 0.0; /* crossings have no gaps */
+        do {
+            if (crosses) {
+                kd_oval o = footprint(kd_which(false, n), at, grid);
+                put(plane + n * push.stride, o.size);
+                if (SHAPED)
+                    put(at + (kd_plane(KD_LENS_SHAPE) + n) * push.stride, o.shape);
+                n++;
+            }
+            crosses = crosses && n < ORDERS && map_at(at + n * push.stride) > 0.0;
+        } while (crosses);
         for (; n < ORDERS; n++)
             lens[plane + n * push.stride] = 0.0;
     }
     if ((QUANTITIES & KD_LENS_SKY_FOOTPRINT) != 0u) {
         bool escapes = map_at(at + kd_plane(KD_LENS_FATE) * push.stride) == KD_FATE_ESCAPED;
-        lens[at + kd_plane(KD_LENS_SKY_FOOTPRINT) * push.stride] = escapes ? footprint(ORDERS, at, grid).size : 0.0;
+        put(at + kd_plane(KD_LENS_SKY_FOOTPRINT) * push.stride,
+            escapes ? footprint(kd_which(true, 0u), at, grid).size : 0.0);
     }
 }

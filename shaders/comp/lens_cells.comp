@@ -101,26 +101,30 @@ void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
     const uint step_ = divided ? side / 8u : side / 4u, within = divided ? 38u : 9u,
                checked = divided ? side / 2u : side, cells = side / checked;
     uint mine = 0u;
-    [[dont_unroll]] for (uint k = 0u; k < 16u; k++) {
+    uint k = 0u;
+    [[dont_unroll]] do {
         uvec2 at = corner + (divided ? edge_of_nine(k) : edge_of_five(k)) * step_;
         mine |= atomicCompSwap(number[index_of(at / 2u)], 0u, 0xffffffffu) == 0u ? 1u << k : 0u;
-    }
+    } while (++k < 16u);
     uint node =
         kd_stage_first(stage) + take(4u * stage, uint(bitCount(mine)) + within + 2u * cells * cells, KD_GROUP_SIZE);
-    [[dont_unroll]] for (uint k = 0u; k < 16u; k++) {
+    k = 0u;
+    [[dont_unroll]] do {
         uvec2 at = corner + (divided ? edge_of_nine(k) : edge_of_five(k)) * step_;
         if ((mine & (1u << k)) != 0u)
             make_node(node++, index_of(at / 2u), at);
-    }
-    [[dont_unroll]] for (uint k = 0u; k < within; k++) {
+    } while (++k < 16u);
+    k = 0u;
+    [[dont_unroll]] do {
         uvec2 at = corner + (divided ? within_nine(k) : within_five(k)) * step_;
         make_node(node++, index_of(at / 2u), at);
-    }
-    [[dont_unroll]] for (uint k = 0u; k < 2u * cells * cells; k++) {
+    } while (++k < within);
+    k = 0u;
+    [[dont_unroll]] do {
         uvec2 cell = corner + uvec2((k / 2u) % cells, k / 2u / cells) * checked, at = check_of(cell, checked, k % 2u);
         make_node(node++, checked == 8u ? index_checks() + 2u * index_of_last(cell / 8u) + k % 2u : index_of(at / 2u),
                   at);
-    }
+    } while (++k < 2u * cells * cells);
 }
 
 /* A node that is compared with a cell's check. Such nodes are along the cell's middle row or middle column. The
@@ -158,16 +162,18 @@ void tell(inout kd_line_told t, vec3 v[6])
 /* VALUE: an expression for `node`. Both lines and all their nodes share the same code, which a driver then compiles
  * once. */
 #define KD_ALONG_BOTH(told, VALUE) \
-    [[dont_unroll]] for (uint axis = 0u; axis < 2u; axis++) { \
+    uint axis = 0u; \
+    [[dont_unroll]] do { \
         vec3 v[6]; \
-        [[dont_unroll]] for (uint i = 0u; i < 6u; i++) { \
+        uint i = 0u; \
+        [[dont_unroll]] do { \
             uint node = node_along(corner, side, axis, i); \
             [[unroll]] for (uint k = 0u; k < 5u; k++) \
                 v[k] = v[k + 1u]; \
             v[5] = VALUE; \
-        } \
+        } while (++i < 6u); \
         tell(told, v); \
-    }
+    } while (++axis < 2u);
 
 /* Distance of the cell's middle from the direction to the hole, in steps between rays; for a sphere or a dome a radian.
  * Rounding moves a ray by a fraction of this distance. */
@@ -238,16 +244,19 @@ bool is_smooth(uvec2 corner, uint side, out float state)
     bool same = state != KD_NODE_OPEN && state_of(node_along(corner, side, 0u, 5u)) == state &&
                 state_of(node_along(corner, side, 1u, 5u)) == state;
     float least = 1e30;
-    [[dont_unroll]] for (uint k = 0u; k < 25u; k++) {
+    uint k = 0u;
+    [[dont_unroll]] do {
         uint node = number[index_of_node(corner, side, k % 5u, k / 5u)] - 1u;
         least = min(least, abs(curve_of(node)));
         same = same && state_of(node) == state;
-    }
+    } while (++k < 25u);
     same = same && curve_is_far(corner, side, least);
     const float far = 4.0 * steps_to_hole(corner, side) / float(side);
     const uint crossings = same ? min(crossings_of(state), ORDERS) : 0u;
-    [[dont_unroll]] for (uint n = 0u; n < crossings; n++)
-        same = same && crossing_is_smooth(corner, side, n, far);
+    uint n = 0u;
+    [[dont_unroll]] do {
+        same = same && (n >= crossings || crossing_is_smooth(corner, side, n, far));
+    } while (++n < crossings);
     return same && (!SKY || captured(state) || sky_is_smooth(corner, side, far));
 }
 
@@ -256,8 +265,10 @@ void list_units(uint kind, uvec2 corner, uint level)
 {
     const uint n = side_of(level) / 8u,
                word = units_of(kind) + take(KD_SAMPLE_FILLS + 4u * kind, n, KD_GROUP_SIZE / 8u);
-    [[dont_unroll]] for (uint i = 0u; i < n; i++)
+    uint i = 0u;
+    [[dont_unroll]] do {
         words[word + i] = kd_unit(corner / 8u, i, level);
+    } while (++i < n);
 }
 
 /* Lists the rays of a cell of the last level, to be traced singly. */
@@ -266,8 +277,11 @@ void follow_alone(uvec2 corner)
     ivec2 place = place_of(corner), low = max(place, ivec2(0, int(push.row0))),
           high = min(place + 8, ivec2(int(push.width), int(push.row0 + push.rows))), n = high - low;
     uint word = places_alone() + take(4u * KD_STAGE_ALONE, uint(n.x * n.y), KD_GROUP_SIZE);
-    [[dont_unroll]] for (int k = 0; k < n.x * n.y; k++)
-        words[word++] = kd_place_word(uvec2(low - place_of(uvec2(0u)) + ivec2(k % n.x, k / n.x)));
+    int k = 0;
+    [[dont_unroll]] do {
+        if (k < n.x * n.y)
+            words[word++] = kd_place_word(uvec2(low - place_of(uvec2(0u)) + ivec2(k % n.x, k / n.x)));
+    } while (++k < n.x * n.y);
 }
 
 /* Processes a cell of a level; at level 0 a block, which becomes a cell of level 1. */
@@ -286,8 +300,10 @@ void look_at(uvec2 cell, uint level)
         follow_alone(corner);
     if (!smooth_ && level < KD_CELL_LEVELS) {
         list_nodes(level, corner, side, !begins);
-        [[dont_unroll]] for (uint k = 0u; k < cells * cells; k++)
+        uint k = 0u;
+        [[dont_unroll]] do {
             list_cell(level + 1u, cells * cell + uvec2(k % 2u, k / 2u));
+        } while (++k < cells * cells);
     }
 }
 

@@ -80,7 +80,8 @@ void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
     bool thin = abs(area) < KD_STAR_THIN * size, there = true;
     vec2 k00 = vec2(0.0), k10 = vec2(0.0), k01 = vec2(0.0), k20 = vec2(0.0), k11 = vec2(0.0), k02 = vec2(0.0),
          k30 = vec2(0.0), k21 = vec2(0.0), k12 = vec2(0.0), k03 = vec2(0.0);
-    [[dont_unroll]] for (int i = 0; i < (thin ? 49 : 0); i++) {
+    int i = 0;
+    [[dont_unroll]] do { /* loops test at their ends: lens_closed.comp says why */
         int row = i / 7, dx = i - 7 * row - 3, dy = row - 3;
         kd_neighbour n = neighbour(c, at, x, y, dx, dy);
         float u = float(dx), v = float(dy), u2 = u * u - 4.0, v2 = v * v - 4.0;
@@ -95,7 +96,7 @@ void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
         k21 += u2 * v * n.f;
         k12 += u * v2 * n.f;
         k03 += v * (v2 - 3.0) * n.f;
-    }
+    } while (++i < (thin ? 49 : 0));
     if (thin && there) {
         o.aaa = k30 / (216.0 * 7.0);
         o.aab = k21 / (84.0 * 28.0);
@@ -124,14 +125,15 @@ void extend(kd_chart c, uint at, uint x, uint y, vec2 near[9], inout kd_patch o)
 {
     vec2 far[12];
     bool there = true;
-    [[dont_unroll]] for (int k = 0; k < 12; k++) {
+    int k = 0;
+    [[dont_unroll]] do {
         ivec2 d = outer(k);
         kd_neighbour n = neighbour(c, at, x, y, d.x, d.y);
         [[unroll]] for (int i = 0; i < 11; i++)
             far[i] = far[i + 1];
         far[11] = n.f;
         there = there && (k >= 4 || n.there);
-    }
+    } while (++k < 12);
     vec2 before = 0.5 * (far[4] - far[5]), after = 0.5 * (far[6] - far[7]), above = 0.5 * (far[8] - far[9]),
          below = 0.5 * (far[10] - far[11]);
     kd_quartic along = kd_quartic_of(far[0], near[3], vec2(0.0), near[5], far[1]),
@@ -159,13 +161,14 @@ kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
 {
     vec2 f[9]; /* places of 3 x 3 rays, row by row */
     uint there = 0u;
-    [[dont_unroll]] for (int k = 0; k < 9; k++) {
+    int k = 0;
+    [[dont_unroll]] do {
         kd_neighbour n = neighbour(c, at, x, y, k % 3 - 1, k / 3 - 1);
         [[unroll]] for (int i = 0; i < 8; i++)
             f[i] = f[i + 1];
         f[8] = n.f;
         there |= n.there ? 1u << k : 0u;
-    }
+    } while (++k < 9);
     kd_patch o;
     o.there = true;
     o.c = o.ab = o.aaa = o.aab = o.abb = o.bbb = o.aaab = o.abbb = vec2(0.0);
@@ -206,13 +209,14 @@ float determinant_of(mat2 j) { return j[0].x * j[1].y - j[1].x * j[0].y; }
 vec2 root(kd_patch m, vec2 q, vec2 p)
 {
     float far = 1.0;
-    [[dont_unroll]] for (int k = 0; k < 6 && far > 1e-4; k++) { /* the next step would only be about 1e-8 */
+    int k = 0;
+    [[dont_unroll]] do {
         mat2 j = derivative(m, p);
         float det = determinant_of(j);
         vec2 f = q - value(m, p), step_ = vec2(j[1].y * f.x - j[1].x * f.y, j[0].x * f.y - j[0].y * f.x) / det;
         far = max(abs(step_.x), abs(step_.y));
         p += far < 0.5 ? step_ : far < 1e9 ? step_ * (0.5 / far) : vec2(0.0);
-    }
+    } while (++k < 6 && far > 1e-4); /* the next step would only be about 1e-8 */
     return far < 1e-3 ? p : vec2(1e9);
 }
 
@@ -271,6 +275,8 @@ void images(uint at, uint k)
     vec2 found0 = vec2(-1e9), found1 = found0, found2 = found0, found3 = found0;
     uint fresh = 0u; /* bits of the roots that count */
     int starts = is_plain(m) ? 1 : 4;
+    /* This loop tests at its head: with the test at its end, images are lost on lavapipe (Mesa 22.3). Why is not known.
+     */
     [[dont_unroll]] for (int i = 0; i < starts; i++) {
         vec2 p = root(m, q, starts == 1 ? vec2(0.0) : vec2((i & 1) == 0 ? -0.3 : 0.3, i < 2 ? -0.3 : 0.3));
         bool counts = m.there && share(p.x) * share(p.y) > 0.0 && distance(p, found0) > 0.02 &&
@@ -281,18 +287,19 @@ void images(uint at, uint k)
         found2 = i == 2 ? p : found2;
         found3 = i == 3 ? p : found3;
     }
-    [[dont_unroll]] for (; fresh != 0u; fresh &= fresh - 1u) { /* a loop, because only loops skip work */
+    [[dont_unroll]] do {
         vec2 p = (fresh & 1u) != 0u ? found0 : (fresh & 2u) != 0u ? found1 : (fresh & 4u) != 0u ? found2 : found3;
         float det = max(abs(determinant_of(derivative(m, p))), 1e-6 * size);
         kd_star_pixel spot = spot_at(x, y, p);
         float magnified = stars[4u * k + 3u] * cosine * spot.steps / (det * float(SIDE * SIDE));
-        if (magnified < push.least)
-            continue;
-        vec3 colour = kd_sky_shifted(stars[4u * push.stars + k], FINITE ? 1.0 / spot.energy : 1.0,
-                                     VISIBLE ? KD_TRAIT_VISIBLE : 0u);
-        kd_star_spread((spot.place + 0.5) / float(SIDE) - 0.5,
-                       emission.sky.brightness * magnified * share(p.x) * share(p.y) * spot.share * colour);
-    }
+        if (fresh != 0u && !(magnified < push.least)) {
+            vec3 colour = kd_sky_shifted(stars[4u * push.stars + k], FINITE ? 1.0 / spot.energy : 1.0,
+                                         VISIBLE ? KD_TRAIT_VISIBLE : 0u);
+            kd_star_spread((spot.place + 0.5) / float(SIDE) - 0.5,
+                           emission.sky.brightness * magnified * share(p.x) * share(p.y) * spot.share * colour);
+        }
+        fresh &= fresh - 1u;
+    } while (fresh != 0u);
 }
 
 void main()
@@ -300,6 +307,10 @@ void main()
     kd_sky_map_read();
     cam = camera_;
     uint n = min(pairs[0], push.room), all = gl_NumWorkGroups.x * KD_GROUP_SIZE;
-    for (uint i = gl_GlobalInvocationID.x; i < n; i += all)
-        images(pairs[2u + 2u * i], pairs[3u + 2u * i]);
+    uint i = gl_GlobalInvocationID.x;
+    do {
+        if (i < n)
+            images(pairs[2u + 2u * i], pairs[3u + 2u * i]);
+        i += all;
+    } while (i < n);
 }

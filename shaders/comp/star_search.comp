@@ -41,13 +41,14 @@ vec3 twist(uint at, uint x, uint y, out bool there)
 {
     vec3 sum = vec3(0.0);
     there = true;
-    [[dont_unroll]] for (int k = 0; k < 4; k++) {
+    int k = 0;
+    [[dont_unroll]] do { /* loops test at their ends: lens_closed.comp says why */
         int i = (k & 1) * 2 - 1, j = (k >> 1) * 2 - 1;
         ivec2 place = kd_around_neighbour(ivec2(x + i, y + j));
         uint near = place.x < 0 ? at : uint(place.y) * push.width + uint(place.x);
         there = there && place.x >= 0 && kd_sky_escapes(near);
         sum += 0.25 * float(i * j) * kd_sky_from(near);
-    }
+    } while (++k < 4);
     return sum;
 }
 
@@ -157,6 +158,10 @@ void main()
     kd_sky_map_read();
     cam = camera_;
     uint n = listed[1], all = gl_NumWorkGroups.x * KD_GROUP_SIZE;
-    for (uint i = gl_GlobalInvocationID.x; i < n; i += all)
-        search(listed[2u + push.tiles + i]);
+    uint i = gl_GlobalInvocationID.x;
+    do {
+        if (i < n)
+            search(listed[2u + push.tiles + i]);
+        i += all;
+    } while (i < n);
 }

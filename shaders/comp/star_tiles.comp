@@ -74,7 +74,8 @@ kd_tile tile_about(uint at, bool whole)
     /* values at the ends of both axes, and the mean at the corners */
     vec2 left = vec2(0.0), right = left, above = left, below = left, corner = left;
     t.a = t.b = t.aa = t.ab = t.bb = vec2(0.0);
-    for (int k = 0; k < 9; k++) {
+    int k = 0;
+    do { /* loops test at their ends: lens_closed.comp says why */
         int row = k / 3, i = k - 3 * row - 1, j = row - 1;
         uint there = whole ? at + uint(HALF * (j * int(push.width) + i)) : at;
         vec3 other = kd_sky_from(there);
@@ -96,7 +97,7 @@ kd_tile tile_about(uint at, bool whole)
         above = k == 1 ? q : above;
         below = k == 7 ? q : below;
         corner += i * j != 0 ? 0.25 * q : vec2(0.0);
-    }
+    } while (++k < 9);
     t.n = kd_sky_galactic(n);
     t.e1 = kd_sky_galactic(e1);
     t.e2 = kd_sky_galactic(e2);
@@ -175,12 +176,13 @@ kd_bounds bounds_of(kd_tile t)
 {
     kd_bounds o = kd_bounds(vec2(0.0), 1.0);
     const float far = 1.0 + t.near / float(HALF);
-    [[dont_unroll]] for (int k = 0; k < 9; k++) {
+    int k = 0;
+    [[dont_unroll]] do {
         int row = k / 3;
         vec2 p = far * vec2(k - 3 * row - 1, row - 1);
         o.most = max(o.most, abs(linear_of(t, p)));
         o.sharp = min(o.sharp, determinant_of(derivative(t, p)));
-    }
+    } while (++k < 9);
     float bent = far * t.bent;
     o.most += 0.02 + 0.125 * far * bent;
     o.sharp = max(0.97 * o.sharp - 0.5 * bent * bent, (1.0 - t.bent) * (1.0 - t.bent));
@@ -229,13 +231,14 @@ void note(uint at, vec2 place, float near, uint k, bool bright)
     if (!bright || across <= 0 || all <= 0)
         return;
     uint first = atomicAdd(pairs[0], uint(all));
-    for (int i = 0; i < all; i++) {
+    int i = 0;
+    do {
         int j = i / across;
         if (first + uint(i) < push.room) {
             pairs[2u + 2u * (first + uint(i))] = at + uint((low.y + j) * int(push.width) + low.x + i - across * j);
             pairs[3u + 2u * (first + uint(i))] = k;
         }
-    }
+    } while (++i < all);
 }
 
 /* Lists the parts of a tile that begins with ray `first` of the map at (x, y), as far as they exist: rays, or small
@@ -247,10 +250,11 @@ void list(uint first, uint x, uint y)
     uint columns = (min(TILE, push.width - x) + step_ - 1u) / step_,
          all = columns * ((min(TILE, push.end - y) + step_ - 1u) / step_);
     uint to = (large ? 2u : 2u + push.tiles) + atomicAdd(listed[large ? 0u : 1u], all);
-    for (uint i = 0; i < all; i++) {
+    uint i = 0u;
+    do {
         uint row = i / columns;
         listed[to + i] = first + step_ * (row * push.width + i - columns * row);
-    }
+    } while (++i < all);
 }
 
 /* Whether all images in a tile belong to others: to another grid of the rim, or to the rim. All of them belong to the
@@ -326,8 +330,12 @@ void main()
         return;
     }
     uint n = listed[0], all = gl_NumWorkGroups.x * KD_GROUP_SIZE;
-    for (uint i = gl_GlobalInvocationID.x; i < n; i += all) {
-        uint first = listed[2u + i], y = first / push.width;
-        seek(first - y * push.width, y);
-    }
+    uint i = gl_GlobalInvocationID.x;
+    do {
+        if (i < n) {
+            uint first = listed[2u + i], y = first / push.width;
+            seek(first - y * push.width, y);
+        }
+        i += all;
+    } while (i < n);
 }

@@ -138,17 +138,19 @@ float kd_gas_excess(kd_sample s)
     float sum = 0.0, loud = emission.gas.loudness;
     kd_gas_steps steps = kd_gas_footprint(s);
     mat2 next = KD_GAS_FINER * mat2(cos(KD_GAS_TURN), sin(KD_GAS_TURN), -sin(KD_GAS_TURN), cos(KD_GAS_TURN));
-    for (uint octave = 0u; octave < KD_GAS_TAKEN; octave++) {
-        float left = kd_gas_left(steps), part = loud * left;
-        if (!(left > 0.0)) /* false also for NaN, from an infinite footprint */
-            break;
+    float left = kd_gas_left(steps);
+    uint octave = 0u;
+    do {
+        float part = loud * left;
         vec2 a = kd_gas_noise(one.p, kd_gas_lattice(one, octave)), b = kd_gas_noise(two.p, kd_gas_lattice(two, octave));
-        sum += part * (w1 * a.x + w2 * b.x) - 0.5 * part * part;
+        if (left > 0.0) /* false also for NaN, from an infinite footprint */
+            sum += part * (w1 * a.x + w2 * b.x) - 0.5 * part * part;
         loud *= emission.gas.persistence;
         steps = kd_gas_steps(steps.sum * emission.gas.finer, steps.product * emission.gas.finer * emission.gas.finer);
+        left = kd_gas_left(steps);
         one.p = next * (one.p + emission.gas.warp * a);
         two.p = next * (two.p + emission.gas.warp * b);
-    }
+    } while (left > 0.0 && ++octave < KD_GAS_TAKEN);
     return sum;
 }
 

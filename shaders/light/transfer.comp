@@ -117,18 +117,38 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
     return beam;
 }
 #else
+/* w of the ray's first crossing with light from number n on, which n becomes; 0 if there is none. A probe tells of
+ * every crossing. */
+float next_crossing(uint at, inout uint n)
+{
+    float w = 0.0;
+    bool goes = n < ORDERS;
+    do {
+        w = goes ? KD_MAP_AT(at + n * slice.stride) : 0.0;
+#ifdef KD_PROBE
+        goes = false;
+#else
+        goes = w != 0.0 && !has_light(w);
+#endif
+        n += goes ? 1u : 0u;
+    } while (goes && n < ORDERS);
+    return goes ? 0.0 : w;
+}
+
 /* Follows one ray, including the light at its end. */
 kd_beam follow(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
     forget_stokes();
-    for (uint n = 0; KD_GLOWS && n < ORDERS; n++) {
-        float w = KD_MAP_AT(at + n * slice.stride);
-        if (w == 0.0)
-            break;
-        meet(beam, w, n, place, at);
-        if (beam.through <= 0.0)
-            break;
+    if (KD_GLOWS && ORDERS > 0u) {
+        uint n = 0u;
+        float w = next_crossing(at, n);
+        do {
+            if (w != 0.0)
+                meet(beam, w, n, place, at);
+            n++;
+            w = beam.through > 0.0 && w != 0.0 ? next_crossing(at, n) : 0.0;
+        } while (w != 0.0);
     }
     KD_PROBE_SUM(KD_PROBE_FRONT, beam)
     if (ENDS)
@@ -243,21 +263,23 @@ uint lit_of(uint x, uint y, uint end)
 void light_rows(uint x, uint y, uint end)
 {
     uint lit = lit_of(x, y, end), of = end;
-    kd_beam beam;
-    while (lit != 0u) {
-        uint next = uint(findLSB(lit)), k = next / ORDERS, n = next - ORDERS * k, row = y + k,
+    kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
+    do {
+        uint next = uint(findLSB(lit | 0x80000000u)), k = next / ORDERS, n = next - ORDERS * k, row = y + k,
              at = (row - slice.band0) * cam.width + x;
         if (row != of) {
             beam = kd_beam(vec3(0.0), 0.0, 1.0);
             forget_stokes();
         }
         of = row;
-        meet(beam, KD_MAP_AT(at + n * slice.stride), n, uvec2(x, row), at);
-        vec3 behind = ENDS ? beam.through * background(uvec2(x, row), at, light_at(x, row)) : vec3(0.0);
-        store(light_at(x, row), beam.light + behind, beam.apart, stokes, stokes_apart);
+        if (lit != 0u) {
+            meet(beam, KD_MAP_AT(at + n * slice.stride), n, uvec2(x, row), at);
+            vec3 behind = ENDS ? beam.through * background(uvec2(x, row), at, light_at(x, row)) : vec3(0.0);
+            store(light_at(x, row), beam.light + behind, beam.apart, stokes, stokes_apart);
+        }
         uint hidden = ((1u << ORDERS) - 1u) << (ORDERS * k); /* all crossings of this ray */
         lit &= beam.through > 0.0 ? lit - 1u : ~hidden;
-    }
+    } while (lit != 0u);
 }
 
 /* Place of a ray of a pixel, whose index in the list is `listed`. map_of: the ray's index in the lens map. */
@@ -425,8 +447,11 @@ void main()
              end = min(y + KD_TRANSFER_ROWS, slice.row0 + slice.rows);
         if (ENDS)
             point_column(px, y, end);
-        for (; KD_GLOWS && y < end; y += AHEAD)
-            light_rows(px, y, end);
+        if (KD_GLOWS)
+            do {
+                light_rows(px, y, end);
+                y += AHEAD;
+            } while (y < end);
         return;
     }
     if (CRITICAL > 0) {
@@ -450,13 +475,14 @@ void main()
     vec3 sum = vec3(0.0), all = vec3(0.0);
     float apart = 0.0;
     vec2 spots = vec2(0.0);
-    for (uint i = 0; i < rays; i++) {
+    uint i = 0u;
+    do {
         kd_beam beam = follow_one(uvec2(px, py), listed, i, to);
         sum += beam.light;
         apart += beam.apart;
         all += stokes;
         spots += stokes_apart;
-    }
+    } while (++i < rays);
     store(to, share * sum, share * apart, share * all, share * spots);
 #endif
 }

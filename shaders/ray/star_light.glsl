@@ -38,7 +38,8 @@ void kd_star_spread(vec2 place, vec3 light)
                            kd_star_level(middle.y + 1.0, rows));
         light *= kd_star_level(place.y, rows) / dot(wy, levels);
     }
-    [[dont_unroll]] for (int k = 0; k < 9; k++) {
+    int k = 0;
+    [[dont_unroll]] do { /* tests at its end: lens_closed.comp says why */
         int r = k / 3, c = k - 3 * r;
         ivec2 at = ivec2(middle) + ivec2(c, r) - 1;
         if (SIGHT == KD_SIGHT_SPHERE)
@@ -58,7 +59,7 @@ void kd_star_spread(vec2 place, vec3 light)
             kd_star_add(o + 2u, part.g);
             kd_star_add(o + 4u, part.b);
         }
-    }
+    } while (++k < 9);
 }
 
 #endif
