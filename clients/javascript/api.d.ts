@@ -1388,10 +1388,15 @@ export interface SpectrumRequest {
   /** colour temperature over effective temperature; 1 to 10. */
   colour_correction?: number;
   /**
-   * yes: the disk absorbs the light that returns to it, and radiates it again as a black body; inner must then be
-   * the ISCO.
+   * yes: the disk absorbs the light that returns to it, and radiates it again as a black body; scattered: its
+   * atmosphere of free electrons reflects the light that returns for the first time; inner must then be the ISCO.
    */
-  returning?: 'no' | 'yes';
+  returning?: 'no' | 'yes' | 'scattered';
+  /**
+   * yes: degree and angle of the polarisation of a deep atmosphere of free electrons, for which limb must be
+   * "scattering".
+   */
+  polarization?: 'no' | 'yes';
   /**
    * first frequency; auto: 0.001 k/h times the hottest ring's colour temperature; for a volume 1/30 of
    * volume.frequency_ghz [Hz]; 0.001 to 1e+25.
@@ -1426,6 +1431,7 @@ export interface DiskSpectrum {
     mdot_edd: number;
     colour_correction: number;
     returning: string;
+    polarization: string;
     frequency_min_hz: number;
     frequency_max_hz: number;
     frequencies: number;
@@ -1449,6 +1455,13 @@ export interface DiskSpectrum {
     flux_jy: (number | null)[];
     /** 4 pi D^2 nu F_nu, the luminosity of an isotropic source with this flux. */
     nu_l_nu_w: (number | null)[];
+    /** degree of linear polarisation; null unless polarization is yes. */
+    degree: (number | null)[];
+    /**
+     * angle of the electric field from the projection of the disk's axis, which is north, to the east, from -90 to
+     * 90; null unless polarization is yes.
+     */
+    angle_deg: (number | null)[];
   };
   units: Record<string, string>;
   sources: string[];

@@ -15,10 +15,11 @@
     "\"],\"not\":{\"required\":[\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[" words "]}}}}"
 /* Pictures need a scene, and a disk does not take one. */
 #define OF_A_SCENE "\"anyOf\":[" HAS("scene") "," HAS("preset") "]"
+#define OF_RETURNING HAS("returning") "," HAS("polarization")
 #define OF_A_DISK \
     HAS("spin") \
     "," HAS("charge") "," HAS("inclination_deg") "," HAS("inner") "," HAS("outer") "," HAS("limb") "," HAS( \
-        "mass_msun") "," HAS("distance_pc") "," HAS("mdot_edd") "," HAS("colour_correction") "," HAS("returning")
+        "mass_msun") "," HAS("distance_pc") "," HAS("mdot_edd") "," HAS("colour_correction") "," OF_RETURNING
 #define OF_A_VOLUME \
     "{\"minimum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_LEAST_HZ) ",\"maximum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_MOST_HZ) "}"
 

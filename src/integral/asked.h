@@ -30,6 +30,8 @@ enum kd_integral {
     KD_INTEGRALS
 };
 
+enum kd_integral_returning { KD_INTEGRAL_IGNORED, KD_INTEGRAL_ABSORBED, KD_INTEGRAL_SCATTERED };
+
 struct kd_integral_request {
     enum kd_integral what;
     double spin, charge, inclination_deg, inner, outer; /* inner NaN: the ISCO */
@@ -50,7 +52,8 @@ struct kd_integral_request {
     struct kd_number_list radii, g_star; /* for a transfer function */
     uint32_t rings, g_stars;
     double mass_msun, distance_pc, mdot_edd, colour_correction; /* for a spectrum */
-    int returning;                                              /* 1: the disk absorbs returning light */
+    int returning;                                              /* enum kd_integral_returning */
+    int polarized;                                              /* 1: the spectrum is polarised */
     double frequency_min_hz, frequency_max_hz;                  /* NaN: chosen by the hottest ring */
     uint32_t frequencies;
     struct kd_number_list frequencies_hz;

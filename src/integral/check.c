@@ -38,8 +38,16 @@ static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error 
             isco);
     if (r->returning && r->inner > isco * (1 + 1e-9))
         return kd_error_field(error, "/inner",
-                              "inner is %.9g; with returning \"yes\" it must be the ISCO, %.9g M, or \"isco\"",
-                              r->inner, isco);
+                              "inner is %.9g; with returning \"%s\" it must be the ISCO, %.9g M, or \"isco\"", r->inner,
+                              r->returning == KD_INTEGRAL_SCATTERED ? "scattered" : "yes", isco);
+    if (r->returning == KD_INTEGRAL_SCATTERED && r->limb != KD_LIMB_SCATTERING)
+        return kd_error_field(error, "/returning",
+                              "returning is \"scattered\", which needs an atmosphere of electrons; limb must be "
+                              "\"scattering\"");
+    if (r->polarized && r->limb != KD_LIMB_SCATTERING)
+        return kd_error_field(error, "/polarization",
+                              "polarization is \"yes\", which needs an atmosphere of electrons; limb must be "
+                              "\"scattering\"");
     r->inner = fmax(r->inner, isco);
     if (r->outer <= r->inner * (1 + 1e-6))
         return kd_error_field(error, "/outer", "outer is %.9g and inner is %.9g; outer must be larger than inner",

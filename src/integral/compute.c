@@ -4,6 +4,7 @@
 #include "integral/image_cache.h"
 #include "integral/internal.h"
 #include "physics/disk/disk_spectrum.h"
+#include "physics/disk/disk_stokes.h"
 #include "physics/disk/thin_disk.h"
 #include "physics/disk/transfer_function.h"
 #include "physics/math/constants.h"
@@ -57,6 +58,10 @@ static const char *const echo_approximations[] = {
     "the gas emits at once; the source shines isotropically in its own frame, and a whole ring at once",
     NULL,
 };
+static const char scattered_once[] =
+    "a deep atmosphere of free electrons reflects the light that returns to it for the first time, without changing "
+    "its "
+    "energy in the gas's frame; light that returns again, and the work of its angular momentum, are ignored";
 static const char *const disk_approximations[] = {
     "a thin opaque disk in the equatorial plane, gas on circular orbits, nothing within its inner edge",
     "only the direct image: light that goes round the hole and crosses the plane again is ignored",
@@ -191,7 +196,12 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                  { "flux_w_m2_hz", "W/m^2/Hz", "F_nu" },
                                  { "flux_jy", "Jy", "F_nu" },
                                  { "nu_l_nu_w", "W",
-                                   "4 pi D^2 nu F_nu, the luminosity of an isotropic source with this flux" } },
+                                   "4 pi D^2 nu F_nu, the luminosity of an isotropic source with this flux" },
+                                 { "degree", "1", "degree of linear polarisation; null unless polarization is yes" },
+                                 { "angle_deg", "deg",
+                                   "angle of the electric field from the projection of the disk's axis, which is "
+                                   "north, "
+                                   "to the east, from -90 to 90; null unless polarization is yes" } },
                                spectrum_sources,
                                spectrum_approximations },
     [KD_INTEGRAL_IMPULSE] = { "echo of a flash on a thin disk, by energy and time",
@@ -478,6 +488,37 @@ static enum kd_status returning_of(const struct kd_integral_request *r, struct k
     return KD_OK;
 }
 
+/* Adds scattered light to the fluxes, and fills the columns of polarisation. The direct light of both sums must agree:
+ * their difference is added to the error. */
+static enum kd_status add_stokes(const struct kd_integral_request *r, const struct kd_disk_image *image,
+                                 const struct kd_disk_spectrum_params *params, struct kd_integral_answer *answer,
+                                 struct kd_error *error)
+{
+    double *const *c = answer->columns, most = 0, off = 0;
+    struct kd_disk_stokes *stokes = malloc(sizeof *stokes);
+    enum kd_status status = stokes ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for a polarised spectrum");
+    KD_TRY(status);
+    KD_TRY(kd_disk_stokes_init(stokes, image, params, r->returning == KD_INTEGRAL_SCATTERED, error));
+    for (size_t i = 0; i < r->frequencies; i++)
+        most = fmax(most, c[1][i]);
+    for (size_t i = 0; i < r->frequencies; i++) {
+        const struct kd_stokes direct = kd_disk_stokes_at(stokes, stokes->direct, c[0][i]),
+                               scattered = kd_disk_stokes_at(stokes, stokes->scattered, c[0][i]);
+        const double q = direct.q + scattered.q, u = direct.u + scattered.u;
+        if (c[1][i] > 1e-6 * most)
+            off = fmax(off, fabs(direct.i / c[1][i] - 1));
+        c[1][i] += scattered.i;
+        if (r->polarized && c[1][i] > 0) {
+            c[4][i] = hypot(q, u) / c[1][i];
+            c[5][i] = atan2(u, q) * (90 / M_PI);
+        }
+    }
+    answer->values[3] += off;
+done:
+    free(stokes);
+    return status;
+}
+
 static enum kd_status compute_spectrum(const struct kd_integral_request *r, const struct kd_disk_image *image,
                                        struct kd_integral_answer *answer, struct kd_error *error)
 {
@@ -490,13 +531,18 @@ static enum kd_status compute_spectrum(const struct kd_integral_request *r, cons
     enum kd_status status;
     KD_TRY(kd_integral_make_columns(answer, r->frequencies, error));
     double *const *c = answer->columns;
-    if (r->returning)
+    if (r->returning == KD_INTEGRAL_ABSORBED)
         KD_TRY(returning_of(r, &table, error));
     params.returning = table;
     KD_TRY(
         kd_disk_spectrum(image, &params, r->frequencies_hz.at, (int)r->frequencies, c[1], &answer->values[3], error));
     for (size_t i = 0; i < r->frequencies; i++) {
         c[0][i] = r->frequencies_hz.at[i];
+        c[4][i] = c[5][i] = NAN;
+    }
+    if (r->polarized || r->returning == KD_INTEGRAL_SCATTERED)
+        KD_TRY(add_stokes(r, image, &params, answer, error));
+    for (size_t i = 0; i < r->frequencies; i++) {
         c[2][i] = c[1][i] * 1e26;
         c[3][i] = 4 * M_PI * distance * distance * c[0][i] * c[1][i];
     }
@@ -504,7 +550,9 @@ static enum kd_status compute_spectrum(const struct kd_integral_request *r, cons
     answer->values[1] = kd_disk_temperature(table ? table->largest : kd_disk_flux_page_thorne(hole, hottest), hole,
                                             r->mass_msun, r->mdot_edd);
     answer->values[3] += table ? table->error : 0;
-    answer->told[answer->n_told++] = table ? with_returning : no_returning;
+    answer->told[answer->n_told++] = r->returning == KD_INTEGRAL_SCATTERED ? scattered_once
+                                     : table                               ? with_returning
+                                                                           : no_returning;
     answer->values[2] = kd_kerr_efficiency(hole) * kd_disk_rate(hole, r->mass_msun, r->mdot_edd) * KD_C_M_S * KD_C_M_S;
 done:
     free(table);

@@ -178,9 +178,12 @@ const struct kd_row kd_integral_fields[] = {
          "accretion rate as luminosity over the Eddington luminosity, with the efficiency of this spin"),
     REAL(colour_correction, "", 1, 10, SPECTRUM, "colour temperature over effective temperature"),
     WORD(
-        returning, returning, "no|yes", SPECTRUM,
-        "yes: the disk absorbs the light that returns to it, and radiates it again as a black body; inner must then be "
-        "the ISCO"),
+        returning, returning, "no|yes|scattered", SPECTRUM,
+        "yes: the disk absorbs the light that returns to it, and radiates it again as a black body; scattered: its "
+        "atmosphere of free electrons reflects the light that returns for the first time; inner must then be the ISCO"),
+    WORD(polarization, polarized, "no|yes", SPECTRUM,
+         "yes: degree and angle of the polarisation of a deep atmosphere of free electrons, for which limb must be "
+         "\"scattering\""),
     OR_WORD(frequency_min_hz, "Hz", 1e-3, 1e25, "auto", SPECTRUM | VOLUME,
             "first frequency; auto: 0.001 k/h times the hottest ring's colour temperature; for a volume 1/30 of "
             "volume.frequency_ghz"),

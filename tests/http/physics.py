@@ -664,6 +664,31 @@ class Integrals(daemon.Case):
         ]
         self.assertAlmostEqual(peaks[1]["t_max_k"] / peaks[0]["t_max_k"], 1.0678, delta=1e-3)
 
+    def test_polarised_spectra(self):
+        """Far from the hole the light of each ring has the polarisation of Chandrasekhar's table XXIV; next to a fast hole
+        scattered light turns it from the disk's plane to its axis, the more the higher the energy (Schnittman & Krolik
+        2009)."""
+        asked = {"limb": "scattering", "polarization": "yes", "frequencies_hz": [1e14, 1e15]}
+        far = {**asked, "inner": 1e5, "outer": 1e6, "inclination_deg": 60}
+        columns = self.post("spectrum", far).json()["columns"]
+        for degree, angle in zip(columns["degree"], columns["angle_deg"]):
+            self.assertAlmostEqual(degree, 0.02252, delta=1e-4)
+            self.assertAlmostEqual(abs(angle), 90, delta=0.5)
+        plain = self.post("spectrum", {**far, "polarization": "no"}).json()["columns"]
+        self.assertEqual(plain["degree"], [None, None])
+        self.assertEqual(plain["angle_deg"], [None, None])
+        for a, b in zip(plain["flux_jy"], columns["flux_jy"]):
+            self.assertEqual(a, b)
+        near = {**asked, "spin": 0.99, "inclination_deg": 60, "frequencies_hz": [2.4e16, 2e18]}
+        direct, both = (
+            self.post("spectrum", {**near, "returning": word}).json()["columns"] for word in ("no", "scattered")
+        )
+        self.assertGreater(abs(direct["angle_deg"][0]), 88)
+        self.assertGreater(abs(both["angle_deg"][0]), 85)
+        self.assertLess(abs(both["angle_deg"][1]), 20)
+        self.assertGreater(both["degree"][1], 2 * direct["degree"][1])
+        self.assertGreater(both["flux_jy"][1], 1.1 * direct["flux_jy"][1])
+
     def test_sources_are_those_of_what_is_asked(self):
         spectrum = {"spin": 0.5, "frequencies_hz": [1e17]}
         scene = {"image": {"width": 32, "height": 32}, "camera": {"r": "infinity"}}
@@ -974,6 +999,8 @@ class Integrals(daemon.Case):
             ("lags", {"bins": 2000}, "/bins", "rows (limit 20000)"),
             ("spectrum", {"frequencies_hz": [2, 1]}, "/frequencies_hz/1", "larger than the one before"),
             ("spectrum", {"returning": "yes", "inner": 8}, "/inner", 'with returning "yes" it must be the ISCO, 6 M'),
+            ("spectrum", {"returning": "scattered"}, "/returning", 'limb must be "scattering"'),
+            ("spectrum", {"polarization": "yes", "limb": "laor"}, "/polarization", 'limb must be "scattering"'),
             ("spectrum", {"returning": "yes", "spin": 1 - 1e-11}, "/spin", "energy balance of returning light"),
             ("line", {"returning": "yes"}, "/returning", "no field returning"),
             ("spectrum", {"frequency_min_hz": 1e18, "frequency_max_hz": 1e17}, "/frequency_max_hz", "larger"),
@@ -992,7 +1019,11 @@ class Integrals(daemon.Case):
                 answer = self.post(name, {**document, "spin": spin, "inclination_deg": 60})
                 self.assertEqual(answer.status, 200, answer.body)
                 self.assertTrue(
-                    all(math.isfinite(x) for column in strict(answer.body)["columns"].values() for x in column),
+                    all(
+                        x is None if name in ("degree", "angle_deg") else math.isfinite(x)
+                        for name, column in strict(answer.body)["columns"].items()
+                        for x in column
+                    ),
                     answer.body,
                 )
         self.assertEqual(

@@ -25,7 +25,7 @@ enum ks_field { KS_TOROIDAL, KS_RADIAL, KS_VERTICAL };
 /* The crossing of the plane by a ray. The gas there moves on a circle or, within r_isco, falls from the ISCO. angle:
  * direction of the electric field that is perpendicular to the magnetic field in the gas's frame, as the observer sees
  * it: from `up` towards the left, in (-pi/2, pi/2]. cosine: |cos| of the angle between the light and the normal in that
- * frame. g: frequency at the observer over the frequency in that frame. */
+ * frame. g: frequency in that frame over the frequency at the observer. */
 struct ks_polarized {
     bool there, falls;
     double r, angle, cosine, g;

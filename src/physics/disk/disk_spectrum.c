@@ -9,6 +9,8 @@
 #include <stdlib.h>
 
 enum { PANELS = 32, GAUSS = 3 };
+static const double at_gauss[GAUSS] = { -0.7745966692414834, 0, 0.7745966692414834 },
+                    share_gauss[GAUSS] = { 5. / 18, 8. / 18, 5. / 18 };
 #define TABLE \
     0.125 /* factor on the change from every second node of the table: its error falls at best as the sixth power of \
              the step, so twice the step shows 63 times the error (as in line_profile.c) */
@@ -38,6 +40,16 @@ static double stretch_of(const struct ring *ring, double apart, int j, int n)
     return fabs(a_r * along(ring->beta, j, n) - b_r * along(ring->alpha, j, n));
 }
 
+/* Returns the step in ln r to its neighbours. */
+static double go_to(const struct kd_disk_image *image, double r, int skip, int n, struct ring *ring)
+{
+    const double apart = kd_disk_image_step(image, r, APART);
+    kd_disk_image_ring(image, r, skip, n, ring->alpha, ring->beta);
+    kd_disk_image_ring(image, r * exp(-apart), skip, n, ring->below[0], ring->below[1]);
+    kd_disk_image_ring(image, r * exp(apart), skip, n, ring->above[0], ring->above[1]);
+    return apart;
+}
+
 static double flux_at(const struct kd_disk_image *image, const struct kd_disk_spectrum_params *p, double r)
 {
     return p->returning ? kd_returning_flux(p->returning, r) : kd_disk_flux_page_thorne(&image->hole, r);
@@ -52,10 +64,7 @@ static void add_ring(const struct kd_disk_image *image, const struct kd_disk_spe
         kd_disk_temperature(flux_at(image, p, r), &image->hole, p->mass_msun, p->mdot_edd) * p->colour_correction;
     if (!(t > 0))
         return;
-    kd_disk_image_ring(image, r, skip, n, ring->alpha, ring->beta);
-    double apart = kd_disk_image_step(image, r, APART);
-    kd_disk_image_ring(image, r * exp(-apart), skip, n, ring->below[0], ring->below[1]);
-    kd_disk_image_ring(image, r * exp(apart), skip, n, ring->above[0], ring->above[1]);
+    const double apart = go_to(image, r, skip, n, ring);
     for (int j = 0; j < n; j++) {
         struct kd_disk_light light = kd_disk_image_light(image, &gas, ring->alpha[j], ring->beta[j]);
         double part = weight * stretch_of(ring, apart, j, n) * (2 * M_PI / n) * kd_limb_at(p->limb, light.mu) *
@@ -74,18 +83,32 @@ struct looks { int coarse, skip; };
 static void integrate(const struct kd_disk_image *image, const struct kd_disk_spectrum_params *p, struct looks looks,
                       const double *frequencies, int n_f, struct ring *ring, double *sum)
 {
-    static const double at[GAUSS] = { -0.7745966692414834, 0, 0.7745966692414834 },
-                        share[GAUSS] = { 5. / 18, 8. / 18, 5. / 18 };
     int n = (image->angles > 128 ? 512 : image->angles > 64 ? 256 : 128) / looks.coarse, panels = PANELS / looks.coarse;
     double span = log(p->outer / p->inner);
     for (int i = 0; i < panels; i++)
         for (int k = 0; k < GAUSS; k++) {
             kd_pause();
             /* ln r = ln inner + span s^2, since T varies as the square root of r - r_isco. */
-            double s = (i + 0.5 + 0.5 * at[k]) / panels;
-            add_ring(image, p, p->inner * exp(span * s * s), span * 2 * s * share[k] / panels, looks.skip, n,
+            double s = (i + 0.5 + 0.5 * at_gauss[k]) / panels;
+            add_ring(image, p, p->inner * exp(span * s * s), span * 2 * s * share_gauss[k] / panels, looks.skip, n,
                      frequencies, n_f, ring, sum);
         }
+}
+
+void kd_disk_places(const struct kd_disk_image *image, double inner, double outer,
+                    void (*each)(void *user, const struct kd_disk_place *place), void *user)
+{
+    struct ring ring;
+    const int n = image->angles > 128 ? 512 : image->angles > 64 ? 256 : 128;
+    const double span = log(outer / inner);
+    for (int i = 0; i < PANELS * GAUSS; i++) {
+        const double s = (i / GAUSS + 0.5 + 0.5 * at_gauss[i % GAUSS]) / PANELS, r = inner * exp(span * s * s),
+                     weight = span * 2 * s * share_gauss[i % GAUSS] / PANELS, apart = go_to(image, r, 1, n, &ring);
+        for (int j = 0; j < n; j++)
+            each(user, &(struct kd_disk_place) { r, ring.alpha[j], ring.beta[j],
+                                                 weight * stretch_of(&ring, apart, j, n) * (2 * M_PI / n) });
+        kd_pause();
+    }
 }
 
 enum kd_status kd_disk_spectrum(const struct kd_disk_image *image, const struct kd_disk_spectrum_params *p,

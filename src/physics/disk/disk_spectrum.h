@@ -22,6 +22,12 @@ struct kd_disk_spectrum_params {
     const struct kd_returning *returning; /* of the same hole and limb: F is its flux; NULL: that of Page & Thorne */
 };
 
+/* A place of the disk's image, and the area of the image plane for which it stands, M^2. */
+struct kd_disk_place { double r, alpha, beta, area; };
+/* Calls each(user, place) for the places of the integral, ring after ring. */
+void kd_disk_places(const struct kd_disk_image *image, double inner, double outer,
+                    void (*each)(void *user, const struct kd_disk_place *place), void *user);
+
 /* flux: W m^-2 Hz^-1 at each of n frequencies, in Hz. *error_out: largest relative error, estimated from half as
  * many points, over frequencies whose flux exceeds 1e-6 of the maximum. KD_ENOMEM; KD_EINVAL: the result is not a
  * number. */

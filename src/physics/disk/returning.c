@@ -56,6 +56,20 @@ static struct light light_of(const struct ring *o, double sin_rho, double cos_ch
 /* x = ln tan(rho/2): over distances the dark disk is small, and close to the hole nearly all of the sky. */
 static double sine(double x) { return 1 / cosh(x); }
 
+/* The closed form of a ray of E > 0. */
+static struct kd_null_path path_of(const struct kd_hole *hole, const struct ring *o, const struct light *p, double x,
+                                   int n)
+{
+    const struct kd_null_ray ray = { .hole = *hole,
+                                     .radius = o->r,
+                                     .sin_theta = 1,
+                                     .alpha = -p->momentum / p->energy,
+                                     .beta = p->polar / p->energy,
+                                     .outward = x > 0,
+                                     .orders = n + 1 };
+    return kd_null_trace_fast(&ray);
+}
+
 /* 1/r of crossing n: INFINITY after capture, -INFINITY after escape. */
 static double follow(const struct kd_hole *hole, const struct ring *o, double cos_chi, double x, int n)
 {
@@ -67,14 +81,7 @@ static double follow(const struct kd_hole *hole, const struct ring *o, double co
         const double r = kd_null_plane_radius(&at, &photon, n);
         return isfinite(r) ? 1 / r : -r;
     }
-    const struct kd_null_ray ray = { .hole = *hole,
-                                     .radius = o->r,
-                                     .sin_theta = 1,
-                                     .alpha = -p.momentum / p.energy,
-                                     .beta = p.polar / p.energy,
-                                     .outward = x > 0,
-                                     .orders = n + 1 };
-    const struct kd_null_path path = kd_null_trace_fast(&ray);
+    const struct kd_null_path path = path_of(hole, o, &p, x, n);
     return n < path.crossings ? 1 / path.crossing[n].r : path.fate == KD_NULL_ESCAPED ? -INFINITY : INFINITY;
 }
 
@@ -265,6 +272,39 @@ struct kd_returning_ring kd_returning_ring(const struct kd_hole *hole, enum kd_l
     }
     sum.error = fmax(fabs(total(&sum.photons) - 1), fabs(total(&sum.energy) - 1));
     return sum;
+}
+
+void kd_returning_rays(const struct kd_hole *hole, double r,
+                       void (*each)(void *user, const struct kd_returning_ray *ray), void *user)
+{
+    const struct rule rule = rule_of();
+    const struct ring ring = ring_of(hole, r);
+    const double isco = kd_kerr_isco(hole);
+    struct sky sky = sky_of(hole, &ring, isco);
+    for (int j = 0; j < sides(&sky); j++) {
+        const struct side side = side_of(hole, &ring, isco, &rule, &sky, j);
+        for (int n = 0; n < sky.parts.orders; n++) {
+            const struct strip strip = strip_of(side, sky.parts.in[n], sky.parts.out[n]);
+            for (int k = 0; k < DEPTH; k++) {
+                double x;
+                const double solid = point_of(&strip, &rule, k, &x);
+                const struct light p = light_of(&ring, sine(x), side.cos_chi);
+                if (p.energy < SLOW)
+                    continue;
+                const struct kd_null_path path = path_of(hole, &ring, &p, x, n);
+                if (n < path.crossings)
+                    each(user, &(struct kd_returning_ray) { .from = fmax(path.crossing[n].r, isco),
+                                                            .energy = p.energy,
+                                                            .momentum = p.momentum,
+                                                            .polar = p.polar,
+                                                            .order = n,
+                                                            .leaves = path.crossing[n].sense,
+                                                            .arrives = x > 0 ? -1 : 1,
+                                                            .solid = solid });
+            }
+        }
+        kd_pause();
+    }
 }
 
 /* Nodes in s are those of Chebyshev's polynomials; interpolation in the barycentric form (J.-P. Berrut & L. N.

@@ -42,6 +42,20 @@ struct kd_returning_ring {
 };
 struct kd_returning_ring kd_returning_ring(const struct kd_hole *hole, enum kd_limb limb, double r);
 
+/* A ray of light that returns to a ring at r, for the upper face. E, L and |p_theta| for the energy 1 in the frame of
+ * zero angular momentum at r. */
+struct kd_returning_ray {
+    double from; /* radius at which it leaves the disk */
+    double energy, momentum, polar;
+    int order;           /* number of crossings within the ISCO: odd: it leaves the lower face */
+    int leaves, arrives; /* signs of p^r */
+    double solid;        /* its part of the integral of mu dOmega there */
+};
+
+/* The rays of the integral over a ring's sky. Light of E <= 0, which is seen within the ergosphere, is left out. */
+void kd_returning_rays(const struct kd_hole *hole, double r,
+                       void (*each)(void *user, const struct kd_returning_ray *ray), void *user);
+
 /* The converged disk of one hole. */
 struct kd_returning {
     struct kd_hole hole;

@@ -543,6 +543,7 @@ class DiskSpectrumParameters(TypedDict):
     mdot_edd: float
     colour_correction: float
     returning: str
+    polarization: str
     frequency_min_hz: float
     frequency_max_hz: float
     frequencies: float

@@ -1,0 +1,36 @@
+/* Polarised spectrum of a thin disk of electron-scattering atmospheres, as a distant observer receives it (J. D.
+ * Schnittman & J. H. Krolik 2009, ApJ 701, 1175). Double precision; any thread.
+ *
+ * Each ring shines as a dilute black body with the angular law and the polarisation of a deep atmosphere of free
+ * electrons (scattering.h). With `scattered`, light that returns to the disk for the first time is reflected by the law
+ * of diffuse reflection of this atmosphere, which changes no photon's energy in the gas's frame. Its polarisation is
+ * carried along both rays by the constant of M. Walker & R. Penrose 1970, Commun. Math. Phys. 18, 265; components are
+ * those in Carter's frame, as in shaders/emit/polarization.glsl.
+ *
+ * All light is a sum of black bodies. They are counted by the logarithm of the temperature that the observer sees, each
+ * at four neighbouring nodes with the weights of cubic interpolation; a spectrum is a sum over nodes. */
+#ifndef KD_PHYSICS_DISK_DISK_STOKES_H
+#define KD_PHYSICS_DISK_DISK_STOKES_H
+
+#include "physics/disk/disk_spectrum.h"
+
+enum { KD_STOKES_NODES = 640 };
+
+struct kd_stokes { double i, q, u; }; /* IAU 1973: from the projected axis of the disk, which is north, to the east */
+
+struct kd_disk_stokes {
+    double hottest_k, scale;                             /* colour temperature of node 0 of ln T; units of fluxes */
+    struct kd_stokes direct[KD_STOKES_NODES], scattered[KD_STOKES_NODES];
+};
+
+/* params: limb must be KD_LIMB_SCATTERING; with `returning` the disk's flux includes the light that returns, and
+ * `scattered` must be false. Takes some 0.1 s, with `scattered` 1 s. */
+enum kd_status kd_disk_stokes_init(struct kd_disk_stokes *stokes, const struct kd_disk_image *image,
+                                   const struct kd_disk_spectrum_params *params, bool scattered,
+                                   struct kd_error *error);
+
+/* W m^-2 Hz^-1 at a frequency in Hz. */
+struct kd_stokes kd_disk_stokes_at(const struct kd_disk_stokes *stokes, const struct kd_stokes nodes[KD_STOKES_NODES],
+                                   double frequency);
+
+#endif
