@@ -207,8 +207,8 @@ export interface Scene {
     /** share of the returning light that is reflected; 0 to 1; default 0.5. */
     albedo?: number;
     /**
-     * brightness: bolometric, g^4 F; or visible, the luminance that the eye perceives of the Planck spectrum;
-     * default "bolometric".
+     * brightness: bolometric, g^4 F; visible, the luminance that the eye perceives of the Planck spectrum; or
+     * frequency, the specific intensity at disk.frequency_ghz, in physical units; default "bolometric".
      */
     band?: 'bolometric' | 'visible' | 'frequency';
     /** observed frequency (band: frequency); in GHz; 1e-06 to 1e+12; default 230. */
@@ -743,51 +743,51 @@ export type FieldPath =
   | 'camera.eye_distance' | 'camera.ring_decades_max' | 'camera.ring_decades_min' | 'disk.model' | 'disk.inner'
   | 'disk.outer' | 'disk.taper' | 'disk.opacity' | 'disk.emission_opacity' | 'disk.height' | 'disk.flare'
   | 'disk.colour' | 'disk.peak_temperature_k' | 'disk.mdot_edd' | 'disk.hardening' | 'disk.atmosphere'
-  | 'disk.returning' | 'disk.albedo' | 'disk.band' | 'disk.doppler' | 'disk.redshift' | 'disk.particles' | 'disk.seed'
-  | 'disk.density_index' | 'disk.plunging' | 'disk.plunging_temperature' | 'disk.epicycles' | 'disk.slow_light'
-  | 'disk.gas.amplitude' | 'disk.gas.octaves' | 'disk.gas.scale' | 'disk.gas.shear' | 'disk.gas.seed'
-  | 'spots.0.brightness' | 'spots.0.r' | 'spots.0.phase_deg' | 'spots.0.size' | 'spots.0.index'
-  | 'spots.0.temperature_k' | 'spots.1.brightness' | 'spots.1.r' | 'spots.1.phase_deg' | 'spots.1.size'
-  | 'spots.1.index' | 'spots.1.temperature_k' | 'spots.2.brightness' | 'spots.2.r' | 'spots.2.phase_deg'
-  | 'spots.2.size' | 'spots.2.index' | 'spots.2.temperature_k' | 'spots.3.brightness' | 'spots.3.r'
-  | 'spots.3.phase_deg' | 'spots.3.size' | 'spots.3.index' | 'spots.3.temperature_k' | 'spots.4.brightness'
-  | 'spots.4.r' | 'spots.4.phase_deg' | 'spots.4.size' | 'spots.4.index' | 'spots.4.temperature_k'
-  | 'spots.5.brightness' | 'spots.5.r' | 'spots.5.phase_deg' | 'spots.5.size' | 'spots.5.index'
-  | 'spots.5.temperature_k' | 'spots.6.brightness' | 'spots.6.r' | 'spots.6.phase_deg' | 'spots.6.size'
-  | 'spots.6.index' | 'spots.6.temperature_k' | 'spots.7.brightness' | 'spots.7.r' | 'spots.7.phase_deg'
-  | 'spots.7.size' | 'spots.7.index' | 'spots.7.temperature_k' | 'spots.8.brightness' | 'spots.8.r'
-  | 'spots.8.phase_deg' | 'spots.8.size' | 'spots.8.index' | 'spots.8.temperature_k' | 'spots.9.brightness'
-  | 'spots.9.r' | 'spots.9.phase_deg' | 'spots.9.size' | 'spots.9.index' | 'spots.9.temperature_k'
-  | 'spots.10.brightness' | 'spots.10.r' | 'spots.10.phase_deg' | 'spots.10.size' | 'spots.10.index'
-  | 'spots.10.temperature_k' | 'spots.11.brightness' | 'spots.11.r' | 'spots.11.phase_deg' | 'spots.11.size'
-  | 'spots.11.index' | 'spots.11.temperature_k' | 'spots.12.brightness' | 'spots.12.r' | 'spots.12.phase_deg'
-  | 'spots.12.size' | 'spots.12.index' | 'spots.12.temperature_k' | 'spots.13.brightness' | 'spots.13.r'
-  | 'spots.13.phase_deg' | 'spots.13.size' | 'spots.13.index' | 'spots.13.temperature_k' | 'spots.14.brightness'
-  | 'spots.14.r' | 'spots.14.phase_deg' | 'spots.14.size' | 'spots.14.index' | 'spots.14.temperature_k'
-  | 'spots.15.brightness' | 'spots.15.r' | 'spots.15.phase_deg' | 'spots.15.size' | 'spots.15.index'
-  | 'spots.15.temperature_k' | 'bodies.0.radius' | 'bodies.0.r' | 'bodies.0.inclination_deg' | 'bodies.0.phase_deg'
-  | 'bodies.0.motion' | 'bodies.0.velocity_r' | 'bodies.0.velocity_theta' | 'bodies.0.velocity_phi'
-  | 'bodies.0.temperature_k' | 'bodies.0.brightness' | 'bodies.0.limb_darkening' | 'bodies.1.radius' | 'bodies.1.r'
-  | 'bodies.1.inclination_deg' | 'bodies.1.phase_deg' | 'bodies.1.motion' | 'bodies.1.velocity_r'
-  | 'bodies.1.velocity_theta' | 'bodies.1.velocity_phi' | 'bodies.1.temperature_k' | 'bodies.1.brightness'
-  | 'bodies.1.limb_darkening' | 'bodies.2.radius' | 'bodies.2.r' | 'bodies.2.inclination_deg' | 'bodies.2.phase_deg'
-  | 'bodies.2.motion' | 'bodies.2.velocity_r' | 'bodies.2.velocity_theta' | 'bodies.2.velocity_phi'
-  | 'bodies.2.temperature_k' | 'bodies.2.brightness' | 'bodies.2.limb_darkening' | 'bodies.3.radius' | 'bodies.3.r'
-  | 'bodies.3.inclination_deg' | 'bodies.3.phase_deg' | 'bodies.3.motion' | 'bodies.3.velocity_r'
-  | 'bodies.3.velocity_theta' | 'bodies.3.velocity_phi' | 'bodies.3.temperature_k' | 'bodies.3.brightness'
-  | 'bodies.3.limb_darkening' | 'bodies.4.radius' | 'bodies.4.r' | 'bodies.4.inclination_deg' | 'bodies.4.phase_deg'
-  | 'bodies.4.motion' | 'bodies.4.velocity_r' | 'bodies.4.velocity_theta' | 'bodies.4.velocity_phi'
-  | 'bodies.4.temperature_k' | 'bodies.4.brightness' | 'bodies.4.limb_darkening' | 'bodies.5.radius' | 'bodies.5.r'
-  | 'bodies.5.inclination_deg' | 'bodies.5.phase_deg' | 'bodies.5.motion' | 'bodies.5.velocity_r'
-  | 'bodies.5.velocity_theta' | 'bodies.5.velocity_phi' | 'bodies.5.temperature_k' | 'bodies.5.brightness'
-  | 'bodies.5.limb_darkening' | 'bodies.6.radius' | 'bodies.6.r' | 'bodies.6.inclination_deg' | 'bodies.6.phase_deg'
-  | 'bodies.6.motion' | 'bodies.6.velocity_r' | 'bodies.6.velocity_theta' | 'bodies.6.velocity_phi'
-  | 'bodies.6.temperature_k' | 'bodies.6.brightness' | 'bodies.6.limb_darkening' | 'bodies.7.radius' | 'bodies.7.r'
-  | 'bodies.7.inclination_deg' | 'bodies.7.phase_deg' | 'bodies.7.motion' | 'bodies.7.velocity_r'
-  | 'bodies.7.velocity_theta' | 'bodies.7.velocity_phi' | 'bodies.7.temperature_k' | 'bodies.7.brightness'
-  | 'bodies.7.limb_darkening' | 'volume.model' | 'volume.inner' | 'volume.outer' | 'volume.emissivity'
-  | 'volume.opacity' | 'volume.temperature_k' | 'volume.redshift' | 'volume.frequency_ghz' | 'volume.grid'
-  | 'volume.grid_scale' | 'volume.gold_emission' | 'volume.gold_index' | 'volume.gold_flattening'
+  | 'disk.returning' | 'disk.albedo' | 'disk.band' | 'disk.frequency_ghz' | 'disk.doppler' | 'disk.redshift'
+  | 'disk.particles' | 'disk.seed' | 'disk.density_index' | 'disk.plunging' | 'disk.plunging_temperature'
+  | 'disk.epicycles' | 'disk.slow_light' | 'disk.gas.amplitude' | 'disk.gas.octaves' | 'disk.gas.scale'
+  | 'disk.gas.shear' | 'disk.gas.seed' | 'spots.0.brightness' | 'spots.0.r' | 'spots.0.phase_deg' | 'spots.0.size'
+  | 'spots.0.index' | 'spots.0.temperature_k' | 'spots.1.brightness' | 'spots.1.r' | 'spots.1.phase_deg'
+  | 'spots.1.size' | 'spots.1.index' | 'spots.1.temperature_k' | 'spots.2.brightness' | 'spots.2.r'
+  | 'spots.2.phase_deg' | 'spots.2.size' | 'spots.2.index' | 'spots.2.temperature_k' | 'spots.3.brightness'
+  | 'spots.3.r' | 'spots.3.phase_deg' | 'spots.3.size' | 'spots.3.index' | 'spots.3.temperature_k'
+  | 'spots.4.brightness' | 'spots.4.r' | 'spots.4.phase_deg' | 'spots.4.size' | 'spots.4.index'
+  | 'spots.4.temperature_k' | 'spots.5.brightness' | 'spots.5.r' | 'spots.5.phase_deg' | 'spots.5.size'
+  | 'spots.5.index' | 'spots.5.temperature_k' | 'spots.6.brightness' | 'spots.6.r' | 'spots.6.phase_deg'
+  | 'spots.6.size' | 'spots.6.index' | 'spots.6.temperature_k' | 'spots.7.brightness' | 'spots.7.r'
+  | 'spots.7.phase_deg' | 'spots.7.size' | 'spots.7.index' | 'spots.7.temperature_k' | 'spots.8.brightness'
+  | 'spots.8.r' | 'spots.8.phase_deg' | 'spots.8.size' | 'spots.8.index' | 'spots.8.temperature_k'
+  | 'spots.9.brightness' | 'spots.9.r' | 'spots.9.phase_deg' | 'spots.9.size' | 'spots.9.index'
+  | 'spots.9.temperature_k' | 'spots.10.brightness' | 'spots.10.r' | 'spots.10.phase_deg' | 'spots.10.size'
+  | 'spots.10.index' | 'spots.10.temperature_k' | 'spots.11.brightness' | 'spots.11.r' | 'spots.11.phase_deg'
+  | 'spots.11.size' | 'spots.11.index' | 'spots.11.temperature_k' | 'spots.12.brightness' | 'spots.12.r'
+  | 'spots.12.phase_deg' | 'spots.12.size' | 'spots.12.index' | 'spots.12.temperature_k' | 'spots.13.brightness'
+  | 'spots.13.r' | 'spots.13.phase_deg' | 'spots.13.size' | 'spots.13.index' | 'spots.13.temperature_k'
+  | 'spots.14.brightness' | 'spots.14.r' | 'spots.14.phase_deg' | 'spots.14.size' | 'spots.14.index'
+  | 'spots.14.temperature_k' | 'spots.15.brightness' | 'spots.15.r' | 'spots.15.phase_deg' | 'spots.15.size'
+  | 'spots.15.index' | 'spots.15.temperature_k' | 'bodies.0.radius' | 'bodies.0.r' | 'bodies.0.inclination_deg'
+  | 'bodies.0.phase_deg' | 'bodies.0.motion' | 'bodies.0.velocity_r' | 'bodies.0.velocity_theta'
+  | 'bodies.0.velocity_phi' | 'bodies.0.temperature_k' | 'bodies.0.brightness' | 'bodies.0.limb_darkening'
+  | 'bodies.1.radius' | 'bodies.1.r' | 'bodies.1.inclination_deg' | 'bodies.1.phase_deg' | 'bodies.1.motion'
+  | 'bodies.1.velocity_r' | 'bodies.1.velocity_theta' | 'bodies.1.velocity_phi' | 'bodies.1.temperature_k'
+  | 'bodies.1.brightness' | 'bodies.1.limb_darkening' | 'bodies.2.radius' | 'bodies.2.r' | 'bodies.2.inclination_deg'
+  | 'bodies.2.phase_deg' | 'bodies.2.motion' | 'bodies.2.velocity_r' | 'bodies.2.velocity_theta'
+  | 'bodies.2.velocity_phi' | 'bodies.2.temperature_k' | 'bodies.2.brightness' | 'bodies.2.limb_darkening'
+  | 'bodies.3.radius' | 'bodies.3.r' | 'bodies.3.inclination_deg' | 'bodies.3.phase_deg' | 'bodies.3.motion'
+  | 'bodies.3.velocity_r' | 'bodies.3.velocity_theta' | 'bodies.3.velocity_phi' | 'bodies.3.temperature_k'
+  | 'bodies.3.brightness' | 'bodies.3.limb_darkening' | 'bodies.4.radius' | 'bodies.4.r' | 'bodies.4.inclination_deg'
+  | 'bodies.4.phase_deg' | 'bodies.4.motion' | 'bodies.4.velocity_r' | 'bodies.4.velocity_theta'
+  | 'bodies.4.velocity_phi' | 'bodies.4.temperature_k' | 'bodies.4.brightness' | 'bodies.4.limb_darkening'
+  | 'bodies.5.radius' | 'bodies.5.r' | 'bodies.5.inclination_deg' | 'bodies.5.phase_deg' | 'bodies.5.motion'
+  | 'bodies.5.velocity_r' | 'bodies.5.velocity_theta' | 'bodies.5.velocity_phi' | 'bodies.5.temperature_k'
+  | 'bodies.5.brightness' | 'bodies.5.limb_darkening' | 'bodies.6.radius' | 'bodies.6.r' | 'bodies.6.inclination_deg'
+  | 'bodies.6.phase_deg' | 'bodies.6.motion' | 'bodies.6.velocity_r' | 'bodies.6.velocity_theta'
+  | 'bodies.6.velocity_phi' | 'bodies.6.temperature_k' | 'bodies.6.brightness' | 'bodies.6.limb_darkening'
+  | 'bodies.7.radius' | 'bodies.7.r' | 'bodies.7.inclination_deg' | 'bodies.7.phase_deg' | 'bodies.7.motion'
+  | 'bodies.7.velocity_r' | 'bodies.7.velocity_theta' | 'bodies.7.velocity_phi' | 'bodies.7.temperature_k'
+  | 'bodies.7.brightness' | 'bodies.7.limb_darkening' | 'volume.model' | 'volume.inner' | 'volume.outer'
+  | 'volume.emissivity' | 'volume.opacity' | 'volume.temperature_k' | 'volume.redshift' | 'volume.frequency_ghz'
+  | 'volume.grid' | 'volume.grid_scale' | 'volume.gold_emission' | 'volume.gold_index' | 'volume.gold_flattening'
   | 'volume.gold_momentum' | 'volume.gold_absorption' | 'volume.density_cm3' | 'volume.density_index'
   | 'volume.electron_temperature_k' | 'volume.temperature_index' | 'volume.height' | 'volume.magnetisation'
   | 'volume.magnetisation_index' | 'volume.field' | 'volume.flow' | 'volume.electrons' | 'volume.electrons_index'
@@ -1655,7 +1655,7 @@ export interface Lags {
     spin: number;
     charge: number;
     inclination_deg: number;
-    inner: number | null;
+    inner: number | string;
     outer: number;
     emissivity: string;
     height: number;
@@ -1665,14 +1665,14 @@ export interface Lags {
     limb: string;
     rest_energy: number;
     energy_min: number;
-    energy_max: number | null;
+    energy_max: number | string;
     bins: number;
     frequency_min: number;
     frequency_max: number;
     frequencies: number;
     reflection: number;
-    reference_min: number | null;
-    reference_max: number | null;
+    reference_min: number | string;
+    reference_max: number | string;
     mass_msun: number;
   };
   values: {
@@ -3604,8 +3604,8 @@ export interface SceneQuery {
   /** share of the returning light that is reflected; 0 to 1; default 0.5. */
   'disk.albedo'?: number;
   /**
-   * brightness: bolometric, g^4 F; or visible, the luminance that the eye perceives of the Planck spectrum;
-   * default "bolometric".
+   * brightness: bolometric, g^4 F; visible, the luminance that the eye perceives of the Planck spectrum; or
+   * frequency, the specific intensity at disk.frequency_ghz, in physical units; default "bolometric".
    */
   'disk.band'?: 'bolometric' | 'visible' | 'frequency';
   /** observed frequency (band: frequency); in GHz; 1e-06 to 1e+12; default 230. */

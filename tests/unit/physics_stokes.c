@@ -1,8 +1,9 @@
-/* Tests of polarised spectra of a disk whose atmosphere scatters the light that returns. The same light is summed by the
- * Monte Carlo method: over places of the image, and at each over one direction from which light arrives there. All rays
- * are followed in Cartesian Kerr-Schild coordinates, with the vectors of their polarisation (kerr_schild_transport.h);
- * the gas's frame is found by contraction with the metric. Energies are not counted by temperature, no ring is
- * interpolated, and no constant of motion is used. The law of reflection is tested by itself (physics_scattering.c).
+/* Tests of polarised spectra of a disk whose atmosphere scatters the light that returns. The same light is summed by
+ * the Monte Carlo method: over places of the image, and at each over one direction from which light arrives there. All
+ * rays are followed in Cartesian Kerr-Schild coordinates, with the vectors of their polarisation
+ * (kerr_schild_transport.h); the gas's frame is found by contraction with the metric. Energies are not counted by
+ * temperature, no ring is interpolated, and no constant of motion is used. The law of reflection is tested by itself
+ * (physics_scattering.c).
  *
  *     unit_physics_stokes [SAMPLES]     samples of each case; with SAMPLES all nine cases */
 #include "kerr_schild_transport.h"
@@ -63,7 +64,10 @@ static int row(double mu) { return (int)lround(FINE * sqrt(fmin(mu, 1))); }
 static struct kd_scattered emitted(double mu) { return emission[row(mu)]; }
 
 /* The last place above the plane and the first below it. */
-struct crossing { struct ks_carried above, below; bool met; };
+struct crossing {
+    struct ks_carried above, below;
+    bool met;
+};
 
 static void told(void *user, const struct ks_carried *at)
 {
@@ -118,8 +122,8 @@ static void frame_of(const struct disk *d, const struct ks_carried *at, double l
 static void bases_of(const double n[3], double l[3], double r[3])
 {
     const double level = hypot(n[0], n[1]);
-    const double along[3] = { n[2] * n[0] / level, n[2] * n[1] / level, -level }, across[3] = { -n[1] / level,
-                                                                                               n[0] / level, 0 };
+    const double along[3] = { n[2] * n[0] / level, n[2] * n[1] / level, -level },
+                 across[3] = { -n[1] / level, n[0] / level, 0 };
     memcpy(l, along, sizeof along);
     memcpy(r, across, sizeof across);
 }
@@ -130,7 +134,8 @@ static void vector_of(double legs[4][4], const double n[3], double out[4])
         out[i] = n[0] * legs[1][i] + n[1] * legs[2][i] + n[2] * legs[3][i];
 }
 
-/* Light that arrives in the gas's frame against the direction of sight: adds what is reflected to n, for each energy. */
+/* Light that arrives in the gas's frame against the direction of sight: adds what is reflected to n, for each energy.
+ */
 static void reflect(const struct disk *d, const struct ks_carried *at, double legs[4][4], const double n[3], double g,
                     double solid, const double source[3], double light[ENERGIES][3])
 {
@@ -175,8 +180,7 @@ static void reflect(const struct disk *d, const struct ks_carried *at, double le
 static void sample(const struct disk *d, const double at[4], double light[2][ENERGIES][3])
 {
     const double most = log(1.25 * OUTER), least = log(0.5), b = exp(least + (most - least) * at[0]),
-                 psi = 2 * M_PI * at[1], squash = 0.75,
-                 area = (most - least) * 2 * M_PI * b * b * squash;
+                 psi = 2 * M_PI * at[1], squash = 0.75, area = (most - least) * 2 * M_PI * b * b * squash;
     const struct ks_screen screen =
         ks_screen_far(d->hole.a, 0, d->theta, b * cos(psi) + d->hole.a * sin(d->theta), squash * b * sin(psi) + 1);
     const struct ks_polarized seen = ks_polarization(&screen, 0, KS_VERTICAL, 0);
@@ -228,7 +232,8 @@ static void sample(const struct disk *d, const double at[4], double light[2][ENE
         light[1][e][1] += area * 0.5 *
                           (q * (north_l * north_l - east_l * east_l - north_r * north_r + east_r * east_r) +
                            2 * u * (north_l * north_r - east_l * east_r));
-        light[1][e][2] += area * (q * (north_l * east_l - north_r * east_r) + u * (north_l * east_r + east_l * north_r));
+        light[1][e][2] +=
+            area * (q * (north_l * east_l - north_r * east_r) + u * (north_l * east_r + east_l * north_r));
     }
 }
 
@@ -332,8 +337,8 @@ static void scattered_light_is_what_returned(void **state)
     assert_true(image && stokes && table);
     kd_returning_init(table, &hole, KD_LIMB_SCATTERING);
     for (int i = 0; i < 3; i++) {
-        const struct kd_disk_spectrum_params p = { kd_kerr_isco(&hole), 3000, 10, 1e4, 0.1, 1.8, KD_LIMB_SCATTERING,
-                                                   NULL };
+        const struct kd_disk_spectrum_params p = { kd_kerr_isco(&hole), 3000, 10, 1e4, 0.1, 1.8,
+                                                   KD_LIMB_SCATTERING,  NULL };
         assert_true(kd_disk_image_init(image, &hole, acos(cosines[i])));
         assert_int_equal(kd_disk_stokes_init(stokes, image, &p, true, &error), KD_OK);
         for (int k = 0; k < KD_STOKES_NODES; k++) {

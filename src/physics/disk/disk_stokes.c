@@ -37,15 +37,18 @@ static int weigh(double place, double weight[4])
 
 /* A ray of light at a ring, in the gas's frame: energy over that at infinity; direction in components along r, phi and
  * the normal; constants of Walker & Penrose of polarisation along l and r of scattering.h. */
-struct meeting { double energy, n[3], azimuth; double complex l, r; };
+struct meeting {
+    double energy, n[3], azimuth;
+    double complex l, r;
+};
 
 /* e, lambda: at infinity; p_theta < 0: the light goes up; sense: sign of p^r. */
 static struct meeting meeting_of(const struct kd_hole *hole, double r, double e, double lambda, double p_theta,
                                  int sense)
 {
-    const double a = hole->a, delta = kd_hole_delta(hole, r), root = r * sqrt(delta), p = (r * r + a * a) * e - a * lambda,
-                 k = p_theta * p_theta + (lambda - a * e) * (lambda - a * e),
-                 v = (sqrt(r - hole->q * hole->q) - a) / sqrt(delta), gamma = 1 / sqrt((1 - v) * (1 + v));
+    const double a = hole->a, delta = kd_hole_delta(hole, r), root = r * sqrt(delta),
+                 p = (r * r + a * a) * e - a * lambda, k = p_theta * p_theta + (lambda - a * e) * (lambda - a * e),
+                 v = (kd_kerr_ring_at(hole, r - 1).s - a) / sqrt(delta), gamma = 1 / sqrt((1 - v) * (1 + v));
     const double kt = p / root, kr = sense * sqrt(fmax(0, p * p - delta * k)) / root, ks = p_theta / r,
                  kp = (lambda - a * e) / r, energy = gamma * (kt - v * kp);
     struct meeting m = { .energy = energy, .n = { kr / energy, gamma * (kp - v * kt) / energy, -ks / energy } };
@@ -76,7 +79,10 @@ struct mirror {
 
 /* Functions of the atmosphere at any cosine by interpolation in its fourth root. */
 enum { FINE = 200 };
-struct atmosphere { double fraction[FINE + 1]; struct kd_scattering_functions at[FINE + 1]; };
+struct atmosphere {
+    double fraction[FINE + 1];
+    struct kd_scattering_functions at[FINE + 1];
+};
 
 static void atmosphere_init(struct atmosphere *a)
 {
@@ -110,7 +116,10 @@ static struct kd_scattering_functions functions_at(const struct atmosphere *a, d
                                               between(f->first, g->first, x), between(f->second, g->second, x) };
 }
 
-struct filling { struct mirror *mirror; const struct atmosphere *atmosphere; };
+struct filling {
+    struct mirror *mirror;
+    const struct atmosphere *atmosphere;
+};
 
 static void reflect(void *user, const struct kd_returning_ray *ray)
 {
@@ -146,9 +155,8 @@ static void reflect(void *user, const struct kd_returning_ray *ray)
          * which is left to the place: the rest is smooth in the cosine. */
         const double level = sqrt((1 - m->mu[j]) * (1 + m->mu[j]));
         for (int k = 0; k < 3; k++) {
-            const double *f = all[k],
-                         turned[5] = { f[0], (f[1] * c - f[2] * s) / level, (f[1] * s + f[2] * c) / level,
-                                       f[3] * c2 - f[4] * s2, f[3] * s2 + f[4] * c2 };
+            const double *f = all[k], turned[5] = { f[0], (f[1] * c - f[2] * s) / level, (f[1] * s + f[2] * c) / level,
+                                                    f[3] * c2 - f[4] * s2, f[3] * s2 + f[4] * c2 };
             for (int w = 0; w < 4; w++)
                 for (int n = 0; n < 5; n++)
                     m->parts[j][5 * k + n][first + w] += weight[w] * turned[n];
@@ -196,8 +204,7 @@ static void make_mirror(struct work *w)
         w->nodes[i] = 0.5 * (1 + cos(M_PI * (i + 0.5) / RINGS));
         w->mirror.parts = w->rings[i];
         w->mirror.r = isco / (w->nodes[i] * w->nodes[i]);
-        kd_returning_rays(&w->image->hole, w->mirror.r, reflect,
-                          &(struct filling) { &w->mirror, &w->atmosphere });
+        kd_returning_rays(&w->image->hole, w->mirror.r, reflect, &(struct filling) { &w->mirror, &w->atmosphere });
         for (int j = 0; j < COSINES; j++)
             for (int n = 0; n < PARTS; n++)
                 for (int k = 0; k < KD_STOKES_NODES; k++) {
@@ -246,15 +253,20 @@ static void add_place(void *user, const struct kd_disk_place *place)
     const double lambda = -place->alpha * w->image->sin_i, a = hole->a,
                  eta = (place->alpha - a) * (place->alpha + a) * w->image->cos_i * w->image->cos_i +
                        place->beta * place->beta;
-    const struct kd_null_ray ray = { .hole = *hole, .radius = INFINITY, .cos_theta = w->image->cos_i,
-                                     .sin_theta = w->image->sin_i, .alpha = place->alpha, .beta = place->beta,
+    const struct kd_null_ray ray = { .hole = *hole,
+                                     .radius = INFINITY,
+                                     .cos_theta = w->image->cos_i,
+                                     .sin_theta = w->image->sin_i,
+                                     .alpha = place->alpha,
+                                     .beta = place->beta,
                                      .orders = 1 };
     const struct kd_null_path path = kd_null_trace_fast(&ray);
     const struct meeting m =
         meeting_of(hole, place->r, 1, lambda, -sqrt(fmax(eta, 0)), path.crossings ? path.crossing[0].sense : 1);
     const double g = 1 / m.energy, flux = flux_of(w, place->r);
     /* f = x right + y up, x - i y = kappa/kappa(right): north + i east is y - i x */
-    const double complex right = (place->alpha + a * w->image->sin_i) + I * place->beta, l = m.l / right, r = m.r / right;
+    const double complex right = (place->alpha + a * w->image->sin_i) + I * place->beta, l = m.l / right,
+                         r = m.r / right;
     const double complex z = conj(l) * -I / cabs(l), turn = z * z; /* x + i y times -i */
     const double side = cimag(conj(r) / conj(l)) > 0 ? 1 : -1;
     if (flux > 0) {
@@ -309,8 +321,8 @@ enum kd_status kd_disk_stokes_init(struct kd_disk_stokes *stokes, const struct k
     w->mirror.hole = &image->hole, w->mirror.p = p;
     w->mirror.largest = p->returning ? p->returning->largest
                                      : kd_disk_flux_page_thorne(&image->hole, kd_disk_peak_page_thorne(&image->hole));
-    stokes->hottest_k = p->colour_correction *
-                        kd_disk_temperature(w->mirror.largest, &image->hole, p->mass_msun, p->mdot_edd);
+    stokes->hottest_k =
+        p->colour_correction * kd_disk_temperature(w->mirror.largest, &image->hole, p->mass_msun, p->mdot_edd);
     for (int j = 0; j < COSINES; j++)
         w->mirror.mu[j] = 0.5 * (1 + cos(M_PI * (j + 0.5) / COSINES));
     kd_scattering_functions(w->mirror.mu, COSINES, w->mirror.at);
@@ -327,11 +339,10 @@ struct kd_stokes kd_disk_stokes_at(const struct kd_disk_stokes *stokes, const st
                                    double frequency)
 {
     struct kd_stokes sum = { 0, 0, 0 };
-    const double planck =
-        2 * KD_H_J_S * frequency * frequency * frequency / (KD_C_M_S * KD_C_M_S) * stokes->scale;
+    const double planck = 2 * KD_H_J_S * frequency * frequency * frequency / (KD_C_M_S * KD_C_M_S) * stokes->scale;
     for (int k = 0; k < KD_STOKES_NODES; k++) {
-        const double light = planck / expm1(KD_H_J_S * frequency /
-                                            (KD_K_J_K * stokes->hottest_k * exp(COLDEST + STEP * k)));
+        const double light =
+            planck / expm1(KD_H_J_S * frequency / (KD_K_J_K * stokes->hottest_k * exp(COLDEST + STEP * k)));
         sum.i += light * nodes[k].i, sum.q += light * nodes[k].q, sum.u += light * nodes[k].u;
     }
     return sum;

@@ -19,7 +19,7 @@ enum { KD_STOKES_NODES = 640 };
 struct kd_stokes { double i, q, u; }; /* IAU 1973: from the projected axis of the disk, which is north, to the east */
 
 struct kd_disk_stokes {
-    double hottest_k, scale;                             /* colour temperature of node 0 of ln T; units of fluxes */
+    double hottest_k, scale; /* colour temperature of node 0 of ln T; units of fluxes */
     struct kd_stokes direct[KD_STOKES_NODES], scattered[KD_STOKES_NODES];
 };
 

@@ -490,7 +490,7 @@ class LagsParameters(TypedDict):
     spin: float
     charge: float
     inclination_deg: float
-    inner: float | None
+    inner: float | str
     outer: float
     emissivity: str
     height: float
@@ -500,14 +500,14 @@ class LagsParameters(TypedDict):
     limb: str
     rest_energy: float
     energy_min: float
-    energy_max: float | None
+    energy_max: float | str
     bins: float
     frequency_min: float
     frequency_max: float
     frequencies: float
     reflection: float
-    reference_min: float | None
-    reference_max: float | None
+    reference_min: float | str
+    reference_max: float | str
     mass_msun: float
 
 

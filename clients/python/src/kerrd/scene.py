@@ -145,14 +145,16 @@ class Disk:
     mdot_edd: accretion rate: luminosity over the Eddington luminosity, with the efficiency for this spin; in Eddington rates; 1e-12 to
         1000; default 0.1.
     hardening: colour temperature over effective temperature; 1 to 3; default 1.
-    atmosphere: light of the thin disk's surface by mu, the cosine of the angle to its normal in the gas's frame: isotropic; laor, as 1
-        + 2.06 mu; scattering, that of a deep atmosphere of free electrons, whose polarisation polarization.model "scattering" has; each
-        radiates the disk's flux; default "isotropic".
+    atmosphere: how the light of the thin disk's surface depends on mu, the cosine of the angle to its normal in the gas's frame.
+        isotropic; laor: as 1 + 2.06 mu; scattering: as from a deep atmosphere of free electrons, which polarization.model "scattering"
+        polarises. Each law has the disk's flux; default "isotropic".
     returning: light of the disk that the hole bends back to it: none; thermalised, absorbed with its angular momentum and radiated
         again as by a black body; reflected, the share disk.albedo of it with the spectrum with which it came, the rest thermalised; any
         number of returns; default "none".
     albedo: share of the returning light that is reflected; 0 to 1; default 0.5.
-    band: brightness: bolometric, g^4 F; or visible, the luminance that the eye perceives of the Planck spectrum; default "bolometric".
+    band: brightness: bolometric, g^4 F; visible, the luminance that the eye perceives of the Planck spectrum; or frequency, the
+        specific intensity at disk.frequency_ghz, in physical units; default "bolometric".
+    frequency_ghz: observed frequency (band: frequency); in GHz; 1e-06 to 1e+12; default 230.
     doppler: include the Doppler shift and beaming of the orbiting gas; default true.
     redshift: include the gravitational redshift and time dilation of the orbiting gas; default true.
     particles: number of particles (model: particles); 1000 to 10000000; default 300000.
@@ -185,7 +187,8 @@ class Disk:
     atmosphere: Literal['isotropic', 'laor', 'scattering'] | None = None
     returning: Literal['none', 'thermalised', 'reflected'] | None = None
     albedo: float | None = None
-    band: Literal['bolometric', 'visible'] | None = None
+    band: Literal['bolometric', 'visible', 'frequency'] | None = None
+    frequency_ghz: float | None = None
     doppler: bool | None = None
     redshift: bool | None = None
     particles: int | None = None
