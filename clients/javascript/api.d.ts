@@ -1398,16 +1398,16 @@ export interface SpectrumRequest {
    */
   polarization?: 'no' | 'yes';
   /**
-   * first frequency; auto: 0.001 k/h times the hottest ring's colour temperature; for a volume 1/30 of
-   * volume.frequency_ghz [Hz]; 0.001 to 1e+25.
+   * first frequency; auto: 0.001 k/h times the hottest ring's colour temperature; for a scene 1/30 of its
+   * frequency [Hz]; 0.001 to 1e+25.
    */
   frequency_min_hz?: 'auto' | number;
   /**
-   * last frequency; auto: 30 k/h times the hottest ring's colour temperature; for a volume 30 times
-   * volume.frequency_ghz [Hz]; 0.001 to 1e+25.
+   * last frequency; auto: 30 k/h times the hottest ring's colour temperature; for a scene 30 times its frequency,
+   * for a disk at most 64 k/h times its largest colour temperature [Hz]; 0.001 to 1e+25.
    */
   frequency_max_hz?: 'auto' | number;
-  /** number of frequencies, at equal ratios; default 200, for a volume 13 and at most 200; 2 to 1000. */
+  /** number of frequencies, at equal ratios; default 200, for a scene 13 and at most 200; 2 to 1000. */
   frequencies?: number;
   /** frequencies, instead of frequency_min_hz, frequency_max_hz and frequencies [Hz]; up to 20001. */
   frequencies_hz?: number[];
@@ -1514,7 +1514,7 @@ export interface ImpulseRequest {
   time_min?: number;
   /** last edge of the bins of time [M]; -1000000 to 1000000. */
   time_max?: number;
-  /** number of bins of time, of equal width; 1 to 20000. */
+  /** number of bins of time, of equal width; 1 to 4096. */
   times?: number;
   /** mass of the hole [solar masses]; 1e-05 to 1e+12. */
   mass_msun?: number;
@@ -6872,7 +6872,7 @@ export interface Operations {
       'application/x-npz': Uint8Array;
     };
   };
-  /** The spectrum of a thin disk of black bodies, or of a scene's volume, in SI units. */
+  /** The spectrum of a thin disk of black bodies, or of a scene at one frequency, in SI units. */
   'POST /v1/spectrum': {
     takes: {
       body: SpectrumRequest;

@@ -69,13 +69,19 @@ kd_disk_row kd_disk_at(float w)
     return kd_disk_row(i, y - float(i));
 }
 
-/* Reflected light of the disk: a dilute black body. */
+/* Reflected light of the disk, a dilute black body: its temperature over the disk's largest, and its dilution. */
+vec2 kd_disk_dilute(float w)
+{
+    kd_disk_row at = kd_disk_at(w);
+    vec2 light = mix(kd_table_row(disk, at.row).zw, kd_table_row(disk, at.row + 1u).zw, at.x);
+    return vec2(light.x, light.y * w * w * w);
+}
+
 vec3 kd_disk_reflected(kd_sample s, uint traits)
 {
-    kd_disk_row at = kd_disk_at(s.w);
-    vec2 light = mix(kd_table_row(disk, at.row).zw, kd_table_row(disk, at.row + 1u).zw, at.x);
+    vec2 light = kd_disk_dilute(s.w);
     float g = kd_orbit_shift(s.w, s.energy, s.momentum, traits);
-    return g > 0.0 ? light.y * s.w * s.w * s.w * kd_black_body(light.x * g, traits) : vec3(0.0); /* g may be NaN */
+    return g > 0.0 ? light.y * kd_black_body(light.x * g, traits) : vec3(0.0); /* g may be NaN */
 }
 
 /* Light of the disk's surface of the temperature t, by its atmosphere. */

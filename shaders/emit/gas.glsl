@@ -159,8 +159,12 @@ kd_glow kd_gas_glow(kd_sample s)
     kd_gas gas = kd_disk_gas(s, TRAITS_gas);
     float more = KD_GAS_TAKEN > 0u ? exp(kd_gas_excess(s)) : 1.0;
     if ((TRAITS_gas & KD_TRAIT_GAS_DEEP) != 0u) {
-        float t = gas.t / kd_orbit_shift(s.w, s.energy, s.momentum, TRAITS_gas), t2 = t * t;
-        float taken = 1.0 - exp(-emission.gas.depth * t2 * t2 * more / max(s.cosine, 1e-6));
+        float t = gas.t / kd_orbit_shift(s.w, s.energy, s.momentum, TRAITS_gas), t2 = t * t, flux = t2 * t2;
+        if ((TRAITS_gas & KD_TRAIT_REFLECTED) != 0u) { /* the depth goes with all of the flux */
+            vec2 light = kd_disk_dilute(s.w), square = light * light;
+            flux += light.y * square.x * square.x;
+        }
+        float taken = 1.0 - exp(-emission.gas.depth * flux * more / max(s.cosine, 1e-6));
         gas.alpha = gas.alpha > 0.0 ? gas.alpha * taken : 0.0; /* elsewhere g may be NaN: inside the photon orbit */
     }
     gas.t *= sqrt(sqrt(more));

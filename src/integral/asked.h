@@ -94,7 +94,7 @@ struct kd_integral_request {
 static inline bool kd_integral_is_pictured(enum kd_integral what) { return what >= KD_INTEGRAL_VOLUME; }
 static inline bool kd_integral_is_mapped(enum kd_integral what) { return what >= KD_INTEGRAL_VISIBILITY; }
 
-/* Whether a field of a checked request may be left open: NAN, null in the answer. */
+/* Whether a field of a checked request may be left open: NAN, its word in the answer. */
 static inline bool kd_integral_leaves_open(enum kd_integral what)
 {
     return kd_integral_is_mapped(what) || what == KD_INTEGRAL_LAGS;

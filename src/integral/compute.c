@@ -234,7 +234,7 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                              { "error", "M", "estimated error of the lag", false } },
                            echo_sources,
                            echo_approximations },
-    [KD_INTEGRAL_VOLUME] = { "spectrum of a scene's volume, with one picture for each frequency",
+    [KD_INTEGRAL_VOLUME] = { "spectrum of a scene at one frequency, with one picture for each frequency",
                              { { "width", "pixels", "of each picture" },
                                { "height", "pixels", "of each picture" },
                                { "error", "1", "largest value of the column error" } },
@@ -525,15 +525,15 @@ static enum kd_status compute_spectrum(const struct kd_integral_request *r, cons
     struct kd_disk_spectrum_params params = { r->inner,       r->outer,    r->mass_msun,
                                               r->distance_pc, r->mdot_edd, r->colour_correction,
                                               r->limb,        NULL };
-    struct kd_returning *table = NULL;
+    struct kd_returning *table = NULL; /* of scattered light it is only checked that its energies balance */
     const struct kd_hole *const hole = kd_integral_hole(r);
     const double hottest = fmax(r->inner, kd_disk_peak_page_thorne(hole)), distance = r->distance_pc * KD_PARSEC_M;
     enum kd_status status;
     KD_TRY(kd_integral_make_columns(answer, r->frequencies, error));
     double *const *c = answer->columns;
-    if (r->returning == KD_INTEGRAL_ABSORBED)
+    if (r->returning)
         KD_TRY(returning_of(r, &table, error));
-    params.returning = table;
+    params.returning = r->returning == KD_INTEGRAL_ABSORBED ? table : NULL;
     KD_TRY(
         kd_disk_spectrum(image, &params, r->frequencies_hz.at, (int)r->frequencies, c[1], &answer->values[3], error));
     for (size_t i = 0; i < r->frequencies; i++) {

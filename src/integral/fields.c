@@ -140,7 +140,7 @@ const struct kd_row kd_integral_fields[] = {
             "edges of the bins in ascending order, instead of energy_min, energy_max and bins", .fewest = 2),
     REAL(time_min, "M", -1e6, 1e6, IMPULSE, "first edge of the bins of time, after the direct light's mean arrival"),
     REAL(time_max, "M", -1e6, 1e6, IMPULSE, "last edge of the bins of time"),
-    INT(times, 1, KD_INTEGRAL_ROWS, IMPULSE, "number of bins of time, of equal width"),
+    INT(times, 1, KD_INTEGRAL_TIMES, IMPULSE, "number of bins of time, of equal width"),
     REAL(frequency_min, "c^3/GM", 1e-9, 10, LAGS, "first Fourier frequency"),
     REAL(frequency_max, "c^3/GM", 1e-9, 10, LAGS, "last Fourier frequency"),
     { .name = "frequencies",
@@ -185,13 +185,13 @@ const struct kd_row kd_integral_fields[] = {
          "yes: degree and angle of the polarisation of a deep atmosphere of free electrons, for which limb must be "
          "\"scattering\""),
     OR_WORD(frequency_min_hz, "Hz", 1e-3, 1e25, "auto", SPECTRUM | VOLUME,
-            "first frequency; auto: 0.001 k/h times the hottest ring's colour temperature; for a volume 1/30 of "
-            "volume.frequency_ghz"),
+            "first frequency; auto: 0.001 k/h times the hottest ring's colour temperature; for a scene 1/30 of "
+            "its frequency"),
     OR_WORD(frequency_max_hz, "Hz", 1e-3, 1e25, "auto", SPECTRUM | VOLUME,
-            "last frequency; auto: 30 k/h times the hottest ring's colour temperature; for a volume 30 times "
-            "volume.frequency_ghz"),
+            "last frequency; auto: 30 k/h times the hottest ring's colour temperature; for a scene 30 times "
+            "its frequency, for a disk at most 64 k/h times its largest colour temperature"),
     INT(frequencies, 2, KD_INTEGRAL_FREQUENCIES, SPECTRUM | VOLUME,
-        "number of frequencies, at equal ratios; default 200, for a volume 13 and at most 200"),
+        "number of frequencies, at equal ratios; default 200, for a scene 13 and at most 200"),
     NUMBERS(frequencies_hz, "Hz", 1e-3, 1e25, SPECTRUM | VOLUME,
             "frequencies, instead of frequency_min_hz, frequency_max_hz and frequencies"),
     NUMBERS(u, "Gl", -1e15, 1e15, VISIBILITY,

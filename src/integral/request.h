@@ -15,6 +15,7 @@
 #include <stdint.h>
 
 #define KD_INTEGRAL_BODY_MAX ((size_t)1 << 20) /* maximum size of a document */
+#define KD_INTEGRAL_TIMES 4096u                /* maximum bins of time of an echo */
 #define KD_INTEGRAL_ROWS 20000u                /* maximum rows of an answer */
 #define KD_INTEGRAL_LIST 20001u                /* maximum length of a list */
 #define KD_INTEGRAL_TRANSFERS 5000u            /* maximum rows of a transfer function: 0.1 ms each */

@@ -309,7 +309,6 @@ static enum kd_status height(const struct kd_scene *scene, struct kd_error *erro
                           show(scene->disk.height).text);
 }
 
-/* The light of a thick disk is integrated along rays: it has no surface. */
 static enum kd_status disk_frequency(const struct kd_scene *scene, struct kd_error *error)
 {
     if (!kd_scene_has_disk_frequency(scene) || scene->disk.frequency_ghz <= kd_scene_disk_most_ghz(scene))
@@ -321,6 +320,7 @@ static enum kd_status disk_frequency(const struct kd_scene *scene, struct kd_err
                           show(floor(kd_scene_disk_most_ghz(scene) * 1e9) * 1e-9).text, KD_DISK_QUANTA);
 }
 
+/* The light of a thick disk is integrated along rays: it has no surface. */
 static enum kd_status atmosphere(const struct kd_scene *scene, struct kd_error *error)
 {
     if (!scene->disk.atmosphere || scene->disk.height == 0)

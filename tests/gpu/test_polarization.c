@@ -364,13 +364,43 @@ static void test_returning(void **state)
     }
 }
 
+/* The optical depth of gas goes with its flux, which reflection leaves as it is: with any albedo the disk is as bright.
+ */
+static void test_depth_of_reflecting_gas(void **state)
+{
+    (void)state;
+    static const char *const words[2] = { "thermalised", "reflected" };
+    struct kd_frame frames[2];
+    for (int i = 0; i < 2; i++) {
+        struct kd_scene scene = scene_of(&views[3], "intensity_0");
+        OK(kd_scene_set(&scene, "disk.emission_opacity", "3", &error));
+        OK(kd_scene_set(&scene, "disk.returning", words[i], &error));
+        OK(kd_scene_set(&scene, "disk.albedo", "1", &error));
+        frames[i] = frame_of(&scene);
+    }
+    int compared = 0;
+    double worst = 0;
+    for (int k = 0; k < PIXELS; k++) {
+        const double want = (double)layer(&frames[0], "intensity_0")[k],
+                     got = (double)layer(&frames[1], "intensity_0")[k];
+        if (want > 0)
+            worst = fmax(worst, fabs(got / want - 1)), compared++;
+    }
+    printf("depth of reflecting gas: %d pixels, brightness off by %.1e\n", compared, worst);
+    assert_true(compared >= 60 && worst < 5e-4);
+    kd_frame_finish(&frames[0]);
+    kd_frame_finish(&frames[1]);
+}
+
 int main(void)
 {
     int status = open_renderer();
     if (status)
         return status;
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_evpa), cmocka_unit_test(test_stokes),
-                                        cmocka_unit_test(test_face_on), cmocka_unit_test(test_atmosphere),
-                                        cmocka_unit_test(test_returning) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_evpa),      cmocka_unit_test(test_stokes),
+        cmocka_unit_test(test_face_on),   cmocka_unit_test(test_atmosphere),
+        cmocka_unit_test(test_returning), cmocka_unit_test(test_depth_of_reflecting_gas)
+    };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

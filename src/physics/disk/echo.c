@@ -124,7 +124,7 @@ struct sum {
     const double *edges;
     double first, step;
     size_t bins, times;
-    double *in, *row;
+    double *in, *row, *steps; /* steps: differences of `row` from one time to the next, times + 1 */
 };
 
 static size_t first_bin(const double *edges, size_t n, double x)
@@ -158,12 +158,17 @@ static struct touched spread(struct sum *s, double light, double from, double to
     if (!(high >= 0 && low < last))
         return (struct touched) { s->times, 0 };
     const struct touched at = { low > 0 ? (size_t)low : 0, high < last ? (size_t)high + 1 : s->times };
+    const size_t end = at.end - 1;
     const double density = light / fmax(high - low, 1e-9);
-    if (high - low < 1e-9)
+    if (high - low < 1e-9) {
         s->row[at.first] += light;
-    else
-        for (size_t k = at.first; k < at.end; k++)
-            s->row[k] += density * (fmin(high, (double)k + 1) - fmax(low, (double)k));
+        return at;
+    }
+    s->row[at.first] += density * (fmin(high, (double)at.first + 1) - fmax(low, (double)at.first));
+    if (end > at.first) {
+        s->row[end] += density * (fmin(high, (double)at.end) - (double)end);
+        s->steps[at.first + 1] += density, s->steps[end] -= density;
+    }
     return at;
 }
 
@@ -198,6 +203,11 @@ static void add_part(const struct view *view, const struct cell *c, size_t ring,
         }
         before = here, before_part = bright;
     }
+    double level = 0;
+    for (size_t k = all.first; k < all.end; k++) {
+        level += s->steps[k], s->steps[k] = 0;
+        s->row[k] += level;
+    }
     for (size_t i = first_bin(s->edges, s->bins, g - wide); i < s->bins && s->edges[i] <= g + wide; i++) {
         const double share = overlap(g - wide, g + wide, s->edges, i);
         for (size_t k = all.first; k < all.end; k++)
@@ -220,7 +230,7 @@ static void add_all(const struct view *view, double zero, int skip, struct sum *
     for (int i = 0; i < RINGS; i += skip)
         for (int j = 0; j < AROUND; j += skip) {
             const struct cell cell = cell_of(view, i, j, skip);
-            kd_pause_every((uint64_t)(j / skip), 4);
+            kd_pause_every((uint64_t)(j / skip), 1);
             for (int x = 0; x < FINER; x++)
                 for (int y = 0; y < FINER; y++)
                     add_part(view, &cell, (size_t)i, (size_t)skip, zero, (x + 0.5) / FINER, (y + 0.5) / FINER, s);
@@ -256,14 +266,16 @@ enum kd_status kd_echo_impulse(const struct kd_disk_image *image, const struct k
                                struct kd_echo *echo, struct kd_error *error)
 {
     struct view view;
-    double *room = calloc((bins + 1) * times, sizeof *room);
-    struct sum fine = { 0, 0, edges, first, step, bins, times, share, room }, rough = fine;
+    double *room = calloc((bins + 2) * times + 1, sizeof *room);
+    struct sum fine = { 0, 0, edges, first, step, bins, times, share, room, NULL }, rough;
     enum kd_status status;
     memset(share, 0, bins * times * sizeof *share);
     *echo = (struct kd_echo) { .error = NAN };
     KD_TRY(make_view(image, params, &view, echo, error));
     if (!room)
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for %zu bins", bins * times));
+    fine.steps = room + (bins + 1) * times;
+    rough = fine;
     rough.in = room + times;
     add_all(&view, echo->direct.time, 1, &fine);
     add_all(&view, echo->direct.time, 2, &rough);

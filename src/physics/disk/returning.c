@@ -10,6 +10,7 @@
 
 #include <math.h>
 #include <pthread.h>
+#include <stdint.h>
 #include <string.h>
 
 enum {
@@ -514,21 +515,47 @@ static void make(struct kd_returning *table, const struct kd_hole *hole, enum kd
     find_hottest(table);
 }
 
-/* The last tables. */
-enum { KEPT = 8 };
-static struct kd_returning kept[KEPT];
-static unsigned next_kept;
+/* The tables that were used last, and the largest fluxes of more of them. used: 0 for an entry without a table. */
+enum { KEPT = 8, LARGEST = 256 };
+static struct kept {
+    struct kd_returning table;
+    uint64_t used;
+} kept[KEPT];
+static struct largest {
+    struct kd_hole hole;
+    enum kd_limb limb;
+    double flux;
+} largest[LARGEST];
+static uint64_t uses;
+static unsigned next_largest;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+static bool is_same(const struct kd_hole *a, enum kd_limb of_a, const struct kd_hole *b, enum kd_limb of_b)
+{
+    return a->a == b->a && a->q == b->q && of_a == of_b;
+}
 
 static bool recall(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
 {
     bool found = false;
     pthread_mutex_lock(&lock);
     for (int i = 0; i < KEPT && !found; i++)
-        if (kept[i].steps && kept[i].hole.a == hole->a && kept[i].hole.q == hole->q && kept[i].limb == limb)
-            *table = kept[i], found = true;
+        if (kept[i].used && is_same(&kept[i].table.hole, kept[i].table.limb, hole, limb))
+            *table = kept[i].table, kept[i].used = ++uses, found = true;
     pthread_mutex_unlock(&lock);
     return found;
+}
+
+static void keep(const struct kd_returning *table)
+{
+    int oldest = 0;
+    pthread_mutex_lock(&lock);
+    for (int i = 1; i < KEPT; i++)
+        if (kept[i].used < kept[oldest].used)
+            oldest = i;
+    kept[oldest] = (struct kept) { *table, ++uses };
+    largest[next_largest++ % LARGEST] = (struct largest) { table->hole, table->limb, table->largest };
+    pthread_mutex_unlock(&lock);
 }
 
 void kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
@@ -536,9 +563,22 @@ void kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, e
     if (recall(table, hole, limb))
         return;
     make(table, hole, limb);
+    keep(table);
+}
+
+double kd_returning_largest(const struct kd_hole *hole, enum kd_limb limb)
+{
+    double flux = 0;
     pthread_mutex_lock(&lock);
-    kept[next_kept++ % KEPT] = *table;
+    for (int i = 0; i < LARGEST && !(flux > 0); i++)
+        if (largest[i].flux > 0 && is_same(&largest[i].hole, largest[i].limb, hole, limb))
+            flux = largest[i].flux;
     pthread_mutex_unlock(&lock);
+    if (flux > 0)
+        return flux;
+    struct kd_returning table;
+    kd_returning_init(&table, hole, limb);
+    return table.largest;
 }
 
 double kd_returning_at(const struct kd_returning *table, const double list[N], double r)

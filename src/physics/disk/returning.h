@@ -82,8 +82,10 @@ struct kd_returning {
 /* Error of the energy balance from which answers are refused: at 1 - |a| of some 1e-9. */
 #define KD_RETURNING_WRONG 1e-2
 
-/* Takes 0.1 to 0.3 s on one core; idle cores help. The last 8 are kept and copied. */
+/* Takes 0.1 to 0.3 s on one core; idle cores help. The 8 that were used last are kept and copied. */
 void kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb);
+/* The member `largest` of that table. The values of the last 256 tables are kept, and take no time. */
+double kd_returning_largest(const struct kd_hole *hole, enum kd_limb limb);
 
 /* F at r >= ISCO; and one of the table's lists at r, divided by r^3. */
 double kd_returning_flux(const struct kd_returning *table, double r);

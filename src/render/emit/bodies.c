@@ -121,10 +121,9 @@ static struct kd_seen_body *listed(const struct kd_scene *scene, size_t *n)
 /* Whether some bodies reflect light of the disk, and the scene has a disk. */
 static bool is_lit(const struct kd_scene *scene)
 {
-    struct kd_illumination lit;
     for (size_t i = 0; scene->dynamic.at && i < scene->dynamic.at->n; i++)
         if (scene->dynamic.at->bodies[i].albedo > 0)
-            return kd_illumination_of(scene, &lit);
+            return kd_illumination_exists(scene);
     return false;
 }
 

@@ -22,12 +22,13 @@ struct kd_bodies_view {
     const struct kd_illumination *lit;
 }; /* lit: NULL if the disk does not illuminate the bodies */
 
-/* kd_illumination_of: prepares the disk as a light source for bodies (bodies_illumination.c). False if the scene has no
- * thin disk. */
+/* kd_illumination_exists: whether the scene has a thin disk. kd_illumination_of: if so, prepares the disk as a light
+ * source for bodies (bodies_illumination.c), else returns false. */
 enum { KD_LIT_RINGS = 16, KD_LIT_PLACES = 24 };
 struct kd_illumination {
     struct kd_illumination_ring { double r, t, light, lapse, velocity; } rings[KD_LIT_RINGS];
 };
+bool kd_illumination_exists(const struct kd_scene *scene);
 bool kd_illumination_of(const struct kd_scene *scene, struct kd_illumination *out);
 /* The light that a body reflects, in the kernels' layout; 3 us. lapse: at the body's position. */
 void kd_illumination_body(const struct kd_illumination *lit, const struct kd_seen_body *body, double lapse,

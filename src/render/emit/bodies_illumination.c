@@ -18,14 +18,23 @@
 #include <math.h>
 #include <string.h>
 
+bool kd_illumination_exists(const struct kd_scene *scene)
+{
+    return scene->disk.model != KD_DISK_NONE && !(scene->disk.height > 0);
+}
+
 bool kd_illumination_of(const struct kd_scene *scene, struct kd_illumination *out)
 {
     const struct kd_hole *const hole = kd_scene_hole(scene);
     const double inner = kd_disk_inner(scene), outer = scene->disk.outer, step = log(outer / inner) / KD_LIT_RINGS;
-    if (scene->disk.model == KD_DISK_NONE || scene->disk.height > 0)
+    double radii[KD_LIT_RINGS], heats[KD_LIT_RINGS];
+    if (!kd_illumination_exists(scene))
         return false;
+    for (int i = 0; i < KD_LIT_RINGS; i++)
+        radii[i] = inner * exp(step * (i + 0.5));
+    kd_disk_heats(scene, KD_LIT_RINGS, radii, heats);
     for (int i = 0; i < KD_LIT_RINGS; i++) {
-        const double r = inner * exp(step * (i + 0.5)), t = kd_disk_heat(scene, r);
+        const double r = radii[i], t = heats[i];
         const struct kd_metric_scalars m = kd_metric_at(hole, r, 0);
         const double along = sqrt(m.area) / r, lapse = sqrt(m.lapse2);
         out->rings[i] = (struct kd_illumination_ring) {

@@ -74,16 +74,19 @@ double kd_disk_peak_temperature(const struct kd_scene *scene)
 {
     if (scene->disk.colour == KD_COLOUR_PEAK)
         return scene->disk.peak_temperature_k;
-    const struct profile p = profile_of(scene);
-    return kd_disk_temperature(p.largest, &p.hole, scene->spacetime.mass_msun, scene->disk.mdot_edd);
+    const struct kd_hole *hole = kd_scene_hole(scene);
+    const double flux = scene->disk.returning ? kd_returning_largest(hole, limb_of(scene)) : profile_of(scene).largest;
+    return kd_disk_temperature(flux, hole, scene->spacetime.mass_msun, scene->disk.mdot_edd);
 }
 
-double kd_disk_heat(const struct kd_scene *scene, double r)
+void kd_disk_heats(const struct kd_scene *scene, size_t n, const double r[], double out[])
 {
     const struct profile p = profile_of(scene);
-    const double f = fmin(fmax((scene->disk.outer - r) / fmax(scene->disk.outer * scene->disk.taper, 1e-6), 0), 1),
-                 fade = f * f * (3 - 2 * f);
-    return r > kd_kerr_isco(&p.hole) ? pow(scene->disk.opacity * fade * flux_at(&p, r) / p.largest, 0.25) : 0;
+    const double isco = kd_kerr_isco(&p.hole), wide = fmax(scene->disk.outer * scene->disk.taper, 1e-6);
+    for (size_t i = 0; i < n; i++) {
+        const double f = fmin(fmax((scene->disk.outer - r[i]) / wide, 0), 1), fade = f * f * (3 - 2 * f);
+        out[i] = r[i] > isco ? pow(scene->disk.opacity * fade * flux_at(&p, r[i]) / p.largest, 0.25) : 0;
+    }
 }
 
 double kd_disk_inner(const struct kd_scene *scene)

@@ -152,9 +152,15 @@ uint32_t kd_orbit_needs(const struct kd_scene *scene);
 unsigned kd_orbit_varies(const struct kd_scene *scene);
 /* The largest effective temperature of the disk, in K in the gas's own frame; with light that returns. */
 double kd_disk_peak_temperature(const struct kd_scene *scene);
-/* The temperature of a black body as bright as the smooth disk at r, including fade and opacity, relative to
- * kd_disk_peak_temperature. */
-double kd_disk_heat(const struct kd_scene *scene, double r);
+/* Temperatures of black bodies as bright as the smooth disk at n radii r, including fade and opacity, relative to
+ * kd_disk_peak_temperature. Makes a table of 0.1 to 0.3 s if light returns, so not for a thread that holds a lock. */
+void kd_disk_heats(const struct kd_scene *scene, size_t n, const double r[], double out[]);
+static inline double kd_disk_heat(const struct kd_scene *scene, double r)
+{
+    double heat;
+    kd_disk_heats(scene, 1, &r, &heat);
+    return heat;
+}
 /* The inner edge of the disk, M. */
 double kd_disk_inner(const struct kd_scene *scene);
 /* Fill in the colours and the luminous efficiency of black bodies. They do not depend on the scene; 15 ms each. */

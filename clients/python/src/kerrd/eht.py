@@ -58,7 +58,7 @@ def to_ehtim(
     """An ehtim.image.Image of a frame that was rendered with the layer "jy_per_pixel".
 
     Pixels are in Jy. Orientation: that of the picture, north up and east left. Size: by the scene's mass and distance.
-    Frequency: volume.frequency_ghz. With the layers "intensity", "stokes_q" and "stokes_u" (and "stokes_v") the image
+    Frequency: volume.frequency_ghz, without a volume disk.frequency_ghz. With the layers "intensity", "stokes_q" and "stokes_u" (and "stokes_v") the image
     is polarised.
 
     source: name of the source; ra: right ascension in hours; dec: declination in degrees; mjd: modified Julian date in
@@ -97,7 +97,7 @@ def to_ehtim(
         wide / flux.shape[1],
         told["ra_deg"] / 15 if ra is None else ra,
         told["dec_deg"] if dec is None else dec,
-        rf=1e9 * scene["volume"]["frequency_ghz"],
+        rf=1e9 * scene["disk" if scene["volume"]["model"] == "none" else "volume"]["frequency_ghz"],
         source=source or NAMES.get(told.get("name", "none"), "hole"),
         mjd=int(day),
         time=24 * (day - int(day)),

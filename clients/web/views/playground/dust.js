@@ -39,10 +39,12 @@ export class Dust {
       const right = x - 0.5 - left,
         low = y - 0.5 - top;
       for (let k = 0; k < 4; k++) {
-        const pixel = (top + (k >> 1)) * w + left + (k & 1),
+        const share = (k & 1 ? right : 1 - right) * (k >> 1 ? low : 1 - low),
+          pixel = (top + (k >> 1)) * w + left + (k & 1),
           to = stages.length * pixel;
+        if (!share) continue;
         if (!(pieces[to] || pieces[to + 1] || pieces[to + 2])) lit.push(pixel);
-        pieces[to + stage] += (k & 1 ? right : 1 - right) * (k >> 1 ? low : 1 - low);
+        pieces[to + stage] += share;
       }
     }
     return lit;
