@@ -27,7 +27,8 @@ struct kd_line_params {
     enum kd_line_emissivity emissivity;
     double index;                /* POWER and BROKEN: epsilon = r^-index, for BROKEN up to break_r */
     double outer_index, break_r; /* BROKEN: (r/break_r)^-outer_index beyond, continuous */
-    /* The others: epsilon is proportional to the received light, that of a lamp at a height or of a corona. */
+    /* LAMPPOST, RING, DISK and SLAB: epsilon is proportional to the light that the disk receives from a lamp at
+     * `height` or from the corona. */
     double height, photon_index;
     struct kd_corona_shape corona;
     enum kd_limb limb;

@@ -411,8 +411,8 @@ static float filled(const struct kd_matter_grid *g, const float *nodes, size_t i
     return n ? (float)exp2(sum / n) : nodes[KD_MATTER_FLOATS * i + TEMPERATURE];
 }
 
-/* Divides azimuthal components by sin^2 theta, with which they fall near the axis. On the axis the result is the
- * neighbour's. */
+/* Stores azimuthal components divided by sin^2 theta: near the axis they fall as sin^2 theta. Nodes on the axis get the
+ * quotient of the node beside them. */
 static void over_sine(struct kd_matter_reader *r)
 {
     static const int kind[] = { VELOCITY + 2, FIELD + 2 };
