@@ -532,7 +532,8 @@ enum kd_status kd_matter_reader_open(const void *data, size_t size, bool look, s
     r->look = look;
     if ((status = kd_unzip_open(data, size, &r->zip, &why)))
         KD_TRY(status == KD_EINVAL
-                   ? kd_error_set(error, KD_EINVAL, "a grid of matter is an NPZ file of arrays: %s", why.message)
+                   ? kd_error_set(error, KD_EINVAL, "the file is not a grid of matter (an NPZ file of arrays): %s",
+                                  why.message)
                    : kd_matter_no_memory(error));
     KD_TRY(take_header(r, error));
     KD_TRY(take_places(r, error));
