@@ -57,22 +57,22 @@ vec3 kd_black_body(float t, uint traits)
 }
 
 /* Place in the table of the disk: row, and share of the way to the next. */
-struct kd_disk_place {
+struct kd_disk_row {
     uint row;
     float x;
 };
 
-kd_disk_place kd_disk_at(float w)
+kd_disk_row kd_disk_at(float w)
 {
     float y = sqrt(max(1.0 - emission.frame.r_isco * w, 0.0)) * float(KD_DISK_TABLE - 1);
     uint i = min(uint(y), KD_DISK_TABLE - 2);
-    return kd_disk_place(i, y - float(i));
+    return kd_disk_row(i, y - float(i));
 }
 
 /* Reflected light of the disk: a dilute black body. */
 vec3 kd_disk_reflected(kd_sample s, uint traits)
 {
-    kd_disk_place at = kd_disk_at(s.w);
+    kd_disk_row at = kd_disk_at(s.w);
     vec2 light = mix(kd_table_row(disk, at.row).zw, kd_table_row(disk, at.row + 1u).zw, at.x);
     float g = kd_orbit_shift(s.w, s.energy, s.momentum, traits);
     return g > 0.0 ? light.y * s.w * s.w * s.w * kd_black_body(light.x * g, traits) : vec3(0.0); /* g may be NaN */
@@ -97,7 +97,7 @@ vec3 kd_disk_surface(float t, kd_sample s, uint traits)
 /* T r^(3/4) at r = 1/w, with T relative to the disk's largest. */
 float kd_disk_heat(float w)
 {
-    kd_disk_place at = kd_disk_at(w);
+    kd_disk_row at = kd_disk_at(w);
     vec4 row = kd_table_row(disk, at.row);
     return row.x + at.x * row.y;
 }

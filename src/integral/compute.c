@@ -502,8 +502,8 @@ static enum kd_status add_stokes(const struct kd_integral_request *r, const stru
     for (size_t i = 0; i < r->frequencies; i++)
         most = fmax(most, c[1][i]);
     for (size_t i = 0; i < r->frequencies; i++) {
-        const struct kd_stokes direct = kd_disk_stokes_at(stokes, stokes->direct, c[0][i]),
-                               scattered = kd_disk_stokes_at(stokes, stokes->scattered, c[0][i]);
+        const struct kd_disk_iqu direct = kd_disk_stokes_at(stokes, stokes->direct, c[0][i]),
+                                 scattered = kd_disk_stokes_at(stokes, stokes->scattered, c[0][i]);
         const double q = direct.q + scattered.q, u = direct.u + scattered.u;
         if (c[1][i] > 1e-6 * most)
             off = fmax(off, fabs(direct.i / c[1][i] - 1));

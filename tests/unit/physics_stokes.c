@@ -286,8 +286,8 @@ static void judge(double a, double inclination, long count)
     for (int both = 0; both < 2; both++)
         for (int e = 0; e < ENERGIES; e++) {
             const double hz = kev[e] * 1e3 * 1.602176634e-19 / KD_H_J_S;
-            const struct kd_stokes one = kd_disk_stokes_at(stokes, stokes->direct, hz),
-                                   two = kd_disk_stokes_at(stokes, stokes->scattered, hz);
+            const struct kd_disk_iqu one = kd_disk_stokes_at(stokes, stokes->direct, hz),
+                                     two = kd_disk_stokes_at(stokes, stokes->scattered, hz);
             const double i = one.i + both * two.i, q = 100 * (one.q + both * two.q) / i,
                          u = 100 * (one.u + both * two.u) / i;
             double mq[BATCHES], mu[BATCHES], q_mean, u_mean;

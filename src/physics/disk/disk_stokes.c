@@ -237,7 +237,7 @@ static void go_to_ring(struct work *w, double r)
     kd_pause();
 }
 
-static void add(struct kd_stokes *nodes, double place, struct kd_stokes light)
+static void add(struct kd_disk_iqu *nodes, double place, struct kd_disk_iqu light)
 {
     double weight[4];
     const int first = weigh(place, weight);
@@ -276,7 +276,7 @@ static void add_place(void *user, const struct kd_disk_place *place)
         const double light = place->area * kd_limb_at(w->p->limb, m.n[2]) * kd_limb_scale(w->p->limb),
                      q = -light * fraction_at(&w->atmosphere, m.n[2]);
         add(w->out->direct, place_of(0.25 * log(flux / w->mirror.largest) + log(g)),
-            (struct kd_stokes) { light, q * creal(turn), q * cimag(turn) });
+            (struct kd_disk_iqu) { light, q * creal(turn), q * cimag(turn) });
     }
     if (!w->scattered)
         return;
@@ -296,8 +296,8 @@ static void add_place(void *user, const struct kd_disk_place *place)
     for (int k = w->first; k <= w->last; k++) {
         const double q = light[0][k] - light[1][k], u = side * light[2][k];
         add(w->out->scattered, k + log(g) / STEP,
-            (struct kd_stokes) { light[0][k] + light[1][k], q * creal(turn) - u * cimag(turn),
-                                 q * cimag(turn) + u * creal(turn) });
+            (struct kd_disk_iqu) { light[0][k] + light[1][k], q * creal(turn) - u * cimag(turn),
+                                   q * cimag(turn) + u * creal(turn) });
     }
 }
 
@@ -338,10 +338,10 @@ enum kd_status kd_disk_stokes_init(struct kd_disk_stokes *stokes, const struct k
     return KD_OK;
 }
 
-struct kd_stokes kd_disk_stokes_at(const struct kd_disk_stokes *stokes, const struct kd_stokes nodes[KD_STOKES_NODES],
-                                   double frequency)
+struct kd_disk_iqu kd_disk_stokes_at(const struct kd_disk_stokes *stokes,
+                                     const struct kd_disk_iqu nodes[KD_STOKES_NODES], double frequency)
 {
-    struct kd_stokes sum = { 0, 0, 0 };
+    struct kd_disk_iqu sum = { 0, 0, 0 };
     const double planck = 2 * KD_H_J_S * frequency * frequency * frequency / (KD_C_M_S * KD_C_M_S) * stokes->scale;
     for (int k = 0; k < KD_STOKES_NODES; k++) {
         const double light =

@@ -18,11 +18,11 @@
 
 enum { KD_STOKES_NODES = 640 };
 
-struct kd_stokes { double i, q, u; }; /* IAU 1973: angles from north, the projected axis of the disk, to the east */
+struct kd_disk_iqu { double i, q, u; }; /* IAU 1973: angles from north, the projected axis of the disk, to the east */
 
 struct kd_disk_stokes {
     double hottest_k, scale; /* colour temperature at ln T = 0; unit of fluxes */
-    struct kd_stokes direct[KD_STOKES_NODES], scattered[KD_STOKES_NODES];
+    struct kd_disk_iqu direct[KD_STOKES_NODES], scattered[KD_STOKES_NODES];
 };
 
 /* params->limb must be KD_LIMB_SCATTERING. With params->returning the disk's flux includes the light that returns, and
@@ -32,7 +32,7 @@ enum kd_status kd_disk_stokes_init(struct kd_disk_stokes *stokes, const struct k
                                    struct kd_error *error);
 
 /* W m^-2 Hz^-1 at a frequency in Hz. */
-struct kd_stokes kd_disk_stokes_at(const struct kd_disk_stokes *stokes, const struct kd_stokes nodes[KD_STOKES_NODES],
-                                   double frequency);
+struct kd_disk_iqu kd_disk_stokes_at(const struct kd_disk_stokes *stokes,
+                                     const struct kd_disk_iqu nodes[KD_STOKES_NODES], double frequency);
 
 #endif
