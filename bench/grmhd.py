@@ -41,7 +41,7 @@ def write(kind, path, nodes):
 
 
 def convert(kind, folder, nodes, mass):
-    """Writes a dump and its grid: the grid's file, and the seconds that kerrd.matter and save took."""
+    """Writes a dump and converts it. Returns the grid's path and the seconds that kerrd.matter and save took."""
     dump, grid = str(folder / "dump"), str(folder / f"{kind}.npz")
     more = write(kind, dump, nodes)
     start = time.monotonic()
@@ -50,7 +50,7 @@ def convert(kind, folder, nodes, mass):
 
 
 def repeated(folder, nodes, mass):
-    """The torus by FMKS, of one layer that is repeated: a grid of many nodes without a dump of as many."""
+    """Writes a grid of many nodes without a dump of as many: repeats one layer of the torus in FMKS coordinates."""
     rows, columns, layers = nodes
     grid, _ = convert("fmks", folder, (rows, columns, 1), mass)
     with np.load(grid) as file:

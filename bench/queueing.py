@@ -5,12 +5,12 @@ Times are in seconds. Each part models:
     Shares     src/server/http/shares.c: which work is next, by client, by class, and within a class
     Server     src/server/render: the bounded queue, slices of long pictures and the lanes that they need, the encoders
     Balancer   docs/examples/haproxy.cfg: leastconn, maxconn, one queue, retries, servers that die, HAProxy's own time
-    visitor    a session: dragged, whose frames are as fine as the governor lets them be (src/render/live/governor.h),
-               and resting
+    visitor    a session, dragged and resting in turn; frames while it is dragged are as fine as the governor allows
+               (src/render/live/governor.h)
 
-Not modelled: memory, bodies and answers, the network, more than one client at a server (HAProxy is one). Needs simpy
-(pip install simpy). bench/queueing_check.py compares it with two real servers, tests/unit/queueing.py with closed
-forms; bench/queueing_scale.py extrapolates to a thousand.
+Not modelled: memory, the bodies of requests and answers, the network, more than one client of a server (HAProxy is
+one client). Needs simpy (pip install simpy). bench/queueing_check.py compares the model with two real servers, and
+tests/unit/queueing.py with closed forms; bench/queueing_scale.py extrapolates to a thousand servers.
 """
 
 import collections
@@ -21,7 +21,7 @@ import simpy
 
 WEIGHTS = {"live": 8, "picture": 4, "rays": 4, "refinement": 2, "job": 1}  # KD_CLASSES
 CREDIT = 0.2  # CREDIT_MS of shares.c
-MOMENT, SLICE = 0.1, 0.04  # KD_MOMENT_MS; a submission of a long picture
+MOMENT, SLICE = 0.1, 0.04  # KD_MOMENT_MS; device time of a submission of a long picture
 BRIEF, BRIEF_LANES, LANES = 3.0, 2, 8  # BRIEF_MS and BRIEF_LANES of device_scheduler.c, KD_BACKGROUND_RENDERS
 ENCODERS = 2  # KD_ENCODERS
 
@@ -32,9 +32,9 @@ class Refused(Exception):
 
 @dataclasses.dataclass(eq=False)
 class Work:
-    seconds: float  # of the device
-    estimate: float  # of the device, as its plan estimates them
-    encode: float = 0.0  # of an encoder, afterwards
+    seconds: float  # of device time
+    estimate: float  # seconds of device time by its plan's estimate
+    encode: float = 0.0  # seconds of an encoder, afterwards
     kind: str = "picture"
     client: str = "proxy"
     paid: float = 0.0  # state of the scheduler, from here on
@@ -116,8 +116,8 @@ class Shares:
 
 
 class Server:
-    """One device and its encoders. `limit`: --queue. `aside`: seconds of a request that need neither device nor
-    encoder, which serve others meanwhile."""
+    """One device and its encoders. `limit`: --queue. `aside`: seconds that a request takes without device and encoder,
+    which serve other requests meanwhile."""
 
     def __init__(self, env, limit=16, aside=0.0):
         self.env, self.limit, self.aside = env, limit, aside
@@ -203,9 +203,10 @@ class Server:
 
 
 class Balancer:
-    """HAProxy. A request goes to the server with the fewest connections, among these to the one that was used longest
-    ago. If each has `maxconn`, it waits in one queue for at most `patience`. A refused one goes to another server,
-    `retries` times. `own`: seconds of one of HAProxy's `cores` that a request takes."""
+    """HAProxy. A request goes to the server with the fewest connections; of several such servers, to the one that has
+    had this number for longest. If each server has `maxconn` connections, the request waits in one queue for at most
+    `patience` seconds. A refused request goes to another server, `retries` times at most. `own`: seconds that a request
+    takes on one of HAProxy's `cores`."""
 
     def __init__(self, env, servers, maxconn=2, patience=700.0, retries=5, own=0.0, cores=1):
         self.env, self.servers, self.maxconn, self.patience, self.retries, self.own = (
@@ -239,8 +240,8 @@ class Balancer:
         return None
 
     def take(self):
-        """An event with the server for a request, whose connection is counted from then on; None if the patience has
-        ended."""
+        """Returns an event. Its value is the server for a request, or None if the patience has ended.
+        The connection counts from then on."""
         turn = self.env.event()
         server = None if self.waiting else self._least()
         if server:
@@ -273,7 +274,7 @@ class Balancer:
                 yield self.env.timeout(self.own)
 
     def request(self, make):
-        """A process: a request for the work that make() returns. Its value: 200 or 503."""
+        """The process of a request for the work that make() returns. Its value is 200 or 503."""
         work = make()
         yield from self.passes()
         for _ in range(self.retries + 1):
@@ -298,13 +299,13 @@ class Balancer:
 
 @dataclasses.dataclass
 class Habits:
-    """Habits of a visitor, and the cost of the frames. Durations of strokes and of rests are exponential."""
+    """Habits of a visitor, and the cost of the frames. Durations of strokes and rests are distributed exponentially."""
 
     drag: float = 3.0  # mean seconds of a stroke
-    rest: float = 12.0  # mean seconds between two
-    pause: float = 0.001  # from a picture to the next request
+    rest: float = 12.0  # mean seconds between two strokes
+    pause: float = 0.001  # seconds from a picture to the next request
     frames: int = (
-        2  # frames for an input: the one under way when it comes, as time goes on by itself, and the one that shows it
+        2  # frames per input: the one that is under way when the input comes, and the one that shows the input
     )
     encode: float = 0.001
     floor: float = 0.010  # device seconds of the smallest frame
@@ -314,13 +315,14 @@ class Habits:
 
 
 def frame_seconds(habits, dragged):
-    """Device seconds of a frame of one of several dragged sessions: governor.h, target_ms 33 and sparse_ms 60."""
+    """Device seconds of a frame while `dragged` sessions are dragged: governor.h, target_ms 33 and sparse_ms 60."""
     share = 1 / dragged
     return min(max(habits.fill * share * min(0.033 / math.sqrt(share), 0.060), habits.floor), habits.full)
 
 
 def stroke(env, server, habits, seconds, log):
-    """A drag: a patch, frames until one shows it, the next patch. log: (when, seconds from input to picture)."""
+    """A drag: sends a patch, gets frames until one shows it, and sends the next patch.
+    log: (when, seconds from input to picture)."""
     server.dragged += 1
     end = env.now + seconds
     try:
@@ -349,7 +351,8 @@ def visitor(env, server, habits, rng, stay, log):
 
 
 def open_renders(env, balancer, arrivals, make, log):
-    """Requests at given times. make(k): the work of number k. log: (number, arrival, seconds to the answer, status)."""
+    """Sends requests at given times. make(k): the work of request k.
+    log: (number, arrival, seconds to the answer, status)."""
 
     def one(k, at):
         status = yield env.process(balancer.request(lambda: make(k)))

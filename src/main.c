@@ -30,9 +30,9 @@ static const struct kd_command *find(const char *name, struct argp_state *state)
         snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", kd_commands[i].name);
     }
     if (meant.name)
-        argp_error(state, "there is no command \"%s\"; did you mean %s? Known are %s", name, meant.name, known);
+        argp_error(state, "there is no command \"%s\"; did you mean %s? The commands are %s", name, meant.name, known);
     else
-        argp_error(state, "there is no command \"%s\"; known are %s", name, known);
+        argp_error(state, "there is no command \"%s\"; the commands are %s", name, known);
     return NULL;
 }
 

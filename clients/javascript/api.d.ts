@@ -5818,45 +5818,51 @@ export interface Operations {
         ranges?: string[];
         shape?: number[];
         values: {
-          /** share of the photons of the ring at r that fall on the disk. */
+          /** share of the photons of the ring at r that falls on the disk. */
           returns: number | null | (number | null)[];
-          /** share that falls into the hole. */
+          /** share of the ring's photons that falls into the hole. */
           falls_in: number | null | (number | null)[];
-          /** share that escapes to infinity. */
+          /** share of the ring's photons that escapes to infinity. */
           escapes: number | null | (number | null)[];
-          /** the same of the energy at infinity. */
+          /** share of the ring's light, by energy at infinity, that falls on the disk. */
           energy_returns: number | null | (number | null)[];
-          /** the same. */
+          /** share of the ring's light, by energy at infinity, that falls into the hole. */
           energy_falls_in: number | null | (number | null)[];
-          /** the same. */
+          /** share of the ring's light, by energy at infinity, that escapes. */
           energy_escapes: number | null | (number | null)[];
           /** F/Mdot of one face without returning light. */
           page_thorne: number | null | (number | null)[];
           /** F/Mdot of one face that absorbs the returning light and radiates it again. */
           flux: number | null | (number | null)[];
-          /** returning light; what else it adds to page_thorne is the work of stresses. */
+          /** F/Mdot of the light that returns; flux - page_thorne - received is the work of stresses. */
           received: number | null | (number | null)[];
-          /** effective temperature over that without returning light; null at the ISCO, where the latter is 0. */
+          /**
+           * effective temperature with returning light over the one without; null at the ISCO, where the one without is
+           * 0.
+           */
           temperature_ratio: number | null | (number | null)[];
           /** inner edge of the disk. */
           isco: number | null | (number | null)[];
-          /** share of the luminosity of the whole disk, without returning light, that falls on the disk again. */
+          /** share of the luminosity L of the whole disk, without returning light, that falls on the disk again. */
           disk_returns: number | null | (number | null)[];
-          /** share that falls into the hole. */
+          /** share of L that falls into the hole directly. */
           disk_falls_in: number | null | (number | null)[];
-          /** share that escapes. */
+          /** share of L that escapes directly. */
           disk_escapes: number | null | (number | null)[];
-          /** share of the luminosity that is in the hole after any number of returns. */
+          /** share of L that ends in the hole, directly or after any number of returns. */
           ends_in_hole: number | null | (number | null)[];
-          /** share that has escaped. */
+          /** share of L that ends at infinity, directly or after any number of returns. */
           ends_escaped: number | null | (number | null)[];
           /** 1 - E at the ISCO. */
           efficiency: number | null | (number | null)[];
-          /** that times ends_escaped. */
+          /** efficiency times ends_escaped. */
           efficiency_seen: number | null | (number | null)[];
           /** number of returns that are followed, to 1e-12. */
           iterations: number | null | (number | null)[];
-          /** relative error of the energy balance: of what arrives against what returns, and of both ends against 1. */
+          /**
+           * largest relative error of two checks: the energy that arrives over the energy that returns, and ends_in_hole
+           * + ends_escaped; both should be 1.
+           */
           error: number | null | (number | null)[];
         };
         units: {
@@ -5965,7 +5971,7 @@ export interface Operations {
         l?: number | string;
         /** azimuthal number, -l to l; m > 0 turns with a hole of positive spin; -4 to 4; default 2. */
         m?: number | string;
-        /** overtone, counted at spin 0; 0 decays slowest; 0 to 3; default 0. */
+        /** overtone number, as labelled at spin 0; n = 0 decays most slowly; 0 to 3; default 0. */
         n?: number | string;
         /**
          * spin parameter a; closer to 1, damped and undamped modes crowd together and l, n no longer label them
@@ -6698,7 +6704,7 @@ export interface Operations {
           energy_spread: number | null | (number | null)[];
           /** time t_fb until the first debris returns. */
           fallback_s: number | null | (number | null)[];
-          /** the same. */
+          /** t_fb in days. */
           fallback_days: number | null | (number | null)[];
           /** largest rate of fallback, m/(3 t_fb). */
           peak_msun_yr: number | null | (number | null)[];

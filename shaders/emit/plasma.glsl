@@ -10,7 +10,7 @@
 #define KD_BLOCK_plasma(F, U, A) \
     F(inner) F(outer)      /* M */ \
     F(frequency)           /* log2 of the observed frequency, GHz */ \
-    F(light) F(depth)      /* log2 of the units of kd_radiates per M of length: of light; of optical depth */ \
+    F(light) F(depth)      /* log2 of the units of light and of optical depth in kd_radiates, per M of length */ \
     F(gold_light) F(gold_depth) /* log2 of light and depth of a length M at density 1, at 230 GHz */ \
     F(gold_index) F(gold_flat) F(gold_momentum) \
     F(density) F(density_index) /* log2 of the density at r = 1 M, cm^-3; power of r at which it falls */ \
@@ -18,17 +18,17 @@
     F(steep)               /* distance from the axis over scale height; 0: no layer */ \
     F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3; power of r at which it falls */ \
     F(power_index) F(power_light) F(power_depth) /* numbers for a power law of electrons */ \
-    F(torus_momentum) F(torus_edge) F(torus_index) /* l; offset of ln h; density is h - 1 to this power */ \
+    F(torus_momentum) F(torus_edge) F(torus_index) /* angular momentum; offset of ln h; density: power of h - 1 */ \
     U(grid_rows) U(grid_columns) U(grid_layers) /* nodes in r, theta and phi; 1 layer: axisymmetric */ \
     U(grid_steps) U(grid_place_rows) /* cells in theta, and rows, of the table of uneven columns; 0: they are even */ \
     /* first coordinate in each direction (log2 for r), and nodes per unit of it */ \
     F(grid_r) F(grid_per_r) F(grid_theta) F(grid_per_theta) F(grid_phi) F(grid_per_phi) \
-    F(grid_fall)           /* a if the grid's phi is that of ingoing coordinates; else 0 */ \
+    F(grid_fall)           /* a if the grid's phi is an ingoing coordinate; else 0 */ \
     F(grid_field)          /* log2 of the unit of the grid's field, gauss */ \
     U(grid_packed)         /* 1: a node is one quad, else two */ \
     /* a packed node: least values and ranges of log2 of density and Theta; units of velocity and field */ \
     F(grid_density) F(grid_densities) F(grid_heat) F(grid_heats) F(grid_speed) F(grid_scale) \
-    F(kappa) F(kappa_width) /* a kappa distribution: log2(kappa - 3) is `kappa`; */ \
+    F(kappa) F(kappa_width) /* of a kappa distribution: `kappa` is log2(kappa - 3); */ \
     /* the other numbers are as in physics/disk/synchrotron.h */ \
     F(kappa_light_low) F(kappa_light_high) F(kappa_light_sharp) F(kappa_depth_low) F(kappa_depth_high) \
     F(kappa_depth_sharp)

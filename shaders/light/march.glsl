@@ -16,7 +16,7 @@
 /* Push constants, which differ between dispatches: the same kernel follows a sample of pixels more finely
  * (src/render/frame/march_error.c). */
 #define STEPS slice.steps /* per half period */
-#define FINE slice.fine   /* quarters of a stretch a grain */
+#define FINE slice.fine   /* resolution: a stretch is at most 4/FINE grains long */
 
 #include "ray/radial_step.glsl"
 #include "ray/escape.glsl"

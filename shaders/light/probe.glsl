@@ -15,8 +15,9 @@
  *                     emission angle, transmission in front; followed by KD_PROBE_MET_AT: w, u, azimuth, g
  *   KD_PROBE_POLARIZED for the place before it: Stokes Q and U of its light over I
  *   KD_PROBE_LOST      the ray was given up
- *   KD_PROBE_FRONT, KD_PROBE_WHOLE   the sum before the end, and the sum that includes it: light, transmission, the
- *                     steps and samples of the march, Stokes Q, U and V of volumes, and whether there are any */
+ *   KD_PROBE_FRONT     sums without what lies at the ray's end: light, transmission, steps and samples of the march,
+ *                     Stokes Q, U and V of volumes, and 1 if these were computed, else 0
+ *   KD_PROBE_WHOLE     the same sums with what lies at the ray's end */
 #ifndef KD_PROBE_GLSL
 #define KD_PROBE_GLSL
 

@@ -79,7 +79,7 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
     correction += 0.125 * kd_atan_small(y2);
     float c3 = c2 * c2 - k2 * s2 * s2, s3 = (1.0 + k2) * s2 * c2;
     float p3 = 0.5 * (p2 + q2), q3 = sqrt(p2 * q2), k3 = q3 / p3;
-    /* the arc tangent of this, to the last bit */
+    /* here the argument is so small that its arc tangent equals it in single precision */
     correction += 0.0625 * (k3 - 1.0) * s3 * c3 / (c3 * c3 + k3 * s3 * s3);
     float mean = 0.5 * (p3 + q3);
 #endif

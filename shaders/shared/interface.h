@@ -244,7 +244,7 @@
     U(block_row0) U(block_rows) /* blocks with pixels of the band */ \
     U(across)                /* invocations for a row of blocks */
 /* clang-format on */
-#define KD_BLOOM_TAPS 16 /* blocks along an axis that two cells may read, at most */
+#define KD_BLOOM_TAPS 16 /* maximum number of blocks along an axis that two cells read */
 /* clang-format off */
 #define KD_BLOOM_GATHER_FIELDS_(F, U) \
     U(pixels_x) U(pixels_y)  /* size of the picture */ \

@@ -126,10 +126,11 @@ static enum kd_status check(struct work *w, struct kd_error *error)
         if (!status && w->kind->frame == &kd_format_cubed)
             status = kd_cube_compare(&shape, i, &scene, &plan.picture, error);
         if (!status && (kd_plan_lens_group(&scene, &group) || kd_sweep_order_add(&w->order, group, 0)))
-            status = kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u scenes", w->sweep->scenes);
+            status =
+                kd_error_set(error, KD_ENOMEM, "out of memory for sorting %u scenes by lens map", w->sweep->scenes);
     }
     if (!status && kd_sweep_order_end(&w->order, &shared_ms))
-        status = kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u scenes", w->sweep->scenes);
+        status = kd_error_set(error, KD_ENOMEM, "out of memory for sorting %u scenes by lens map", w->sweep->scenes);
     return status;
 }
 

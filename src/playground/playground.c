@@ -249,8 +249,9 @@ void kd_playground_approximations(const struct kd_playground *p, struct kd_json 
         kd_json_string(json, NULL, "Bodies attract one another by Newton's law, softened and without delay.");
         kd_json_string(json, NULL, "Speeds are limited to c.");
         if (kd_playground_lost_momentum(p))
-            kd_json_string(json, NULL,
-                           "Bodies accelerated one another beyond c; the limit of their speeds removed momentum.");
+            kd_json_string(
+                json, NULL,
+                "Bodies accelerated one another to the speed limit c; limiting their speeds removed momentum.");
         if (s->waves)
             kd_json_string(json, NULL,
                            "The loss to gravitational waves is Peters' formula, of leading order: its power is 4 % too "

@@ -12,19 +12,17 @@
 #include <stddef.h>
 
 #define KD_WAVE_PAIRS_MAX \
-    256 /* limit of the bodies that are searched for pairs; if there are more, each radiates with \
-         * the hole alone */
+    256 /* maximum number of bodies searched for pairs; if there are more, each radiates with the hole alone */
 
 struct kd_playground_body;
 
 /* *a: the acceleration times `amplification`, limited to a tenth of m/r^2; true if it was limited. */
 bool kd_wave_reaction(double m1, double m2, const double x[3], const double v[3], double amplification, double a[3]);
 
-/* The same for a body of mass m that orbits the hole at x in its potential (hole.h), where a circular orbit has v^2
- * = r/(r - 2)^2 instead of 1/r. Speeds are scaled by (r - 2)/r, and the force too, so that a circular orbit of
- * radius r radiates the power that Peters gives for radius r and masses 1 and m, although the hole is fixed. It
- * shrinks faster than Peters' orbit by (r - 2)^3/(r^2 (r - 6)), because its energy (4 - r)/(2 (r - 2)^2) depends
- * less on r than -1/(2 r): 1.3 times at r = 10. */
+/* The same for a body of mass m at x that orbits the fixed hole. In the hole's potential (hole.h) a circular orbit has
+ * v^2 = r/(r - 2)^2 instead of 1/r. Speeds and the force are scaled by (r - 2)/r. A circular orbit then radiates the
+ * power that Peters gives for radius r and masses 1 and m. Such an orbit shrinks faster than Peters' orbit, by the
+ * factor (r - 2)^3/(r^2 (r - 6)), 1.3 at r = 10: its energy (4 - r)/(2 (r - 2)^2) depends less on r than -1/(2 r). */
 bool kd_wave_reaction_hole(double m, const double x[3], const double v[3], double amplification, double a[3]);
 
 /* For each of n bodies: the index of the body that attracts it most, if the attraction is mutual in this sense and the

@@ -13,7 +13,7 @@
     P(m, .unit = "1", .typed = "2", .least = -KD_QNM_L_MAX, .most = KD_QNM_L_MAX, .kind = KD_KIND_INT, \
       .help = "azimuthal number, -l to l; m > 0 turns with a hole of positive spin") \
     P(n, .unit = "1", .typed = "0", .least = 0, .most = KD_QNM_N_MAX, .kind = KD_KIND_INT, \
-      .help = "overtone, counted at spin 0; 0 decays slowest") \
+      .help = "overtone number, as labelled at spin 0; n = 0 decays most slowly") \
     P(spin, .unit = "M", .typed = "0.7", .least = -KD_QNM_SPIN_MAX, .most = KD_QNM_SPIN_MAX, \
       .help = "spin parameter a; closer to 1, damped and undamped modes crowd together and l, n no longer label them " \
               "uniquely") \

@@ -12,31 +12,35 @@
     P(r, .unit = "M", .typed = "10", .least = 1, .most = 1e6, .words = "isco", .stands = INFINITY, \
       .help = "radius in the disk, at least the ISCO")
 #define OUTPUTS(O) \
-    O(returns, .unit = "1", .help = "share of the photons of the ring at r that fall on the disk") \
-    O(falls_in, .unit = "1", .help = "share that falls into the hole") \
-    O(escapes, .unit = "1", .help = "share that escapes to infinity") \
-    O(energy_returns, .unit = "1", .help = "the same of the energy at infinity") \
-    O(energy_falls_in, .unit = "1", .help = "the same") \
-    O(energy_escapes, .unit = "1", .help = "the same") \
+    O(returns, .unit = "1", .help = "share of the photons of the ring at r that falls on the disk") \
+    O(falls_in, .unit = "1", .help = "share of the ring's photons that falls into the hole") \
+    O(escapes, .unit = "1", .help = "share of the ring's photons that escapes to infinity") \
+    O(energy_returns, .unit = "1", .help = "share of the ring's light, by energy at infinity, that falls on the disk") \
+    O(energy_falls_in, .unit = "1", \
+      .help = "share of the ring's light, by energy at infinity, that falls into the hole") \
+    O(energy_escapes, .unit = "1", .help = "share of the ring's light, by energy at infinity, that escapes") \
     O(page_thorne, .unit = "1/M^2", .help = "F/Mdot of one face without returning light") \
     O(flux, .unit = "1/M^2", .help = "F/Mdot of one face that absorbs the returning light and radiates it again") \
-    O(received, .unit = "1/M^2", .help = "returning light; what else it adds to page_thorne is the work of stresses") \
+    O(received, .unit = "1/M^2", \
+      .help = "F/Mdot of the light that returns; flux - page_thorne - received is the work of stresses") \
     O(temperature_ratio, .unit = "1", \
-      .help = "effective temperature over that without returning light; null at the ISCO, where the latter is 0") \
+      .help = "effective temperature with returning light over the one without; null at the ISCO, where the one " \
+              "without is 0") \
     O(isco, .unit = "M", .fixed = true, .help = "inner edge of the disk") \
     O(disk_returns, .unit = "1", .fixed = true, \
-      .help = "share of the luminosity of the whole disk, without returning light, that falls on the disk again") \
-    O(disk_falls_in, .unit = "1", .fixed = true, .help = "share that falls into the hole") \
-    O(disk_escapes, .unit = "1", .fixed = true, .help = "share that escapes") \
+      .help = "share of the luminosity L of the whole disk, without returning light, that falls on the disk again") \
+    O(disk_falls_in, .unit = "1", .fixed = true, .help = "share of L that falls into the hole directly") \
+    O(disk_escapes, .unit = "1", .fixed = true, .help = "share of L that escapes directly") \
     O(ends_in_hole, .unit = "1", .fixed = true, \
-      .help = "share of the luminosity that is in the hole after any number of returns") \
-    O(ends_escaped, .unit = "1", .fixed = true, .help = "share that has escaped") \
+      .help = "share of L that ends in the hole, directly or after any number of returns") \
+    O(ends_escaped, .unit = "1", .fixed = true, \
+      .help = "share of L that ends at infinity, directly or after any number of returns") \
     O(efficiency, .unit = "1", .fixed = true, .help = "1 - E at the ISCO") \
-    O(efficiency_seen, .unit = "1", .fixed = true, .help = "that times ends_escaped") \
+    O(efficiency_seen, .unit = "1", .fixed = true, .help = "efficiency times ends_escaped") \
     O(iterations, .unit = "1", .fixed = true, .help = "number of returns that are followed, to 1e-12") \
     O(error, .unit = "1", .fixed = true, \
-      .help = \
-          "relative error of the energy balance: of what arrives against what returns, and of both ends against 1")
+      .help = "largest relative error of two checks: the energy that arrives over the energy that returns, and " \
+              "ends_in_hole + ends_escaped; both should be 1")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {

@@ -29,7 +29,7 @@
     O(energy_spread, .unit = "c^2", .fixed = true, \
       .help = "half the range of specific energy in the debris, M R/r_t^2") \
     O(fallback_s, .unit = "s", .fixed = true, .help = "time t_fb until the first debris returns") \
-    O(fallback_days, .unit = "days", .fixed = true, .help = "the same") \
+    O(fallback_days, .unit = "days", .fixed = true, .help = "t_fb in days") \
     O(peak_msun_yr, .unit = "solar masses a year", .fixed = true, .help = "largest rate of fallback, m/(3 t_fb)") \
     O(peak_eddington, .unit = "Eddington rates", .fixed = true, \
       .help = "the same in units of the Eddington rate, with the efficiency of this spin") \

@@ -61,7 +61,7 @@ const struct kd_sweep_value *kd_sweep_at(const struct kd_sweep *sweep, unsigned 
 enum kd_status kd_sweep_scene(const struct kd_sweep *sweep, unsigned scene, struct kd_scene *out,
                               struct kd_error *error);
 
-/* Writes a value as JSON; KD_ENOMEM. */
+/* Writes a value as JSON. Fails with KD_ENOMEM only. */
 enum kd_status kd_sweep_value_json(const struct kd_sweep_value *value, struct kd_buffer *out);
 /* Writes a member with the axes in the form that kd_sweep_read accepts, each as a list. */
 void kd_sweep_axes_json(const struct kd_sweep *sweep, struct kd_json *json, const char *name);

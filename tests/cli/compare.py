@@ -257,7 +257,7 @@ class Compare(Case):
             ([], "observation is missing; it must be"),
             (["--observation", self.path("none.csv")], "none.csv"),
             (["--observation", __file__], "the file is not an observation; it must be uvfits"),
-            (["--observation", self.path("cut.uvfits")], "must have 135228 bytes, and has 20000"),
+            (["--observation", self.path("cut.uvfits")], "must have 135228 bytes, but has 20000"),
             ([*seen, "--products", "phases"], 'products is "phases"; it must be "amplitude"'),
             ([*seen, "--systematic-amplitude", "2"], "systematic.amplitude is 2; it must be 0 to 1"),
             ([*seen, "--solve", "flux", "--flux-jy", "1"], "solve cannot have flux with flux_jy"),

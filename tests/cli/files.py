@@ -136,6 +136,7 @@ class Files(support.Case):
         # fields that were added since then have their defaults
         self.assertEqual(scene["polarization"].pop("rotation"), "shcherbakov")
         self.assertEqual(scene["disk"].pop("atmosphere"), "isotropic")
+        self.assertEqual(scene["disk"].pop("frequency_ghz"), 230)
         self.assertEqual((scene["disk"].pop("returning"), scene["disk"].pop("albedo")), ("none", 0.5))
         self.assertEqual(scene["spacetime"].pop("charge"), 0)
         self.assertEqual(scene["camera"].pop("field_uas"), "none")

@@ -338,7 +338,7 @@ static void test_adversarial(void **state)
     for (size_t i = 0; i < 4 * sizeof extremes / sizeof *extremes; i++) {
         const int of = extremes[i / 4].of, last = of == 5 ? 8 : of == 2 ? 5 : of + 1;
         static struct numbers g = { .rows = 6, .columns = 5, .layers = 4, .a = 0.9 };
-        g.r[0] = 1, g.r[1] = 30; /* the first rows within the horizon */
+        g.r[0] = 1, g.r[1] = 30; /* the first rows lie inside the horizon */
         fill(&g, 7, 0.4);
         for (int k = of; k < last; k++)
             for (uint32_t n = 0; n < g.rows * g.columns * g.layers; n++)

@@ -57,7 +57,7 @@ static void test_reuse(void **state)
     struct kd_frame first = rendered(&scene), again = rendered(&scene);
     assert_false(first.lens_reused);
     assert_true(again.lens_reused && ran(&first, "trace") && !ran(&again, "trace"));
-    assert_false(ran(&again, "upload")); /* the device has its tables already */
+    assert_false(ran(&again, "upload")); /* the tables are on the device already */
     assert_same(&first, &again);
 
     scene.disk.peak_temperature_k = 12000;
@@ -97,7 +97,8 @@ static void test_the_curve_is_followed_once(void **state)
     assert_int_equal(kd_critical_pixels_made() - before, 1);
 }
 
-/* Many bands, with and without a cache, give the bytes of one. Both kernels, supersampled, 16 bits, an odd width. */
+/* A picture that is rendered in many bands, cached or not, has the same bytes as in one band. Tested with
+ * supersampling, 16 bits, a sky and an odd width. */
 static void test_bands(void **state)
 {
     (void)state;

@@ -625,7 +625,7 @@ static void bright_images(void **state)
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &bright, &error));
     struct kd_frame again = seen(&scene);
     assert_true(was_run(&bright, "stars") && !bright.lens_reused && !was_run(&again, "stars") &&
-                again.lens_reused); /* each has its own map */
+                again.lens_reused); /* the two pictures do not share a lens map */
     assert_memory_equal(again.layers[1].data, all.layers[1].data, 12ull * WIDTH * HEIGHT);
     /* radius of the curve, approximately */
     const double radius = 0.5 * WIDTH * tan(asin(sqrt(27) / RADIUS)) / tan(0.5 * scene.camera.fov_deg * DEGREE);

@@ -187,13 +187,16 @@ class Documents(unittest.TestCase):
         self.run_all("docs/rays.md", 3)
 
     def test_integrals(self):
-        self.run_all("docs/physics/integrals.md", 11)
+        self.run_all("docs/physics/integrals.md", 12)
 
     def test_quantities(self):
         self.run_all("docs/physics-quantities.md", 1)
 
     def test_disk(self):
         self.run_all("docs/physics/disk.md", 1)
+
+    def test_colour(self):
+        self.made("docs/physics/colour.md", 1, "disk.fits")
 
     def test_live(self):
         self.run_all("docs/live.md", 2)

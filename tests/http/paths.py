@@ -42,7 +42,8 @@ class Zamo:
         return -sqrt(self.sigma / self.delta) / local, 0, -self.round * (self.a / self.delta - self.omega * t) / local
 
     def straight(self, theta, phi, r=None):
-        """The direction in e_r, e_theta, e_phi of flat space, for a camera at azimuth 0."""
+        """The direction in flat space from the camera, at azimuth 0, to (theta, phi) at infinity, or at radius r if
+        given. Components along e_r, e_theta, e_phi."""
         to = [sin(radians(theta)) * cos(radians(phi)), sin(radians(theta)) * sin(radians(phi)), cos(radians(theta))]
         if r is not None:
             to = [r * c - self.r * d for c, d in zip(to, (self.s, 0, self.u))]

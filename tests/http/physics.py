@@ -900,7 +900,7 @@ class Integrals(daemon.Case):
         self.assertEqual((many["values"]["pictures"], many["columns"]["size"]), (2, [1, 1, 1.5]))
         self.assertNotIn("chi2", many)
         many = self.post("compare", {**sets, "sets": [{}, {"spacetime.charge": 0.3}]}).json()
-        self.assertTrue(any(text.startswith("hole: charged") for text in many["approximations"]))
+        self.assertTrue(any(text.startswith("hole: it has a charge") for text in many["approximations"]))
         twice = json.dumps({**sets, "sets": []})[:-2] + '{"spacetime.spin": 0, "spacetime.spin": 0.5}]}'
         problem = self.post("compare", twice).json()
         self.assertIn("spacetime.spin is given twice", problem["detail"])

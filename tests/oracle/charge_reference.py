@@ -108,10 +108,11 @@ def peak(a, q, photon, isco):
 
 def advance(q, p, e):
     """Azimuth from periastron to periastron beyond a full turn, at a = 0. E^2 = f (1 + L^2 w^2) at both turning points,
-    with f = 1 - 2w + q^2 w^2. By w = m - d cos(chi) both are taken out of the root, and what is left has no poles."""
+    with f = 1 - 2w + q^2 w^2. The substitution w = m - d cos(chi) removes the factors of both turning points from
+    the root. The rest of the integrand is regular."""
     w1, w2 = (1 - e) / p, (1 + e) / p
     f1, both, squares = 1 - 2 * w1 + q * q * w1 * w1, w1 + w2, w1 * w1 + w2 * w2
-    # divided by w2 - w1, so that a circle is no special case
+    # this is divided by w2 - w1, so that a circle is no special case
     l2 = (2 - q * q * both) / (both - 2 * (squares + w1 * w2) + q * q * both * squares)
     rest = [q * q * l2, both * q * q * l2 - 2 * l2, (1 - f1 * (1 + l2 * w1 * w1)) / (w1 * w2)]
 

@@ -308,7 +308,7 @@ static void lists_of_rays(void **state)
         for (uint32_t v = 0; v < n_views; v++) {
             kd_accuracy_rays((enum kd_accuracy_set)set, v, 50, first);
             kd_accuracy_rays((enum kd_accuracy_set)set, v, N, rays);
-            assert_memory_equal(first, rays, 100 * sizeof(double)); /* a longer list begins like a shorter one */
+            assert_memory_equal(first, rays, 100 * sizeof(double)); /* the longer list begins with the shorter one */
             int quadrants[4] = { 0 };
             for (int k = 0; k < N; k++) {
                 assert_true(fabs(rays[2 * k]) <= 12 && fabs(rays[2 * k + 1]) <= 12);

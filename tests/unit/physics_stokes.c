@@ -86,7 +86,7 @@ static void mean(const double a[4], const double b[4], double x, double out[4])
         out[i] = a[i] + x * (b[i] - a[i]);
 }
 
-/* Takes the part along a unit vector off; sign: its square. */
+/* Removes from v its component along the unit vector `leg`. sign: the square of leg, +1 or -1. */
 static void take_off(const struct ks_carried *at, double v[4], const double leg[4], double sign)
 {
     const double part = sign * ks_carried_product(at, v, leg);
@@ -211,7 +211,7 @@ static void sample(const struct disk *d, const double at[4], double light[2][ENE
     const double energy = -ks_carried_product(&place, place.k, legs[0]);
     for (int i = 0; i < 3; i++)
         n[i] = ks_carried_product(&place, place.k, legs[i + 1]) / energy;
-    /* Directions crowd about that to the hole. */
+    /* Directions are densest about the direction to the hole, rho = 0. */
     const double spread = 1 + log(seen.r), rho = M_PI * sinh(spread * at[2]) / sinh(spread), s = sin(rho),
                  chi = M_PI * at[3], source[3] = { -cos(rho), s * cos(chi), s * sin(chi) },
                  solid = s * M_PI * spread * cosh(spread * at[2]) / sinh(spread) * M_PI;
@@ -321,8 +321,8 @@ static void polarisation_is_that_of_samples(void **state)
                 judge(spins[a], inclinations[i], samples ? samples : 320);
 }
 
-/* Scattered light of all directions and energies is what returns, as the kernel of returning light has it, but for the
- * share that falls on the disk or into the hole again. */
+/* Summed over directions and energies, scattered over direct light is first.returns / first.escapes of the kernel of
+ * returning light, less the share that falls on the disk or into the hole again. */
 static void scattered_light_is_what_returned(void **state)
 {
     (void)state;

@@ -180,7 +180,8 @@ static const char hot_spot[] =
     "\"profile\","
     "\"engine\":\"auto\",\"precision\":\"auto\",\"steps\":0,\"orders\":3},\"time\":0}";
 
-/* Documents from before there were lists, in pictures, links and scripts, are still read. */
+/* Old documents that name spot1, spot2, ... instead of a list are still read: saved pictures, links and scripts hold
+ * such documents. */
 static void old_names_are_read(void **state)
 {
     (void)state;

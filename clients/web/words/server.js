@@ -118,7 +118,7 @@ const sentences = {
   'playground.bodies-attract-one-another-by': "Bodies attract one another by Newton's law, softened and without delay.",
   'playground.speeds-are-limited-to-c': 'Speeds are limited to c.',
   'playground.bodies-accelerated-one-another-beyond':
-    'Bodies accelerated one another beyond c; the limit of their speeds removed momentum.',
+    'Bodies accelerated one another to the speed limit c; limiting their speeds removed momentum.',
   'playground.the-loss-to-gravitational-waves':
     "The loss to gravitational waves is Peters' formula, of leading order: its power is 4 % too high at r = 10 M for a = 0 and 27 % for a = 0.9; the error is below 1 % only near 300 M.",
   'playground.the-exaggerated-loss-to-waves': 'The exaggerated loss to waves was limited to a tenth of the attraction.',
@@ -317,14 +317,20 @@ const patterns = [
   ],
   [
     'refusal.a-grid-of-matter-is-an-npz',
-    'a grid of matter is an NPZ file of arrays: {} is missing, damaged or longer than {} bytes',
+    'the file is not a grid of matter (an NPZ file of arrays): {} is missing, damaged or longer than {} bytes',
   ],
   [
     'refusal.a-grid-of-matter-is-an-npz-file',
-    'a grid of matter is an NPZ file of arrays: {} is missing; it must be {}',
+    'the file is not a grid of matter (an NPZ file of arrays): {} is missing; it must be {}',
   ],
-  ['refusal.a-grid-of-matter-is-an-npz-file-of', 'a grid of matter is an NPZ file of arrays: {…} is {}; it must be {}'],
-  ['refusal.a-grid-of-matter-is-an-npz-file-of-arrays', 'a grid of matter is an NPZ file of arrays: {…}'],
+  [
+    'refusal.a-grid-of-matter-is-an-npz-file-of',
+    'the file is not a grid of matter (an NPZ file of arrays): {…} is {}; it must be {}',
+  ],
+  [
+    'refusal.a-grid-of-matter-is-an-npz-file-of-arrays',
+    'the file is not a grid of matter (an NPZ file of arrays): {…}',
+  ],
   ['seen.matter-from-a-grid-of-numbers-from', 'Matter from a grid of numbers from {} to {}, at {} GHz.'],
   ['seen.no-matter-no-file-is-chosen', 'No matter: no file is chosen.'],
   ['seen.a-thin-disk-from-the-isco-to', 'A thin disk from the ISCO to {}.'],

@@ -15,7 +15,7 @@ const char *const kd_argument_names[KD_ARGUMENT_KINDS] = {
     "device",  "preset",   "field", "axis",   "playground", "setting", "quantity",
 };
 
-/* Names of arguments that have a kind of their own. */
+/* Placeholders, such as DIR or PRESET, and the kind of value that each takes. */
 static const struct {
     const char *argument;
     enum kd_argument takes;

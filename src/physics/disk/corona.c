@@ -39,10 +39,10 @@ bool kd_corona_source_of(const struct kd_hole *hole, double radius, double heigh
     return true;
 }
 
-/* The ray of a photon that leaves along the unit vector m. Returns E, L and *solid as in struct kd_corona_photon, the
- * photon having unit energy in the source's frame. A photon's path is that of one which arrives
- * with the same E and L and the opposite p_r and p_theta, traced back (null_geodesic.h), because the metric does not
- * change under (t, phi) -> (-t, -phi). */
+/* The ray of a photon that leaves along the unit vector m. Returns energy, momentum and solid of struct
+ * kd_corona_photon. The ray is that of a photon which arrives with the same E and L and with opposite p_r and p_theta,
+ * and is traced back (null_geodesic.h): both paths are the same, because the metric does not change under (t, phi) ->
+ * (-t, -phi). */
 static struct kd_corona_photon send(const struct kd_corona_source *source, const double m[3], struct kd_null_ray *ray)
 {
     const struct kd_vantage *at = &source->frame.at;
@@ -291,7 +291,7 @@ void kd_corona_parts(const struct kd_corona *c, double r, double *part, double *
 }
 
 /* Directions at infinity in the chart tan(theta/2) (cos phi, sin phi), phi counted from the source; regular everywhere
- * but at theta = pi. An area of the sky is 4 times that of the chart over (1 + x^2 + y^2)^2. */
+ * but at theta = pi. A solid angle of the sky is 4/(1 + x^2 + y^2)^2 times the area in the chart. */
 static bool arrive(const struct kd_corona_source *source, const double m[3], double out[2])
 {
     struct kd_null_ray ray;

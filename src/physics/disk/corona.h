@@ -3,23 +3,27 @@
  *
  * A corona is made of rings about the axis. A ring lies at height z = r cos theta above the plane and at the distance
  * rho = r sin theta from the axis. Each piece of it shines isotropically in its own frame (tetrad.h), with a photon
- * power law N(E) ~ E^-Gamma. Light that leaves in the direction (delta, chi), delta from the direction to the hole,
- * meets the plane first at r(delta, chi), found in closed form (null_geodesic.h). Both angles are those of the frame of
- * zero angular momentum, in which the hole is near delta = 0; its solid angle over the source's is e^2, e the energy in
- * the source's frame over that in this one. Photons per comoving area and time of
- * the gas, at one energy of the gas, for one photon per time and energy of the source:
+ * power law N(E) ~ E^-Gamma.
+ *
+ * A direction is given by two angles in the frame of zero angular momentum: delta from -e_r, near which the hole is
+ * seen, and chi about -e_r. Light that leaves in the direction (delta, chi) first meets the plane at r(delta, chi),
+ * which is found in closed form (null_geodesic.h). A solid angle in this frame is e^2 times the solid angle in the
+ * source's frame, where e is the energy in the source's frame over the energy in this frame.
+ *
+ * For one photon per time and energy of the source, the gas receives, per comoving area, per time and per energy in
+ * its own frame,
  *
  *   epsilon(r) = Int |d cos delta/dr| g^(Gamma - 1) e^-2 dchi/(8 pi^2 r u^t_source)     g = u^t_gas (E - Omega L)
  *
- * E and L of a photon of unit energy in the source's frame. r dr dphi dt is the comoving area times proper time of the
- * disk. On the axis it is that of lamppost.h. D. R. Wilkins & A. C. Fabian 2012, MNRAS 424, 1284, computes the same by
- * rays drawn at random.
+ * photons. E and L belong to a photon of unit energy in the source's frame. r dr dphi dt is the comoving area times
+ * proper time of the disk. On the axis epsilon is the epsilon of lamppost.h. D. R. Wilkins & A. C. Fabian 2012, MNRAS
+ * 424, 1284, compute the same by rays drawn at random.
  *
- * The continuum that reaches an observer at infinity directly has, per solid angle and for one such photon,
+ * Per solid angle and for one such photon, the continuum that reaches an observer at infinity directly is
  *
  *   F = <dOmega_source/dOmega_infinity g^(Gamma - 1)>/(4 pi u^t_source)            g = E
  *
- * averaged over the azimuth of the ring. */
+ * where <> is the mean over the azimuth of the ring. */
 #ifndef KD_PHYSICS_DISK_CORONA_H
 #define KD_PHYSICS_DISK_CORONA_H
 
@@ -29,52 +33,54 @@
 
 #include <stdbool.h>
 
-/* At rest; with zero angular momentum; with the angular velocity of the disk's gas at rho, within the ISCO that of the
- * ISCO. */
+/* STATIC: at rest. ZAMO: with zero angular momentum. COROTATING: with the angular velocity of the disk's gas at rho, or
+ * at the ISCO if rho is less. */
 enum kd_corona_motion { KD_CORONA_STATIC, KD_CORONA_ZAMO, KD_CORONA_COROTATING };
 
 /* Rings from rho = inner to outer and z = height to top, each of which shines in proportion to its circumference. A
- * single ring has outer = inner and top = height, a layer top = height. */
+ * single ring has outer = inner and top = height. A layer has top = height. */
 struct kd_corona_shape {
     double inner, outer, height, top;
     enum kd_corona_motion motion;
 };
 
-/* One ring: the frame of zero angular momentum at its place; the ring's speed there, towards +phi, and its u^t. */
+/* One ring. frame: the frame of zero angular momentum at its place. speed, gamma: the ring's speed towards +phi in this
+ * frame, and its Lorentz factor. ut: the ring's u^t. */
 struct kd_corona_source {
     double ut, speed, gamma;
     struct kd_tetrad frame;
 };
 
-/* False if nothing can move like that there: the speed is 1 or more, or the place is within KD_CORONA_LEAST times the
- * radius of the ergosphere. */
+/* False if nothing can move like that there: the speed would be 1 or more, or the place is within KD_CORONA_LEAST times
+ * the radius of the ergosphere. */
 #define KD_CORONA_LEAST 1.05
-/* Least height over the largest radius that the angles below resolve, of a ring and of other shapes. */
+/* Least ratio of height to largest radius that KD_CORONA_ANGLES resolve: for a ring, and for other shapes. */
 #define KD_CORONA_FLATTEST 0.05
 #define KD_CORONA_FLATTEST_SHAPE 0.1
 bool kd_corona_source_of(const struct kd_hole *hole, double radius, double height, enum kd_corona_motion motion,
                          struct kd_corona_source *out);
 
-/* Where a photon goes that leaves along -cos(delta) e_r + sin(delta) (cos(chi) e_phi - sin(chi) e_theta), delta given
- * as ln tan(delta/2). r: where it meets the plane first; 0: the hole captures it; INFINITY: it escapes. energy,
- * momentum: E and L for unit energy in the source's frame; solid: the source's solid angle over that of the frame of
- * zero angular momentum, e^-2; delay: coordinate time to the plane. */
+/* Follows a photon that leaves along -cos(delta) e_r + sin(delta) (cos(chi) e_phi - sin(chi) e_theta).
+ * log_tangent: ln tan(delta/2). r: radius at which the photon first meets the plane; 0 if the hole captures it,
+ * INFINITY if it escapes. energy, momentum: E and L for unit energy in the source's frame. solid: solid angle in the
+ * source's frame over solid angle in the frame of zero angular momentum, e^-2. delay: coordinate time to the plane. */
 struct kd_corona_photon { double r, energy, momentum, solid, delay; };
 struct kd_corona_photon kd_corona_emit(const struct kd_corona_source *source, double log_tangent, double chi);
 
 enum { KD_CORONA_RINGS = 128, KD_CORONA_ANGLES = 1024 };
 
-/* ln epsilon at radii of the disk, its nodes: even in s = ln r + asinh((ln r - centre)/width); width 0: in ln r. error:
- * relative, estimated from the change of epsilon when every second angle is left out. */
+/* ln epsilon at nodes in r. Nodes are even in s = ln r + asinh((ln r - centre)/width), or in ln r if width is 0. error:
+ * relative error, estimated from the change of epsilon when every second angle is left out. */
 struct kd_corona_light { double first, step, centre, width, log_epsilon[KD_CORONA_RINGS], error; };
 double kd_corona_light_at(const struct kd_corona_light *light, double r);
 
-/* The light of a whole corona, from the ISCO or beyond to outer: the mean over its rings. 0.1 s for a ring, seconds for
- * others; the last 64 are kept. Fails as kd_corona_init. Every ring must exist. */
+/* The light of a whole corona, the mean over its rings, at radii from inner to outer. inner is the ISCO or larger.
+ * Takes 0.1 s for a ring and seconds for other shapes; the last 64 results are kept. Fails as kd_corona_init does.
+ * kd_corona_source_of must be true for every ring. */
 enum kd_status kd_corona_light_of(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
                                   double inner, double outer, struct kd_corona_light *out);
 
-/* Rings that stand for a corona, by Gauss's rule. The weights add up to 1. Returns their number. */
+/* Rings that stand for a corona in integrals, by Gauss's rule. The weights add up to 1. Returns the number of rings. */
 enum { KD_CORONA_PARTS = 64 };
 struct kd_corona_ring { double radius, height, weight; };
 int kd_corona_rings(const struct kd_corona_shape *shape, struct kd_corona_ring out[KD_CORONA_PARTS]);
@@ -83,17 +89,18 @@ int kd_corona_rings(const struct kd_corona_shape *shape, struct kd_corona_ring o
 struct kd_corona {
     struct kd_corona_light light;
     int angles;
-    /* By ring and angle, malloc'd: ln of the angle's part of epsilon, and coordinate time from source to disk. */
+    /* Both by ring and angle, malloc'd. log_part: ln of the angle's part of epsilon; time: coordinate time from source
+     * to disk. */
     double *log_part, *time;
 };
 
-/* Radii from inner, which is the ISCO or larger, to outer. Some 30 ms to 1 s. KD_ENOMEM; KD_EINVAL: a ring of the disk
- * is not met once along each chi, as next to the hole and the plane at once. Free it with kd_corona_finish in
- * any case. */
+/* Radii are from inner, which is the ISCO or larger, to outer. Takes some 30 ms to 1 s. KD_ENOMEM. KD_EINVAL if, along
+ * some chi, photons do not hit a ring of the disk exactly once; this happens for a source close to both the hole and
+ * the plane. Call kd_corona_finish in any case. */
 enum kd_status kd_corona_init(struct kd_corona *corona, const struct kd_corona_source *source, double photon_index,
                               double inner, double outer);
 void kd_corona_finish(struct kd_corona *corona);
-/* The parts and times of all angles at r. */
+/* Writes each angle's part of epsilon and its time at r. */
 void kd_corona_parts(const struct kd_corona *corona, double r, double *part, double *time);
 
 /* The light of a ring that reaches an observer at infinity without meeting the plane, from `n` azimuths. */
@@ -102,14 +109,14 @@ struct kd_corona_direct {
     int n;       /* 1 on the axis */
     double flux; /* F, as above */
     double g;    /* mean of E, weighted by the flux */
-    double time; /* mean coordinate time to the observer, less r_o + 2 ln r_o, weighted likewise */
+    double time; /* mean coordinate time to the observer less r_o + 2 ln r_o, weighted by the flux */
     double part[KD_CORONA_AZIMUTHS], part_time[KD_CORONA_AZIMUTHS]; /* parts of the flux */
 };
 /* cos_i > 0. False if the image of one azimuth is not found. Some milliseconds. */
 bool kd_corona_direct_of(const struct kd_corona_source *source, double photon_index, double cos_i,
                          struct kd_corona_direct *out);
 
-/* The direct light of a whole corona: the flux and its mean of E. */
+/* The direct light of a whole corona: its flux F, and the mean of E weighted by the flux. */
 struct kd_corona_continuum { double flux, g; };
 bool kd_corona_continuum_of(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
                             double cos_i, struct kd_corona_continuum *out);

@@ -17,11 +17,11 @@ enum { POINTS = 6 }; /* number of nodes that an interpolation uses */
 #define PLACE 1e-12 /* error of ln r at a single requested place */
 #define BENDS 10.   /* maximum relative change of a slope per unit of ln r */
 #define DRIFTS \
-    0.2 /* error of a slope: this much, if only that of flat space is known, else this fraction of the error of the \
-           extrapolation from the rings before */
+    0.2 /* error of a slope: this, if only the slope of flat space is known; otherwise this fraction of the error of \
+           the extrapolation from the preceding rings */
 #define FLATTEST 0.1  /* all slopes that occur lie between this and its inverse */
-#define MOVED 0.3     /* maximum correction of a guess of R by what the preceding angles missed */
-enum { HISTORY = 5 }; /* a slope at a ring of nodes is computed from this many rings before it */
+#define MOVED 0.3     /* maximum correction of a guess of R by the errors of the guesses at the preceding angles */
+enum { HISTORY = 5 }; /* a slope at a ring of nodes is computed from this many preceding rings */
 
 struct ellipse { double x0, y0, a, b; };
 
@@ -70,9 +70,10 @@ static double mismatch(const struct kd_disk_image *image, const struct ellipse *
 /* d ln r/d ln R at the starting point, and its relative error: `drift`, plus `bend` times the error of ln r there. */
 struct slope { double value, drift, bend; };
 
-/* Solves ln(r_0/r) = 0 for ln R from a guess, by the secant method within a bracket. slope: on entry the first slope, 1
- * in flat space; on return its value is the last secant's slope. The last step is not verified if the remaining error,
- * estimated from the change of the slope, is below `exact`. */
+/* Solves ln(r_0/r) = 0 for ln R from a guess, by the secant method within a bracket; r_0 is the radius at which the ray
+ * meets the plane. slope: on entry the first slope, 1 in flat space; on return its value is the slope of the last
+ * secant. The last step is not verified if the remaining error, estimated from the change of the slope, is below
+ * `exact`. */
 static bool find(const struct kd_disk_image *image, const struct ellipse *e, const double direction[2], double r,
                  double exact, double *log_stretch, struct slope *slope)
 {
@@ -123,7 +124,7 @@ static double guess(const struct kd_disk_image *image, int k, int j)
     return 5 * (a - d) - 10 * (b - c) + image->stretch[k - 5][j];
 }
 
-/* Change of an ellipse with ln r: relative for the half axes, in M for the centre. */
+/* Derivative of an ellipse by ln r: relative for the half axes, in M for the centre. */
 static struct ellipse growth_of(const struct kd_disk_image *image, double r)
 {
     const double step = 1e-4;
@@ -132,9 +133,9 @@ static struct ellipse growth_of(const struct kd_disk_image *image, double r)
                               (out.b - in.b) / (step * (out.b + in.b)) };
 }
 
-/* d ln r/d ln R at a fixed direction from the centre of ring k's ellipse, with approximate values of the ring and
- * its neighbours. A place moves with ln r by p_L and with chi by p_chi; R changes along these by the relative rates
- * `swells` and `turns`. The slope is d x p_chi/(p_L x p_chi), d = R (A cos chi, B sin chi). */
+/* d ln r/d ln R at a fixed direction from the centre of a ring's ellipse, from approximate values of the ring and its
+ * neighbours. p_L and p_chi are the derivatives of a place by ln r and by chi. swells, turns: the relative derivatives
+ * of R by ln r and by chi. The slope is d x p_chi/(p_L x p_chi) with d = R (A cos chi, B sin chi). */
 static double slope_at(const struct ellipse *e, const struct ellipse *growth, const double direction[2], double stretch,
                        double swells, double turns)
 {
@@ -144,7 +145,7 @@ static double slope_at(const struct ellipse *e, const struct ellipse *growth, co
     return 1 / across;
 }
 
-/* State while ring k of the nodes is made from the rings before. */
+/* State while ring k of the nodes is made from the preceding rings. */
 struct making {
     int k;
     double r, rate; /* dk/d ln r */
@@ -152,8 +153,8 @@ struct making {
     double guessed[KD_DISK_IMAGE_ANGLES];
 };
 
-/* Weights for the slope at the last of several nodes, by backward differences; the last node comes first. The slope is
- * the sum of nabla^m/m, m = 1 ... order. */
+/* Weights for the derivative at the last of several nodes, by backward differences. The weight of the last node comes
+ * first. The derivative is the sum of nabla^m/m, m = 1 ... order. */
 static const double backward[HISTORY][HISTORY + 1] = {
     { 1, -1 },
     { 1.5, -2, 0.5 },
@@ -162,7 +163,8 @@ static const double backward[HISTORY][HISTORY + 1] = {
     { 137. / 60, -5, 5, -10. / 3, 1.25, -0.2 },
 };
 
-/* Errors of the guesses from the rings before: extrapolated to the present angle, and at the last three angles. */
+/* Errors of the guesses from the preceding rings. next: extrapolated to the present angle; last: at the last three
+ * angles, the latest first. */
 struct miss { double next, last[3]; };
 
 static struct slope slope_of(const struct kd_disk_image *image, const struct making *m, int j,

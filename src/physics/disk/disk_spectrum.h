@@ -2,11 +2,11 @@
  *
  *   F_nu = (M/D)^2 Int g^3 B_nu(nu/g, f T)/f^4 limb(mu) dalpha dbeta      sigma T^4 = F(r)
  *
- * F is that of Page & Thorne 1974, ApJ 191, 499 (thin_disk.h), or of a disk with returning light, from the ISCO or
- * beyond. f is the colour correction
- * (Shimura & Takahara 1995, ApJ 445, 780); it conserves the energy of the light. Li et al. 2005, ApJS 157, 335, eq.
- * 6. The integral over the disk's image (disk_image.h) uses even steps in chi, which converge exponentially, and
- * Gauss points in the square root of ln(r/inner). */
+ * (Li et al. 2005, ApJS 157, 335, eq. 6). F is the flux of Page & Thorne 1974, ApJ 191, 499 (thin_disk.h), or the flux
+ * of a disk with returning light (returning.h). The disk begins at the ISCO or beyond. f is the colour correction
+ * (Shimura & Takahara 1995, ApJ 445, 780); it conserves the energy of the light. The integral over the disk's image
+ * (disk_image.h) uses even steps in chi, which converge exponentially, and Gauss points in the square root of
+ * ln(r/inner). */
 #ifndef KD_PHYSICS_DISK_DISK_SPECTRUM_H
 #define KD_PHYSICS_DISK_DISK_SPECTRUM_H
 
@@ -19,7 +19,8 @@ struct kd_disk_spectrum_params {
     double mass_msun, distance_pc, mdot_edd; /* mdot_edd: accretion rate as in thin_disk.h */
     double colour_correction;
     enum kd_limb limb;                    /* normalised so that a face radiates F: Int limb mu dmu = 1/2 */
-    const struct kd_returning *returning; /* of the same hole and limb: F is its flux; NULL: that of Page & Thorne */
+    const struct kd_returning *returning; /* F is the flux of this table, which must be of the same hole and limb; NULL:
+                                             F is Page & Thorne's */
 };
 
 /* A place of the disk's image, and the area of the image plane for which it stands, M^2. */
@@ -28,9 +29,8 @@ struct kd_disk_place { double r, alpha, beta, area; };
 void kd_disk_places(const struct kd_disk_image *image, double inner, double outer,
                     void (*each)(void *user, const struct kd_disk_place *place), void *user);
 
-/* flux: W m^-2 Hz^-1 at each of n frequencies, in Hz. *error_out: largest relative error, estimated from half as
- * many points, over frequencies whose flux exceeds 1e-6 of the maximum. KD_ENOMEM; KD_EINVAL: the result is not a
- * number. */
+/* flux: W m^-2 Hz^-1 at each of n frequencies, in Hz. *error_out: largest relative error at frequencies whose flux
+ * exceeds 1e-6 of the maximum, estimated from half as many points. KD_ENOMEM; KD_EINVAL: the result is not a number. */
 enum kd_status kd_disk_spectrum(const struct kd_disk_image *image, const struct kd_disk_spectrum_params *params,
                                 const double *frequencies, int n, double *flux, double *error_out,
                                 struct kd_error *error);

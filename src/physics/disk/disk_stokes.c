@@ -14,16 +14,17 @@
 #include <string.h>
 
 #define STEP 0.02   /* of ln T */
-#define COLDEST -10 /* ln T of node 0 over the largest temperature of the disk */
+#define COLDEST -10 /* ln T of node 0; T is over the largest temperature of the disk */
 enum {
     RINGS = 24,   /* nodes in s = sqrt(r_isco/r) at which reflected light is computed */
-    COSINES = 12, /* and nodes in the cosine of the angle at which it leaves */
+    COSINES = 12, /* nodes in the cosine of the angle at which it leaves */
     PARTS = 15,   /* l, r, u of struct kd_reflected_stokes */
 };
 
 static double place_of(double log_t) { return (log_t - COLDEST) / STEP; }
 
-/* Weights of the cubic through four nodes, of which the second is the first below the place. Returns the first node. */
+/* Weights of the cubic through four nodes at a place, which lies between the second and the third node, except at the
+ * ends. Returns the first node. */
 static int weigh(double place, double weight[4])
 {
     const int i = (int)fmin(fmax(floor(place), 1), KD_STOKES_NODES - 3);
@@ -35,14 +36,15 @@ static int weigh(double place, double weight[4])
     return i - 1;
 }
 
-/* A ray of light at a ring, in the gas's frame: energy over that at infinity; direction in components along r, phi and
- * the normal; constants of Walker & Penrose of polarisation along l and r of scattering.h. */
+/* A ray of light at a ring. energy: in the gas's frame. n: its direction there, in components along r, phi and the
+ * normal. azimuth: of n about the normal. l, r: constants of Walker & Penrose for polarisation along l and r of
+ * scattering.h. */
 struct meeting {
     double energy, n[3], azimuth;
     double complex l, r;
 };
 
-/* e, lambda: at infinity; p_theta < 0: the light goes up; sense: sign of p^r. */
+/* e, lambda: energy and angular momentum at infinity. If p_theta < 0, the light goes up. sense: sign of p^r. */
 static struct meeting meeting_of(const struct kd_hole *hole, double r, double e, double lambda, double p_theta,
                                  int sense)
 {
@@ -66,18 +68,18 @@ static struct meeting meeting_of(const struct kd_hole *hole, double r, double e,
     return m;
 }
 
-/* Light that a ring reflects: for each node of ln T and of the cosine its Fourier parts. */
+/* Light that a ring reflects: for each node of the cosine and of ln T, its Fourier series in the azimuth. */
 struct mirror {
     const struct kd_hole *hole;
     const struct kd_disk_spectrum_params *p;
-    double largest; /* flux */
+    double largest; /* largest flux of the disk */
     double mu[COSINES];
     struct kd_scattering_functions at[COSINES];
     double (*parts)[PARTS][KD_STOKES_NODES]; /* of the ring that is being filled */
     double r;
 };
 
-/* Functions of the atmosphere at any cosine by interpolation in its fourth root. */
+/* Tables of functions of the atmosphere, for interpolation in the fourth root of the cosine. */
 enum { FINE = 200 };
 struct atmosphere {
     double fraction[FINE + 1];
@@ -138,7 +140,7 @@ static void reflect(void *user, const struct kd_returning_ray *ray)
     const double solid = ray->solid / pow(at.energy, 3) / mu0,
                  light = kd_limb_at(m->p->limb, mu_e) * kd_limb_scale(m->p->limb) * solid,
                  fraction = fraction_at(a, mu_e);
-    /* The field is along r at its source: x l + y r here. */
+    /* At its source the light is polarised along r. Here this direction has become x l + y r. */
     const double complex turn = from.r / at.l, other = at.r / at.l;
     const double y = cimag(turn) / cimag(other), x = creal(turn) - y * creal(other), size = x * x + y * y,
                  q = fraction * (x * x - y * y) / size, u = fraction * 2 * x * y / size;
@@ -151,8 +153,9 @@ static void reflect(void *user, const struct kd_returning_ray *ray)
         struct kd_reflected_stokes out;
         kd_scattering_reflect(&m->at[j], m->mu[j], &in, mu0, stokes, &out);
         const double *const all[3] = { out.l, out.r, out.u };
-        /* Series of the azimuth itself. The first multiple is proportional to the sine of the angle from the normal,
-         * which is left to the place: the rest is smooth in the cosine. */
+        /* Turns the series in the difference of azimuths into a series in the azimuth itself. Terms in the azimuth's
+         * first multiple are proportional to the sine of the angle from the normal. They are divided by it here, so
+         * that they are smooth in the cosine, and multiplied by it in add_place. */
         const double level = sqrt((1 - m->mu[j]) * (1 + m->mu[j]));
         for (int k = 0; k < 3; k++) {
             const double *f = all[k], turned[5] = { f[0], (f[1] * c - f[2] * s) / level, (f[1] * s + f[2] * c) / level,
@@ -189,7 +192,7 @@ struct work {
     double (*rings)[COSINES][PARTS][KD_STOKES_NODES]; /* r^3 times the parts at the nodes in s */
     double (*ring)[PARTS][KD_STOKES_NODES];           /* the parts at the radius ring_at */
     double ring_at;
-    int first, last; /* nodes of ln T that are not all 0 */
+    int first, last; /* the first and the last node of ln T with light */
 };
 
 static double flux_of(const struct work *w, double r)
@@ -245,7 +248,7 @@ static void add(struct kd_disk_iqu *nodes, double place, struct kd_disk_iqu ligh
     }
 }
 
-/* A place of the image. */
+/* Adds the light of a place of the image. */
 static void add_place(void *user, const struct kd_disk_place *place)
 {
     struct work *w = user;
@@ -264,7 +267,7 @@ static void add_place(void *user, const struct kd_disk_place *place)
     const struct meeting m =
         meeting_of(hole, place->r, 1, lambda, -sqrt(fmax(eta, 0)), path.crossings ? path.crossing[0].sense : 1);
     const double g = 1 / m.energy, flux = flux_of(w, place->r);
-    /* f = x right + y up, x - i y = kappa/kappa(right): north + i east is y - i x */
+    /* The polarisation is along f = x right + y up, where x - i y = kappa/kappa(right). North + i east is y - i x. */
     const double complex right = (place->alpha + a * w->image->sin_i) + I * place->beta, l = m.l / right,
                          r = m.r / right;
     const double complex z = conj(l) * -I / cabs(l), turn = z * z; /* x + i y times -i */

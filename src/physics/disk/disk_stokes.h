@@ -2,13 +2,15 @@
  * Schnittman & J. H. Krolik 2009, ApJ 701, 1175). Double precision; any thread.
  *
  * Each ring shines as a dilute black body with the angular law and the polarisation of a deep atmosphere of free
- * electrons (scattering.h). With `scattered`, light that returns to the disk for the first time is reflected by the law
- * of diffuse reflection of this atmosphere, which changes no photon's energy in the gas's frame. Its polarisation is
- * carried along both rays by the constant of M. Walker & R. Penrose 1970, Commun. Math. Phys. 18, 265; components are
- * those in Carter's frame, as in shaders/emit/polarization.glsl.
+ * electrons (scattering.h). With `scattered`, light that returns to the disk for the first time is reflected by this
+ * atmosphere's law of diffuse reflection. Reflection changes no photon's energy in the gas's frame. Polarisation is
+ * carried along the ray to the disk and along the ray to the observer by the constant of M. Walker & R. Penrose 1970,
+ * Commun. Math. Phys. 18, 265. The constant is computed from components in Carter's frame, as in
+ * shaders/emit/polarization.glsl.
  *
- * All light is a sum of black bodies. They are counted by the logarithm of the temperature that the observer sees, each
- * at four neighbouring nodes with the weights of cubic interpolation; a spectrum is a sum over nodes. */
+ * All light is a sum of black bodies. Nodes are evenly spaced in the logarithm of the temperature that the observer
+ * sees. Each black body is shared among four neighbouring nodes with the weights of cubic interpolation. A spectrum is
+ * a sum over nodes. */
 #ifndef KD_PHYSICS_DISK_DISK_STOKES_H
 #define KD_PHYSICS_DISK_DISK_STOKES_H
 
@@ -16,14 +18,14 @@
 
 enum { KD_STOKES_NODES = 640 };
 
-struct kd_disk_iqu { double i, q, u; }; /* IAU 1973: from the projected axis of the disk, which is north, to the east */
+struct kd_disk_iqu { double i, q, u; }; /* IAU 1973: angles from north, the projected axis of the disk, to the east */
 
 struct kd_disk_stokes {
-    double hottest_k, scale; /* colour temperature of node 0 of ln T; units of fluxes */
+    double hottest_k, scale; /* colour temperature at ln T = 0; unit of fluxes */
     struct kd_disk_iqu direct[KD_STOKES_NODES], scattered[KD_STOKES_NODES];
 };
 
-/* params: limb must be KD_LIMB_SCATTERING; with `returning` the disk's flux includes the light that returns, and
+/* params->limb must be KD_LIMB_SCATTERING. With params->returning the disk's flux includes the light that returns, and
  * `scattered` must be false. Takes some 0.1 s, with `scattered` 1 s. */
 enum kd_status kd_disk_stokes_init(struct kd_disk_stokes *stokes, const struct kd_disk_image *image,
                                    const struct kd_disk_spectrum_params *params, bool scattered,

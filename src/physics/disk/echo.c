@@ -8,17 +8,18 @@
 #include <string.h>
 
 enum {
-    RINGS = 256, /* cells between the inner and the outer edge, even in ln r */
+    RINGS = 256, /* cells between the inner and the outer edge, of equal width in ln r */
     AROUND = 256,
-    FINER = 2, /* parts of a cell in each direction, between which the light is interpolated */
+    FINER = 2, /* a cell is divided into this many parts in each direction; light is interpolated at each part */
 };
 
-/* A point of the disk as the observer sees it: energy, time t_2, and photons an area of the image, for epsilon = 1. */
+/* A point of the disk as the observer sees it. g: energy over E0; time: t_2; light: photons per area of the image, for
+ * epsilon = 1. */
 struct point { double alpha, beta, g, time, light; };
 
 struct view {
     struct kd_corona corona;
-    struct point (*points)[AROUND]; /* RINGS + 1 of them */
+    struct point (*points)[AROUND]; /* of RINGS + 1 rings */
     double log_epsilon[RINGS + 1];
     double *part, *time; /* of the corona, by ring and angle */
 };
@@ -106,7 +107,7 @@ static double at(double x0, double x1, double y0, double y1, double across, doub
 #define AT(member, across, along) \
     at(c->in[0]->member, c->in[1]->member, c->out[0]->member, c->out[1]->member, across, along)
 
-/* Extent of a linear function over a part of the cell. */
+/* Half the range of a linear function within a part of the cell. */
 #define REACH(member) \
     (0.5 / FINER * \
      (fabs(AT(member, across, 1) - AT(member, across, 0)) + fabs(AT(member, 1, along) - AT(member, 0, along))))
@@ -118,7 +119,8 @@ static double area_at(const struct cell *c, double across, double along)
     return fabs(wa * lb - wb * la) / (FINER * FINER);
 }
 
-/* Bins of energy and time, even in time. row: the light of one part of a cell by time. */
+/* Histogram over energy and time. edges: of the bins of energy. Bins of time have the same width `step`. row: scratch,
+ * the light by time of the part of a cell that is being added. */
 struct sum {
     double total, late;
     const double *edges;
@@ -140,7 +142,7 @@ static size_t first_bin(const double *edges, size_t n, double x)
     return low;
 }
 
-/* Share of the range from low to high that lies in a bin. */
+/* Share of the range from low to high that lies in bin i. */
 static double overlap(double low, double high, const double *edges, size_t i)
 {
     if (high <= low)
@@ -148,7 +150,7 @@ static double overlap(double low, double high, const double *edges, size_t i)
     return fmax(0, fmin(high, edges[i + 1]) - fmax(low, edges[i])) / (high - low);
 }
 
-/* Bins that a range touches: from first to before end. */
+/* Bins that a range touches: first to end - 1. */
 struct touched { size_t first, end; };
 
 /* Spreads light evenly over the times from `from` to `to`. */
@@ -172,22 +174,22 @@ static struct touched spread(struct sum *s, double light, double from, double to
     return at;
 }
 
-/* Adds a part of a cell. The source's angles arrive one after the other: the light between two of them is spread evenly
- * between their times. */
+/* Adds a part of a cell. Light that leaves the source at different angles arrives at different times. The light between
+ * two neighbouring angles is spread evenly over the times between theirs. */
 static void add_part(const struct view *view, const struct cell *c, size_t ring, size_t skip, double zero,
                      double across, double along, struct sum *s)
 {
     const size_t n = (size_t)view->corona.angles;
     const double *parts[2] = { view->part + ring * n, view->part + (ring + skip) * n },
                  *times[2] = { view->time + ring * n, view->time + (ring + skip) * n };
-    /* Between two rings epsilon is a power of r, and the angles have shares of it that change linearly. */
+    /* Between two rings epsilon is interpolated as a power of r, and each angle's share of it linearly. */
     const double in = view->log_epsilon[ring], out = view->log_epsilon[ring + skip],
                  power = exp((1 - across) * in + across * out) / ((1 - across) * exp(in) + across * exp(out));
     const double light = power * AT(light, across, along) * area_at(c, across, along), g = AT(g, across, along),
                  wide = REACH(g), late = AT(time, across, along) - zero, slow = REACH(time);
     double before = 0, before_part = 0;
     struct touched all = { s->times, 0 };
-    for (size_t k = n > 1 ? 0 : 1; k <= n; k++) { /* the last angle comes before the first, too */
+    for (size_t k = n > 1 ? 0 : 1; k <= n; k++) { /* from the last angle, the first one's neighbour */
         const size_t j = (k + n - 1) % n;
         const double bright = light * ((1 - across) * parts[0][j] + across * parts[1][j]),
                      here = late + (1 - across) * times[0][j] + across * times[1][j],
@@ -224,7 +226,7 @@ static struct cell cell_of(const struct view *view, int i, int j, int skip)
                            { &view->points[i + skip][j], &view->points[i + skip][next] } };
 }
 
-/* Sums all cells of every `skip`th ring and direction. */
+/* Sums the cells between every `skip`th ring and direction. */
 static void add_all(const struct view *view, double zero, int skip, struct sum *s)
 {
     for (int i = 0; i < RINGS; i += skip)
@@ -237,7 +239,7 @@ static void add_all(const struct view *view, double zero, int skip, struct sum *
         }
 }
 
-/* Largest difference of two cumulative shares. */
+/* Writes the largest difference between the cumulative shares of x and y. */
 static enum kd_status apart(const struct sum *x, const struct sum *y, double *worst, struct kd_error *error)
 {
     double *above = calloc(x->times + 1, sizeof *above);
@@ -255,7 +257,7 @@ static enum kd_status apart(const struct sum *x, const struct sum *y, double *wo
     return made ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %zu times", x->times);
 }
 
-/* The gas is taken to emit as many photons as it receives, by the law of the limb. */
+/* The gas is taken to emit as many photons as it receives, by the law of limb darkening. */
 static void describe(const struct kd_echo_params *p, double total, struct kd_echo *echo)
 {
     echo->strength = total * kd_limb_scale(p->limb) / (M_PI * echo->direct.flux);
@@ -290,8 +292,9 @@ done:
     return status;
 }
 
-/* Light of the corona at a ring by frequency: ln epsilon, its mean time, and the mean of exp(2 pi i f (t_1 - mean)). */
-struct beat { double log_epsilon, mean, *of; /* real and imaginary part of each frequency */ };
+/* Light of the corona at a ring. log_epsilon: ln epsilon. mean: mean of t_1. of: for each frequency, the mean of exp(2
+ * pi i f (t_1 - mean)). */
+struct beat { double log_epsilon, mean, *of; /* real and imaginary parts */ };
 
 static void fill_beat(const struct view *view, size_t i, const double *frequencies, size_t n, struct beat *beat)
 {

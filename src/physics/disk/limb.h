@@ -3,12 +3,12 @@
 #ifndef KD_PHYSICS_DISK_LIMB_H
 #define KD_PHYSICS_DISK_LIMB_H
 
-/* f(mu): 1; 1 + 2.06 mu (Laor 1991, ApJ 376, 90); ln(1 + 1/mu) (Haardt 1993, ApJ 413, 680); that of a deep atmosphere
- * of free electrons (scattering.h). */
+/* f(mu). ISOTROPIC: 1. LAOR: 1 + 2.06 mu (Laor 1991, ApJ 376, 90). HAARDT: ln(1 + 1/mu) (Haardt 1993, ApJ 413, 680).
+ * SCATTERING: the law of a deep atmosphere of free electrons (scattering.h). */
 enum kd_limb { KD_LIMB_ISOTROPIC, KD_LIMB_LAOR, KD_LIMB_HAARDT, KD_LIMB_SCATTERING };
 
-/* f for mu from 0 to 1. The first call for KD_LIMB_SCATTERING makes a table, which takes some milliseconds; its values
- * are within 1e-8 of those of scattering.h. */
+/* f for mu from 0 to 1. The first call for KD_LIMB_SCATTERING makes a table, which takes some milliseconds; the table's
+ * values differ from scattering.h by less than 1e-8. */
 double kd_limb_at(enum kd_limb law, double mu);
 
 /* Factor with which a surface radiates as much in all as an isotropic one: it makes the integral of f mu dmu 1/2. */

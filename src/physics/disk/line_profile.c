@@ -109,8 +109,8 @@ static void add_cell(struct sum *s, double light, double centre, double narrow, 
 
 /* A chord between nodes h apart deviates from the curve by -h^2 f''/12 on average. Shifting nodes by a twelfth of their
  * second difference leaves an error of order h^4. At the horns of a profile, where g is stationary along a ring, the
- * shift gains as much as twice as many directions. Where f must stay positive, a node changes by no more than half of
- * its value. */
+ * shift gains as much accuracy as twice as many directions. Where f must stay positive, a node changes by no more than
+ * half of its value. */
 static void straighten(double *f, int n, bool positive)
 {
     double before = f[n - 1], first = f[0];
@@ -222,8 +222,8 @@ static void integrate(const struct kd_disk_image *image, const struct kd_line_pa
     add_rings(image, &outside, received, looks, work, s);
 }
 
-/* Edges of the bins of the sums: the requested ones, and as many more between and beyond them as the error estimate
- * needs. If two sums are compared at a few edges only, they may agree there by chance. */
+/* Edges of the bins of the sums: the requested ones, and more between and beyond them, because the error estimate needs
+ * many. If two sums are compared at a few edges only, they may agree there by chance. */
 struct edges {
     double *at;
     int n, bins;       /* number of requested edges; bins of the sums */

@@ -1,17 +1,17 @@
 /* Profile of a narrow emission line of a thin disk's gas, as an observer at infinity sees it: the number of photons
  * by energy, in units of the energy in the gas's frame. Double precision; any thread. G = c = M = 1.
  *
- * The gas moves on circular orbits from `inner` >= ISCO to `outer` and emits epsilon(r) f(mu) photons per time,
- * solid angle and area *across the light* (an intensity: per area of the disk it is mu times as much), mu being the
- * cosine to the normal. Since I_nu/nu^3 is constant along a ray, an area of the image plane receives (Cunningham
- * 1975, ApJ 202, 788)
+ * The gas moves on circular orbits from `inner` >= ISCO to `outer`. It emits epsilon(r) f(mu) photons per time, solid
+ * angle and area across the light. mu is the cosine of the angle between light and normal; per area of the disk there
+ * are mu times as many photons. Since I_nu/nu^3 is constant along a ray, an area of the image plane receives
+ * (Cunningham 1975, ApJ 202, 788)
  *
  *   dN = g^3 epsilon(r) f(mu) dalpha dbeta        at E = g E0
  *
  * photons, and g times as much energy. The disk's image (disk_image.h) is divided into cells between two rings and
- * two directions. Within a cell g is taken as linear, with its light-weighted mean and differences. The fraction of
- * a cell's light below an energy is then quadratic at both ends and linear between, so that each bin is exact,
- * however narrow. */
+ * two directions. Within a cell g is taken as linear, with the cell's light-weighted mean and differences of g. The
+ * fraction of a cell's light below an energy is then quadratic at both ends and linear between, so that each bin is
+ * exact, however narrow. */
 #ifndef KD_PHYSICS_DISK_LINE_PROFILE_H
 #define KD_PHYSICS_DISK_LINE_PROFILE_H
 
@@ -27,7 +27,8 @@ struct kd_line_params {
     enum kd_line_emissivity emissivity;
     double index;                /* POWER and BROKEN: epsilon = r^-index, for BROKEN up to break_r */
     double outer_index, break_r; /* BROKEN: (r/break_r)^-outer_index beyond, continuous */
-    /* The others: epsilon is proportional to the received light, that of a lamp at a height or of a corona. */
+    /* LAMPPOST, RING, DISK and SLAB: epsilon is proportional to the light that the disk receives from a lamp at
+     * `height` or from the corona. */
     double height, photon_index;
     struct kd_corona_shape corona;
     enum kd_limb limb;
@@ -41,8 +42,8 @@ struct kd_line_profile {
     /* The sum over all energies, in units of epsilon M^2, extrapolated from the last two sums, the second of which is
      * twice as fine. */
     double total;
-    /* Estimated maximum error of the cumulative share at any edge: from the change with half as many rings, angles
-     * and nodes of the table. */
+    /* Largest error of the cumulative share at an edge, estimated from its change with half as many rings, angles and
+     * nodes of the table. */
     double error;
 };
 

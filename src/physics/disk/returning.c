@@ -15,15 +15,15 @@
 
 enum {
     N = KD_RETURNING_RINGS,
-    ORDERS = 5, /* crossings of the plane that are followed; without spin each further one has e^-pi of the light, and
-                 * next to a = 1 more: at a = 0.998 the sixth has 1e-5 of that of the ISCO */
+    ORDERS = 5, /* crossings of the plane that are followed. Without spin each further crossing has e^-pi of the light;
+                   next to a = 1 it has more: at a = 0.998 the sixth has 1e-5 of the ISCO's light. */
     SIDES = 16, /* Gauss points in chi, in each of at most PANELS panels */
     PANELS = 3,
-    DEPTH = 12, /* and along each chi */
+    DEPTH = 12, /* Gauss points along each chi */
 };
 
-/* E at infinity over that in the frame of zero angular momentum below which a ray is followed by series: the labels
- * L/E and Q/E^2 of the closed form grow without bound. */
+/* A ray is followed by series if its E at infinity over its energy in the frame of zero angular momentum is below this:
+ * the labels L/E and Q/E^2 of the closed form grow without bound. */
 #define SLOW 1e-3
 
 /* Gas on a circular orbit at r, and the frame of zero angular momentum there. */
@@ -42,7 +42,8 @@ static struct ring ring_of(const struct kd_hole *hole, double r)
                            .girth = sqrt(m.area / m.sigma) };
 }
 
-/* Light of energy 1 in the frame of zero angular momentum: E, L and |p_theta|; its energy in the gas's frame. */
+/* Light of energy 1 in the frame of zero angular momentum. energy, momentum, polar: E, L and |p_theta|. seen: its
+ * energy in the gas's frame. */
 struct light { double energy, momentum, polar, seen; };
 
 static struct light light_of(const struct ring *o, double sin_rho, double cos_chi)
@@ -54,7 +55,8 @@ static struct light light_of(const struct ring *o, double sin_rho, double cos_ch
                             .seen = o->ut * (o->lapse + (o->drag - o->omega) * l) };
 }
 
-/* x = ln tan(rho/2): over distances the dark disk is small, and close to the hole nearly all of the sky. */
+/* sin(rho) from x = ln tan(rho/2). x resolves rho near 0 and near pi: the dark disk round the hole is a small part of
+ * the sky at large r, and nearly all of it close to the hole. */
 static double sine(double x) { return 1 / cosh(x); }
 
 /* The closed form of a ray of E > 0. */
@@ -71,7 +73,7 @@ static struct kd_null_path path_of(const struct kd_hole *hole, const struct ring
     return kd_null_trace_fast(&ray);
 }
 
-/* 1/r of crossing n: INFINITY after capture, -INFINITY after escape. */
+/* 1/r of crossing n. INFINITY: the ray is captured before; -INFINITY: it escapes before. */
 static double follow(const struct kd_hole *hole, const struct ring *o, double cos_chi, double x, int n)
 {
     const struct light p = light_of(o, sine(x), cos_chi);
@@ -112,9 +114,9 @@ static double edge(const struct kd_hole *hole, const struct ring *o, double cos_
     return x;
 }
 
-/* Parts of the sky along one chi. The disk is seen in order n from in[n] to out[n] < in[n - 1]; the light between
- * out[n] and in[n - 1] escapes, that below in[orders - 1] falls in. The second order exists where a ray can pass
- * between the ISCO and the hole. */
+/* Parts of the sky along one chi. The disk is seen in order n from in[n] to out[n] < in[n - 1]. Light between out[n]
+ * and in[n - 1] escapes, and light below in[orders - 1] falls in. The second order exists where a ray can pass between
+ * the ISCO and the hole. */
 struct parts {
     int orders;
     double in[ORDERS], out[ORDERS];
@@ -135,7 +137,7 @@ static struct parts parts_of(const struct kd_hole *hole, const struct ring *o, d
     return parts;
 }
 
-/* Gauss points on (0, 1): in chi, and along a chi. */
+/* Gauss points on (0, 1) and their weights: in chi (side), and along one chi (depth). */
 struct rule { double side[SIDES], side_weight[SIDES], depth[DEPTH], depth_weight[DEPTH]; };
 
 static struct rule rule_of(void)
@@ -153,9 +155,9 @@ static double beyond(const struct kd_hole *hole, const struct ring *o, double is
     return follow(hole, o, cos_chi, *guess, 1);
 }
 
-/* The sky of a ring, one chi after the other. Parts of the sky are smooth functions of chi in each panel: panels end
- * where that second crossing is at infinity, and at the ISCO. In chi integrands are smooth up to the plane, where mu
- * vanishes as sin(chi). */
+/* The sky of a ring, one chi after the other. Parts of the sky are smooth functions of chi within each panel. Panels
+ * end at the chi for which the second crossing (`beyond`) is at infinity, and for which it is at the ISCO. Integrands
+ * are smooth in chi up to the plane, where mu vanishes as sin(chi). */
 struct sky {
     int panels;
     double ends[PANELS + 1];
@@ -200,8 +202,8 @@ static struct side side_of(const struct kd_hole *hole, const struct ring *o, dou
     return (struct side) { cos(chi), (ends[1] - ends[0]) * rule->side_weight[i % SIDES] * sin(chi) };
 }
 
-/* The part of a chi between two x. `wide`: it is measured by rho; the others by t = cot(rho/2), since over distances
- * the light of the disk is near the dark disk. */
+/* The part of one chi between two values of x. `wide`: it is integrated in rho; otherwise in t = cot(rho/2), because at
+ * large r the light of the disk arrives close to the dark disk. */
 struct strip {
     struct side side;
     double from, to;
@@ -229,7 +231,7 @@ static double point_of(const struct strip *s, const struct rule *rule, int k, do
 
 static double emitted(enum kd_limb limb, double mu) { return kd_limb_at(limb, mu) * kd_limb_scale(limb) / M_PI; }
 
-/* Shares of photons and of energy at infinity that a strip of a ring's sky has. */
+/* Adds the shares of a ring's photons, and of their energy at infinity, that leave into a strip of the ring's sky. */
 static void add_strip(const struct ring *o, enum kd_limb limb, const struct rule *rule, struct strip strip,
                       double *photons, double *energy)
 {
@@ -308,7 +310,7 @@ void kd_returning_rays(const struct kd_hole *hole, double r,
     }
 }
 
-/* Nodes in s are those of Chebyshev's polynomials; interpolation in the barycentric form (J.-P. Berrut & L. N.
+/* Weights of Chebyshev's nodes for interpolation at s, in the barycentric form (J.-P. Berrut & L. N.
  * Trefethen 2004, SIAM Review 46, 501). */
 static void weights_at(const double *nodes, double s, double *weights)
 {
@@ -336,11 +338,12 @@ static double at_nodes(const double *nodes, const double *values, double s)
     return sum;
 }
 
-/* What rings receive, per r^3: of light that the gas emits by itself, and as a matrix over `more`. */
+/* What rings receive, times r^3. flux, deficit, energy: of the light that the gas emits without returning light.
+ * flux_of, deficit_of: matrices that give F_ret and L F_ret - l of the light that `more` adds. */
 struct kernel {
     double flux[N], deficit[N], energy[N]; /* F_ret; L F_ret - l; energy at infinity */
     double flux_of[N][N], deficit_of[N][N];
-    double stress_of[N][N]; /* r^3 F_t of the deficits */
+    double stress_of[N][N]; /* matrix that gives r^3 F_t from the deficits */
 };
 
 static void receive(struct kd_returning *table, struct kernel *kernel, int i, const struct ring *o,
@@ -379,7 +382,7 @@ static void receive_along(struct kd_returning *table, struct kernel *kernel, int
     }
 }
 
-/* The integral from the ISCO to each ring as one from s to 1 of the polynomial through the nodes. */
+/* Takes the integral from the ISCO to each ring as the integral from s to 1 of the polynomial through the nodes. */
 static void fill_stress(const struct kd_returning *table, const struct rule *rule, struct kernel *kernel)
 {
     for (int i = 0; i < N; i++) {
@@ -405,7 +408,7 @@ static double times(const double *row, const double *x)
     return sum;
 }
 
-/* One more scattering in each step. */
+/* Each step adds one more scattering. */
 static void converge(struct kd_returning *table, const struct kernel *kernel)
 {
     double change = 1;
@@ -426,7 +429,8 @@ static void converge(struct kd_returning *table, const struct kernel *kernel)
     }
 }
 
-/* Integrals over the disk: 4 pi r dr = 8 pi r_isco^2 ds/s^5, and the efficiency is that of F_0 E. */
+/* Integrals over the disk, with 4 pi r dr = 8 pi r_isco^2 ds/s^5, divided by the efficiency, which is the integral of
+ * F_0 E. */
 static void share_out(struct kd_returning *table, const struct kernel *kernel)
 {
     enum { POINTS = 96 };
@@ -450,7 +454,8 @@ static void share_out(struct kd_returning *table, const struct kernel *kernel)
     table->error = fmax(fabs(arrives / table->first.returns - 1), fabs(total(&table->lastly) - 1));
 }
 
-/* The largest F within 4 ISCO: from a grid, then by thirds between the neighbours of its largest value. */
+/* Finds the largest F within 4 ISCO: on a grid, then by ternary search between the neighbours of the grid's largest
+ * value. */
 static void find_hottest(struct kd_returning *table)
 {
     enum { CELLS = 256, THIRDS = 40 };
@@ -472,7 +477,7 @@ static void find_hottest(struct kd_returning *table)
     table->largest = kd_returning_flux(table, table->hottest);
 }
 
-/* The rows of the kernel and the shares of light do not depend on one another. */
+/* One ring's row of the kernel and its shares of light do not depend on other rings, so rings are made in parallel. */
 struct making {
     struct kd_returning *table;
     struct kernel kernel;

@@ -13,16 +13,19 @@ struct kd_scattered { double across, along; };
 /* Fills `out` for n cosines from 0 to 1. Takes some milliseconds, plus microseconds for each. */
 void kd_scattered_light(const double *mu, size_t n, struct kd_scattered *out);
 
-/* Functions of the law of diffuse reflection by the same atmosphere (section 70): psi, phi, chi, zeta of the part that
- * is independent of azimuth, and H of the parts in the first and second multiple of the azimuth. */
+/* Functions of mu in Chandrasekhar's law of diffuse reflection (section 70), for the same atmosphere. psi, phi, chi and
+ * zeta describe the term that is independent of azimuth. first and second are H(mu) of the terms in the azimuth and in
+ * twice the azimuth. */
 struct kd_scattering_functions { double psi, phi, chi, zeta, first, second; };
 void kd_scattering_functions(const double *mu, size_t n, struct kd_scattering_functions *out);
 
-/* Light of one direction that this atmosphere reflects. Bases of the polarisation are l, in the plane of normal and
- * ray, and r across it, with l x r along the ray and l pointing to lower cosines; I_l + I_r is the intensity, U that at
- * 45 degrees from l towards r. light: I_l, I_r, U times the solid angle, from the cosine mu0 to the normal; out: by the
- * difference of azimuths of the directions of propagation, out minus in, as series of 1, cos, sin, cos 2x, sin 2x of
- * it. */
+/* Reflects light that arrives at the cosine mu0 to the normal, towards the cosine mu. The basis of its polarisation
+ * is l, in the plane of normal and ray, and r, across this plane. l x r points along the ray, and l to lower cosines.
+ * The intensity is I_l + I_r. U is positive at 45 degrees from l towards r.
+ *
+ * light: I_l, I_r and U of the light that arrives, times its solid angle.
+ * out: I_l, I_r and U of the light that leaves, each as a series in 1, cos x, sin x, cos 2x, sin 2x. Here x is the
+ * azimuth of the outgoing direction of propagation minus the azimuth of the incoming one. */
 struct kd_reflected_stokes { double l[5], r[5], u[5]; };
 void kd_scattering_reflect(const struct kd_scattering_functions *out_at, double mu,
                            const struct kd_scattering_functions *in_at, double mu0, const double light[3],

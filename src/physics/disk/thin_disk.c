@@ -138,8 +138,7 @@ double kd_disk_flux_shakura_sunyaev(const struct kd_hole *hole, double r)
  * (eq. 15n is the integral of this from x0.) Near the ISCO, where the logarithms of 15n cancel, the integral itself
  * keeps all digits. The numerator is y^3 (y + 4) - 2d (1 + 4y) - 3d^2, which has the factor y - y0. */
 struct rise {
-    double a, y0, gap; /* gap: distance of x0 from the nearest root of x^3 - 3x + 2a, which is that of the photon
-                        * orbit */
+    double a, y0, gap; /* gap: distance of x0 from the nearest root of x^3 - 3x + 2a, the root of the photon orbit */
     double turns;      /* ln(1 + (x - x0)/gap), in which B' is smooth even for a nearly extremal hole */
 };
 

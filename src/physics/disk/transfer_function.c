@@ -7,7 +7,7 @@
 /* g = 1/(u^t (1 + Omega alpha sin i)), so that a ring's energy determines alpha. Along a line of constant alpha the
  * visible radius r(beta) decreases from the near side to a minimum and grows again on the far side. A ring is seen
  * at alpha twice if that minimum is below r; at the ring's ends it equals r. This holds also next to edge-on, where
- * the image of the far side stands steeply over that of the near side. */
+ * the image of the far side stands steeply over the image of the near side. */
 
 #define SHORTER 0.61803398874989485 /* ratio of the golden section: (sqrt(5) - 1)/2 */
 #define LEAST_WIDTH 1e-8 /* relative width of the bracket of the minimum, whose error is the square of that */

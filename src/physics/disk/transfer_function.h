@@ -3,11 +3,11 @@
  *
  *   f(g*, r) = g sqrt(g* (1 - g*)) |d(alpha, beta)/d(g*, r)|/(pi r)      g* = (g - g_min)/(g_max - g_min)
  *
- * Cunningham 1975, ApJ 202, 788; Speith, Riffert & Ruder 1995, Comput. Phys. Commun. 88, 109, eq. 1. A ring shows
- * each g between the ends twice, on the near and on the far side of the hole, and a line is F(g) dg = sum over both
- * of pi r f g^2 epsilon/sqrt(g* (1 - g*)) dg* dr (photons: line_profile.h). Places are found by rays that meet the
- * ring. The determinant is 1/(|dg/d alpha| |dr/d beta|): the first factor at constant r in closed form, the second
- * at constant alpha by finite differences of rays. */
+ * Cunningham 1975, ApJ 202, 788; Speith, Riffert & Ruder 1995, Comput. Phys. Commun. 88, 109, eq. 1. A ring shows each
+ * g between g_min and g_max twice: on the near and on the far side of the hole. A line is F(g) dg = pi r f g^2
+ * epsilon/sqrt(g* (1 - g*)) dg* dr photons (line_profile.h), summed over both sides. Places are found by rays that meet
+ * the ring. The determinant is 1/(|dg/d alpha| |dr/d beta|). dg/d alpha is taken at constant r, in closed form; dr/d
+ * beta is taken at constant alpha, by finite differences of rays. */
 #ifndef KD_PHYSICS_DISK_TRANSFER_FUNCTION_H
 #define KD_PHYSICS_DISK_TRANSFER_FUNCTION_H
 

@@ -49,7 +49,7 @@ void kd_null_polar_gap(const struct kd_null_motion *m, double *s, double *gap, d
 /* Only the Mino time from the observer to the first crossing; INFINITY if there is no crossing. */
 double kd_null_polar_first(const struct kd_null_motion *m);
 
-/* From the observer to crossing n = 0, 1, ...; only where `crosses`. */
+/* Integrals from the observer to crossing n = 0, 1, ...; only if p->crosses. */
 struct kd_null_polar_sum kd_null_polar_crossing(const struct kd_null_polar *p, int n);
 
 /* cos(theta) at Mino time tau, and the azimuth since the observer. */

@@ -30,13 +30,14 @@ struct kd_orbit_bound kd_orbit_bound_of(const struct kd_orbit *orbit, const stru
 
 struct kd_orbit_frequencies {
     double mino_r, mino_theta, mino_phi, mino_t,
-        mino_proper;      /* per Mino time: Upsilon_r, ..., Gamma and its like for proper time */
+        mino_proper;      /* per Mino time: Upsilon_r, Upsilon_theta, Upsilon_phi, Gamma, and the rate of proper time */
     double r, theta, phi; /* per coordinate time */
 };
 struct kd_orbit_frequencies kd_orbit_frequencies_of(const struct kd_orbit_bound *bound);
 
-/* Azimuth gained from one periastron to the next beyond a full turn, 2 pi (|Upsilon_phi| / Upsilon_r - 1), and from one
- * ascending node to the next. For a = 0 the former is computed without cancellation, however wide the orbit. */
+/* Azimuth gained beyond a full turn: from one periastron to the next, 2 pi (|Upsilon_phi| / Upsilon_r - 1), and from
+ * one ascending node to the next. For a = 0 the periastron's advance is computed without cancellation, however wide the
+ * orbit. */
 double kd_orbit_periastron_advance(const struct kd_orbit_bound *bound);
 double kd_orbit_nodal_advance(const struct kd_orbit_bound *bound);
 

@@ -55,7 +55,7 @@ struct kd_orbit_path {
     struct kd_spring spring[KD_PATH_PLACES];
     double stiff;                /* of y, if its linear force is repulsive */
     double cc, nu, twist, swing; /* constants of the azimuth; swing: its value at the start */
-    double entry_t, entry_phi;   /* difference of the ingoing coordinates from t and phi where they were entered */
+    double entry_t, entry_phi;   /* ingoing coordinates minus t and phi where the path changed to ingoing coordinates */
     struct kd_exact place[KD_PATH_PLACES]; /* w, y */
     struct kd_exact rate[KD_PATH_RATES];   /* derivatives of w, y; then proper time, t, and the smooth part of phi */
     struct kd_exact mino;
@@ -69,10 +69,11 @@ void kd_orbit_path_init(struct kd_orbit_path *path, const struct kd_orbit *orbit
 void kd_orbit_path_step(struct kd_orbit_path *path, double h);
 struct kd_orbit_place kd_orbit_path_place(const struct kd_orbit_path *path);
 
-/* Errors of the first integrals, from the present place. E and the rest mass: relative. Q: the residual of the polar
- * equation, divided by L^2 + Q. With a = 0 Binet's C = (dw/dpsi)^2 + w^2 - 2w/l^2 - 2w^3 + q^2 w^2 (1/l^2 + w^2) =
- * (E^2 - 1)/l^2, l^2 = L^2 + Q, psi being the angle in the plane of the orbit, times l^2; otherwise NAN. The mass is
- * NAN within a hundredth of r+ from the horizon and a tenth from the axis, where it is 0/0. */
+/* Errors of the first integrals at the present place. energy, mass: relative errors of E and of the rest mass; mass is
+ * NAN within a hundredth of r+ from the horizon and a tenth from the axis, where it is 0/0. carter: residual of the
+ * polar equation over L^2 + Q. binet, NAN unless a = 0: error of Binet's
+ * C = (dw/dpsi)^2 + w^2 - 2w/l^2 - 2w^3 + q^2 w^2 (1/l^2 + w^2) = (E^2 - 1)/l^2, times l^2. Here l^2 = L^2 + Q, and
+ * psi is the angle in the plane of the orbit. */
 struct kd_orbit_drift { double energy, carter, mass, binet; };
 struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *path);
 

@@ -46,13 +46,13 @@ struct kd_orbit_state { double w, w_rate, u, u_rate; };
 
 /* A bound orbit between the radii p/(1+e) and p/(1-e), 0 <= e < 1, inclined to the equatorial plane by the angle
  * whose cosine is x, |x| <= 1; x < 0 is retrograde (towards -phi). W. Schmidt 2002, gr-qc/0202090, appendix B,
- * regrouped: see orbit_shape.c. KD_EINVAL, with pointer "/p", "/e" or "", if there is none; only a circular orbit
- * may be unstable. */
+ * regrouped: see orbit_shape.c. KD_EINVAL, with pointer "/p", "/e" or "", if there is no such orbit. Only a circular
+ * orbit may be unstable. */
 enum kd_status kd_orbit_from_shape(const struct kd_hole *hole, double p, double e, double x, struct kd_orbit *orbit,
                                    struct kd_error *error);
 
-/* The smallest p of a stable orbit with this e and x: the separatrix. For e = 0 that is the innermost stable
- * circular or spherical orbit. */
+/* The separatrix: the smallest p of a stable orbit with this e and x. For e = 0 it is the radius of the innermost
+ * stable circular or spherical orbit. */
 double kd_orbit_separatrix(const struct kd_hole *hole, double e, double x);
 /* Radius of the photon orbit with this x: circular and spherical orbits of bodies exist outside it, stable or not. */
 double kd_orbit_least_circle(const struct kd_hole *hole, double x);

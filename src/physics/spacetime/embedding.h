@@ -15,8 +15,8 @@
 /* R: circumference over 2 pi of the circle at r. */
 double kd_embedding_radius(const struct kd_hole *hole, double r);
 
-/* Height z over the horizon's circle; for a = 0 it is sqrt(8 (r - 2)). Relative error below 1e-14 plus that of r -
- * r+. */
+/* Height z over the horizon's circle; for a = 0 it is sqrt(8 (r - 2)). Its relative error is below 1e-14 plus the
+ * relative error of r - r+. */
 double kd_embedding_height(const struct kd_hole *hole, double r);
 
 /* Proper distance from the horizon along r: sqrt(Delta) + ln((r - 1 + sqrt(Delta))/sqrt(1 - a^2)); same error. */

@@ -75,8 +75,8 @@ static inline double kd_hole_delta(const struct kd_hole *hole, double r)
 }
 
 /* Delta/r^2 = 1 - 2w + (a^2 + q^2) w^2 at w = 1/r, as (1 - w)^2 - (root w)^2. 1 - w is exact near the horizon of a hole
- * that spins fast, and the two factors keep their accuracy where the horizons almost coincide. The error is that of
- * w. */
+ * that spins fast, and the two factors keep their accuracy where the horizons almost coincide. The error of the result
+ * is the error of w. */
 static inline double kd_hole_delta_w(const struct kd_hole *hole, double w)
 {
     double d = 1 - w, h = hole->root * w;

@@ -13,8 +13,8 @@
 #include <stdbool.h>
 
 /* X(NAME, word, description, where it exists, edge(a, cos(theta)), name of the edge, what holds inside): the observer
- * exists at radii larger than its edge. The velocity of the last one is a parameter, so that it cannot serve as a frame
- * in which other velocities are measured. */
+ * exists at radii larger than its edge. The velocity of the last observer is a parameter, so this observer cannot be
+ * the frame in which other velocities are measured. */
 #define KD_OBSERVERS_OF_NO_NUMBERS(X) \
     X(STATIC, static, "at rest with respect to infinity", \
       "outside the ergosphere, r > 1 + sqrt(1 - Q^2 - a^2 cos^2 i)", kd_kerr_ergosphere(hole, u), "the ergosphere", \
@@ -37,8 +37,8 @@
 enum kd_observer { KD_OBSERVERS(KD_OBSERVER_NAME_) KD_OBSERVER_COUNT };
 enum { KD_OBSERVER_FRAMES = KD_OBSERVER_VELOCITY }; /* the observers before it have no parameters */
 
-/* String constants: "static|zamo", as in a row of enumerated words; "; static: at rest ...; zamo: ..."; and where
- * each exists. */
+/* String constants. WORDS: "static|zamo|...", as in a row of enumerated words. HELP: "; static: at rest ...; zamo:
+ * ...". PLACES: where each exists. */
 #define KD_OBSERVER_WORD_(NAME, word, ...) "|" #word
 #define KD_OBSERVER_WORDS (&(KD_OBSERVERS(KD_OBSERVER_WORD_))[1])
 #define KD_OBSERVER_FRAME_WORDS (&(KD_OBSERVERS_OF_NO_NUMBERS(KD_OBSERVER_WORD_))[1])
@@ -87,7 +87,7 @@ bool kd_observer_exists(enum kd_observer observer, const struct kd_vantage *at);
 enum kd_observer_fault {
     KD_OBSERVER_SOUND,
     KD_OBSERVER_TOO_FAST,    /* |velocity| >= 1: `bound` is 1 */
-    KD_OBSERVER_FROM_INSIDE, /* fall_from is inside the place: it must be at least `bound`, the place itself */
+    KD_OBSERVER_FROM_INSIDE, /* fall_from is less than the place's radius, which is `bound` */
     /* The body's energy is too low for this place, or the body turns back on its way from fall_from. Its energy must
      * exceed `bound`. */
     KD_OBSERVER_TURNS,
@@ -98,8 +98,8 @@ enum kd_observer_fault kd_observer_check(const struct kd_observer_motion *motion
 
 /* The observer's frame; it must exist and have no fault. For infall it is regular at the outer horizon and inside.
  *
- * The legs of a frame that moves relative to that of zero angular momentum are those of the latter, boosted without
- * rotation (kd_tetrad_boosted). */
+ * If the observer moves relative to the frame of zero angular momentum, its legs are the legs of that frame, boosted
+ * without rotation (kd_tetrad_boosted). */
 struct kd_tetrad kd_observer_tetrad(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 
 /* E per mass of an infalling observer. */

@@ -1,10 +1,10 @@
 /* Orthonormal frames in which observers and neutral bodies measure about a hole. Double precision, pure functions, any
  * thread. Units G = c = M = 1; Boyer-Lindquist coordinates.
  *
- * A frame is four covectors: the legs e_t (minus this, applied to a motion, is the time of a clock at rest in the
- * frame), e_r, e_theta, e_phi with their indices lowered. The vector with local components x = (x_t, x_r, x_theta,
- * x_phi) has the covector sum of x_i e_i: x = (1, m) for a photon of local energy 1 along the unit vector m, x =
- * gamma (1, v) for a body of velocity v.
+ * A frame is four covectors: the legs e_t, e_r, e_theta, e_phi with their indices lowered. Minus e_t, applied to a
+ * motion, is the time of a clock at rest in the frame. The vector with local components x = (x_t, x_r, x_theta, x_phi)
+ * has the covector sum of x_i e_i. For a photon of local energy 1 along the unit vector m, x is (1, m). For a body of
+ * velocity v, x is gamma (1, v).
  *
  * A covector p is stored by covariant components in the form that kernels start from, which is finite on the axis
  * and at a horizon: E = -p_t, L/sin(theta) = p_phi/sin(theta), p_theta, and Delta p_r = Sigma p^r, the velocity
@@ -33,8 +33,8 @@ struct kd_tetrad {
     double past_rain[4];
 };
 
-/* The covector of the components x, and the components of a covector. The latter fails exactly at a horizon, where
- * E, L and Delta p_r are not independent (NaN or infinity). */
+/* The covector of the components x, and the components of a covector. kd_tetrad_components fails exactly at a horizon,
+ * where E, L and Delta p_r are not independent (NaN or infinity). */
 struct kd_covector kd_tetrad_covector(const struct kd_tetrad *frame, const double x[4]);
 void kd_tetrad_components(const struct kd_tetrad *frame, const struct kd_covector *p, double x[4]);
 
@@ -52,8 +52,8 @@ struct kd_look { double right, up, inwards, energy; };
 struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, const struct kd_covector *photon);
 
 /* The same for light that moves inwards (radial <= 0), in a frame that falls, also at a horizon. polar2: the square
- * of p_theta. It may be negative when continued beyond the visible directions; `up` is then that of the photon's own
- * p_theta. kd_tetrad_look uses this function where necessary. */
+ * of p_theta. It may be negative when continued beyond the visible directions; `up` is then computed from the photon's
+ * own p_theta. kd_tetrad_look uses this function where necessary. */
 struct kd_look kd_tetrad_look_inwards(const struct kd_tetrad *frame, const struct kd_covector *photon, double polar2);
 
 /* The same from the components x = (1, m) of a photon in the rain frame: for a frame that falls, regular at a

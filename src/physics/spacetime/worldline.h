@@ -9,9 +9,10 @@
  * chosen velocity. */
 bool kd_worldline_is_known(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 
-/* The observer's place after `proper_time`, 0 or more. azimuth (radians) and time are increases: for free fall in
- * ingoing Kerr-Schild coordinates, for others in Boyer-Lindquist coordinates; at constant radius both give the same.
- * far_time: in Boyer-Lindquist coordinates for all observers; INFINITY for free fall from the horizon on. */
+/* The observer's place after `proper_time`, 0 or more. azimuth (radians) and time are increases since the start. They
+ * are in ingoing Kerr-Schild coordinates for free fall, and in Boyer-Lindquist coordinates for other observers; at
+ * constant radius both coordinates give the same increases. far_time: increase of Boyer-Lindquist time for all
+ * observers; INFINITY for free fall from the horizon on. */
 struct kd_worldline_place {
     double r, azimuth, time, far_time;
     bool ended; /* the observer has reached the end of its fall */

@@ -28,7 +28,7 @@ extern const char *const kd_accuracy_set_names[KD_ACCURACY_SETS]; /* "bulk", "ne
 extern const char *const kd_accuracy_set_rays[KD_ACCURACY_SETS];  /* the rays in words */
 
 struct kd_accuracy_view { double spin, inclination_deg; };
-#define KD_ACCURACY_VIEWS 2 /* the most views of a set */
+#define KD_ACCURACY_VIEWS 2 /* maximum number of views in a set */
 
 uint32_t kd_accuracy_views(enum kd_accuracy_set set, struct kd_accuracy_view out[KD_ACCURACY_VIEWS]);
 

@@ -18,7 +18,7 @@ enum kd_cache_kind {
 /* Bounds of what stays after kd_renderer_rest. Device memory is allocated in blocks of 64 MiB (vk/memory.c): one map
  * may keep two of them. */
 #define KD_REST_MAPS_BYTES (64ull << 20) /* the latest lens map, or none if it is larger */
-#define KD_REST_KERNELS 16u              /* the latest ones: as many as one view and its refinement need */
+#define KD_REST_KERNELS 16u              /* the most recently used ones: enough for one view and its refinement */
 #define KD_REST_PANORAMAS 1u             /* the latest one, up to 45 MB */
 /* Limit for buffers of finished pictures that were rendered in the background (kd_render_in_background), besides those
  * of the last one: their lens maps may serve the next picture. */

@@ -46,10 +46,10 @@ struct kd_emitter {
      * computed (KD_PASS_name of its GLSL file). NULL: none; if only `invocations` is NULL, the host fills the
      * buffers. */
     const struct kd_emitter_buffers *own;
-    uint32_t quads; /* traits with which it reads a buffer of quads; 0: none */
+    uint32_t quads; /* the emitter reads a buffer of quads if it has any of these traits; 0: never */
     uint64_t (*device_bytes)(const struct kd_scene *scene);
     uint64_t (*making_bytes)(
-        const struct kd_scene *scene); /* the most host memory needed while the buffers are made; NULL: little */
+        const struct kd_scene *scene); /* peak of the host memory that making the buffers takes; NULL: little */
     uint64_t (*invocations)(const struct kd_scene *scene);
     /* Least and largest r at which the emitter emits or absorbs, M; NULL: anywhere. Crossings outside the range of all
      * emitters are skipped. */
@@ -103,13 +103,13 @@ bool kd_emit_separate_photometry(const struct kd_scene *scene);
 bool kd_emit_points(const struct kd_scene *scene);
 /* Bytes of all device buffers of the scene's emitters. */
 uint64_t kd_emit_device_bytes(const struct kd_scene *scene);
-/* The most host memory needed to make the contents of these buffers. */
+/* Peak of the host memory that making the contents of these buffers takes. */
 uint64_t kd_emit_making_bytes(const struct kd_scene *scene);
 /* Invocations of an emitter's own pass; 0 if it has none or the scene does not have the emitter. */
 uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_number number);
-/* What the scene's emitters cost. kind: a hash of which there are, of their traits and of the quantities of the lens
- * map that they need; log2_of: logarithms of the bytes of each emitter's own buffers and of the invocations of its own
- * pass; 0: none. */
+/* What the scene's emitters cost. kind: hash of the set of emitters, of their traits, and of the quantities of the lens
+ * map that they need. log2_of: for each emitter, the logarithms of the bytes of its own buffers and of the invocations
+ * of its own pass; 0: it has none. */
 struct kd_work {
     uint64_t kind;
     float log2_of[KD_EMITTER_COUNT][2];

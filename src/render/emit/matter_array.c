@@ -7,7 +7,8 @@
 
 enum kd_status kd_matter_refuse(const char *name, const char *what, struct kd_error *error)
 {
-    return kd_error_set(error, KD_EINVAL, "a grid of matter is an NPZ file of arrays: %s %s", name, what);
+    return kd_error_set(error, KD_EINVAL, "the file is not a grid of matter (an NPZ file of arrays): %s %s", name,
+                        what);
 }
 
 enum kd_status kd_matter_no_memory(struct kd_error *error)

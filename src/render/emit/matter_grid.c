@@ -411,8 +411,8 @@ static float filled(const struct kd_matter_grid *g, const float *nodes, size_t i
     return n ? (float)exp2(sum / n) : nodes[KD_MATTER_FLOATS * i + TEMPERATURE];
 }
 
-/* Divides azimuthal components by sin^2 theta, with which they fall near the axis. On the axis the result is the
- * neighbour's. */
+/* Stores azimuthal components divided by sin^2 theta: near the axis they fall as sin^2 theta. Nodes on the axis get the
+ * quotient of the node beside them. */
 static void over_sine(struct kd_matter_reader *r)
 {
     static const int kind[] = { VELOCITY + 2, FIELD + 2 };
@@ -532,7 +532,8 @@ enum kd_status kd_matter_reader_open(const void *data, size_t size, bool look, s
     r->look = look;
     if ((status = kd_unzip_open(data, size, &r->zip, &why)))
         KD_TRY(status == KD_EINVAL
-                   ? kd_error_set(error, KD_EINVAL, "a grid of matter is an NPZ file of arrays: %s", why.message)
+                   ? kd_error_set(error, KD_EINVAL, "the file is not a grid of matter (an NPZ file of arrays): %s",
+                                  why.message)
                    : kd_matter_no_memory(error));
     KD_TRY(take_header(r, error));
     KD_TRY(take_places(r, error));

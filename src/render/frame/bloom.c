@@ -64,8 +64,8 @@ done:
     return status;
 }
 
-/* Blocks along an axis that two cells may read: the blocks of four cells, and more where the last block is narrow and
- * blocks are therefore closer. */
+/* Maximum number of blocks along an axis that a pair of adjacent cells reads. The pair reads blocks in four cells. A
+ * narrow last block brings centres of blocks closer together, which adds up to two blocks. */
 static uint32_t taps(uint32_t pixels, uint32_t cells, uint32_t block, bool around)
 {
     return 4 * pixels / (cells * block) + (pixels % block ? 3 : 1) + (around ? 1 : 0);

@@ -149,12 +149,12 @@ struct kd_governor {
     uint32_t missed;           /* successive frames that traced although the lens was unchanged */
     bool rings;                /* only brightness changes, nothing moves */
     double least, patience_ms; /* arguments of kd_governor_least */
-    bool gave_way, slow; /* gave_way: frames may be narrower than `least`; slow: index of the pace that was too slow and
-                            caused this */
-    double wide_ms;      /* varying time of frames on that pace's rung; 0: unknown */
-    struct kd_rung wide; /* the rung of that pace */
-    /* stays: fraction of the time of narrow frames that does not depend on size; stays_of: number of rays of the
-     * rung on which it was measured; 0: unknown */
+    /* gave_way: frames may be narrower than `least`, because a pace was too slow; slow: index of this pace */
+    bool gave_way, slow;
+    double wide_ms;      /* total minus fixed time of a frame on the rung `wide`; 0: unknown */
+    struct kd_rung wide; /* rung of the slow pace before frames became narrower */
+    /* stays: fraction of the time of narrow frames that does not depend on their size; stays_of: number of rays of the
+     * rung on which this fraction was measured; 0: unknown */
     double stays, stays_of;
     struct kd_quality shown;
     uint32_t shown_revision; /* 0: none */

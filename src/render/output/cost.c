@@ -44,14 +44,14 @@ enum kd_status kd_cost_add(struct kd_cost *cost, const struct kd_series *series,
         return KD_OK;
     cost->trace_ms += trace_ms(plan);
     if (kd_plan_lens_group(scene, &group) || kd_sweep_order_add(&cost->order, group, trace_ms(plan)))
-        return kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u scenes", sweep->scenes);
+        return kd_error_set(error, KD_ENOMEM, "out of memory for sorting %u scenes by lens map", sweep->scenes);
     return KD_OK;
 }
 
 enum kd_status kd_cost_end(struct kd_cost *cost, struct kd_error *error)
 {
     return kd_sweep_order_end(&cost->order, &cost->shared_ms)
-               ? kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u frames", cost->frames)
+               ? kd_error_set(error, KD_ENOMEM, "out of memory for sorting %u frames by lens map", cost->frames)
                : KD_OK;
 }
 

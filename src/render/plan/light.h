@@ -66,8 +66,8 @@ static inline bool kd_plan_stokes_apart(const struct kd_plan_light *light)
     return light->stokes_words > KD_PLAN_STOKES;
 }
 
-/* Whether a layer follows from what the march stored with the picture's own light, rather than from rays traced for
- * it. */
+/* Whether a layer is computed from the numbers that the march stores while it makes the picture. If not, rays are
+ * traced for the layer. */
 static inline bool kd_plan_gathers(const struct kd_plan_light *light, int kind)
 {
     return light->march.steps && kd_layer_kinds[kind].of == KD_OF_LIGHT;

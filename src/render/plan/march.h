@@ -17,8 +17,8 @@ struct kd_march_sample { uint32_t columns, rows, every[2], first[2]; };
 struct kd_march {
     uint32_t steps; /* steps per half period, at least 8; 0: the scene has no volumes */
     double weight;  /* cost of a ray, relative to one through a smooth volume at the balanced profile */
-    /* quarters of a stretch per grain, 2 to 64. Where light is smooth, the error falls at least as the fourth power of
-     * this */
+    /* resolution, 2 to 64: a stretch is at most 4/fine grains long (grain: the length that an emitter reports). Where
+     * light is smooth, the error falls at least as the fourth power of this */
     uint32_t fine;
     /* a ray ends where less than this fraction of the light from behind is transmitted: a tenth of the target for
      * the error */

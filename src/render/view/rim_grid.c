@@ -8,19 +8,20 @@
 #include <math.h>
 #include <string.h>
 
-/* The rim is sampled in cells: ROUND along the curve, ACROSS away from it. */
+/* The rim is sampled in cells: ROUND along the curve, ACROSS away from it. u is the turn along the curve, l the
+ * logarithm of the relative distance from it (rim.h). */
 enum { ROUND = 64, ACROSS = 20 };
 
 #define OVERHEAD 1000.0 /* rays: the fixed cost of a grid */
-#define LONGEST_L 0.5   /* largest step of the logarithm from row to row */
+#define LONGEST_L 0.5   /* largest step of l from row to row */
 #define NUDGE 1e-4
 #define SLOW 0.6   /* rad: if a rim's `winds` is less, every second cell is measured */
 #define BESIDE 0.2 /* fraction of a cell's size in the picture by which it may extend beyond its corners */
-#define FEW 6.0    /* rad: if a rim's `winds` is less, the rim has too many rays in no picture */
+#define FEW 6.0    /* rad: if a rim's `winds` is less, its grids never exceed the limit of rays */
 #define SPREAD 4.0 /* pixels: an image this far outside the picture may light some of it */
 
-/* by_u, by_l: shift of the sky along u and l; most_u, most_l: the largest of these shifts in this cell and half way
- * to its neighbours; shown: solid angle of the sky that a pixel shows, sr. */
+/* by_u, by_l: shift of the sky per unit of u and of l. most_u, most_l: the largest of these shifts in this cell and
+ * half way to its neighbours. shown: solid angle of the sky that a pixel shows, sr. */
 struct cell {
     double by_u, by_l, most_u, most_l, shown;
     bool in_picture, wanted;
@@ -31,7 +32,7 @@ struct part { int u0, u1, l0, l1; };
 struct layout {
     const struct kd_rim *rim;
     struct kd_sky_rays rays;
-    double first, du, dl; /* first: the logarithm at which the cells begin; du, dl: the size of a cell */
+    double first, du, dl; /* first: l at which the cells begin; du, dl: size of a cell */
     double step;
     struct cell of[ROUND][ACROSS];
     struct kd_rim_grids *out;
@@ -59,7 +60,7 @@ static double solid_angle(const double n[3], const double a[3], const double b[3
                 n[2] * (i[0] * j[1] - i[1] * j[0]));
 }
 
-/* Measures cells by the ray in their middle and two rays next to it. */
+/* Measures a block of apart x apart cells by the ray in its middle and two rays next to it. */
 static void measure(struct layout *o, int i, int j, int apart)
 {
     const double u = (i + 0.5 * apart) * o->du, l = o->first - (j + 0.5 * apart) * o->dl;
@@ -203,8 +204,8 @@ static bool tighten(const struct layout *o, struct part *p)
     return t.u1 > 0;
 }
 
-/* The range of whole tiles of the star search whose rays have images with a share in the light, which lie from `low` to
- * `high` along an axis, counted in rays. A ray's images are up to KD_RIM_REACH from it. */
+/* Images with a share in the light lie from `low` to `high` along an axis, counted in rays. Returns the range of whole
+ * tiles of the star search that contains the rays which find them. A ray finds images up to KD_RIM_REACH from it. */
 static struct kd_rim_span shared_span(double low, double high, uint32_t rays)
 {
     const double tile = KD_RIM_TILE_RAYS, first = floor(floor(low - KD_RIM_REACH + 1) / tile) * tile,
@@ -369,7 +370,7 @@ void kd_rim_grids_of(const struct kd_scene *scene, const struct kd_rim *rim, str
     set_places(out);
 }
 
-/* Corners of ACROSS cells along one line of constant turn u, from logarithm l to l + high. */
+/* Corners of ACROSS cells along one line of constant u, from l to l + high. */
 static void see_line(const struct kd_rim *rim, const struct kd_camera_exact *camera, double u, double l, double high,
                      struct corner line[ACROSS + 1])
 {
@@ -390,8 +391,8 @@ static struct kd_rim_span span_of(double low, double high, uint32_t rays)
                                   (uint32_t)fmin(first + ceil((high + 2 - first) / tile) * tile, rays) };
 }
 
-/* Sets the columns to search to those that are lit: one range or, around the largest gap, two. Where a grid goes all
- * round, both of its ends may be in the picture. */
+/* Sets the columns to search to the lit ones: one range, or two on both sides of the largest gap. Two occur where a
+ * grid goes all round the curve, because both of its ends may be in the picture. */
 static void set_columns(struct kd_rim_grid *g, const bool lit[], int columns, double from, double wide)
 {
     int left = 0, right = columns, gap = 0, gap_end = 0;

@@ -119,7 +119,8 @@ static enum MHD_Result reply(struct kd_request *request, const struct kd_shared 
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-/* Makes the page for frames. It uses the link that the code decodes to, not the code as received. */
+/* Makes the page that other sites embed in a frame. It uses the link that the code decodes to, and the code of this
+ * link instead of the code as received. */
 static enum kd_status make_frame(const struct kd_shared *shared, struct kd_buffer *page)
 {
     struct kd_buffer texts[3] = { 0 };

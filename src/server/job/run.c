@@ -367,9 +367,10 @@ static enum kd_status afford(const struct kd_jobs *all, const struct kd_job_draf
                             "%s%u frames would take about %.3g s; for one job it must be at most %.0f s",
                             cost->frames < frames ? "some of the " : "the ", frames, s, all->params.longest_job_s);
     if (cost->file_bytes > bytes)
-        return kd_error_set(error, KD_ETOOBIG,
-                            "%u of %u frames would have %.4g GB; all jobs together must have at most %.4g GB",
-                            cost->frames, frames, 1e-9 * cost->file_bytes, 1e-9 * bytes);
+        return kd_error_set(
+            error, KD_ETOOBIG,
+            "the files of %u of the %u frames would take %.4g GB; all jobs together must take at most %.4g GB",
+            cost->frames, frames, 1e-9 * cost->file_bytes, 1e-9 * bytes);
     return KD_OK;
 }
 

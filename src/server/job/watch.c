@@ -95,7 +95,8 @@ static void put_in_order(struct kd_jobs *all)
         return;
     enum kd_status status = kd_sweep_order_go_on(&job->order, job->spec.sweep, kd_clock_ms() + ORDER_MS);
     if (status) {
-        kd_log(KD_LOG_WARN, "out of memory for the order of the frames of job %.4s...: they share fewer lens maps",
+        kd_log(KD_LOG_WARN,
+               "job %.4s...: out of memory for sorting its frames by lens map; it will trace more maps than necessary",
                job->record.id);
         kd_sweep_order_finish(&job->order);
     }

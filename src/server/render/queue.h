@@ -108,8 +108,8 @@ struct kd_render_job {
     double submitted_ms, turn_ms, away_ms; /* turn_ms: start of its turn; away_ms: end of its last turn */
 };
 
-#define KD_REOPENINGS 3       /* default limit of reopenings ... */
-#define KD_REOPENINGS_S 600.0 /* ... within this many seconds */
+#define KD_REOPENINGS 3       /* default limit of reopenings */
+#define KD_REOPENINGS_S 600.0 /* window in which reopenings are counted */
 #define KD_REOPENINGS_NONE UINT_MAX
 
 /* Returns when the device is open, or with the error. client_limit: limit of waiting jobs of one client. client_s:

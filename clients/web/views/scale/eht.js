@@ -10,7 +10,7 @@ import { ringOf } from './ring.js';
 
 const across_uas = 150; // width of each panel on the sky, so that both have the same scale
 const alone_m = 36; // width in M of a hole without a measured ring
-const beam_uas = 20; // of the telescope at 1.3 mm: EHT Collaboration 2019, ApJL 875, L1
+const beam_uas = 20; // full width at half maximum of the EHT's beam at 1.3 mm: EHT Collaboration 2019, ApJL 875, L1
 const most_px = 720;
 const key = 'scale.beside';
 
