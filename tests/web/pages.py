@@ -134,6 +134,8 @@ class Pages(Browser):
             "disk.returning=reflected&disk.height=0.1",
             "disk.returning=reflected&spacetime.spin=0.9985",
             "disk.returning=thermalised&disk.inner=9",
+            "disk.returning=thermalised&disk.model=shakura-sunyaev",
+            "disk.band=frequency&disk.frequency_ghz=1e9",
             "style.ringdown=1&spacetime.spin=0.99995",
             "camera.observer=static&camera.r=1.8&spacetime.spin=0.9",
             "camera.observer=keplerian&camera.r=2.5&spacetime.spin=0",
@@ -374,7 +376,7 @@ class Pages(Browser):
 
         round_()
         counts = [round_() for _ in range(4)]
-        self.assertLessEqual(counts[-1] - counts[0], 3, counts)
+        self.assertLessEqual(counts[-1] - counts[1], 3, counts)  # late answers of the first round add some
 
     def test_axe(self):
         try:

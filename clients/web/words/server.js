@@ -276,6 +276,13 @@ const patterns = [
   ],
   ['refusal.is-which-needs-a-finite-at-it', '{} is {}, which needs a finite {}; at {} it must be {}'],
   ['refusal.is-which-needs-a-thin-disk-with', '{} is {}, which needs a thin disk; with {} {} it must be {}'],
+  ['refusal.is-which-needs-the-exact-flux', '{} is {}, which needs the exact flux; with {} {} it must be {}'],
+  ['refusal.is-which-needs-with-it-must-be', '{} is {}, which needs {} {}; with {} {} M it must be {}'],
+  ['refusal.is-which-needs-a-2-q-2', '{} is {}, which needs a^2 + Q^2 of at most {}^2; with {} {} it must be {}'],
+  [
+    'refusal.is-ghz-it-must-be-at-most',
+    "{} is {} GHz; it must be at most {} GHz, {} k T/h of the disk's largest colour temperature, beyond which the disk is dark",
+  ],
   ['refusal.is-which-needs-at-it-must-be', '{} is {}, which needs {} {}; at {} it must be {}'],
   ['refusal.is-whose-parallel-rays-need-at-it', '{} is {}, whose parallel rays need {} {}; at {} it must be {}'],
   [
