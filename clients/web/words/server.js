@@ -417,7 +417,7 @@ const remark =
 const shape = english =>
   new RegExp(
     `^${english
-      .replace(/[.*+()]/g, '\\$&')
+      .replace(/[.*+()^]/g, '\\$&')
       .replaceAll('{}', value)
       .replaceAll('{…}', '(.+)')
       .replace('{?}', remark)}$`,
