@@ -103,7 +103,7 @@ class Sweeps(Case):
             "axes": {"style.exposure": "0:10/1000"},
         }
         self.assertIn(
-            "GB; all jobs together must have at most",
+            "GB; all jobs together must take at most",
             self.assertProblem(self.daemon.post("/v1/jobs", numbers), 422, "too-large")["detail"],
         )
 
