@@ -184,10 +184,15 @@ class Living(Browser):
         self.assertLess(
             value(page.locator("#light tbody th").first.inner_text()), struck, "the curve goes on over a strike"
         )  # the oldest points of a long curve are dropped
-        with page.expect_download() as download:
-            page.click("#light a >> nth=0")
-        lines = pathlib.Path(download.value.path()).read_text().splitlines()
-        self.assertEqual((lines[0], len(lines) > 20), ('"time t / M","all","spots"', True))
+
+        def saved():
+            with page.expect_download() as download:
+                page.click("#light a >> nth=0")
+            return pathlib.Path(download.value.path()).read_text().splitlines()
+
+        daemon.eventually(lambda: len(saved()) > 60)  # a point comes with each frame
+        lines = saved()
+        self.assertEqual((lines[0], len(lines) > 60), ('"time t / M","all","spots"', True))
         latest = max(float(line.split(",")[0]) for line in lines[1:])
         self.assertTrue(
             daemon.eventually(
