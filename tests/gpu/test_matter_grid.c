@@ -12,6 +12,7 @@
 #include "kerr_schild.h"
 
 #include <math.h>
+#include <pthread.h>
 
 enum { SIDE = 4, PIXELS = SIDE * SIDE, MOST = 24 * 16 * 8 };
 static const char *const names[] = { "density",   "temperature", "u_con_r",     "u_con_theta",
@@ -31,13 +32,18 @@ struct numbers {
 static struct keeper {
     char hash[KD_ASSET_NAME];
     struct kd_buffer file;
+    bool missing;
+    unsigned taken;
+    pthread_t taker; /* the thread that has taken the file last */
 } keeper;
 
 static bool take(void *user, const char *hash, struct kd_asset_bytes *out)
 {
     struct keeper *k = user;
     *out = (struct kd_asset_bytes) { k->file.data, k->file.size, k };
-    return !strcmp(hash, k->hash);
+    k->taken++;
+    k->taker = pthread_self();
+    return !k->missing && !strcmp(hash, k->hash);
 }
 static void give_back(void *user, struct kd_asset_bytes *bytes) { assert_ptr_equal(bytes->held, user); }
 static const struct kd_assets assets = { NULL, take, give_back, "those of this test", &keeper };
@@ -84,6 +90,13 @@ static void add_angles(struct kd_zip *zip, const struct numbers *g)
                            .n_dimensions = alone ? 1 : 2 },
         theta);
 }
+
+/* A count that a thread waits for. */
+struct event {
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    unsigned n;
+};
 
 /* Replaces the previous grid's file, under another hash. */
 static void keep(const struct numbers *g)
@@ -360,9 +373,82 @@ static void test_adversarial(void **state)
     }
 }
 
+static void asset_read(void *user)
+{
+    struct event *event = user;
+    pthread_mutex_lock(&event->lock);
+    event->n++;
+    pthread_cond_signal(&event->changed);
+    pthread_mutex_unlock(&event->lock);
+}
+
+static void await(struct event *event, unsigned n)
+{
+    pthread_mutex_lock(&event->lock);
+    while (event->n < n)
+        pthread_cond_wait(&event->changed, &event->lock);
+    pthread_mutex_unlock(&event->lock);
+}
+
+static enum kd_status render_one(struct kd_renderer *r, const struct kd_scene *scene, struct kd_frame *out,
+                                 struct kd_error *why)
+{
+    struct kd_capacity c;
+    struct kd_plan plan;
+    kd_renderer_capacity(r, &c);
+    OK(kd_plan_make(scene, &c, &plan, &error));
+    return kd_render(r, scene, &plan, NULL, NULL, out, why);
+}
+
+/* A thread reads a grid that is requested before its picture, and the picture then needs no reading. A grid that is on
+ * the device is not read again. A missing file is an error at the field, until it is there. */
+static void test_reading(void **state)
+{
+    (void)state;
+    struct event event = { PTHREAD_MUTEX_INITIALIZER, PTHREAD_COND_INITIALIZER, 0 };
+    static struct numbers g = { .rows = 8, .columns = 6, .layers = 1, .a = 0.5, .r = { 2, 20 } };
+    struct kd_renderer *own;
+    struct kd_frame first, again;
+    struct kd_error why = { 0 };
+    fill(&g, 11, 0.3);
+    keep(&g);
+    keeper.taken = 0;
+    const struct kd_scene scene = scene_of(0.5, "{}");
+    OK(kd_renderer_create(
+        &(struct kd_renderer_params) { .assets = &assets, .asset_read = asset_read, .asset_read_user = &event }, &own,
+        &error));
+    kd_renderer_assets_begin(own, &scene);
+    await(&event, 1);
+    assert_false(kd_renderer_assets_begin(own, &scene));
+    assert_int_equal(keeper.taken, 1);
+    assert_false(pthread_equal(keeper.taker, pthread_self()));
+    OK(render_one(own, &scene, &first, &error));
+    assert_false(kd_renderer_assets_begin(own, &scene));
+    assert_int_equal(keeper.taken, 1);
+
+    static struct numbers h = { .rows = 8, .columns = 6, .layers = 1, .a = 0.5, .r = { 2, 20 } };
+    fill(&h, 12, 0.3);
+    keep(&h);
+    keeper.missing = true;
+    const struct kd_scene other = scene_of(0.5, "{}");
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(render_one(own, &other, &again, &why), KD_EINVAL);
+        assert_string_equal(why.pointer, "/volume/grid");
+        assert_non_null(strstr(why.message, "whose file is missing; it must be those of this test"));
+    }
+    keeper.missing = false;
+    OK(render_one(own, &other, &again, &error));
+    assert_true(memcmp(kelvin_of(&first), kelvin_of(&again), PIXELS * sizeof *kelvin_of(&first)));
+    kd_frame_finish(&again);
+    kd_renderer_assets_stop(own);
+    kd_renderer_destroy(own);
+    kd_frame_finish(&first);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_rays), cmocka_unit_test(test_adversarial) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_rays), cmocka_unit_test(test_adversarial),
+                                        cmocka_unit_test(test_reading) };
     renderer_assets = &assets;
     int skip = open_renderer();
     if (skip)

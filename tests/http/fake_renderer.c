@@ -76,14 +76,14 @@ bool kd_renderer_hangs(const struct kd_renderer *renderer)
     return !renderer->params.device || strcmp(renderer->params.device, "mends");
 }
 
-bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *scene)
+bool kd_renderer_assets_begin(struct kd_renderer *renderer, const struct kd_scene *scene)
 {
     return scene->sky.seed == UNREAD && !atomic_load(&renderer->read);
 }
 
 void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash) { (void)renderer, (void)hash; }
 
-void kd_renderer_sky_stop(struct kd_renderer *renderer) { (void)renderer; }
+void kd_renderer_assets_stop(struct kd_renderer *renderer) { (void)renderer; }
 
 /* Reports through one FIFO that a thread plans, and waits for a byte in the other. */
 static void wait_at_gate(void)
@@ -355,10 +355,10 @@ static enum kd_status draw(struct kd_renderer *renderer, const struct kd_scene *
 {
     const double begun = kd_clock_ms();
     enum kd_status status = mishap(scene->top.time, error);
-    if (kd_renderer_sky_begin(renderer, scene))
+    if (kd_renderer_assets_begin(renderer, scene))
         return kd_error_set(error, KD_EIO, "a picture has the device while its sky is read");
-    if (!atomic_exchange(&renderer->read, true) && renderer->params.sky_made)
-        renderer->params.sky_made(renderer->params.sky_user);
+    if (!atomic_exchange(&renderer->read, true) && renderer->params.asset_read)
+        renderer->params.asset_read(renderer->params.asset_read_user);
     if (!status)
         status = lack(renderer, scene, aside, error);
     if (!status)

@@ -10,6 +10,7 @@
 #include <string.h>
 
 struct own {
+    struct kd_grids *all; /* of the renderer; set by the first `prepare` */
     struct kd_vk_buffer *nodes;
     char of[KD_ASSET_NAME]; /* hash of the asset whose grid is uploaded */
     bool there;             /* whether a grid is uploaded */
@@ -18,24 +19,26 @@ struct own {
 
 static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }
 
+static bool has_one(const struct kd_scene *scene) { return is_grid(scene) && *scene->volume.grid; }
+
 static enum kd_status read_asset(const struct kd_assets *assets, const char *hash, struct kd_matter_grid *out,
-                                 struct kd_error *error)
+                                 bool *invalid, struct kd_error *error)
 {
     struct kd_asset_bytes bytes;
     struct kd_error why = { 0 };
+    *invalid = false;
     if (!assets || !assets->take(assets->user, hash, &bytes))
         return kd_error_field(error, "/volume/grid", "volume.grid is \"%s\", whose file is missing; it must be %s",
                               hash, assets ? assets->allowed : "null, because there are no assets");
     enum kd_status status = kd_matter_grid_read(bytes.data, bytes.size, out, &why);
     assets->give_back(assets->user, &bytes);
-    if (status == KD_EINVAL)
+    *invalid = status == KD_EINVAL;
+    if (*invalid)
         return kd_error_field(error, "/volume/grid", "volume.grid: %.400s", why.message);
     return status ? kd_error_set(error, status, "%s", why.message) : KD_OK;
 }
 
-static const char *hash_of(const struct kd_scene *scene) { return *scene->volume.grid ? scene->volume.grid : "none"; }
-
-static struct kd_cached_documents_grid *kept_of(struct kd_grids *all, const char *hash)
+static struct kd_cached_grid *cached(struct kd_grids *all, const char *hash)
 {
     for (int i = 0; i < KD_GRIDS; i++)
         if (!strcmp(all->entries[i].of, hash))
@@ -43,26 +46,196 @@ static struct kd_cached_documents_grid *kept_of(struct kd_grids *all, const char
     return NULL;
 }
 
-/* Finds the scene's grid, with its nodes if requested, and reads it if it is not cached. */
-static enum kd_status grid_of(struct kd_renderer *r, const struct kd_scene *scene, bool nodes,
-                              struct kd_matter_grid **out, struct kd_error *error)
+static bool is_asked(const struct kd_grids *all, const char *hash)
 {
-    struct kd_cached_documents_grid *at = kept_of(&r->grids, hash_of(scene));
-    enum kd_status status = KD_OK;
-    if (!at || (nodes && !at->grid.nodes)) {
-        if (!at)
-            at = &r->grids.entries[r->grids.n++ % KD_GRIDS];
-        kd_matter_grid_finish(&at->grid);
-        *at->of = 0;
-        KD_TRY(*scene->volume.grid ? read_asset(r->panoramas.assets, scene->volume.grid, &at->grid, error)
-                                   : kd_matter_grid_none(kd_scene_hole(scene), &at->grid, error));
-        snprintf(at->of, sizeof at->of, "%s", hash_of(scene));
+    for (unsigned i = 0; i < all->n_asked; i++)
+        if (!strcmp(all->asked[i], hash))
+            return true;
+    return false;
+}
+
+/* The bytes of a hash never change, so an invalid file stays invalid. */
+static bool is_invalid(const struct kd_grids *all, const char *hash)
+{
+    return all->invalid && !strcmp(all->broken, hash);
+}
+
+/* Frees the nodes of the least recently used grids, so that at most n grids have nodes. */
+static void free_nodes(struct kd_grids *all, int n)
+{
+    for (;;) {
+        struct kd_cached_grid *oldest = NULL;
+        int there = 0;
+        for (struct kd_cached_grid *g = all->entries; g < all->entries + KD_GRIDS; g++) {
+            there += g->grid.nodes != NULL;
+            oldest = g->grid.nodes && (!oldest || g->used < oldest->used) ? g : oldest;
+        }
+        if (there <= n)
+            return;
+        kd_matter_grid_finish(&oldest->grid);
     }
-    *out = &at->grid;
-    if (*scene->volume.grid)
-        KD_TRY(kd_asset_check_grid(at->grid.spin, scene, error));
-done:
-    return status;
+}
+
+/* The slot for a grid: its own, or that of the least recently used description without nodes. */
+static struct kd_cached_grid *slot_of(struct kd_grids *all, const char *hash)
+{
+    struct kd_cached_grid *oldest = cached(all, hash);
+    if (oldest)
+        return oldest;
+    for (struct kd_cached_grid *g = all->entries; g < all->entries + KD_GRIDS; g++)
+        oldest = !g->grid.nodes && (!oldest || g->used < oldest->used) ? g : oldest;
+    return oldest;
+}
+
+/* Reads the first requested grid. Called with the lock, which is released meanwhile. */
+static void read_first(struct kd_grids *all)
+{
+    static const struct kd_hole any = { 0 };
+    char hash[KD_ASSET_NAME];
+    struct kd_matter_grid grid = { 0 };
+    struct kd_error why = { 0 };
+    bool invalid = false;
+    memcpy(hash, all->asked[0], sizeof hash);
+    free_nodes(all, KD_GRIDS_READ - 1);
+    pthread_mutex_unlock(&all->lock);
+    const enum kd_status status =
+        all->blank ? kd_matter_grid_none(&any, &grid, &why) : read_asset(all->assets, hash, &grid, &invalid, &why);
+    pthread_mutex_lock(&all->lock);
+    if (status) {
+        memcpy(all->broken, hash, sizeof all->broken);
+        all->invalid = invalid;
+        all->why = why;
+    } else {
+        struct kd_cached_grid *slot = slot_of(all, hash);
+        kd_matter_grid_finish(&slot->grid);
+        memcpy(slot->of, hash, sizeof slot->of);
+        slot->grid = grid;
+        slot->used = ++all->used;
+    }
+    memmove(all->asked, all->asked + 1, --all->n_asked * sizeof *all->asked);
+    pthread_cond_broadcast(&all->changed);
+}
+
+static void *run(void *user)
+{
+    struct kd_grids *all = user;
+    pthread_mutex_lock(&all->lock);
+    while (all->n_asked) {
+        read_first(all);
+        pthread_mutex_unlock(&all->lock);
+        if (all->made)
+            all->made(all->user);
+        pthread_mutex_lock(&all->lock);
+    }
+    all->runs = false;
+    pthread_cond_broadcast(&all->changed);
+    pthread_mutex_unlock(&all->lock);
+    return NULL;
+}
+
+/* With the lock: requests a grid. Does nothing if no thread can be created. */
+static void ask(struct kd_grids *all, const char *hash)
+{
+    pthread_t thread;
+    if (is_asked(all, hash) || is_invalid(all, hash) || all->n_asked == KD_GRIDS_ASKED)
+        return;
+    snprintf(all->asked[all->n_asked++], KD_ASSET_NAME, "%s", hash);
+    if (all->runs)
+        return;
+    if (pthread_create(&thread, NULL, run, all)) {
+        all->n_asked--;
+        return;
+    }
+    pthread_detach(thread);
+    all->runs = true;
+}
+
+static bool is_ready(struct kd_grids *all, const char *hash, bool nodes)
+{
+    const struct kd_cached_grid *at = cached(all, hash);
+    return at && (!nodes || at->grid.nodes);
+}
+
+bool kd_grid_begin(struct kd_grids *all, const struct kd_scene *scene)
+{
+    const char *hash = scene->volume.grid;
+    if (!has_one(scene))
+        return false;
+    pthread_mutex_lock(&all->lock);
+    if (!is_ready(all, hash, strcmp(all->uploaded, hash) != 0))
+        ask(all, hash);
+    const bool in_progress = is_asked(all, hash);
+    pthread_mutex_unlock(&all->lock);
+    return in_progress;
+}
+
+/* With the lock: waits for a grid, or reads it here if there is no thread. Returns false if reading has failed. */
+static bool wait_for(struct kd_grids *all, const char *hash, bool nodes)
+{
+    if (!is_invalid(all, hash) && !strcmp(all->broken, hash)) /* other failures are tried again */
+        *all->broken = 0;
+    while (!is_ready(all, hash, nodes) && strcmp(all->broken, hash)) {
+        ask(all, hash);
+        if (is_asked(all, hash) || all->runs) {
+            pthread_cond_wait(&all->changed, &all->lock);
+            continue;
+        }
+        snprintf(all->asked[all->n_asked++], KD_ASSET_NAME, "%s", hash); /* no thread, so the list is empty */
+        all->runs = true;                                                /* this call runs in place of the thread */
+        while (all->n_asked)
+            read_first(all);
+        all->runs = false;
+    }
+    return is_ready(all, hash, nodes);
+}
+
+/* Copies the description of the scene's grid, and moves its nodes and places to *out if they are requested; the caller
+ * frees them. Waits for the grid if necessary. Render thread only. */
+static enum kd_status take_grid(struct kd_grids *all, const struct kd_scene *scene, bool nodes,
+                                struct kd_matter_grid *out, struct kd_error *error)
+{
+    const char *hash = scene->volume.grid;
+    struct kd_error why = { 0 };
+    if (!*hash)
+        return kd_matter_grid_none(kd_scene_hole(scene), out, error);
+    pthread_mutex_lock(&all->lock);
+    if (wait_for(all, hash, nodes)) {
+        struct kd_cached_grid *at = cached(all, hash);
+        at->used = ++all->used;
+        *out = at->grid;
+        if (nodes)
+            at->grid.nodes = at->grid.places = NULL;
+        else
+            out->nodes = out->places = NULL;
+    } else {
+        why = all->why;
+    }
+    const bool blank = all->blank;
+    pthread_mutex_unlock(&all->lock);
+    if (!why.status && !blank && kd_asset_check_grid(out->spin, scene, &why))
+        kd_matter_grid_finish(out);
+    if (why.status && error)
+        *error = why;
+    return why.status;
+}
+
+/* Notes that a grid is on the device, so that its nodes need not stay on the host. */
+static void note_uploaded(struct kd_grids *all, const char *hash)
+{
+    pthread_mutex_lock(&all->lock);
+    struct kd_cached_grid *at = *hash ? cached(all, hash) : NULL;
+    if (at)
+        kd_matter_grid_finish(&at->grid);
+    snprintf(all->uploaded, sizeof all->uploaded, "%s", hash);
+    pthread_mutex_unlock(&all->lock);
+}
+
+static void note_gone(struct kd_grids *all, const char *hash)
+{
+    pthread_mutex_lock(&all->lock);
+    if (!strcmp(all->uploaded, hash))
+        *all->uploaded = 0;
+    pthread_mutex_unlock(&all->lock);
 }
 
 static enum kd_status fits(const struct kd_vk *vk, bool texels, uint64_t bytes, struct kd_error *error)
@@ -81,33 +254,33 @@ static enum kd_status prepare(const struct kd_emitter_buffers_work *work, const 
 {
     struct own *own = work->own;
     struct kd_vk_buffer *staging = NULL;
-    struct kd_matter_grid *grid;
+    struct kd_matter_grid grid = { 0 };
     enum kd_status status = KD_OK;
     if (!is_grid(scene))
         return KD_OK;
+    own->all = &work->renderer->grids;
     if (own->there && !strcmp(own->of, scene->volume.grid)) {
-        struct kd_cached_documents_grid *at = kept_of(&work->renderer->grids, hash_of(scene));
-        if (at) /* `tell` has read the grid already */
-            kd_matter_grid_finish(&at->grid);
+        note_uploaded(own->all, own->of);
         return KD_OK;
     }
     own->there = false;
-    KD_TRY(grid_of(work->renderer, scene, true, &grid, error));
-    const uint64_t nodes = kd_matter_grid_bytes(grid), places = kd_matter_grid_places(grid) * sizeof *grid->places,
+    KD_TRY(take_grid(own->all, scene, true, &grid, error));
+    const uint64_t nodes = kd_matter_grid_bytes(&grid), places = kd_matter_grid_places(&grid) * sizeof *grid.places,
                    bytes = nodes + places;
     own->texels = kd_kernels_map_as_texels(work->vk);
     KD_TRY(fits(work->vk, own->texels, bytes, error));
     KD_TRY(kd_emitter_buffers_at_least(work, &own->nodes, bytes, KD_VK_DEVICE, "matter on a grid", error));
     KD_TRY(kd_vk_buffer_create(work->vk, bytes, KD_VK_UPLOAD, "matter on a grid on the host", &staging, error));
-    memcpy(kd_vk_buffer_map(staging), grid->nodes, nodes);
+    memcpy(kd_vk_buffer_map(staging), grid.nodes, nodes);
     if (places)
-        memcpy((char *)kd_vk_buffer_map(staging) + nodes, grid->places, places);
+        memcpy((char *)kd_vk_buffer_map(staging) + nodes, grid.places, places);
     KD_TRY(kd_vk_copy(work->vk, "upload", own->nodes, 0, staging, 0, bytes, error));
     KD_TRY(kd_vk_submit(work->vk, NULL, error));
     memcpy(own->of, scene->volume.grid, sizeof own->of);
     own->there = true;
-    kd_matter_grid_finish(grid);
+    note_uploaded(own->all, own->of);
 done:
+    kd_matter_grid_finish(&grid);
     kd_vk_buffer_destroy(work->vk, staging);
     return status;
 }
@@ -116,12 +289,13 @@ done:
 static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit,
                            size_t size, struct kd_error *error)
 {
-    struct kd_matter_grid *g;
+    struct kd_matter_grid own = { 0 };
+    const struct kd_matter_grid *g = &own;
     struct kd_plasma_block *to = &out->plasma;
     (void)credit, (void)size;
     if (!is_grid(scene))
         return KD_OK;
-    enum kd_status status = grid_of(r, scene, false, &g, error);
+    const enum kd_status status = take_grid(&r->grids, scene, false, &own, error);
     if (status)
         return status;
     const double inner = fmax(kd_scene_volume_inner(scene), g->r[0]), outer = fmin(scene->volume.outer, g->r[1]);
@@ -151,6 +325,7 @@ static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, 
         out->frame.along_least = (float)(1 / outer);
         out->frame.along_most = (float)fmin(1 / fmin(inner, outer), 1e30);
     }
+    kd_matter_grid_finish(&own);
     return KD_OK;
 }
 
@@ -160,21 +335,67 @@ static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT])
     out[o->texels ? KD_OWN_plasma_texels : KD_OWN_plasma_grid] = o->nodes;
 }
 
-static void forget(void *own) { ((struct own *)own)->there = false; }
-
-static void finish(void *own, struct kd_vk *vk)
+static void forget(void *state)
 {
-    kd_vk_buffer_destroy(vk, ((struct own *)own)->nodes);
-    *(struct own *)own = (struct own) { 0 };
+    struct own *own = state;
+    if (own->there)
+        note_gone(own->all, own->of);
+    own->there = false;
 }
 
-void kd_grids_finish(struct kd_grids *grids)
+static void finish(void *state, struct kd_vk *vk)
 {
+    struct own *own = state;
+    forget(own);
+    kd_vk_buffer_destroy(vk, own->nodes);
+    *own = (struct own) { 0 };
+}
+
+static void begin(struct kd_renderer *r, const struct kd_scene *scene) { kd_grid_begin(&r->grids, scene); }
+
+void kd_grids_init(struct kd_grids *all, const struct kd_assets *assets, void (*made)(void *user), void *user)
+{
+    *all = (struct kd_grids) { .assets = assets, .made = made, .user = user };
+    pthread_mutex_init(&all->lock, NULL);
+    pthread_cond_init(&all->changed, NULL);
+}
+
+void kd_grids_stop(struct kd_grids *all)
+{
+    pthread_mutex_lock(&all->lock);
+    all->n_asked = all->n_asked ? 1 : 0;
+    while (all->runs)
+        pthread_cond_wait(&all->changed, &all->lock);
+    pthread_mutex_unlock(&all->lock);
+}
+
+uint64_t kd_grids_bytes(struct kd_grids *all)
+{
+    uint64_t sum = 0;
+    pthread_mutex_lock(&all->lock);
+    for (const struct kd_cached_grid *g = all->entries; g < all->entries + KD_GRIDS; g++)
+        sum += g->grid.nodes ? kd_matter_grid_bytes(&g->grid) : 0;
+    pthread_mutex_unlock(&all->lock);
+    return sum;
+}
+
+void kd_grids_rest(struct kd_grids *all)
+{
+    pthread_mutex_lock(&all->lock);
+    if (!all->runs && !all->n_asked)
+        free_nodes(all, 0);
+    pthread_mutex_unlock(&all->lock);
+}
+
+void kd_grids_finish(struct kd_grids *all)
+{
+    kd_grids_stop(all);
     for (int i = 0; i < KD_GRIDS; i++)
-        kd_matter_grid_finish(&grids->entries[i].grid);
-    *grids = (struct kd_grids) { 0 };
+        kd_matter_grid_finish(&all->entries[i].grid);
+    pthread_cond_destroy(&all->changed);
+    pthread_mutex_destroy(&all->lock);
 }
 
 const struct kd_emitter_buffers kd_emitter_buffers_plasma = {
-    sizeof(struct own), prepare, buffers, forget, finish, NULL, tell
+    sizeof(struct own), prepare, buffers, forget, finish, begin, tell
 };

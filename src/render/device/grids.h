@@ -1,20 +1,53 @@
-/* Matter on a grid, on the device: reads volume.grid and uploads it when the asset has changed
- * (kd_emitter_buffers_plasma of render/emit/own.h). The renderer keeps the descriptions of recent grids without their
- * nodes. Render thread only. */
+/* Matter on a grid, on the host and on the device: reads volume.grid and uploads it when the asset has changed
+ * (kd_emitter_buffers_plasma of render/emit/own.h). A thread reads the requested grids one after the other and ends
+ * when there is no request, so that the thread with the device need not wait. The descriptions of recent grids stay,
+ * without their nodes. Any thread, unless stated otherwise. */
 #ifndef KD_RENDER_DEVICE_GRIDS_H
 #define KD_RENDER_DEVICE_GRIDS_H
 
+#include "base/error.h"
 #include "render/emit/matter_grid.h"
-#include "scene/scene.h"
+#include "scene/asset.h"
 
-enum { KD_GRIDS = 8 };
-struct kd_grids {
-    struct kd_cached_documents_grid {
-        char of[KD_ASSET_NAME];     /* the asset's hash; "": the slot is free */
-        struct kd_matter_grid grid; /* nodes and places: present until uploaded, up to 80 MiB; otherwise NULL */
-    } entries[KD_GRIDS];
-    uint32_t n; /* number of grids read so far; the next one replaces the oldest */
+#include <pthread.h>
+
+struct kd_cached_grid {
+    char of[KD_ASSET_NAME];     /* the asset's hash; "": the slot is free */
+    struct kd_matter_grid grid; /* nodes and places: up to 80 MiB, present until they are uploaded; otherwise NULL */
+    uint64_t used;              /* time of the last use, counted */
 };
+/* KD_GRIDS_READ: limit for grids whose nodes wait to be uploaded */
+enum { KD_GRIDS = 8, KD_GRIDS_READ = 2, KD_GRIDS_ASKED = 16 };
+
+struct kd_grids {
+    pthread_mutex_t lock; /* guards everything below */
+    pthread_cond_t changed;
+    struct kd_cached_grid entries[KD_GRIDS];
+    uint64_t used;
+    char asked[KD_GRIDS_ASKED][KD_ASSET_NAME]; /* the first one is being read */
+    unsigned n_asked;
+    bool runs;                    /* the thread is running */
+    char uploaded[KD_ASSET_NAME]; /* the grid that was last found on the device; "": none */
+    char broken[KD_ASSET_NAME];   /* the last grid that failed; "": none failed */
+    bool invalid;                 /* its file is no valid grid, so it is not read again */
+    struct kd_error why;
+    const struct kd_assets *assets; /* NULL: there are none */
+    bool blank;               /* reads no file and gives every grid few, empty nodes, for a device that only compiles */
+    void (*made)(void *user); /* called by the thread, without the lock, after each grid that was read or failed; may
+                                 be NULL */
+    void *user;
+};
+void kd_grids_init(struct kd_grids *grids, const struct kd_assets *assets, void (*made)(void *user), void *user);
+
+/* Starts reading the grid of a scene, if the scene has one that is neither cached nor on the device. Returns whether
+ * the reading is in progress. A waiting client calls again, so that a grid that was evicted meanwhile is read once
+ * more. */
+bool kd_grid_begin(struct kd_grids *grids, const struct kd_scene *scene);
+/* Waits for the grid in progress and drops other requests: `made` is not called any more until a new request. */
+void kd_grids_stop(struct kd_grids *grids);
+uint64_t kd_grids_bytes(struct kd_grids *grids); /* bytes of the nodes that wait to be uploaded */
+/* Frees the nodes that wait to be uploaded, unless a grid is being read. */
+void kd_grids_rest(struct kd_grids *grids);
 void kd_grids_finish(struct kd_grids *grids);
 
 #endif

@@ -123,8 +123,9 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     r->lacks = params->lacks;
     r->lacks_user = params->lacks_user;
     pthread_mutex_init(&r->lock, NULL);
-    kd_panoramas_init(&r->panoramas, params->assets, params->sky_made, params->sky_user);
-    r->panoramas.blank = params->compiles_only;
+    kd_panoramas_init(&r->panoramas, params->assets, params->asset_read, params->asset_read_user);
+    kd_grids_init(&r->grids, params->assets, params->asset_read, params->asset_read_user);
+    r->panoramas.blank = r->grids.blank = params->compiles_only;
     enum kd_status status = remember_opening(r, params)
                                 ? open_device(r, error)
                                 : kd_error_set(error, KD_ENOMEM, "out of memory for the renderer");
@@ -201,9 +202,10 @@ enum kd_status kd_renderer_reopen(struct kd_renderer *r, struct kd_error *error)
     return KD_EDEVICE;
 }
 
-bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *scene)
+bool kd_renderer_assets_begin(struct kd_renderer *renderer, const struct kd_scene *scene)
 {
-    return *scene->sky.image && kd_panorama_begin(&renderer->panoramas, scene);
+    const bool sky = *scene->sky.image && kd_panorama_begin(&renderer->panoramas, scene);
+    return kd_grid_begin(&renderer->grids, scene) || sky;
 }
 
 void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash)
@@ -211,7 +213,11 @@ void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash)
     kd_panorama_ahead(&renderer->panoramas, hash);
 }
 
-void kd_renderer_sky_stop(struct kd_renderer *renderer) { kd_panoramas_stop(&renderer->panoramas); }
+void kd_renderer_assets_stop(struct kd_renderer *renderer)
+{
+    kd_panoramas_stop(&renderer->panoramas);
+    kd_grids_stop(&renderer->grids);
+}
 
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
 {

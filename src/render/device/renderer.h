@@ -23,9 +23,9 @@ struct kd_renderer_params {
      * takes half a second. */
     enum kd_status (*prove)(struct kd_renderer *renderer, struct kd_error *error);
     const struct kd_assets *assets; /* assets that scenes name (scene/asset.h); NULL: none */
-    /* called on another thread when kd_renderer_sky_begin may have a new result; may be NULL */
-    void (*sky_made)(void *user);
-    void *sky_user;
+    /* called on another thread when kd_renderer_assets_begin may have a new result; may be NULL */
+    void (*asset_read)(void *user);
+    void *asset_read_user;
     /* Called when a picture needs kernels that were not foreseen; takes ownership of the compilation. background: as in
      * kd_render_in_background, so that others may use the renderer before this returns. False: the picture is
      * abandoned, KD_ECANCELLED. NULL: the thread with the device makes them. */
@@ -52,14 +52,14 @@ bool kd_renderer_hangs(const struct kd_renderer *renderer);
 
 /* A copy of the present capacity, for kd_plan_make. Its accuracy table stays the renderer's. Any thread. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out);
-/* Starts reading the picture of a scene's sky, if the scene has one that is not cached; this takes up to a second.
+/* Starts reading a scene's sky.image and volume.grid, unless they are cached; this takes up to some seconds.
  * Returns whether the reading is in progress. A render would wait for it while it holds the device. A client that polls
  * until the reading is done, and renders then, leaves the device to others meanwhile. Any thread. */
-bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *scene);
+bool kd_renderer_assets_begin(struct kd_renderer *renderer, const struct kd_scene *scene);
 /* Starts reading an asset that may become a sky (panoramas.h). Any thread. */
 void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash);
-void kd_renderer_sky_stop(
-    struct kd_renderer *renderer); /* afterwards no sky is in progress; sky_made is not called until the next begin */
+/* Afterwards no asset is being read, and asset_read is not called until the next begin. */
+void kd_renderer_assets_stop(struct kd_renderer *renderer);
 /* Device, driver, precision, memory, limits, versions: the JSON of GET /v1/device. */
 enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_buffer *out);
 /* One line: "llvmpipe (LLVM 15.0.6, 256 bits), llvmpipe Mesa 22.3.6". Any thread. */

@@ -87,6 +87,7 @@ static void give_back(struct kd_renderer *r)
     }
     kd_kernels_rest(&r->kernels, r->vk, KD_REST_KERNELS);
     kd_panoramas_rest(&r->panoramas, KD_REST_PANORAMAS);
+    kd_grids_rest(&r->grids);
 }
 
 /* Closes the device and reopens it. If the process is still larger afterwards, the growth is reported, but not

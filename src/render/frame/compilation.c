@@ -117,7 +117,7 @@ static void *rehearse(void *user)
     if (c->status == KD_EDEVICE)
         c->status = KD_EIO; /* this is not KD_EDEVICE, because the picture's own device may be working */
     if (own)
-        kd_renderer_sky_stop(own);
+        kd_renderer_assets_stop(own);
     kd_renderer_destroy(own);
     return NULL;
 }

@@ -87,7 +87,7 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
     if (!queue->lost && (!may_be_paid(queue, claim) || !kd_render_has_kernels(queue, job)))
         return false;
     return kd_render_has_begun(job) || queue->lost ||
-           (!(job->sky && kd_renderer_sky_begin(queue->renderer, &job->scene)) && frame_fits(queue, job) &&
+           (!(job->reads && kd_renderer_assets_begin(queue->renderer, &job->scene)) && frame_fits(queue, job) &&
             (job->stage != KD_RENDER_WAITS_FOR_LANE || lane_for(queue, job)));
 }
 

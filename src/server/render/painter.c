@@ -108,7 +108,7 @@ static void close_device(struct kd_painter *painter)
 {
     if (!painter->renderer)
         return;
-    kd_renderer_sky_stop(painter->renderer);
+    kd_renderer_assets_stop(painter->renderer);
     if (!atomic_load(&painter->hangs))
         kd_renderer_destroy(painter->renderer);
     painter->renderer = NULL;
@@ -209,7 +209,7 @@ enum kd_status kd_painter_create(const struct kd_renderer_params *params, const 
     }
     *painter = (struct kd_painter) { .params = *params, .device_name = device_name, .kept_at = kept_at };
     painter->params.prove = NULL; /* the render queue has tested the device already */
-    painter->params.sky_made = NULL;
+    painter->params.asset_read = NULL;
     painter->params.passing = true;
     if (!params->memory_bytes || params->memory_bytes > KD_PAINTER_BYTES)
         painter->params.memory_bytes = KD_PAINTER_BYTES;

@@ -90,8 +90,8 @@ static enum kd_status start(struct kd_render_queue *queue, struct kd_error *erro
     return KD_OK;
 }
 
-/* Called when a sky is decoded: jobs that waited for it may now own the device. */
-static void sky_made(void *user)
+/* Called when an asset has been read: jobs that waited for it may now own the device. */
+static void asset_read(void *user)
 {
     struct kd_render_queue *queue = user;
     pthread_mutex_lock(&queue->lock);
@@ -107,8 +107,8 @@ enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, u
     if (!queue)
         return kd_error_set(error, KD_ENOMEM, "out of memory");
     queue->params = *params;
-    queue->params.sky_made = sky_made;
-    queue->params.sky_user = queue->params.lacks_user = queue;
+    queue->params.asset_read = asset_read;
+    queue->params.asset_read_user = queue->params.lacks_user = queue;
     queue->params.lacks = kd_render_lacks;
     queue->limit = limit;
     queue->client_limit = client_limit;
@@ -149,7 +149,7 @@ void kd_render_queue_destroy(struct kd_render_queue *queue)
     if (queue->compiled && !queue->lost)
         kd_render_take_kernels(queue);
     if (queue->renderer)
-        kd_renderer_sky_stop(queue->renderer);
+        kd_renderer_assets_stop(queue->renderer);
     if (!queue->lost)
         kd_renderer_destroy(queue->renderer);
     kd_buffer_finish(&queue->device_json);
@@ -309,7 +309,7 @@ static void append(struct kd_render_queue *queue, struct kd_render_job *job)
 void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     prepare(queue, job);
-    job->sky = !job->run && kd_renderer_sky_begin(queue->renderer, &job->scene);
+    job->reads = !job->run && kd_renderer_assets_begin(queue->renderer, &job->scene);
     pthread_mutex_lock(&queue->lock);
     append(queue, job);
     pthread_mutex_unlock(&queue->lock);

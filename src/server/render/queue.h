@@ -20,8 +20,8 @@
  * the device meanwhile (compile.c). If a picture finds a kernel missing after it has begun, it waits in its lane or
  * starts again.
  *
- * If the sky of a picture must be decoded first, the picture waits for that. Decoding takes up to a second and does not
- * use the device.
+ * If the sky or the grid of a picture must be read first, the picture waits for that. Reading takes up to some seconds
+ * and does not use the device.
  *
  * One thread submits pictures, so that the answer of kd_render_queue_admit holds until kd_render_queue_push. Other
  * threads may submit other work; each may exceed the limit by one. */
@@ -102,7 +102,7 @@ struct kd_render_job {
     struct kd_claim missing; /* its claim in the fair queueing of compilations, while it lacks kernels */
     /* kernels_ms: how long the job has waited for kernels; missing_ms: when it began to wait */
     double kernels_ms, missing_ms;
-    bool sky;                              /* its sky was not decoded yet when the job was submitted */
+    bool reads;                            /* an asset of its scene was not read yet when the job was submitted */
     bool inside;                           /* it uses the renderer, or waits between two slices */
     bool repeated;                         /* the device has failed once while this job owned it */
     double submitted_ms, turn_ms, away_ms; /* turn_ms: start of its turn; away_ms: end of its last turn */
