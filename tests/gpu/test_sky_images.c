@@ -18,7 +18,7 @@ static struct keeper {
     struct {
         char hash[KD_ASSET_NAME];
         struct kd_buffer png;
-    } at[6];
+    } at[8];
     size_t n, held, taken;
 } keeper;
 
@@ -310,8 +310,8 @@ static void stars_over_pictures(void **state)
         }
 }
 
-/* A missing panorama, or one that is no picture, is an error at the field, without further effect; more panoramas
- * than the cache holds give the same pictures again. */
+/* A missing panorama, or one that is no picture, is an error at the field, without further effect. A missing one is
+ * read once it is there. More panoramas than the cache holds give the same pictures again. */
 static void here_and_gone(void **state)
 {
     const char *image = *state;
@@ -330,6 +330,15 @@ static void here_and_gone(void **state)
     assert_string_equal(why.message,
                         "sky.image is \"00000000000000000000000000000000000000000000000000000000000000ff\", whose file "
                         "is missing; it must be those of this test");
+    char later[KD_ASSET_NAME];
+    snprintf(later, sizeof later, "%064zx", keeper.n + 1);
+    none = scene_of(KD_SKY_IMAGE, later);
+    assert_int_equal(kd_render(renderer, &none, &plan, NULL, NULL, &frame, &why), KD_EINVAL);
+    pixels[5] = 200;
+    assert_string_equal(keep(32, 16, pixels, ""), later);
+    OK(kd_render(renderer, &none, &plan, NULL, NULL, &frame, &error));
+    kd_frame_finish(&frame);
+    pixels[5] = 0;
     const char *damaged = keep(32, 16, pixels, "");
     keeper.at[keeper.n - 1].png.data[keeper.at[keeper.n - 1].png.size - 20] ^= 1;
     none = scene_of(KD_SKY_IMAGE, damaged);

@@ -26,9 +26,10 @@ static enum kd_status fill(struct kd_panorama *p, struct kd_sky_picture *picture
 }
 
 static enum kd_status paint(const struct kd_assets *assets, const struct kd_sky *sky, struct kd_sky_picture *picture,
-                            char *credit, struct kd_error *error)
+                            char *credit, bool *invalid, struct kd_error *error)
 {
     struct kd_asset_bytes bytes;
+    *invalid = false;
     if (!*sky->image)
         return kd_milky_way(sky->seed, picture, error);
     enum kd_status status = take(assets, sky->image, &bytes, error);
@@ -36,6 +37,7 @@ static enum kd_status paint(const struct kd_assets *assets, const struct kd_sky 
         return status;
     status = kd_sky_image(bytes.data, bytes.size, picture, credit, error);
     assets->give_back(assets->user, &bytes);
+    *invalid = status == KD_EINVAL;
     return status;
 }
 
@@ -63,10 +65,10 @@ static enum kd_status make_blank(struct kd_panorama *out, struct kd_error *error
 }
 
 static enum kd_status make(const struct kd_assets *assets, const struct kd_panorama_key *key, struct kd_panorama *out,
-                           struct kd_error *error)
+                           bool *invalid, struct kd_error *error)
 {
     struct kd_sky_picture picture = { 0 };
-    enum kd_status status = paint(assets, &key->sky, &picture, out->credit, error);
+    enum kd_status status = paint(assets, &key->sky, &picture, out->credit, invalid, error);
     if (!status)
         status = fill(out, &picture, error);
     kd_sky_picture_finish(&picture);
@@ -102,16 +104,18 @@ static const struct kd_panorama *make_first(struct kd_panoramas *all)
     const struct kd_panorama_key key = all->asked[0];
     struct kd_panorama *place = room(all), made = { 0 };
     struct kd_error why = { 0 };
+    bool invalid = false;
     memcpy(made.of, key.of, sizeof made.of);
     pthread_mutex_unlock(&all->lock);
     const bool recalled = recall(all->file, &key, &made);
     enum kd_status status = recalled     ? KD_OK
                             : all->blank ? make_blank(&made, &why)
-                                         : make(all->assets, &key, &made, &why);
+                                         : make(all->assets, &key, &made, &invalid, &why);
     pthread_mutex_lock(&all->lock);
     const bool ahead = all->asked[0].ahead; /* the flag may have changed meanwhile */
     if (status && !ahead) {
         memcpy(all->broken, key.of, sizeof all->broken);
+        all->invalid = invalid;
         all->why = why;
     } else if (!status) {
         *place = made;
@@ -183,10 +187,11 @@ static struct kd_panorama_key *asked(struct kd_panoramas *all, const char *of)
     return NULL;
 }
 
-/* Whether a panorama failed because its picture is invalid. The bytes of a hash never change, so it stays invalid. */
+/* Whether a panorama failed because its picture is invalid. The bytes of a hash never change, so it stays invalid. A
+ * missing file may come back. */
 static bool is_broken(const struct kd_panoramas *all, const char *of)
 {
-    return all->why.status == KD_EINVAL && !strcmp(all->broken, of);
+    return all->invalid && !strcmp(all->broken, of);
 }
 
 /* With the lock. Does nothing if no thread can be created. */
@@ -235,7 +240,7 @@ void kd_panorama_ahead(struct kd_panoramas *all, const char *hash)
 /* With the lock: waits for a panorama, or makes it here if there is no thread. NULL: the panorama has failed. */
 static struct kd_panorama *wait_for(struct kd_panoramas *all, const struct kd_panorama_key *key)
 {
-    if (!is_broken(all, key->of) && !strcmp(all->broken, key->of)) /* a failure for lack of memory is tried again */
+    if (!is_broken(all, key->of) && !strcmp(all->broken, key->of)) /* other failures are tried again */
         *all->broken = 0;
     while (!cached(all, key->of) && strcmp(all->broken, key->of)) {
         begin(all, key);

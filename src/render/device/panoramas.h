@@ -35,8 +35,8 @@ struct kd_panoramas {
     struct kd_panorama_key asked[KD_PANORAMAS_ASKED]; /* the first one is in progress */
     unsigned n_asked;
     bool runs;                  /* the thread is running */
-    char broken[KD_ASSET_NAME]; /* the last panorama that failed; an invalid picture is not read again. "": none failed
-                                 */
+    char broken[KD_ASSET_NAME]; /* the last panorama that failed; "": none failed */
+    bool invalid;               /* its picture is invalid, so it is not read again */
     struct kd_error why;
     const struct kd_assets *assets; /* NULL: there are none */
     char *file; /* file for the first Milky Way, for later processes; NULL: none, or already written */
