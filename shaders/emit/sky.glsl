@@ -107,6 +107,9 @@ vec3 kd_sky_points(uint pixel)
     return vec3(r.x, g.x, b.x) * (1.0 / KD_STAR_UNIT) + vec3(r.y, g.y, b.y) * (4294967296.0 / KD_STAR_UNIT);
 }
 
+/* Whether a pixel has any points. Black bodies of all temperatures have red; light without it is less than a unit. */
+bool kd_sky_has_points(uint pixel) { return KD_OWN_PAIR(point_light, (KD_STAR_LIGHT / 2u) * pixel) != uvec2(0u); }
+
 vec3 kd_sky_grid(float u, float phi)
 {
     float s = sqrt(max(1.0 - u * u, 0.0));

@@ -199,7 +199,7 @@ bool kd_beam_has_points(uint pixel)
     bool has = false;
 #define KD_HAS_POINTS_(number, name) \
     if ((TRAITS_##name & KD_TRAIT_POINTS) != 0u) \
-        has = has || kd_##name##_points(pixel) != vec3(0.0);
+        has = has || kd_##name##_has_points(pixel);
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_HAS_POINTS_, KD_NO_EMITTER_, KD_NO_EMITTER_)
     return has;
 }

@@ -234,10 +234,12 @@ void point_column(uint x, uint y, uint end)
         bool seen = fate == KD_FATE_UNDECIDED || kd_beam_has_points(light_at(x, row));
         has |= seen && y + k < end ? 1u << k : 0u;
     }
-    for (; has != 0u; has &= has - 1u) {
-        uint row = y + uint(findLSB(has)), to = light_at(x, row);
-        store(to, background(uvec2(x, row), (row - slice.band0) * cam.width + x, to), 0.0, vec3(0.0), vec2(0.0));
-    }
+    do {
+        uint row = y + uint(findLSB(has | 0x80000000u)), to = light_at(x, row);
+        if (has != 0u)
+            store(to, background(uvec2(x, row), (row - slice.band0) * cam.width + x, to), 0.0, vec3(0.0), vec2(0.0));
+        has &= has - 1u;
+    } while (has != 0u);
 }
 
 /* Rows whose crossings fit the bits of one word. */
@@ -247,16 +249,16 @@ const uint AHEAD = KD_TRANSFER_ROWS * ORDERS > 32u ? 32u / ORDERS : KD_TRANSFER_
  * of them are read before the first one is lit, so that the reads wait for memory together. */
 uint lit_of(uint x, uint y, uint end)
 {
-    uint at = (y - slice.band0) * cam.width + x, lit = 0u;
-    bool more = true; /* whether any ray crosses the plane once more */
-    for (uint n = 0u; n < ORDERS && more; n++) {
+    uint at = (y - slice.band0) * cam.width + x, lit = 0u, n = 0u;
+    bool more; /* whether any ray crosses the plane once more */
+    [[dont_unroll]] do {
         more = false;
         [[unroll]] for (uint k = 0u; k < KD_TRANSFER_ROWS; k++) {
             float w = KD_MAP_AT(at + min(k, end - 1u - y) * cam.width + n * slice.stride);
             more = more || w != 0.0;
             lit |= has_light(w) && k < AHEAD && y + k < end ? 1u << (ORDERS * k + n) : 0u;
         }
-    }
+    } while (++n < ORDERS && more);
     return lit;
 }
 
@@ -447,7 +449,7 @@ void main()
              end = min(y + KD_TRANSFER_ROWS, slice.row0 + slice.rows);
         if (ENDS)
             point_column(px, y, end);
-        if (KD_GLOWS)
+        if (KD_GLOWS && ORDERS > 0u)
             do {
                 light_rows(px, y, end);
                 y += AHEAD;

@@ -13,7 +13,7 @@
  *                 surfaces off the plane (light/meet.glsl), the first of which hides everything behind it. Scenes with
  *                 such an emitter are lit by the march's kernel as well
  *   AT_END        kd_name_end(end): light at the end of a ray that was transmitted; kd_name_points(pixel): for points
- *                 of light, their contribution to a pixel
+ *                 of light, their contribution to a pixel; kd_name_has_points(pixel): whether there is any
  *
  * The GLSL of an emitter called name is emit/name.glsl, which defines
  *
