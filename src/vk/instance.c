@@ -92,13 +92,11 @@ static enum kd_status check_address_space(struct kd_error *error)
                         (unsigned long long)(left >> 20), (unsigned long long)(needed >> 20));
 }
 
-enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validate, struct kd_error *error)
+/* The functions that need no instance are loaded already. */
+static enum kd_status make(struct kd_vk_instance *instance, bool validate, struct kd_error *error)
 {
     struct kd_vk_functions *fn = &instance->fn;
-    *instance = (struct kd_vk_instance) { 0 };
     enum kd_status status;
-    KD_TRY(check_address_space(error));
-    KD_TRY(kd_vk_functions_load(fn, error));
     if (validate)
         KD_TRY(check_validation(fn, error));
 
@@ -157,6 +155,32 @@ done:
     if (status)
         kd_vk_instance_finish(instance);
     return status;
+}
+
+static bool has_device(const struct kd_vk_instance *instance)
+{
+    uint32_t n = 0;
+    return instance->fn.EnumeratePhysicalDevices(instance->handle, &n, NULL) >= 0 && n;
+}
+
+enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validate, struct kd_error *error)
+{
+    char path[KD_VK_PATH];
+    *instance = (struct kd_vk_instance) { 0 };
+    enum kd_status status = check_address_space(error);
+    if (status)
+        return status;
+    status = kd_vk_functions_load(&instance->fn, error);
+    if (!status)
+        status = make(instance, validate, error);
+    if (validate || (status && status != KD_EDEVICE) || !kd_vk_own_driver(path)) /* layers need a loader */
+        return status;
+    if (!status && has_device(instance))
+        return KD_OK;
+    kd_vk_instance_finish(instance);
+    *instance = (struct kd_vk_instance) { .own_driver = true };
+    status = kd_vk_functions_load_own(&instance->fn, path, error);
+    return status ? status : make(instance, false, error);
 }
 
 void kd_vk_instance_finish(struct kd_vk_instance *instance)

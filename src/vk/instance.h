@@ -9,6 +9,7 @@ struct kd_vk_instance {
     struct kd_vk_functions fn;
     VkInstance handle;
     struct kd_vk_debug debug;
+    bool own_driver; /* the system has no driver; this is the one that is installed with the program */
 };
 
 /* If validate is true and no layer is installed it returns KD_EDEVICE, because otherwise the absence of messages

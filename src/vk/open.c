@@ -17,7 +17,7 @@ static enum kd_status choose(struct kd_vk *vk, const char *wish, struct kd_error
     size_t n = 0, index = 0;
     struct kd_vk_info *infos = NULL;
     enum kd_status status;
-    KD_TRY(kd_vk_physical_list(&vk->instance.fn, vk->instance.handle, &list, &n, error));
+    KD_TRY(kd_vk_physical_list(&vk->instance, &list, &n, error));
     if (!(infos = calloc(n, sizeof *infos)))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "no memory for a list of %zu devices", n));
     for (size_t i = 0; i < n; i++)

@@ -188,15 +188,16 @@ static void inspect(const struct kd_vk_functions *fn, uint32_t index, struct kd_
     read_file_limit(device);
 }
 
-enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance instance, struct kd_vk_physical **out,
-                                   size_t *count, struct kd_error *error)
+enum kd_status kd_vk_physical_list(const struct kd_vk_instance *instance, struct kd_vk_physical **out, size_t *count,
+                                   struct kd_error *error)
 {
+    const struct kd_vk_functions *fn = &instance->fn;
     enum kd_status status;
     VkPhysicalDevice handles[64];
     uint32_t n = 64; /* if there are more devices the result is VK_INCOMPLETE, which is a success code */
     struct kd_vk_physical *list;
 
-    KD_VK_TRY(fn, EnumeratePhysicalDevices, instance, &n, handles);
+    KD_VK_TRY(fn, EnumeratePhysicalDevices, instance->handle, &n, handles);
     if (!n)
         return kd_error_set(error, KD_EDEVICE,
                             "no Vulkan device: the loader found no driver that works; " KD_VK_INSTALL);
@@ -206,6 +207,7 @@ enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance 
     for (uint32_t i = 0; i < n; i++) {
         list[i].handle = handles[i];
         inspect(fn, i, &list[i]);
+        list[i].info.own_driver = instance->own_driver;
     }
     *out = list;
     *count = n;
@@ -222,7 +224,7 @@ enum kd_status kd_vk_list(struct kd_vk_info **out, size_t *count, struct kd_erro
     *count = 0;
     enum kd_status status;
     KD_TRY(kd_vk_instance_init(&instance, false, error));
-    KD_TRY(kd_vk_physical_list(&instance.fn, instance.handle, &list, &n, error));
+    KD_TRY(kd_vk_physical_list(&instance, &list, &n, error));
     if (!(*out = calloc(n, sizeof **out)))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "no memory for a list of %zu devices", n));
     for (size_t i = 0; i < n; i++)

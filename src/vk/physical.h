@@ -2,7 +2,7 @@
 #ifndef KD_VK_PHYSICAL_H
 #define KD_VK_PHYSICAL_H
 
-#include "vk/functions.h"
+#include "vk/instance.h"
 #include "vk/vk.h"
 
 /* Defined in vulkan_beta.h, which needs a macro to be included. */
@@ -19,7 +19,7 @@ struct kd_vk_physical {
 };
 
 /* Lists the physical devices of the instance; *out is malloc'd. KD_EDEVICE if there is none. */
-enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance instance, struct kd_vk_physical **out,
-                                   size_t *count, struct kd_error *error);
+enum kd_status kd_vk_physical_list(const struct kd_vk_instance *instance, struct kd_vk_physical **out, size_t *count,
+                                   struct kd_error *error);
 
 #endif

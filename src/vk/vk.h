@@ -36,6 +36,7 @@ struct kd_vk_info {
     uint64_t max_allocation_bytes;
     uint32_t max_push_bytes, subgroup_size, max_groups_x, max_groups_y, max_workgroup;
     bool float64, timestamps;
+    bool own_driver;         /* its driver is the one that is installed with the program; the system has none */
     uint8_t uuid[16];        /* UUID of the device; the same with every driver and in every process */
     uint32_t driver_version; /* version in the driver's own encoding */
     char missing[256];       /* what kerrd needs and the device lacks; "": the device is usable */

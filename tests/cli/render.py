@@ -1,12 +1,14 @@
 """Tests of pictures from the command line, on a real device."""
 
 import ast
+import glob
 import hashlib
 import json
 import math
 import os
 import pty
 import resource
+import shutil
 import signal
 import socket
 import stat
@@ -564,6 +566,52 @@ class Devices(Case):
         doctor = run("doctor", env=nowhere)
         self.assertEqual(doctor.returncode, 1)
         self.assertIn(b"apt install mesa-vulkan-drivers", doctor.stdout)
+
+    def test_own_driver(self):
+        """Where the system has no driver, the one beside the program is used, unless the environment names drivers."""
+        manifest = next(iter(glob.glob("/usr/share/vulkan/icd.d/lvp_icd*.json")), None)
+        if not manifest:
+            self.skipTest("lavapipe is not installed")
+        with open(manifest) as file:
+            lavapipe = json.load(file)["ICD"]["library_path"]
+        os.makedirs(self.path("bin"))
+        program = self.path("bin/kerrd")
+        shutil.copy(KERRD, program)
+        none = {**os.environ, "VK_LOADER_DRIVERS_DISABLE": "*"}
+        for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES", "KERRD_VALIDATE"):
+            none.pop(name, None)
+
+        def draw(**more):
+            words = [program, "render", *SMALL, "-o", self.path("own.png")]
+            return subprocess.run(words, env={**none, **more}, capture_output=True)
+
+        without = draw()
+        if not without.returncode:
+            self.skipTest("this Vulkan loader is older than VK_LOADER_DRIVERS_DISABLE")
+        self.assertIn(b"install mesa-vulkan-drivers", without.stderr)
+        here = self.good("doctor", env={**os.environ, "VK_DRIVER_FILES": manifest})
+        self.assertNotIn(b"installed with kerrd", here)
+        self.good("render", *SMALL, "-o", self.path("here.png"), env={**os.environ, "VK_DRIVER_FILES": manifest})
+        for place in ("lib/kerrd-driver", "bin/kerrd-driver"):
+            os.makedirs(self.path(place))
+            link = self.path(f"{place}/libvulkan_lvp.so")
+            os.symlink(lavapipe, link)
+            done = draw()
+            self.assertEqual(done.returncode, 0, done.stderr)
+            pixels = [
+                [body for kind, body in chunks(self.read(name)) if kind == b"IDAT"] for name in ("own.png", "here.png")
+            ]
+            self.assertEqual(*pixels)
+            doctor = subprocess.run([program, "doctor"], env=none, capture_output=True).stdout
+            self.assertIn(b"the driver is installed with kerrd; the system has none", doctor)
+            self.assertEqual(draw(VK_DRIVER_FILES="/nonexistent").returncode, 1)
+            os.remove(link)
+            with open(link, "w") as file:
+                file.write("no library")
+            done = draw()
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(b"kerrd's own cannot be used: ", done.stderr)
+            os.remove(link)
 
     def test_doctor(self):
         report = self.good("doctor").decode()

@@ -21,6 +21,7 @@ PLACES = (
     "CITATION.cff",
     "packaging/kubernetes/kerrd.yaml",
     "packaging/kubernetes/dask.yaml",
+    "packaging/conda/recipe.yaml",
     "packaging/npm/package.json",
     "docs/scale.md",
     "NEWS",

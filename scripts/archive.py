@@ -1,0 +1,49 @@
+"""Archives that have the same bytes each time: wheels, and tars."""
+
+import base64
+import hashlib
+import io
+import tarfile
+import zipfile
+
+DATE = (2020, 2, 2, 0, 0, 0)  # of every file, as in hatchling
+SECONDS = 1580601600  # the same
+
+
+def write_wheel(path, members):
+    """Writes a wheel of these files, (bytes, mode) by name, and the list of them (RECORD) that PEP 427 requires."""
+    record = next(name for name in members if name.endswith(".dist-info/RECORD"))
+    rows = []
+    for name, (data, _) in members.items():
+        digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
+        rows.append(f"{name},," if name == record else f"{name},sha256={digest},{len(data)}")
+    members = {**members, record: (("\n".join(rows) + "\n").encode(), 0o644)}
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name in sorted(members, key=lambda name: (".dist-info/" in name, name)):  # as PEP 427 advises
+            data, mode = members[name]
+            entry = zipfile.ZipInfo(name, DATE)
+            entry.external_attr = (0o100000 | mode) << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, data)
+
+
+def info(name, **more):
+    """An entry of a tar: a file that all may read, unless more says otherwise."""
+    entry = tarfile.TarInfo(name)
+    entry.mode = 0o644
+    for key, value in more.items():
+        setattr(entry, key, value)
+    return entry
+
+
+def write_tar(members):
+    """The bytes of a tar of these entries, (tarfile.TarInfo, bytes) by name, with the folders that hold them. Owners
+    that are not root keep their numbers."""
+    out = io.BytesIO()
+    folders = {name.rsplit("/", depth)[0] for name in members for depth in range(1, name.count("/") + 1)}
+    folders = {name: (info(name, type=tarfile.DIRTYPE, mode=0o755), b"") for name in folders if name not in members}
+    with tarfile.open(fileobj=out, mode="w", format=tarfile.PAX_FORMAT) as archive:
+        for name, (entry, data) in sorted({**folders, **members}.items()):
+            entry.size, entry.mtime, entry.uname, entry.gname, entry.pax_headers = len(data), SECONDS, "", "", {}
+            archive.addfile(entry, io.BytesIO(data))
+    return out.getvalue()
