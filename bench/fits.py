@@ -19,7 +19,15 @@ import measure
 NIGHT = measure.ROOT / "data/eht/m87-2017-04-05-lo.uvfits"
 # a thin disk at the equator with the width equal to the height, as for a fit; and the torus with the mass of M87*
 MODELS = {
-    "thin disk": {"preset": "m87", "scene": {"image": {"width": 256, "height": 256}, "camera": {"field_m": 32}}},
+    "thin disk": {
+        "preset": "m87",
+        "scene": {
+            "image": {"width": 256, "height": 256},
+            "camera": {"field_m": 32},
+            "disk": {"model": "novikov-thorne", "outer": 15},
+            "volume": {"model": "none"},
+        },
+    },
     "torus": {
         "preset": "torus",
         "scene": {

@@ -31,6 +31,12 @@
 #define SGRA SGRA_("")
 #define SGRA_2017 SGRA_(",\"mjd\":57850")
 
+/* A thick, hot flow at 230 GHz (docs/physics/volume.md). */
+#define HOT_FLOW(inner, density) \
+    "\"disk\":{\"model\":\"none\"}," \
+    "\"volume\":{\"model\":\"riaf\",\"inner\":" inner ",\"outer\":25,\"density_cm3\":" density "," \
+    "\"height\":0.3,\"electron_temperature_k\":3e11,\"frequency_ghz\":230},"
+
 const struct kd_preset kd_presets[] = {
     { "smooth", "Smooth disk", "A smooth, opaque disk with the exact Page-Thorne flux, without the glare of a lens",
       false, SMOOTH },
@@ -54,26 +60,26 @@ const struct kd_preset kd_presets[] = {
       "\"camera\":{\"r\":74.1,\"inclination_deg\":86.56,\"fov_deg\":38},"
       "\"disk\":{\"inner\":9.26,\"outer\":18.7,\"taper\":0.15,\"peak_temperature_k\":14000},"
       "\"image\":{\"samples\":2}}" },
-    /* These two have the same scale: 214 microarcseconds across. */
+    /* These two have the same scale: 214 microarcseconds across. The flow's inner edge gives the ring, through the
+     * beam, the measured diameter, and its density about the measured flux, 0.6 and 2.4 Jy. The beam is much wider than
+     * a pixel, so that one ray a pixel is enough, also at the critical curve. */
     { "m87", "M87*",
-      "The hole of M87 as the Event Horizon Telescope showed it: a beam of 20 microarcseconds, north up, brightness in "
-      "false colour; a thin disk replaces the hot flow",
+      "A hot flow round a hole of the mass of M87*, seen at 230 GHz as the Event Horizon Telescope would: a beam of 20 "
+      "microarcseconds, north up, brightness in false colour; the flow's inner edge is chosen so that the ring is as "
+      "wide as measured",
       true,
       "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6}," M87_2017
       "\"camera\":{\"inclination_deg\":163,\"field_m\":56,\"roll_deg\":108},"
       /* puts the approaching jet at a position angle of 288 degrees */
-      "\"disk\":{\"outer\":15},"
-      "\"style\":{\"name\":\"eht\"},"
-      "\"image\":{\"samples\":2}}" },
+      HOT_FLOW("4.5", "9.5e5") "\"style\":{\"name\":\"eht\"},\"image\":{\"critical_factor\":1}}" },
     { "sgra", "Sagittarius A*",
-      "The hole in the centre of our Galaxy as the Event Horizon Telescope showed it: a beam of 20 microarcseconds, "
-      "brightness in false colour; a thin disk replaces the hot flow",
+      "A hot flow round a hole of the mass of Sagittarius A*, seen at 230 GHz as the Event Horizon Telescope would: a "
+      "beam of 20 microarcseconds, brightness in false colour; the flow's inner edge is chosen so that the ring is as "
+      "wide as measured",
       true,
       "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":4.297e6,\"distance_pc\":8277}," SGRA_2017
-      "\"camera\":{\"inclination_deg\":30,\"field_m\":41.7},"
-      "\"disk\":{\"outer\":15},"
-      "\"style\":{\"name\":\"eht\"},"
-      "\"image\":{\"samples\":2}}" },
+      "\"camera\":{\"inclination_deg\":30,\"field_m\":41.7}," HOT_FLOW(
+          "3.2", "2.1e7") "\"style\":{\"name\":\"eht\"},\"image\":{\"critical_factor\":1}}" },
     { "luminet1979", "The first picture, 1979",
       "The first picture of a black hole with a disk: no spin, from 10 degrees above, bolometric brightness", true,
       "{\"spacetime\":{\"spin\":0},"

@@ -27,7 +27,7 @@ class Compare(Case):
 
     def test_what_is_told(self):
         """chi^2 follows from the columns; CSV and NPY have the same rows."""
-        options = ["--observation", compared.UVFITS, "-p", "m87", "--pixels", "64", "--average-s", "300"]
+        options = ["--observation", compared.UVFITS, *compared.THIN, "--pixels", "64", "--average-s", "300"]
         told = self.told(*options, "--systematic-amplitude", "0.05")
         columns, seen = told["columns"], told["observation"]
         self.assertEqual((seen["source"], seen["mjd"], seen["visibilities"]), ("M87", 57848, 1507))
@@ -59,8 +59,7 @@ class Compare(Case):
         options = [
             "--observation",
             compared.CSV,
-            "-p",
-            "m87",
+            *compared.THIN,
             "--pixels",
             "64",
             "--average-s",
@@ -84,7 +83,7 @@ class Compare(Case):
     def test_size_and_angle_that_fit_best(self):
         """The search finds the size and the angle of the sky: a camera that is rolled and a hole whose mass is
         different give the same chi^2 as the size and the angle that were solved for."""
-        options = ["--observation", compared.UVFITS, "-p", "m87", "--pixels", "96", "--average-s", "600"]
+        options = ["--observation", compared.UVFITS, *compared.THIN, "--pixels", "96", "--average-s", "600"]
         options += ["--check", "none"]
         found = self.told(*options, "--solve", "flux,size,position_angle")
         self.assertEqual([one["name"] for one in found["solved"]], ["flux_jy", "size", "position_angle_deg"])
@@ -116,7 +115,7 @@ class Compare(Case):
     def test_visibilities_determine_the_position(self):
         """Amplitudes and closures do not change with a shift. A visibility has two rows, its real and its imaginary
         part."""
-        options = ["--observation", compared.UVFITS, "-p", "m87", "--pixels", "64", "--average-s", "600"]
+        options = ["--observation", compared.UVFITS, *compared.THIN, "--pixels", "64", "--average-s", "600"]
         options += ["--check", "none", "--flux-jy", "0.6", "--products", "amplitude,closure_phase,visibility"]
         plain, found = self.told(*options), self.told(*options, "--solve", "shift")
         self.assertNotEqual(found["values"]["shift_east_uas"], 0)
@@ -153,7 +152,8 @@ class Compare(Case):
     def test_a_dark_set(self):
         """A set without light has no numbers, not those of the set before it."""
         sets = [{"spacetime.spin": 0.5}, {"disk.model": "none"}, {"spacetime.spin": 0.7}]
-        request = {"preset": "m87", "pixels": 32, "average_s": 600, "solve": ["size"], "sets": sets}
+        thin = {"disk": {"model": "novikov-thorne", "outer": 15}, "volume": {"model": "none"}}
+        request = {"preset": "m87", "scene": thin, "pixels": 32, "average_s": 600, "solve": ["size"], "sets": sets}
         with open(self.path("dark.json"), "w", encoding="utf-8") as file:
             json.dump(request, file)
         columns = json.loads(self.good("compare", self.path("dark.json"), "--observation", compared.CSV))["columns"]
@@ -163,7 +163,7 @@ class Compare(Case):
     def test_scattering(self):
         """The kernel multiplies each amplitude of the model, and affects longer baselines more. Closure phases do not
         change."""
-        options = ["--observation", compared.UVFITS, "-p", "m87", "--pixels", "64", "--average-s", "600"]
+        options = ["--observation", compared.UVFITS, *compared.THIN, "--pixels", "64", "--average-s", "600"]
         options += ["--check", "none", "--flux-jy", "0.6"]
         plain, scattered = self.told(*options), self.told(*options, "--scattering", "sgra")
         self.assertEqual(scattered["parameters"]["scattering"], "sgra")
@@ -220,7 +220,7 @@ class Compare(Case):
         self.assertLess(self.told("--observation", self.path("again.csv"), *asked)["chi2"]["visibility"], 1.1)
         for given, words in (
             ([*csv_alone, "-o", self.path("a.uvfits")], "observation is a CSV, which has no places of stations"),
-            (["--observation", compared.CSV, "-p", "m87"], "flux_jy is auto; it must be a number"),
+            (["--observation", compared.CSV, *compared.THIN], "flux_jy is auto; it must be a number"),
             (["-p", "riaf"], "observation is missing"),
             ([*csv_alone, "--seed", "-1"], "seed is -1; it must be a whole number from 0 to 4294967295"),
         ):
@@ -228,7 +228,7 @@ class Compare(Case):
 
     def test_columns_as_npz(self):
         """numpy.savez's members: numbers as float64, words as UTF-32, and the rest of the answer."""
-        options = ["--observation", compared.CSV, "-p", "m87", "--pixels", "32", "--average-s", "600"]
+        options = ["--observation", compared.CSV, *compared.THIN, "--pixels", "32", "--average-s", "600"]
         told = self.told(*options)
         self.good("compare", *options, "-o", self.path("a.npz"))
         with zipfile.ZipFile(self.path("a.npz")) as file:

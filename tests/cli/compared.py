@@ -7,6 +7,10 @@ import pathlib
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 UVFITS, CSV = (str(ROOT / f"data/eht/m87-2017-04-05-lo.{end}") for end in ("uvfits", "csv"))
 CASES = json.loads(pathlib.Path(__file__).with_name("ehtim_chi2.json").read_text())["cases"]
+# A thin disk, whose light has no frequency.
+THIN = ["-p", "m87"]
+for setting in ("disk.model=novikov-thorne", "disk.outer=15", "volume.model=none"):
+    THIN += ["--set", setting]
 
 
 def options(case, file=UVFITS):

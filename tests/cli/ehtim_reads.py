@@ -69,7 +69,7 @@ turns = ehtim.observing.obs_helpers.ftmatrix(image.psize, image.xdim, image.ydim
 v = turns @ image.imvec / image.imvec.sum()
 print(json.dumps([[z.real, z.imag] for z in v]))
 """
-        for scene in (("-p", "m87"), ("-p", "riaf", "--set", "camera.roll_deg=20")):
+        for scene in (compared.THIN, ("-p", "riaf", "--set", "camera.roll_deg=20")):
             layer = "intensity" if "m87" in scene else "specific_intensity"
             self.good(
                 "render",

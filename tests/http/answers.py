@@ -183,7 +183,7 @@ class Answers(daemon.Case):
             ("lags", {"frequencies_m": [0.01], "bins": 2}),
             ("lags", {"frequencies": 2, "edges": [0.5, 1], "reference_min": 1.2, "reference_max": 1.5}),
             ("spectrum", {"preset": "riaf", "frequencies_hz": [2e11], "pixels": 32}),
-            ("visibility", {"preset": "sgra", "pixels": 32, "orders": 2, "baselines": 2}),
+            ("visibility", {"preset": "luminet1979", "pixels": 32, "orders": 2, "baselines": 2}),
             ("visibility", {"preset": "riaf", "pixels": 16, "u": [0, 3], "v": [1, 2], "check": "none"}),
         ):
             self.send("POST", "/v1/" + name, "/v1/" + name, document)

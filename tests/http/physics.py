@@ -16,6 +16,7 @@ import daemon
 
 KERR = "/v1/physics/kerr"
 OBSERVED = pathlib.Path(__file__).resolve().parents[2] / "data/eht"
+THIN = {"disk": {"model": "novikov-thorne"}, "volume": {"model": "none"}}
 
 
 def strict(body):
@@ -734,7 +735,7 @@ class Integrals(daemon.Case):
         rows = lambda n, x: 1 if x == 0 else math.sin(n * x) / (n * math.sin(x))
         document = {
             "preset": "m87",
-            "scene": {"accuracy": {"orders": 2}},
+            "scene": {"accuracy": {"orders": 2}, **THIN},
             "pixels": 32,
             "orders": 2,
             "lengths": [0, 3, 7.5],
@@ -793,7 +794,7 @@ class Integrals(daemon.Case):
     def test_pictures_are_refused(self):
         for name, document, pointer, words in (
             ("spectrum", {"scene": {}}, "/scene/volume/model", "volume.frequency_ghz"),
-            ("spectrum", {"preset": "m87"}, "/scene/volume/model", "gold or riaf"),
+            ("spectrum", {"preset": "smooth"}, "/scene/volume/model", "gold or riaf"),
             ("spectrum", {"preset": "riaf", "scene": {"sky": {"model": "grid"}}}, "/scene", "only a volume"),
             ("spectrum", {"preset": "riaf", "spin": 0}, "/spin", "no field spin"),
             ("spectrum", {"preset": "riaf", "frequencies": 201}, "/frequencies", "2 to 200"),
@@ -845,6 +846,7 @@ class Integrals(daemon.Case):
             document = {
                 "observation": asset["sha256"],
                 "preset": "m87",
+                "scene": THIN,
                 "pixels": 64,
                 "average_s": 600,
                 "flux_jy": 0.6,

@@ -144,7 +144,9 @@ static void test_baselines(void **state)
 {
     struct kd_integral_request r;
     (void)state;
-    ask(&r, KD_INTEGRAL_VISIBILITY, "{\"preset\":\"m87\",\"lengths\":[0,5,8],\"angles_deg\":[0,90,-30],\"orders\":2}");
+    ask(&r, KD_INTEGRAL_VISIBILITY,
+        "{\"preset\":\"m87\",\"scene\":{\"disk\":{\"model\":\"novikov-thorne\"},\"volume\":{\"model\":\"none\"}},"
+        "\"lengths\":[0,5,8],\"angles_deg\":[0,90,-30],\"orders\":2}");
     assert_int_equal(kd_integral_rows(&r), 27);
     assert_int_equal(kd_integral_pictures(&r), 2);
     assert_true(r.u.n == 9 && r.u.at[4] == 5 && r.v.at[4] == 0 && r.v.at[1] == 5 && r.u.at[1] == 0);

@@ -3,6 +3,7 @@
 
 #include "image/legend.h"
 #include "image/sky_scale.h"
+#include "render/emit/radio.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -34,9 +35,14 @@ static void draw_scales(struct kd_frame_job *j)
 {
     const struct kd_frame *frame = j->frame;
     const struct kd_canvas canvas = { kd_frame_pixels(frame), frame->width, frame->height, kd_frame_bit_depth(frame) };
-    const struct kd_legend legend = { .title = "I / I_max of the disk",
-                                      .map = KD_MAP_HEAT,
-                                      .scale = { 0, exp2(-frame->exposure), false } };
+    /* The light of volumes alone has a temperature; that of a disk, also at one frequency, is relative to its hottest
+     * place. */
+    const bool kelvin = j->scene->disk.model == KD_DISK_NONE && kd_scene_is_radio_alone(j->scene);
+    const struct kd_legend legend = {
+        .title = kelvin ? "brightness, 1e9 K" : "I / I_max of the disk",
+        .map = KD_MAP_HEAT,
+        .scale = { 0, exp2(-frame->exposure) * (kelvin ? kd_radio_kelvin(j->scene) / 1e9 : 1), false },
+    };
     const double width = kd_scene_width_uas(j->scene);
     kd_legend_draw(&canvas, &legend);
     if (!isnan(width))

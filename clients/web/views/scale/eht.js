@@ -32,7 +32,7 @@ const matter = hole =>
         'disk.model': 'none',
         'volume.model': 'riaf',
         'volume.inner': seen[hole].inner,
-        'volume.outer': 60,
+        'volume.outer': 25,
         'volume.density_cm3': seen[hole].density,
         'volume.height': 0.3,
         'volume.electron_temperature_k': 3e11,
