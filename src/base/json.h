@@ -20,6 +20,8 @@
 
 enum { KD_JSON_DEPTH = 32, KD_JSON_NUMBER = 32 };
 
+#define KD_JSON_TYPE "application/json" /* its media type */
+
 struct kd_json {
     struct kd_buffer *out;
     /* KD_ENOMEM: out of memory. KD_EINVAL: the caller has nested objects and arrays wrongly. */

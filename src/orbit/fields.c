@@ -29,7 +29,7 @@ _Static_assert(KD_ORBIT_SAMPLES_MAX == 200000, "the schema says so");
           .unit = "M", \
           .help = "charge Q of the hole; the body is neutral; a^2 + Q^2 < 1" }
 
-const struct kd_row kd_orbit_settings[] = {
+static const struct kd_row settings[] = {
 #define AT(member) offsetof(struct kd_orbit_params, member)
     HOLE,
     { .name = "samples",
@@ -131,10 +131,8 @@ const struct kd_row kd_orbit_settings[] = {
       .help = "motion of the observer" },
 #undef AT
 };
-_Static_assert(sizeof kd_orbit_settings / sizeof *kd_orbit_settings == KD_ORBIT_N_SETTINGS,
-               "as many as the header says");
 
-const struct kd_row kd_orbit_fields[] = {
+static const struct kd_row fields[] = {
 #define AT(member) offsetof(struct kd_orbit_spec, member)
     HOLE,
     { .name = "p",
@@ -275,7 +273,6 @@ const struct kd_row kd_orbit_fields[] = {
       .help = "an orbit by name" },
 #undef AT
 };
-_Static_assert(sizeof kd_orbit_fields / sizeof *kd_orbit_fields == KD_ORBIT_N_FIELDS, "as many as the header says");
 
 /* A duration is given by one member; or_end belongs to durations without periods. An observer needs a place. */
 static const struct kd_document_not nots[] = {
@@ -287,9 +284,9 @@ static const struct kd_document_not nots[] = {
       "{\"required\":[\"observer\"],\"properties\":{\"observer\":{\"not\":{\"const\":\"static\"}}}}]}" },
     { NULL, NULL },
 };
-const struct kd_document kd_orbit_request_document = { kd_orbit_settings, KD_ORBIT_N_SETTINGS, 0, "orbit|orbits",
+const struct kd_document kd_orbit_request_document = { settings, sizeof settings / sizeof *settings, 0, "orbit|orbits",
                                                        nots };
-const struct kd_document kd_orbit_document = { kd_orbit_fields, KD_ORBIT_N_FIELDS, 0, NULL, NULL };
+const struct kd_document kd_orbit_document = { fields, sizeof fields / sizeof *fields, 0, NULL, NULL };
 
 const char *kd_orbit_way_name(enum kd_orbit_way way)
 {

@@ -6,9 +6,7 @@
 #include "orbit/asked.h"
 
 /* `of` has a bit for each form of an orbit. */
-enum { KD_ORBIT_N_SETTINGS = 17, KD_ORBIT_N_FIELDS = 18 };
-extern const struct kd_row kd_orbit_settings[KD_ORBIT_N_SETTINGS];            /* of struct kd_orbit_params */
-extern const struct kd_row kd_orbit_fields[KD_ORBIT_N_FIELDS];                /* of struct kd_orbit_spec */
-extern const struct kd_document kd_orbit_request_document, kd_orbit_document; /* the whole request; one orbit */
+extern const struct kd_document kd_orbit_request_document; /* the whole request, of struct kd_orbit_params */
+extern const struct kd_document kd_orbit_document;         /* one orbit, of struct kd_orbit_spec */
 
 #endif

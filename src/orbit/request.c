@@ -58,10 +58,10 @@ static enum kd_status mixed(const struct kd_orbit_spec *spec, const struct kd_ro
                             struct kd_error *error)
 {
     size_t i = 0;
-    while (!(spec->seen & 1u << i) || kd_orbit_fields[i].of != 1u << spec->form)
+    while (!(spec->seen & 1u << i) || kd_orbit_document.rows[i].of != 1u << spec->form)
         i++;
-    return kd_error_field(error, pointer, "%s cannot be used with %s; " FORMS, field->name, kd_orbit_fields[i].name,
-                          FORM_TEXTS);
+    return kd_error_field(error, pointer, "%s cannot be used with %s; " FORMS, field->name,
+                          kd_orbit_document.rows[i].name, FORM_TEXTS);
 }
 
 /* The form that a field belongs to. */
@@ -77,8 +77,8 @@ static enum kd_orbit_form form_of(const struct kd_row *row)
 static enum kd_status settle(struct kd_orbit_spec *spec, const char *pointer, struct kd_error *error)
 {
     const uint64_t seen = spec->seen;
-    for (size_t i = 0; i < KD_ORBIT_N_FIELDS; i++) {
-        const struct kd_row *row = &kd_orbit_fields[i];
+    for (size_t i = 0; i < kd_orbit_document.n; i++) {
+        const struct kd_row *row = &kd_orbit_document.rows[i];
         if (!(seen & 1u << i) || !row->of)
             continue;
         if (spec->form != KD_ORBIT_FORMS && row->of != 1u << spec->form)
@@ -87,8 +87,8 @@ static enum kd_status settle(struct kd_orbit_spec *spec, const char *pointer, st
     }
     if (spec->form == KD_ORBIT_FORMS)
         return kd_error_field(error, pointer, FORMS, FORM_TEXTS);
-    for (size_t i = 0; i < KD_ORBIT_N_FIELDS; i++) {
-        const struct kd_row *row = &kd_orbit_fields[i];
+    for (size_t i = 0; i < kd_orbit_document.n; i++) {
+        const struct kd_row *row = &kd_orbit_document.rows[i];
         if (row->of != 1u << spec->form || !row->needed || seen & 1u << i)
             continue;
         char missing[sizeof error->pointer];
@@ -181,7 +181,7 @@ static enum kd_status set_field(struct kd_orbit_request *request, const struct k
         return mixed(spec, field, pointer, error);
     if (!status && field->of)
         spec->form = form_of(field);
-    spec->seen |= UINT64_C(1) << (field - kd_orbit_fields);
+    spec->seen |= UINT64_C(1) << (field - kd_orbit_document.rows);
     return status;
 }
 

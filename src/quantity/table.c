@@ -3,16 +3,10 @@
 #include "physics/spacetime/kerr.h"
 #include "scene/observer_fault.h"
 #include "document/number.h"
+#include "quantity/quantities.h" /* QUANTITIES, made by meson.build */
 
 #include <stdio.h>
 #include <string.h>
-
-/* In the order of the listing. */
-/* clang-format off */
-#define QUANTITIES(X) X(kerr) X(shadow) X(deflection) X(potential) X(redshift) X(ring_image) X(photon_rings) \
-X(disk_flux) X(returning) X(blackbody) X(qnm) X(flamm) X(frame_dragging) \
-    X(infall) X(sky) X(scale) X(inspiral) X(tidal) X(separatrix)
-/* clang-format on */
 
 #define DECLARE(symbol) extern const struct kd_quantity kd_quantity_##symbol;
 QUANTITIES(DECLARE)

@@ -154,7 +154,7 @@ static bool media_type_fault(const struct kd_request *request, bool patch, struc
                              struct kd_problem *problem)
 {
     const struct kd_taken *taken = &kd_taken[request->route->takes];
-    const char *types = patch ? "application/json " KD_PATCH_TYPE : taken->types ? taken->types : "application/json";
+    const char *types = patch ? KD_JSON_TYPE " " KD_PATCH_TYPE : taken->types ? taken->types : KD_JSON_TYPE;
     size_t said = (size_t)snprintf(told->detail, sizeof told->detail,
                                    "%s must have Content-Type: ", taken->types && !patch ? taken->what : "a body"),
            offered = 0;

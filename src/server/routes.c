@@ -1,11 +1,12 @@
 /* Table of routes, declared in http/route.h. */
+#include "base/json.h"
 #include "render/output/format.h"
 #include "server/http/query.h"
 #include "server/http/route.h"
 #include "server/openapi/strict.h"
 #include "server/playground/sessions.h"
 
-#define JSON "application/json"
+#define JSON KD_JSON_TYPE
 #define QUERIES(...) \
     (const struct kd_query[]) { __VA_ARGS__, { 0 } }
 

@@ -429,7 +429,7 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
 
 const struct kd_format kd_format_pixel = {
     .name = "json",
-    .media_type = "application/json",
+    .media_type = KD_JSON_TYPE,
     .magic = "",
     .carries = KD_CARRIES_PICTURE,
     .draws = draws,

@@ -1,5 +1,6 @@
 #include "render/output/curve.h"
 
+#include "base/json.h"
 #include "document/number.h"
 
 #include <string.h>
@@ -155,7 +156,7 @@ static const struct kd_format one_row = {
 };
 
 static const struct kd_table_format tables[] = {
-    { "json", "application/json", NULL, write_json },
+    { "json", KD_JSON_TYPE, NULL, write_json },
     { "csv", "text/csv", "light-curve.csv", write_csv },
 };
 

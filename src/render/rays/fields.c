@@ -11,7 +11,7 @@
 /* The least radius of an observer in the schema: a horizon is above 1 M whatever the spin, 1 + sqrt(1 - a^2), Bardeen,
  * Press & Teukolsky 1972. check.c knows the horizon of the given spin, and the steps that an engine takes. "auto" is
  * stored as -1, and a motion that is not given as 0. */
-const struct kd_row kd_rays_fields[KD_RAYS_FIELDS] = {
+static const struct kd_row fields[] = {
     { .name = "spin",
       .kind = KD_KIND_REAL,
       .offset = AT(params.spin),
@@ -152,7 +152,7 @@ const struct kd_row kd_rays_fields[KD_RAYS_FIELDS] = {
 };
 _Static_assert(KD_STEPS_MAX == 2048 && (int)KD_RAYS_FAR == 10000000, "the schemas say so");
 
-const struct kd_document kd_rays_document = { kd_rays_fields, KD_RAYS_FIELDS, 0, "rays", NULL };
+const struct kd_document kd_rays_document = { fields, sizeof fields / sizeof *fields, 0, "rays", NULL };
 
 enum kd_status kd_rays_field_check(const char *name, double value, struct kd_error *error)
 {

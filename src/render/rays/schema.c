@@ -16,9 +16,9 @@ static void begin_strict(struct kd_json *json, const char *name)
 /* The fields of one object. */
 static void add_members(struct kd_json *json, const char *object)
 {
-    for (size_t i = 0; i < KD_RAYS_FIELDS; i++)
-        if (kd_rays_fields[i].object && !strcmp(kd_rays_fields[i].object, object))
-            kd_row_schema(json, kd_rays_fields[i].name, &kd_rays_fields[i]);
+    for (size_t i = 0; i < kd_rays_document.n; i++)
+        if (kd_rays_document.rows[i].object && !strcmp(kd_rays_document.rows[i].object, object))
+            kd_row_schema(json, kd_rays_document.rows[i].name, &kd_rays_document.rows[i]);
 }
 
 static void add_rays(struct kd_json *json)
@@ -54,13 +54,16 @@ void kd_rays_request_schema(struct kd_json *json, const char *name)
 
 const char *kd_rays_field_name(size_t index, const char **help)
 {
-    if (index >= KD_RAYS_FIELDS)
+    if (index >= kd_rays_document.n)
         return NULL;
-    *help = kd_rays_fields[index].help;
-    return kd_rays_fields[index].name;
+    *help = kd_rays_document.rows[index].help;
+    return kd_rays_document.rows[index].name;
 }
 
-void kd_rays_field_schema(struct kd_json *json, size_t index) { kd_row_schema(json, "schema", &kd_rays_fields[index]); }
+void kd_rays_field_schema(struct kd_json *json, size_t index)
+{
+    kd_row_schema(json, "schema", &kd_rays_document.rows[index]);
+}
 
 static const char *engine(size_t i) { return i < KD_ENGINE_COUNT ? kd_engine_name((enum kd_engine)i) : NULL; }
 static const char *precision(size_t i)

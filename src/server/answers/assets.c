@@ -13,8 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define JSON_TYPE "application/json"
-
 static const char *type_of(const struct kd_asset_about *about)
 {
     return about->observation == KD_OBSERVATION_UVFITS ? KD_ASSET_UVFITS_TYPE
@@ -135,8 +133,8 @@ static enum MHD_Result deliver(struct kd_request *request)
         kd_render_queue_sky_ahead(request->server->renders, about->hash, about->width, about->height);
     enum kd_status status = to_json(about, p->put.created, &json);
     if (status || !p->put.created)
-        return kd_reply_json(request, status, &json, JSON_TYPE);
-    struct MHD_Response *response = kd_reply_take(&json, JSON_TYPE);
+        return kd_reply_json(request, status, &json, KD_JSON_TYPE);
+    struct MHD_Response *response = kd_reply_take(&json, KD_JSON_TYPE);
     kd_reply_location(request, response, about->hash);
     return kd_reply_send(request, MHD_HTTP_CREATED, response);
 }
@@ -214,7 +212,7 @@ enum MHD_Result kd_handle_assets(struct kd_request *request)
     kd_json_string(&json, NULL, KD_ASSET_CSV_TYPE);
     kd_json_end(&json);
     kd_json_end(&json);
-    return kd_reply_json(request, kd_json_finish_line(&json), &text, JSON_TYPE);
+    return kd_reply_json(request, kd_json_finish_line(&json), &text, KD_JSON_TYPE);
 }
 
 /* An answer that sends the bytes from memory and holds a reference to the asset. */
@@ -300,7 +298,7 @@ static enum MHD_Result deliver_removal(struct kd_request *request)
         struct kd_problem problem = kd_problem_from(&r->task.error);
         return kd_reply_problem(request, &problem);
     }
-    return r->was ? kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE))
+    return r->was ? kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, KD_JSON_TYPE))
                   : refuse_unknown(request);
 }
 

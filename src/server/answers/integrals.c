@@ -10,13 +10,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#define OFFERED "application/json, text/csv, " KD_NPY_TYPE ", application/x-npz"
+#define OFFERED KD_JSON_TYPE ", text/csv, " KD_NPY_TYPE ", application/x-npz"
 /* estimated time of one product on one core; a product combines one pixel, or one image order of a pixel, with a
  * baseline */
 #define NS_A_PRODUCT 1.2
 #define BYTES_PER_ROW (KD_INTEGRAL_COLUMNS * (sizeof(double) + 26)) /* including the number's text */
 
-static const char *const types[] = { [KD_INTEGRAL_JSON] = "application/json",
+static const char *const types[] = { [KD_INTEGRAL_JSON] = KD_JSON_TYPE,
                                      [KD_INTEGRAL_CSV] = "text/csv",
                                      [KD_INTEGRAL_NPY] = KD_NPY_TYPE,
                                      [KD_INTEGRAL_NPZ] = "application/x-npz",

@@ -12,7 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define JSON_TYPE "application/json"
 #define CSV_TYPE "text/csv"
 #define WAV_TYPE "audio/wav"
 #define MOMENT_MS 2.        /* time limit on the HTTP thread, which serves all clients */
@@ -36,12 +35,12 @@ static void finish(struct kd_task *task)
 
 static const char *offered(const struct kd_quantity *quantity)
 {
-    return quantity->sound ? JSON_TYPE ", " CSV_TYPE ", " WAV_TYPE : JSON_TYPE ", " CSV_TYPE;
+    return quantity->sound ? KD_JSON_TYPE ", " CSV_TYPE ", " WAV_TYPE : KD_JSON_TYPE ", " CSV_TYPE;
 }
 
 static enum form accepted(struct kd_request *request, const struct kd_quantity *quantity)
 {
-    static const char *const types[] = { [FORM_JSON] = JSON_TYPE, [FORM_CSV] = CSV_TYPE, [FORM_WAV] = WAV_TYPE };
+    static const char *const types[] = { [FORM_JSON] = KD_JSON_TYPE, [FORM_CSV] = CSV_TYPE, [FORM_WAV] = WAV_TYPE };
     size_t n = quantity->sound ? 3 : 2, best = kd_reply_accepted(request, n, kd_accept_string, types);
     return best < n ? (enum form)best : FORM_NONE;
 }
@@ -133,7 +132,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (task->status)
         return refuse(request, &task->error);
     request->reply_bytes = job->text.size;
-    const char *type = job->form == FORM_CSV ? CSV_TYPE "; charset=utf-8; header=present" : JSON_TYPE;
+    const char *type = job->form == FORM_CSV ? CSV_TYPE "; charset=utf-8; header=present" : KD_JSON_TYPE;
     struct MHD_Response *response =
         job->form == FORM_WAV ? kd_reply_take(&job->text, WAV_TYPE) : kd_reply_text(request, &job->text, type);
     if (!response)

@@ -8,8 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define JSON_TYPE "application/json"
-#define OFFERED JSON_TYPE ", " KD_NPY_TYPE
+#define OFFERED KD_JSON_TYPE ", " KD_NPY_TYPE
 #define BLOCK (64u << 10) /* bytes of the answer generated at once, in some tenths of a millisecond */
 #define TEXT_PER_RAY 180  /* estimated size of a ray without crossings as text, for the answer's deadline */
 #define TEXT_PER_CROSSING 110
@@ -89,7 +88,7 @@ static void describe(struct MHD_Response *response, const struct kd_rays_job *jo
 /* Format preferred by Accept, JSON if there is no preference; -1: none is acceptable. */
 static int choose_format(struct kd_request *request)
 {
-    static const char *const types[] = { JSON_TYPE, KD_NPY_TYPE };
+    static const char *const types[] = { KD_JSON_TYPE, KD_NPY_TYPE };
     static const int formats[] = { KD_RAYS_JSON, KD_RAYS_NPY, -1 };
     return formats[kd_reply_accepted(request, 2, kd_accept_string, types)];
 }
@@ -125,7 +124,7 @@ static enum MHD_Result deliver(struct kd_request *request)
         release(out);
         return kd_reply_no_memory(request);
     }
-    MHD_add_response_header(response, "Content-Type", format == KD_RAYS_NPY ? KD_NPY_TYPE : JSON_TYPE);
+    MHD_add_response_header(response, "Content-Type", format == KD_RAYS_NPY ? KD_NPY_TYPE : KD_JSON_TYPE);
     if (format == KD_RAYS_NPY)
         kd_reply_file(request, KD_ATTACHMENT, "rays.npy");
     describe(response, job, &out->answer);

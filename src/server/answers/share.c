@@ -16,7 +16,6 @@
 #include <string.h>
 #include <time.h>
 
-#define JSON_TYPE "application/json"
 #define PLAIN_TITLE "Black hole"
 #define PLAIN_ABOUT "A Kerr black hole with a thin disk of gas, ray-traced"
 
@@ -208,7 +207,7 @@ enum MHD_Result kd_handle_share(struct kd_request *request)
         return kd_reply_problem(request, &problem);
     enum kd_status status = kd_shared_tell(request, &scene, &shared, &error);
     enum MHD_Result result = status ? kd_reply_error(request, &error)
-                                    : kd_reply_json(request, share_json(request, &shared, &body), &body, JSON_TYPE);
+                                    : kd_reply_json(request, share_json(request, &shared, &body), &body, KD_JSON_TYPE);
     kd_shared_finish(&shared);
     return result;
 }
@@ -287,7 +286,7 @@ static enum MHD_Result tell_oembed(struct kd_request *request, const char *code,
         return refuse(request, KD_PROBLEM_NOT_FOUND, error.message, NULL);
     enum kd_status status = kd_shared_tell(request, &scene, &shared, &error);
     enum MHD_Result result = status ? kd_reply_error(request, &error)
-                                    : kd_reply_json(request, oembed_json(&shared, width, &body), &body, JSON_TYPE);
+                                    : kd_reply_json(request, oembed_json(&shared, width, &body), &body, KD_JSON_TYPE);
     kd_shared_finish(&shared);
     return result;
 }

@@ -2,6 +2,7 @@
 #ifndef KD_SERVER_HTTP_REQUEST_H
 #define KD_SERVER_HTTP_REQUEST_H
 
+#include "base/json.h"
 #include "server/http/access.h"
 #include "server/http/client.h"
 #include "server/http/guard.h"

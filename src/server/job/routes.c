@@ -14,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define JSON_TYPE "application/json"
 #define HEARTBEAT_MS 15000.0 /* interval of comments in an event stream */
 
 struct kd_job *kd_job_of(struct kd_request *request, enum MHD_Result *refused)
@@ -89,8 +88,8 @@ static enum MHD_Result answer(struct kd_request *request, struct kd_job *job, bo
     if (!status)
         status = kd_buffer_append(&json, "\n", 1);
     if (status || !created)
-        return kd_reply_json(request, status, &json, JSON_TYPE);
-    struct MHD_Response *response = kd_reply_take(&json, JSON_TYPE);
+        return kd_reply_json(request, status, &json, KD_JSON_TYPE);
+    struct MHD_Response *response = kd_reply_take(&json, KD_JSON_TYPE);
     kd_reply_location(request, response, kd_job_id(job));
     return kd_reply_send(request, MHD_HTTP_ACCEPTED, response);
 }
@@ -220,7 +219,7 @@ static enum MHD_Result deliver_removal(struct kd_request *request)
         struct kd_problem problem = kd_problem_from(&task->error);
         return kd_reply_problem(request, &problem);
     }
-    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
+    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, KD_JSON_TYPE));
 }
 
 /* Begins a deletion and takes over the reference to the job. */

@@ -9,7 +9,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define JSON_TYPE "application/json"
 #define BODY_MOST ((size_t)64 << 10) /* bytes; a link and a question fit */
 #define BODY_VALUES 32               /* JSON values in a body */
 
@@ -36,7 +35,7 @@ static enum MHD_Result answer(struct kd_request *request, const struct kd_lesson
                               const struct kd_lesson_view *view)
 {
     struct kd_buffer json = { 0 };
-    return kd_reply_json(request, kd_lesson_to_json(one, view, &json), &json, JSON_TYPE);
+    return kd_reply_json(request, kd_lesson_to_json(one, view, &json), &json, KD_JSON_TYPE);
 }
 
 static enum kd_status read_change(struct kd_request *request, const cJSON *tree, struct kd_lesson_change *out,
@@ -59,8 +58,8 @@ static enum MHD_Result answer_created(struct kd_request *request, struct kd_less
     const enum kd_status status =
         kd_lesson_to_json(one, &(struct kd_lesson_view) { .teacher = true, .token = true }, &json);
     if (status)
-        return kd_reply_json(request, status, &json, JSON_TYPE);
-    struct MHD_Response *response = kd_reply_take(&json, JSON_TYPE);
+        return kd_reply_json(request, status, &json, KD_JSON_TYPE);
+    struct MHD_Response *response = kd_reply_take(&json, KD_JSON_TYPE);
     kd_reply_location(request, response, one->id);
     return kd_reply_send(request, MHD_HTTP_CREATED, response);
 }
@@ -142,7 +141,7 @@ static enum MHD_Result serve_lesson(struct kd_request *request)
     if (!strcmp(request->method, "PATCH"))
         return change_lesson(request, one);
     kd_lesson_end(request->server->lessons, one);
-    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
+    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, KD_JSON_TYPE));
 }
 
 static enum MHD_Result conflict(struct kd_request *request, const char *detail, const char *pointer)

@@ -50,12 +50,12 @@ static const struct {
     const char *path, *type;
     enum kd_status (*make)(struct kd_buffer *out);
 } makers[] = {
-    { "/openapi.json", "application/json", NULL /* made by kd_openapi_json, which has other parameters */ },
+    { "/openapi.json", KD_JSON_TYPE, NULL /* made by kd_openapi_json, which has other parameters */ },
     { "/docs", "text/html; charset=utf-8", kd_route_table_html },
     { "/v1/schema", "application/schema+json", kd_scene_schema },
-    { "/v1/presets", "application/json", presets_json },
-    { "/v1/physics", "application/json", kd_quantity_list_json },
-    { "/v1/approximations", "application/json", kd_approximations_json },
+    { "/v1/presets", KD_JSON_TYPE, presets_json },
+    { "/v1/physics", KD_JSON_TYPE, kd_quantity_list_json },
+    { "/v1/approximations", KD_JSON_TYPE, kd_approximations_json },
 };
 #define N_MAKERS (sizeof makers / sizeof *makers)
 
@@ -93,7 +93,7 @@ static enum kd_status make(struct document *d, size_t i, const char *base_path, 
     snprintf(d->path, sizeof d->path, "/v1/presets/%s", name);
     if (kd_scene_preset(&scene, name, &error) || kd_scene_to_json(&scene, &d->plain))
         return KD_ENOMEM;
-    return finish(d, "application/json");
+    return finish(d, KD_JSON_TYPE);
 }
 
 enum kd_status kd_cached_documents_create(const char *base_path, bool closed, struct kd_cached_documents **out,

@@ -106,7 +106,7 @@ static void add_way(struct kd_json *json, const char *format, is_series *is)
 static void begin_body(struct kd_json *json)
 {
     kd_openapi_body_begin(json);
-    kd_json_object(json, "application/json");
+    kd_json_object(json, KD_JSON_TYPE);
     kd_json_object(json, "schema");
     kd_json_array(json, "oneOf");
 }

@@ -54,7 +54,7 @@ static inline void kd_openapi_body_end(struct kd_json *json)
 static inline void kd_openapi_body(struct kd_json *json, const char *schema, size_t size, const char *other)
 {
     kd_openapi_body_begin(json);
-    kd_openapi_media(json, "application/json", schema, size);
+    kd_openapi_media(json, KD_JSON_TYPE, schema, size);
     if (other)
         kd_openapi_media(json, other, "", 0);
     kd_openapi_body_end(json);

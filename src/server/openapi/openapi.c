@@ -146,11 +146,11 @@ static void add_body(struct kd_json *json, const struct kd_route *route, unsigne
         return;
     kd_openapi_body_begin(json);
     if (schema)
-        kd_openapi_media(json, "application/json", schema, strlen(schema));
+        kd_openapi_media(json, KD_JSON_TYPE, schema, strlen(schema));
     for (const char *at = taken->types; at && *at; at += strspn(at, " ")) {
         char type[64];
         snprintf(type, sizeof type, "%.*s", (int)strcspn(at, " "), at);
-        if (strcmp(type, "application/json"))
+        if (strcmp(type, KD_JSON_TYPE))
             kd_openapi_media(json, type, "", 0);
         at += strlen(type);
     }

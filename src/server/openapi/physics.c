@@ -123,7 +123,7 @@ static void add_responses(struct kd_json *json, const struct kd_route *route, co
     kd_json_string(json, "description", quantity->summary);
     kd_openapi_headers(json, route, KD_GET, 200);
     kd_json_object(json, "content");
-    kd_json_object(json, "application/json");
+    kd_json_object(json, KD_JSON_TYPE);
     add_answer(json, quantity);
     kd_json_end(json);
     kd_openapi_media(json, "text/csv", "", 0);

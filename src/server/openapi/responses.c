@@ -42,7 +42,7 @@ static void add_type(struct kd_json *json, const struct kd_route *route, unsigne
     char name[64];
     const char *known = NULL;
     snprintf(name, sizeof name, "%.*s", (int)n, type);
-    for (size_t i = 0; i < sizeof route->schemas / sizeof *route->schemas && !strcmp(name, "application/json"); i++)
+    for (size_t i = 0; i < sizeof route->schemas / sizeof *route->schemas && !strcmp(name, KD_JSON_TYPE); i++)
         if (!known && kd_route_for(route->schemas[i].methods, method))
             known = route->schemas[i].text;
     kd_openapi_media(json, name, known ? known : "", known ? strlen(known) : 0);

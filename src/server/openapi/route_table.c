@@ -80,7 +80,7 @@ static void put_taken(struct page *page, const struct kd_route *route, unsigned 
     put_words(page, nothing ? "nothing" : taken->about);
     if (!nothing && body) {
         put(page, ": ");
-        put_types(page, taken->types ? taken->types : "application/json", "");
+        put_types(page, taken->types ? taken->types : KD_JSON_TYPE, "");
         if (method == KD_PATCH)
             put_types(page, KD_PATCH_TYPE, ", ");
         put_bytes(page, taken->most ? taken->most : KD_BODY_MAX);

@@ -4,7 +4,7 @@
 #include "playground/json.h"
 #include "render/rays/request.h"
 #include "server/asset/store.h"
-#include "server/http/route.h"
+#include "server/http/request.h"
 #include "server/job/jobs.h"
 #include "server/openapi/fields.h"
 #include "server/openapi/integrals.h"
@@ -31,7 +31,7 @@ const struct kd_taken kd_taken[KD_TAKES] = {
     [KD_TAKES_RAYS] = { .about = "rays",
                         .what = "a body of rays",
                         .most = KD_RAYS_BODY_MAX,
-                        .types = "application/json application/x-npy",
+                        .types = KD_JSON_TYPE " " KD_NPY_TYPE,
                         .schema = REF("RaysRequest"),
                         .parameters = kd_openapi_rays_parameters },
     [KD_TAKES_ORBITS] = { .about = "orbits",

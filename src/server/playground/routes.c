@@ -16,7 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define JSON_TYPE "application/json"
 #define CSV_TYPE "text/csv"
 
 enum what { OPEN, AGAIN, STATE, CHANGE, STEP, SNAPSHOT, SERIES, FALLBACK };
@@ -322,9 +321,9 @@ static enum MHD_Result begin_opening(struct kd_request *request)
     const enum kd_once_verdict verdict =
         kd_once_begin(request, play ? kd_playground_session_once(play) : NULL, &refused);
     if (verdict == KD_ONCE_AGAIN)
-        return begin(request, play, AGAIN, JSON_TYPE);
+        return begin(request, play, AGAIN, KD_JSON_TYPE);
     kd_playground_session_release(play);
-    return verdict == KD_ONCE_REFUSED ? refused : begin(request, NULL, OPEN, JSON_TYPE);
+    return verdict == KD_ONCE_REFUSED ? refused : begin(request, NULL, OPEN, KD_JSON_TYPE);
 }
 
 enum MHD_Result kd_handle_playgrounds(struct kd_request *request)
@@ -332,7 +331,7 @@ enum MHD_Result kd_handle_playgrounds(struct kd_request *request)
     struct kd_buffer json = { 0 };
     if (strcmp(request->method, "POST")) {
         const enum kd_status status = kd_playground_session_catalogue_json(&json);
-        return kd_reply_json(request, status, &json, JSON_TYPE);
+        return kd_reply_json(request, status, &json, KD_JSON_TYPE);
     }
     return request->task ? deliver(request) : begin_opening(request);
 }
@@ -341,7 +340,7 @@ static enum MHD_Result end(struct kd_request *request, struct kd_playground_sess
 {
     kd_playground_session_end(play, "deleted");
     kd_playground_session_release(play);
-    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
+    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, KD_JSON_TYPE));
 }
 
 /* Like begin, for requests that only the session's owner may send. */
@@ -359,7 +358,7 @@ static enum MHD_Result begin_owned(struct kd_request *request, enum what what)
         kd_playground_session_release(play);
         return kd_reply_unmatched(request);
     }
-    return !strcmp(request->method, "DELETE") ? end(request, play) : begin(request, play, what, JSON_TYPE);
+    return !strcmp(request->method, "DELETE") ? end(request, play) : begin(request, play, what, KD_JSON_TYPE);
 }
 
 static enum MHD_Result begin_reading(struct kd_request *request, enum what what, const char *type)
@@ -374,7 +373,7 @@ enum MHD_Result kd_handle_play(struct kd_request *request)
     if (request->task)
         return deliver(request);
     const bool reads = !strcmp(request->method, "GET") || request->head;
-    return reads ? begin_reading(request, STATE, JSON_TYPE) : begin_owned(request, CHANGE);
+    return reads ? begin_reading(request, STATE, KD_JSON_TYPE) : begin_owned(request, CHANGE);
 }
 
 enum MHD_Result kd_handle_play_step(struct kd_request *request)
@@ -384,7 +383,7 @@ enum MHD_Result kd_handle_play_step(struct kd_request *request)
 
 enum MHD_Result kd_handle_play_snapshot(struct kd_request *request)
 {
-    return request->task ? deliver(request) : begin_reading(request, SNAPSHOT, JSON_TYPE);
+    return request->task ? deliver(request) : begin_reading(request, SNAPSHOT, KD_JSON_TYPE);
 }
 
 static enum MHD_Result table(struct kd_request *request, enum what what, const char *const *types, size_t n)
@@ -395,7 +394,7 @@ static enum MHD_Result table(struct kd_request *request, enum what what, const c
     if (i == n)
         return kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
-                                            .offered = n == 3 ? CSV_TYPE ", " KD_NPY_TYPE ", " JSON_TYPE
+                                            .offered = n == 3 ? CSV_TYPE ", " KD_NPY_TYPE ", " KD_JSON_TYPE
                                                               : CSV_TYPE ", " KD_NPY_TYPE,
                                             .detail = "a table is available only as the listed media types" });
     return begin_reading(request, what, types[i]);
@@ -403,7 +402,7 @@ static enum MHD_Result table(struct kd_request *request, enum what what, const c
 
 enum MHD_Result kd_handle_play_series(struct kd_request *request)
 {
-    static const char *const types[] = { CSV_TYPE, KD_NPY_TYPE, JSON_TYPE };
+    static const char *const types[] = { CSV_TYPE, KD_NPY_TYPE, KD_JSON_TYPE };
     return table(request, SERIES, types, 3);
 }
 

@@ -163,7 +163,7 @@ static enum MHD_Result stop(struct kd_request *request, struct kd_session *sessi
     struct kd_error error = { 0 };
     if (kd_session_stop(session, &error))
         return kd_reply_error(request, &error);
-    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, "application/json"));
+    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, KD_JSON_TYPE));
 }
 
 enum MHD_Result kd_handle_session_path(struct kd_request *request)

@@ -19,7 +19,6 @@
 #include <string.h>
 #include <strings.h>
 
-#define JSON_TYPE "application/json"
 #define STRIKE_VALUES 16 /* limit of JSON values in the body of a ringdown, which has one field */
 
 struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused)
@@ -111,8 +110,8 @@ enum MHD_Result kd_session_answer(struct kd_request *request, const struct kd_se
     char timing[80];
     enum kd_status status = to_json(session, state, false, &json);
     if (status || !task)
-        return kd_reply_json(request, status, &json, JSON_TYPE);
-    struct MHD_Response *response = kd_reply_text(request, &json, JSON_TYPE);
+        return kd_reply_json(request, status, &json, KD_JSON_TYPE);
+    struct MHD_Response *response = kd_reply_text(request, &json, KD_JSON_TYPE);
     snprintf(timing, sizeof timing, "queue;dur=%.3f, look;dur=%.3f", task->begun_ms - task->submitted_ms,
              task->done_ms - task->begun_ms);
     if (response)
@@ -126,8 +125,8 @@ static enum MHD_Result answer_created(struct kd_request *request, const struct k
     struct kd_buffer json = { 0 };
     enum kd_status status = to_json(session, state, true, &json);
     if (status)
-        return kd_reply_json(request, status, &json, JSON_TYPE);
-    struct MHD_Response *response = kd_reply_take(&json, JSON_TYPE);
+        return kd_reply_json(request, status, &json, KD_JSON_TYPE);
+    struct MHD_Response *response = kd_reply_take(&json, KD_JSON_TYPE);
     kd_reply_location(request, response, kd_session_id(session));
     return kd_reply_send(request, MHD_HTTP_CREATED, response);
 }
@@ -266,7 +265,7 @@ static enum MHD_Result answer_little(struct kd_request *request, const struct kd
     if (!status && state->order)
         status = kd_buffer_printf(&json, ",\"order\":%llu", (unsigned long long)state->order);
     if (!status && !kd_buffer_printf(&json, "}\n"))
-        response = kd_reply_take(&json, JSON_TYPE);
+        response = kd_reply_take(&json, KD_JSON_TYPE);
     kd_buffer_finish(&json);
     if (response)
         MHD_add_response_header(response, "Preference-Applied", "return=minimal");
@@ -325,7 +324,7 @@ static enum MHD_Result change(struct kd_request *request, struct kd_session *ses
     if (!strcmp(request->method, "PATCH"))
         return patch(request, session, request->body.data ? (const char *)request->body.data : "", request->body.size);
     kd_session_end(session);
-    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
+    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, KD_JSON_TYPE));
 }
 
 enum MHD_Result kd_handle_session(struct kd_request *request)
