@@ -1304,7 +1304,7 @@ export interface TransferFunctionRequest {
   rings?: number;
   /** radii, instead of rings; between inner and outer [M]; up to 20001. */
   radii?: number[];
-  /** number of values of g* at each radius: the centres of equal parts of 0 to 1; 1 to 1000. */
+  /** number of values of g* at each radius: the midpoints of equal parts of the range 0 to 1; 1 to 1000. */
   g_stars?: number;
   /**
    * values of g* instead of g_stars, each between 0 (the reddest light of the ring) and 1 (the bluest); up to

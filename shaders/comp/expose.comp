@@ -1,5 +1,5 @@
 /* Kernel: histogram of the picture's luminance, for auto exposure. Counts are integers, so every run gives the same
- * histogram. In a large picture each `skip`-th pixel is counted; `skip` shares no factor with usual widths, so that all
+ * histogram. In a large picture one of `skip` pixels is counted. `skip` is coprime to usual widths, so that all
  * columns are sampled. */
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,9 +1,9 @@
 /* Kernel: footprint of each ray: the size of the area that the ray stands for, on the disk for each crossing, and in
  * the sky (shared/lens.h).
  *
- * A step of the camera is a square in the picture. To first order the map takes it to a parallelogram, and a disc of
- * one step's diameter to an ellipse. The footprint is the long axis of that ellipse, the largest singular value of the
- * map's derivative J:
+ * A step of the camera is a square in the picture. To first order the map takes the square to a parallelogram. It
+ * takes a disc of one step's diameter to an ellipse. The footprint is the long axis of that ellipse, the largest
+ * singular value of the map's derivative J:
  *
  *   sigma^2 = (A + B)/2 + sqrt((A - B)^2/4 + C^2),   A = |J_x|^2, B = |J_y|^2, C = J_x.J_y .
  *
@@ -87,8 +87,8 @@ struct kd_change {
     bool there;
 };
 
-/* The change along the axis for the ray at index `place` of `places`; step_: distance of neighbours in a plane of the
- * map. */
+/* The change along the axis for the ray at index `place` of `places`. step_: difference of the indices of neighbours
+ * in a plane of the map. */
 kd_change change(kd_which which, kd_spot own, uint at, uint place, uint places, uint step_)
 {
     bool first = place == 0, last = place + 1 == places;

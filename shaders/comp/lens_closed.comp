@@ -33,7 +33,7 @@ layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 #include "ray/node.glsl"
 
 const uint MORE =
-    12; /* half periods after the last order: after them only rays within 1e-13 of the critical curve still circle */
+    12; /* half periods followed after the last order; rays that circle longer are within 1e-13 of the curve */
 
 /* A ray between two crossings. */
 struct kd_leg {
@@ -90,9 +90,9 @@ void go_on(inout kd_leg leg, kd_arcs a, kd_drag_terms drag, kd_nodes nodes, kd_a
 }
 
 /* Whether polar.first is a valid time. If A > 0 and Q < 0 there is no such time, and where Q nearly vanishes, rounding
- * decides (polar.glsl). The ray then does not reach the plane sooner than at the greatest speed, s / 2 sqrt(e), because
- * u'^2 = Q + A u^2 - e u^4 is at most s^2/4e. If A < 0 and Q = 0, the ray stays in the plane; half periods are counted
- * as usual, though nothing is crossed. */
+ * decides (polar.glsl). u'^2 = Q + A u^2 - e u^4 is at most s^2/4e, so that the greatest speed is s / 2 sqrt(e). The
+ * ray reaches the plane no sooner than at this speed. If A < 0 and Q = 0, the ray stays in the plane; half periods are
+ * counted as usual, though nothing is crossed. */
 bool first_is_known(kd_geodesic m, kd_polar polar, float u, float ae)
 {
     return m.a2 <= 0.0 || (m.q > 0.0 && polar.first * polar.s > 1.98 * abs(u * ae));

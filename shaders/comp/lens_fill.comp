@@ -89,8 +89,8 @@ kd_lines lines_of(kd_column c, uint n, vec3 middle)
     return l;
 }
 
-/* Stores through max because of lavapipe. It computes a value that is only stored lane by lane, in the loop that stores
- * it. A result of max is computed for all lanes at once. */
+/* Stores through max because of lavapipe. If a value is only stored, lavapipe computes it lane by lane, in the loop
+ * that stores it. It computes the result of max for all lanes at once. */
 void put(uint at, uint plane, float value) { lens[at + plane * push.stride] = max(value, -KD_FOOTPRINT_EDGE); }
 
 /* The cell's polynomials at a ray: the value, and its change from ray to ray. */

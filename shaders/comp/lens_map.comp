@@ -2,9 +2,9 @@
  * if the scene requires them, their azimuths and radial slopes, the direction in which a ray escapes and its fate.
  *
  * The times at which a ray crosses the plane are known in closed form (polar.glsl), so steps end exactly on the
- * crossings. Each half period is STEPS equal steps of the radial equation, the same for every ray, without a search and
- * without divergence. From its last crossing on, a ray that escapes is followed by the full vector equation of the
- * angles.
+ * crossings. Each half period has STEPS equal steps of the radial equation. All rays take the same steps: the kernel
+ * needs no search, and its invocations do not diverge. From its last crossing on, a ray that escapes is followed by the
+ * full vector equation of the angles.
  *
  * It makes all planes of shared/lens.h except the delay and alpha. */
 #version 450
@@ -46,7 +46,7 @@ struct kd_turning {
 };
 
 /* Frame dragging over a group of steps in which the ray turns. It has two parts: in ingoing coordinates up to the turn,
- * and in outgoing ones after it. On its part each of these coordinates is smooth and has no pole. */
+ * and in outgoing ones after it. In its own part each integrand is smooth and has no pole. */
 float kd_drag_about_turn(kd_geodesic m, float e, float h, inout kd_turning t)
 {
     kd_state z = t.start;

@@ -63,7 +63,7 @@ vec3 aces(vec3 c)
 }
 
 /* Khronos PBR Neutral (E. Chin, 2024): light below 0.8 keeps its colour and, except for an offset of 0.04, its
- * brightness. Above 0.8 the largest channel tends to 1, and the colour to white, the more slowly the brighter it is. */
+ * brightness. Above 0.8, as light becomes brighter, its largest channel tends to 1 and its colour to white. */
 vec3 neutral(vec3 c)
 {
     const float start = 0.8 - 0.04, desaturation = 0.15, d = 1 - start;
@@ -211,8 +211,8 @@ void main()
 #endif
     ivec3 p[KD_POST_PIXELS] = { pixel(a.xyz, first, to.a), pixel(vec3(a.w, b.xy), second, to.b),
                                 pixel(vec3(b.zw, c.x), third, to.c), pixel(c.yzw, fourth, to.d) };
-    /* After the band's end a word is 0. That 0 is selected; the computation is not skipped. For lavapipe a selected
-     * word is a finished vector, which it would otherwise pack again for each lane that it stores, a fifth of the
+    /* After the band's end a word is 0. The kernel selects this 0 instead of skipping the computation. lavapipe then
+     * stores a finished vector. Otherwise it would pack the vector again for each lane, which takes a fifth of the
      * kernel's time. */
     bool inside = i < push.pixels;
     uint untold = inside && push.counter > 0u ? without_number(a, b, c, push.pixels - i) : 0u;

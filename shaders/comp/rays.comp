@@ -3,8 +3,8 @@
  *
  * As in lens_map.comp, each half period is STEPS steps that end on the crossing. Here u is integrated together with w,
  * because the smooth parts of azimuth and delay need u. A second integration of w with half the steps gives the error
- * of the steps. The variation of w with its start gives the error of rounding. (An embedded pair is cheaper, but its
- * estimate is a hundred times looser: docs/rays.md.)
+ * of the steps. The variation of w with its start gives the error of rounding. An embedded pair would be cheaper, but
+ * its estimate is a hundred times looser (docs/rays.md).
  *
  * Azimuth: psi + chi. polar_azimuth.glsl integrates the peak of psi' = L/(1 - u^2) near the axis exactly; the rest is L
  * e / (sqrt(c) (sqrt(y) + sqrt(c))), y = b + e u^2, c = b + e.

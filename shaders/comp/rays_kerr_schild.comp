@@ -1,5 +1,5 @@
-/* Kernel: follows listed rays the common way, by Hamilton's equations in ingoing Cartesian Kerr-Schild coordinates, for
- * comparison.
+/* Kernel: traces listed rays by the usual method, Hamilton's equations in ingoing Cartesian Kerr-Schild coordinates,
+ * for comparison.
  *
  *   H = (p.p - E^2 - f (E + l.p)^2)/2,  f = r^2 (2r - q^2)/(r^4 + a^2 z^2),
  *   l = ((rx + ay)/(r^2 + a^2), (ry - ax)/(r^2 + a^2), z/r)

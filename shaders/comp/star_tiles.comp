@@ -17,7 +17,7 @@
  * stars in a smooth tile is spread here, at the places and with the magnification of the tile's map. So no pairs are
  * listed.
  *
- * BRIGHT: the same in all simple tiles. In those that are not smooth, the map is of second order. */
+ * BRIGHT: light is spread here in all simple tiles. In those that are not smooth, the map is of second order. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -257,8 +257,8 @@ void list(uint first, uint x, uint y)
     } while (++i < all);
 }
 
-/* Whether all images in a tile belong to others: to another grid of the rim, or to the rim. All of them belong to the
- * rim if those at the tile's corners do, because the rim's edge is convex. */
+/* Whether all images in a tile are made by the rim, or by another grid of the rim. If the rim makes those at the
+ * tile's corners, it makes all of them, because its edge is convex. */
 bool is_left_out(uint x, uint y)
 {
     if (AT_RIM)

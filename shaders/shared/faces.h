@@ -1,7 +1,7 @@
 /* Division of the sphere into cells: the six faces of a cube, each with a grid. A direction belongs to the face of its
  * largest component. Its place there is (p, q) in [-1, 1], the other two components divided by the largest. Each face
- * extends beyond its edges to KD_FACE_EDGE, so that the neighbourhood of a direction is on the direction's own face: a
- * star is on up to three faces. */
+ * extends beyond its edges to KD_FACE_EDGE, so that the neighbourhood of a direction is on the direction's own face.
+ * A star is therefore on up to three faces. */
 #ifndef KD_FACES_GLSL
 #define KD_FACES_GLSL
 

@@ -22,7 +22,7 @@
 #define KD_HOLE_FIELDS_(F) \
     F(spin)                 /* a */ \
     F(horizon)              /* 1/r+ */ \
-    F(root)                 /* sqrt(1 - a^2 - q^2): the horizons are at r = 1 +- root; floats of a and q lose it */ \
+    F(root)                 /* sqrt(1 - a^2 - q^2): the horizons are at r = 1 +- root; not exact from a and q */ \
     F(charge2)              /* q^2 */
 /* clang-format on */
 

@@ -493,7 +493,7 @@ static const float *numbers_of(const struct kd_frame *frame, const char *name)
     return layer->data;
 }
 
-/* Rays that 32 bits cannot distinguish have no footprint instead of a footprint of 0; other rays have one. */
+/* If 32 bits cannot distinguish neighbouring rays, they have no footprint rather than one of 0. Other rays have one. */
 static void test_tiny_fields(void **state)
 {
     (void)state;

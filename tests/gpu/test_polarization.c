@@ -221,7 +221,7 @@ static void test_stokes(void **state)
 
 /* Face-on and without spin light stays in a plane through the axis, and its direction relative to that plane is
  * unchanged. By the ray's angle to the radius in the rest frame, sin = b sqrt(1 - 2/r)/r, and the aberration of the
- * orbit, whose speed is 1/sqrt(r - 2), the electric field points from outwards to +phi by
+ * orbit, whose speed is 1/sqrt(r - 2), the angle of the electric field, from outwards to +phi, is for
  *   a toroidal field 0,  a radial one atan2(sin, -v cos),  a vertical one atan2(cos, v sin)
  * (Narayan et al. 2021, ApJ 912, 35; Gelles et al. 2021, PRD 104, 044060), which in closed form have cos = 2/r
  * (Beloborodov 2002): accurate to relative order 1/r. */

@@ -395,8 +395,8 @@ static void test_submissions_are_short(void **state)
     assert_true(done > 0 && done < 0.1);
 }
 
-/* The maximum number of steps of each engine stays below llvmpipe's limit of 65535 rounds, beyond which a ray ends
- * anywhere. */
+/* The maximum number of steps of each engine stays below llvmpipe's limit of 65535 rounds, beyond which the driver
+ * stops a ray at an arbitrary place. */
 static void test_most_steps(void **state)
 {
     (void)state;

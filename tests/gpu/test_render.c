@@ -304,8 +304,8 @@ static bool count_reports(void *user, double fraction)
     return true;
 }
 
-/* The light of a block of a sampled map is made in as many submissions as it is long, so that others need not wait for
- * the whole block. On a slow device there are more of them. The picture is the same. */
+/* The light of a block of a sampled map is made in several submissions, so that other work need not wait for the
+ * whole block. The longer the light takes, the more submissions there are. The picture is the same. */
 static void test_light_of_a_block(void **state)
 {
     (void)state;

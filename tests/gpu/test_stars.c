@@ -163,8 +163,8 @@ static void by_rays(double spin, double inclination, double *worst_light, double
         compare(&scene, 0.5 * (WIDTH - 1) + rho * cos(angle) / step, 0.5 * (HEIGHT - 1) - rho * sin(angle) / step,
                 worst_light, worst_place);
     }
-    /* The places are where the picture's rays and those of the rim share an image's light, and on either side. The
-     * second half uses a field of view in which the curve is so large that its rim is wide. */
+    /* The places lie where the picture's rays and the rim's rays share an image's light, and on either side of this
+     * zone. The second half uses a field of view in which the curve is so large that its rim is wide. */
     const double wide = step;
     for (int k = 0; k < 24; k++) {
         struct kd_rim rim;
@@ -528,8 +528,8 @@ static struct kd_plan plan_of(const struct kd_scene *scene, const struct kd_capa
     return plan;
 }
 
-/* A picture in bands is rendered in the background under one sky, while others are rendered under another. It leaves no
- * light that is taken for theirs: with the same lens map, the other sky is the same as with a map of its own. */
+/* A picture in bands is rendered in the background under one sky, while others are rendered under another. Its light
+ * is not mistaken for theirs: with the shared lens map, the other sky equals that of a map of its own. */
 static void another_sky_meanwhile(void **state)
 {
     (void)state;

@@ -61,8 +61,8 @@ static void test_room_for_small_ones(void **state)
     kd_bytes_destroy(b);
 }
 
-/* A client that holds nothing may hold any size that the others leave room for. If nobody holds anything, any size at
- * all is allowed. */
+/* A client that holds nothing may take any size that fits beside the others. If no client holds anything, any size is
+ * allowed. */
 static void test_a_lone_one(void **state)
 {
     struct kd_bytes *b = make(true);

@@ -391,7 +391,7 @@ static void another_kind_of_scene_begins_anew(void **state)
 }
 
 /* A drag of the number of particles, to and fro across what is rounded to another octave, keeps what was measured. A
- * change by more than a factor of two does not, and is then what the next changes are compared with. */
+ * change by more than a factor of two drops it. Later changes are then compared with the new number. */
 static void drags_across_an_octave_go_on(void **state)
 {
     (void)state;
@@ -846,7 +846,7 @@ static void a_change_breaks_into_refinement(void **state)
     change(&s, true);
     struct kd_frame_decision next = kd_governor_decide(&s.governor, s.now);
     assert_true(!next.refining && next.wait_ms == 0 && next.quality.scale < 1);
-    /* The old frame arrives after all. It is not what is wanted now, and does not count as a measurement. */
+    /* The old frame arrives late. It is no longer requested, and does not count as a measurement. */
     struct kd_pace pace = s.governor.paces[1];
     kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .rays_ms = 9e5, .total_ms = 9e5 });
     assert_same_pace(&pace, &s.governor.paces[1]);

@@ -1,7 +1,7 @@
-/* Tests of returning radiation. Rays are followed by Hamilton's equations in ingoing Kerr-Schild coordinates, by Runge
- * and Kutta's method: forward in time from a grid of emission radii and directions in the gas's frame, where the code
- * under test integrates over the sky of the receiver by the closed form. Gas and its frame are found by contraction
- * with the metric.
+/* Tests of returning radiation. The test integrates Hamilton's equations of rays in ingoing Kerr-Schild coordinates
+ * by a Runge-Kutta method. Its rays go forward in time, from a grid of emission radii and directions in the gas's
+ * frame. The code under test integrates over the sky of the receiver by the closed form. Gas and its frame are found by
+ * contraction with the metric.
  *
  *     unit_physics_returning [RAYS]     a long run: 2000000 rays in all instead of 200000 */
 #include "physics/disk/returning.h"

@@ -104,7 +104,7 @@ static void decoding(void **state)
     assert_true(n > 5);
 }
 
-/* One encoder encodes two frames, the second of which is larger, and then a third, when nothing fails any more. */
+/* One encoder encodes two frames, the second larger than the first. It encodes a third after the last failure. */
 static enum kd_status live_frames(enum kd_deflate_engine engine, struct kd_buffer *out, struct kd_error *error)
 {
     static uint8_t pixels[3 * 8 * SIDE * SIDE];

@@ -1,5 +1,5 @@
-/* Tests of reading whole files: what is not a regular file, or is too large, neither blocks the reader nor fills its
- * memory. */
+/* Tests of reading whole files: a file that is not regular does not block the reader, and a file that is too large
+ * does not fill its memory. */
 #include "base/read.h"
 #include "base/replace.h"
 

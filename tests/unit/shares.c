@@ -1,4 +1,5 @@
-/* Tests of shares of the device with a simulated clock: what is served in which order, and how much of it. */
+/* Tests of shares of the device with a simulated clock: the order in which sharers are served, and the time that each
+ * gets. */
 #include "server/http/shares.h"
 
 #include <math.h>

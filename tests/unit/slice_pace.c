@@ -46,7 +46,7 @@ static void a_busy_machine(void **state)
     }
 }
 
-/* One long submission, as when a kernel is compiled, makes the next ones shorter, within bounds and not for long. */
+/* After one long submission, as when a kernel is compiled, the next few submissions are shorter, within bounds. */
 static void one_that_is_long(void **state)
 {
     (void)state;

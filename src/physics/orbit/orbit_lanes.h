@@ -13,7 +13,7 @@ struct kd_orbit_lanes {
     uint64_t steps[KD_ORBIT_LANES]; /* for each path; a path with 0 steps is not moved, but must be set */
     /* Receives the largest absolute drifts after any of the steps; all NULL: not computed. */
     struct kd_orbit_drift *worst[KD_ORBIT_LANES];
-    /* Called after a step in which w ceased to grow, with the path up to date; may be NULL. */
+    /* Called after a step in which w has stopped growing, when the path is up to date; may be NULL. */
     void (*periastron)(void *user, int lane);
     void *user;
 };

@@ -29,8 +29,8 @@ static inline struct kd_hole kd_hole_of(double a)
 }
 
 /* A hole of charge q, a^2 + q^2 < 1. 1 - a^2 - q^2 is summed with the rounding errors of its terms (Dekker 1971), so
- * that root keeps its digits as a^2 + q^2 -> 1. If q^2 is 0 or underflows, the horizons are
- * those of kd_hole_of to the bit. */
+ * that root keeps its digits as a^2 + q^2 -> 1. If q^2 is 0 or underflows, the horizons equal those of kd_hole_of bit
+ * by bit. */
 struct kd_hole kd_hole_charged(double a, double q);
 
 /* q^2, on which all effects of the charge depend; for functions that need it alone. */
@@ -87,9 +87,8 @@ static inline double kd_hole_delta_w(const struct kd_hole *hole, double w)
 static inline double kd_hole_mass(const struct kd_hole *hole, double r) { return 2 * r - hole->q * hole->q; }
 static inline double kd_hole_mass_w(const struct kd_hole *hole, double w) { return 2 - hole->q * hole->q * w; }
 
-/* D of the radial quartic R/r^4 = E^2 - mu^2 + ... - D w^4 of light and matter, from Carter's constants Q and K = Q +
- * (L
- * - aE)^2: a^2 Q + q^2 K (Carter 1968, Phys. Rev. 174, 1559). */
+/* D of the radial quartic R/r^4 = E^2 - mu^2 + ... - D w^4 of light and matter, from Carter's constants Q and K =
+ * Q + (L - aE)^2: a^2 Q + q^2 K (Carter 1968, Phys. Rev. 174, 1559). */
 static inline double kd_hole_quartic(const struct kd_hole *hole, double carter, double k)
 {
     return hole->a * hole->a * carter + hole->q * hole->q * k;

@@ -1,4 +1,4 @@
-/* Free fall into Kerr: proper time, azimuth and coordinate time by quadrature of Sigma/(Sigma r') and similar
+/* Free fall into a Kerr hole: proper time, azimuth and coordinate time, by quadrature of Sigma/(Sigma r') and similar
  * integrands. Double precision, pure, any thread. G = c = M = 1. */
 #ifndef KD_PHYSICS_SPACETIME_INFALL_H
 #define KD_PHYSICS_SPACETIME_INFALL_H
@@ -28,7 +28,8 @@ struct kd_infall_way kd_infall_way(const struct kd_observer_motion *motion, cons
 struct kd_infall_way kd_infall_after(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                                      double proper_time);
 
-/* Smallest radius of a falling camera: just outside the end of the model, where pictures have no limit. */
+/* Smallest radius of a falling camera. It is just outside the radius where the model ends, because pictures have no
+ * limit there. */
 double kd_infall_last(const struct kd_hole *hole);
 
 #endif

@@ -84,7 +84,7 @@ done:
     return status;
 }
 
-#define MARKED_AT_ONCE (1u << 18) /* pixels, which take some milliseconds */
+#define MARKED_AT_ONCE (1u << 18) /* pixels of a dispatch, which takes some milliseconds */
 
 enum kd_status kd_frame_mark_between(struct kd_frame_job *j, const struct kd_critical_pixels *pixels, uint8_t *marks)
 {

@@ -40,8 +40,8 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *job, const st
                                         struct kd_vk_buffer *lens, uint32_t band, int camera, int makes);
 /* Rays through volumes that a driver stopped early are listed. kd_frame_forget_lost empties the list that follows a
  * band's light, or a sample's; call it before any of that light is computed. kd_frame_follow_lost continues the rays
- * listed since, for pixels lit by `base`, with `march` and `turns` dispatches for each; it submits what is recorded and
- * waits. */
+ * listed since then. `base` is the dispatch that lit their pixels, and `march` has its push constants. Each group of
+ * listed rays takes `turns` dispatches. The function submits what is recorded, and waits. */
 enum kd_status kd_frame_forget_lost(struct kd_frame_job *job, struct kd_vk_buffer *light, const char *pass);
 enum kd_status kd_frame_follow_lost(struct kd_frame_job *job, const struct kd_vk_dispatch *base,
                                     const struct kd_slice *march, const struct kd_critical_lattice *lattice,

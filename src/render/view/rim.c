@@ -38,8 +38,8 @@ static struct kd_critical_point upper(const struct kd_critical *curve, double al
     return p;
 }
 
-/* Direction of a point of the curve in the observer's frame; at infinity (alpha, beta). u goes once round without a
- * gap: the radius of the photon orbit varies as a cosine. */
+/* Direction of a point of the curve in the observer's frame; at infinity (alpha, beta). As u goes once round, the
+ * radius of the photon orbit varies as a cosine, so that the curve has no gap. */
 static void direction(const struct kd_critical *curve, double u, double out[3])
 {
     const double whole = u / KD_RIM_ANGLES, turn = 2 * (whole - floor(whole)), half = turn <= 1 ? 1 : -1;

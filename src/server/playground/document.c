@@ -93,7 +93,8 @@ static void add_added(struct kd_json *json, const struct kd_playground *p, uint3
 
 enum kd_status kd_playground_session_to_json(const struct kd_playground_session *play,
                                              const struct kd_playground_session_state *state, struct kd_playground *p,
-                                             const struct kd_playground_session_told *told, struct kd_buffer *out)
+                                             const struct kd_playground_session_json_options *told,
+                                             struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
     kd_json_object(&json, NULL);

@@ -21,7 +21,7 @@ double kd_playground_session_usual_rate(const cJSON *tree);
 /* Parses {"by": M} of a step. */
 enum kd_status kd_playground_session_read_step(const char *text, size_t length, double *by, struct kd_error *error);
 
-struct kd_playground_session_told {
+struct kd_playground_session_json_options {
     const struct kd_scene *scene; /* scene of the playground's picture */
     /* whether to include the token, for the client that has just opened the session */
     bool token;
@@ -31,7 +31,8 @@ struct kd_playground_session_told {
 };
 enum kd_status kd_playground_session_to_json(const struct kd_playground_session *play,
                                              const struct kd_playground_session_state *state, struct kd_playground *p,
-                                             const struct kd_playground_session_told *told, struct kd_buffer *out);
+                                             const struct kd_playground_session_json_options *told,
+                                             struct kd_buffer *out);
 /* Writes {"columns": {name: [...]}}. */
 enum kd_status kd_playground_session_series_json(const struct kd_playground_series *series,
                                                  const double now[KD_SERIES_N], struct kd_buffer *out);

@@ -66,11 +66,11 @@ static const char *body_of(const struct kd_task *task)
     return task->request->body.data ? (const char *)task->request->body.data : "";
 }
 
-static enum kd_status tell(struct play_task *t, struct kd_playground *p, const struct kd_playground_session_told *what,
-                           struct kd_error *error)
+static enum kd_status tell(struct play_task *t, struct kd_playground *p,
+                           const struct kd_playground_session_json_options *what, struct kd_error *error)
 {
     const struct kd_playground_session_state state = kd_playground_session_state(t->play);
-    struct kd_playground_session_told told = *what;
+    struct kd_playground_session_json_options told = *what;
     struct kd_scene scene;
     kd_playground_session_scene(t->play, &scene);
     told.scene = &scene;
@@ -100,7 +100,8 @@ static enum kd_status open_play(struct play_task *t, struct kd_error *error)
     KD_TRY(kd_playground_sessions_open(server->playgrounds, &p, &pace, &scene, t->task.request->client, &t->task.quota,
                                        &t->play, error));
     kd_playground_session_promise(t->play, &t->task.request->once);
-    status = tell(t, opened, &(struct kd_playground_session_told) { .token = true, .before = UINT32_MAX }, error);
+    status =
+        tell(t, opened, &(struct kd_playground_session_json_options) { .token = true, .before = UINT32_MAX }, error);
     kd_playground_session_give(t->play, opened);
 done:
     kd_playground_destroy(p);
@@ -158,7 +159,7 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
     }
     if (pace.rate != state.pace.rate || pace.paused != state.pace.paused)
         kd_playground_session_set_pace(t->play, &pace);
-    KD_TRY(tell(t, *p, &(struct kd_playground_session_told) { .before = before }, error));
+    KD_TRY(tell(t, *p, &(struct kd_playground_session_json_options) { .before = before }, error));
 done:
     cJSON_Delete(look);
     return status;
@@ -200,7 +201,7 @@ static enum kd_slice_result step(struct play_task *t, struct kd_playground *p, d
     if (!more) {
         struct kd_playground_progress progress = kd_playground_progress(p, &t->run);
         progress.asked = t->by;
-        tell(t, p, &(struct kd_playground_session_told) { .before = UINT32_MAX, .progress = &progress }, error);
+        tell(t, p, &(struct kd_playground_session_json_options) { .before = UINT32_MAX, .progress = &progress }, error);
     }
     return more && !kd_playground_session_state(t->play).over ? KD_SLICE_MORE : KD_SLICE_LAST;
 }
@@ -221,7 +222,8 @@ static enum kd_status write_file(struct play_task *t, struct kd_playground *p, s
     case FALLBACK: status = npy ? kd_debris_npy(&p->debris, &t->out) : kd_debris_csv(&p->debris, &t->out); break;
     default:
         status =
-            tell(t, p, &(struct kd_playground_session_told) { .token = t->what == AGAIN, .before = UINT32_MAX }, error);
+            tell(t, p, &(struct kd_playground_session_json_options) { .token = t->what == AGAIN, .before = UINT32_MAX },
+                 error);
     }
     return status ? kd_error_set(error, status, "out of memory for the answer") : KD_OK;
 }

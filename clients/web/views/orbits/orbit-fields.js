@@ -121,7 +121,10 @@ export const specs = [
     min: -0.99,
     max: 0.99,
     step: 0.001,
-    about: t('orbit-fields.as-one-tells-it', 'As one tells it who keeps radius and has no angular momentum (ZAMO)'),
+    about: t(
+      'orbit-fields.as-one-tells-it',
+      'As measured by an observer at constant radius without angular momentum (ZAMO)',
+    ),
   },
   {
     name: 'v_phi',

@@ -48,7 +48,7 @@ function facts(answer) {
         ? t('orbits.measured-on-the-path', 'measured on the path')
         : t(
             'orbits.measured-on-the-path-mean-of-its',
-            'measured on the path, mean of its periods (out of the plane they differ; of many it is the exact one)',
+            'measured on the path: the mean of its periods, which differ out of the plane; the mean of many is exact',
           ),
       degrees(measured),
     ],
@@ -199,7 +199,7 @@ export async function openOrbits() {
     if (edge)
       said = t(
         'orbits.within-the-separatrix-p',
-        'Within the separatrix, p = {0} M, nothing turns back: shown is the plunge of a body with the energy of the last orbit that does, and {1} of its angular momentum.',
+        'Inside the separatrix, p = {0} M, no body turns back. This is the plunge of a body with the energy of the last orbit that turns back, and {1} of its angular momentum.',
         number(edge),
         number(Math.sqrt(share), 3),
       );
@@ -288,7 +288,7 @@ export async function openOrbits() {
         ? ''
         : t(
             'orbits.that-of-the-equatorial',
-            'That of the equatorial plane with this L; out of the plane Carter’s constant raises it.',
+            'The potential in the equatorial plane for this L. Out of the plane, Carter’s constant raises it.',
           ),
       x: { label: t('common.radius-r-m', 'radius r / M'), min: 0 },
       y: { label: off ? 'V_eff − 1' : 'V_eff', min: low - 0.3 * (top - low), max: top + 0.3 * (top - low) },

@@ -181,7 +181,7 @@ export const light = [
     show: (v, p) => ({
       note: t(
         'curves-light.without-spin-light-circles',
-        'Without spin light circles at 3 M both ways. With it, what turns with the hole comes closer, what turns against it stays off.',
+        'Without spin, light circles at 3 M in both senses. With spin, light that turns with the hole circles closer to it, and light that turns against it circles farther out.',
       ),
       x: axis(t('curves-light.spin-a-m', 'spin a / M')),
       y: axis(radius, { min: 0, max: 9.2 }),

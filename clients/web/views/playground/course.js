@@ -98,7 +98,7 @@ export function course(root) {
       title: t('course.what-falls-back', 'What falls back'),
       note: t(
         'course.mass-that-came-back',
-        'Mass that came back in a time, counted; the line is t^(−5/3) for the same debris.',
+        'Mass that came back per time, by count. The line is t^(−5/3) for the same debris.',
       ),
       x: { label: t('course.time-since-it-was', 'time since it was torn / M'), log: true },
       y: { label: t('course.rate-m-per-m', 'rate / M per M'), log: true },

@@ -45,7 +45,7 @@ export function listen(running, now, parts) {
         ? t('playground.the-dashed-path-is', 'The dashed path is the server’s: a geodesic.')
         : t(
             'playground.the-dashed-path-is-reckoned-by-this',
-            'The dashed path is reckoned by this page with the server’s law of motion; waves, tides and mergers are left out, and the pulls of bodies below a hundred-thousandth of the hole’s mass, and of more than sixteen heavy ones those of the lightest.',
+            'This page computes the dashed path with the server’s law of motion. It leaves out waves, tides, mergers and the forces of bodies below a hundred-thousandth of the hole’s mass. Of more than sixteen heavy bodies it also leaves out the forces of the lightest.',
           );
     const sentences = state.approximations.map(text => el('li', {}, tell(el('span'), text)));
     part.approximations.replaceChildren(...sentences);

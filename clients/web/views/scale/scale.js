@@ -15,7 +15,7 @@ const specs = [
     words: { m87: 'M87*', sgra: 'Sgr A*', none: t('scale.of-your-choice', 'of your choice') },
     about: t(
       'scale.whose-mass-distance-and',
-      'Whose mass, distance and inclination are taken, and whose measured ring stands beside',
+      'Gives the mass, the distance, the inclination, and the measured ring for comparison',
     ),
   },
   {
