@@ -86,7 +86,7 @@ static enum kd_status collect(const struct options *o, cJSON *root, struct kd_er
     cJSON_AddStringToObject(root, "device", kd_renderer_device_name(renderer));
     for (int i = 0; i < o->n && !status; i++)
         status = visit(renderer, o, o->scenes[i], error);
-    kd_renderer_sky_stop(renderer);
+    kd_renderer_assets_stop(renderer);
     kd_renderer_destroy(renderer);
     return status;
 }
