@@ -3,17 +3,12 @@
 #include "physics/math/quadrature.h"
 #include "physics/null/null_radial.h"
 #include "physics/spacetime/kerr.h"
-#include "physics/spacetime/potential.h"
 
 #include <math.h>
 
-/* Bardeen, Press & Teukolsky 1972: L/E at r = 4 cos^2(x), x = acos(-a)/3, equals 6 cos x - a. */
 double kd_deflection_critical(const struct kd_hole *hole)
 {
-    const double a = hole->a;
-    if (kd_hole_is_charged(hole))
-        return kd_potential_critical_impact(hole);
-    return fabs(a) < 1 ? 6 * cos(acos(-a) / 3) - a : NAN;
+    return fabs(hole->a) < 1 ? kd_kerr_critical_impact(hole) : NAN;
 }
 
 /* The orbit in w = 1/r and Mino time, E = 1, L = b (docs/physics/geodesics.md at Q = 0):
@@ -99,7 +94,7 @@ double kd_deflection_closest(const struct kd_hole *hole, double b)
 double kd_deflection_farthest(const struct kd_hole *hole, double b)
 {
     const double a = hole->a;
-    if (!(b >= kd_deflection_critical(hole)) || a * b > 2 * hole->outer - hole->q * hole->q)
+    if (!(b >= kd_deflection_critical(hole)) || a * b > kd_hole_mass(hole, hole->outer))
         return NAN;
     struct kd_null_radial q = radial_of(hole, b);
     return q.turns ? q.roots.r3 : kd_kerr_photon_orbit(hole);
@@ -107,10 +102,7 @@ double kd_deflection_farthest(const struct kd_hole *hole, double b)
 
 double kd_deflection_weak(double b) { return 4 / b; }
 
-double kd_deflection_weak_second(const struct kd_hole *hole, double b)
-{
-    return (4 + (15 * M_PI / 4 - 4 * hole->a - 3 * M_PI / 4 * hole->q * hole->q) / b) / b;
-}
+double kd_deflection_weak_second(const struct kd_hole *hole, double b) { return kd_kerr_weak_bending(hole, b); }
 
 /* On the critical ray w'^2 = (w_c - w)^2 (linear (w - w_1) - quartic w^2), linear = cubic - 2 quartic w_c, w_1 =
  * (quadratic - quartic w_c^2)/linear - 2 w_c < 0. */

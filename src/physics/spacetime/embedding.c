@@ -14,7 +14,7 @@ static double rapidity(const struct kd_hole *hole, double r)
 
 double kd_embedding_radius(const struct kd_hole *hole, double r)
 {
-    return sqrt(r * r + hole->a * hole->a * (1 + (2 - hole->q * hole->q / r) / r));
+    return sqrt(r * r + hole->a * hole->a * (1 + kd_hole_mass_w(hole, 1 / r) / r));
 }
 
 double kd_embedding_distance(const struct kd_hole *hole, double r)

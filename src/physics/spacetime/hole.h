@@ -87,6 +87,24 @@ static inline double kd_hole_delta_w(const struct kd_hole *hole, double w)
 static inline double kd_hole_mass(const struct kd_hole *hole, double r) { return 2 * r - hole->q * hole->q; }
 static inline double kd_hole_mass_w(const struct kd_hole *hole, double w) { return 2 - hole->q * hole->q * w; }
 
+/* Coefficients of kd_hole_mass_w as a polynomial in w, for code that evaluates it itself, in vectors. */
+static inline void kd_hole_mass_line(const struct kd_hole *hole, double c[2]) { c[0] = 2, c[1] = -hole->q * hole->q; }
+
+/* How fast the mass term falls: -(Sigma^2/2r) d/dr (mass/Sigma), at cos(theta) = u; and in the plane, where Sigma =
+ * r^2, over r: 1 - q^2/r. */
+static inline double kd_hole_pull(const struct kd_hole *hole, double r, double u)
+{
+    return (r - hole->a * u) * (r + hole->a * u) / r - hole->q * hole->q;
+}
+static inline double kd_hole_pull_w(const struct kd_hole *hole, double w) { return 1 - hole->q * hole->q * w; }
+
+/* A of kd_metric_at in the plane: r^2 (r^2 + a^2) + a^2 (2r - q^2), without Delta. */
+static inline double kd_hole_area_in_plane(const struct kd_hole *hole, double r)
+{
+    const double a2 = hole->a * hole->a;
+    return r * (r * (r * r + a2) + 2 * hole->a * hole->a) - a2 * (hole->q * hole->q);
+}
+
 /* D of the radial quartic R/r^4 = E^2 - mu^2 + ... - D w^4 of light and matter, from Carter's constants Q and K = Q +
  * (L
  * - aE)^2: a^2 Q + q^2 K (Carter 1968, Phys. Rev. 174, 1559). */
@@ -95,12 +113,15 @@ static inline double kd_hole_quartic(const struct kd_hole *hole, double carter, 
     return hole->a * hole->a * carter + hole->q * hole->q * k;
 }
 
-/* Coefficients in w = 1/r of w'^2 of a body of unit mass: `bound` is E^2 - 1. */
-static inline void kd_hole_radial(const struct kd_hole *hole, double bound, double momentum, double carter, double k,
+/* The part of the coefficient of w^2 in w'^2 of a body of unit mass that does not depend on its motion. */
+static inline double kd_hole_own_quadratic(const struct kd_hole *hole) { return -(hole->q * hole->q); }
+
+/* Coefficients in w = 1/r of w'^2 of a body of unit mass. bound: E^2 - 1. moving: a^2 (E^2 - 1) - L^2 - Q. */
+static inline void kd_hole_radial(const struct kd_hole *hole, double bound, double moving, double carter, double k,
                                   double c[5])
 {
     c[0] = bound, c[1] = 2, c[3] = 2 * k, c[4] = -kd_hole_quartic(hole, carter, k);
-    c[2] = hole->a * hole->a * bound - momentum * momentum - carter - hole->q * hole->q;
+    c[2] = moving + kd_hole_own_quadratic(hole);
 }
 
 /* Numbers in the rates of phi and t in Mino time of light and matter:
