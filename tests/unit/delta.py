@@ -14,7 +14,6 @@ HOMES = {"src/physics/spacetime/hole.h", "shaders/ray/fall.glsl"}
 OTHERS = {
     "src/physics/orbit/orbit_lanes.c": (1, "the form of hole.h for several orbits at once, in vectors"),
     "src/physics/orbit/orbit_shape.c": (3, "polynomials of Schmidt's conditions on bound orbits, outside the horizon"),
-    "src/physics/null/deflection.c": (1, "rays that leave again, outside the photon orbits"),
     "src/physics/waves/qnm.c": (1, "Leaver's coefficients: w is a frequency"),
     "shaders/comp/rays.comp": (1, "a term of the time without its pole: Delta is divided out"),
 }

@@ -14,20 +14,24 @@ double kd_deflection_critical(const struct kd_hole *hole)
 /* The orbit in w = 1/r and Mino time, E = 1, L = b (docs/physics/geodesics.md at Q = 0):
  *   w'^2 = 1 - (b^2 - a^2) w^2 + 2 (b - a)^2 w^3 - q^2 (b - a)^2 w^4,   phi' = b + chi',
  *   chi' = a (2w - (a b + q^2) w^2)/(1 - 2w + (a^2 + q^2) w^2). */
-struct light { double a, b, q2; };
+struct light {
+    const struct kd_hole *hole;
+    double a, b, drag; /* a b + q^2 */
+};
 
 static struct light light_of(const struct kd_hole *hole, double b)
 {
-    return (struct light) { hole->a, b, hole->q * hole->q };
+    return (struct light) { hole, hole->a, b, kd_hole_rates_of(hole, 1, b).drag };
 }
 
-static double slow(const struct light *o, double w) { return 1 - w * (2 - (o->a * o->a + o->q2) * w); }
-
-static double drag(const struct light *o, double w) { return o->a * w * (2 - (o->a * o->b + o->q2) * w) / slow(o, w); }
+static double drag(const struct light *o, double w)
+{
+    return o->a * w * (2 - o->drag * w) / kd_hole_delta_w(o->hole, w);
+}
 
 static double quadratic(const struct light *o) { return o->b * o->b - o->a * o->a; }
 static double cubic(const struct light *o) { return 2 * (o->b - o->a) * (o->b - o->a); }
-static double quartic(const struct light *o) { return o->q2 * (o->b - o->a) * (o->b - o->a); }
+static double quartic(const struct light *o) { return kd_hole_quartic(o->hole, 0, (o->b - o->a) * (o->b - o->a)); }
 
 struct far {
     struct light light;
@@ -121,10 +125,10 @@ static double regular(double x, double y, const void *context)
     (void)y;
     const struct critical *c = context;
     const struct light *o = &c->light;
-    double a = o->a, wc = c->w, w = wc * x, product = w * wc;
+    double wc = c->w, w = wc * x, product = w * wc;
     double root = sqrt(rest_of(c, w)), root_c = sqrt(rest_of(c, wc));
-    double chi = -wc * a * (2 - 2 * (a * a + o->q2) * product - (a * o->b + o->q2) * (w + wc - 2 * product)) /
-                 (slow(o, w) * slow(o, wc));
+    double chi = -wc * o->a * (2 - 2 * kd_hole_horizons(o->hole) * product - o->drag * (w + wc - 2 * product)) /
+                 (kd_hole_delta_w(o->hole, w) * kd_hole_delta_w(o->hole, wc));
     return chi / root + c->rate * (c->linear - c->quartic * (w + wc)) * wc / (root * (root + root_c));
 }
 
@@ -140,7 +144,7 @@ struct kd_deflection_strong kd_deflection_strong(const struct kd_hole *hole)
     c.linear = cubic(&o) - 2 * c.quartic * c.w;
     c.w1 = (quadratic(&o) - c.quartic * c.w * c.w) / c.linear - 2 * c.w;
     c.rate = (b + drag(&o, c.w)) / sqrt(rest_of(&c, c.w));
-    double by_b = 2 * c.w * c.w * (b - (2 - o.q2 * c.w) * (b - o.a) * c.w); /* -d w'^2/db at w_c */
+    double by_b = 2 * c.w * c.w * (b - kd_hole_mass_w(hole, c.w) * (b - o.a) * c.w); /* -d w'^2/db at w_c */
     double e2 = b * by_b / rest_of(&c, c.w);
     double rest = kd_quadrature(regular, &c);
     return (struct kd_deflection_strong) { .rate = c.rate,
