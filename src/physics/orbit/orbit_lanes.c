@@ -58,13 +58,6 @@ INLINE void radial_force(const struct state *s, const lane *w, const lane *rest,
     *force = 0.5 * ((right - left) * g + left * right * slope);
 }
 
-/* As kd_hole_delta_w. */
-INLINE void delta_w(const struct state *s, const lane *w, lane *delta)
-{
-    lane d = 1 - *w, h = s->root * *w;
-    *delta = (d - h) * (d + h);
-}
-
 INLINE void kick(struct state *s, double weight)
 {
     lane w = s->place[KD_PATH_W].value, y = s->place[KD_PATH_Y].value, rest = s->place[KD_PATH_W].rest,
@@ -75,9 +68,7 @@ INLINE void kick(struct state *s, double weight)
     f[KD_PATH_W] += s->spring[KD_PATH_W].strength * ((w - s->spring[KD_PATH_W].centre) + rest);
     f[KD_PATH_Y] = y * (2 * flat * s->z * y2 + s->stiff);
     f[KD_PATH_PROPER] = far + up;
-    lane turn = s->twist * (1 - y2) / (1 - s->nu * y2), hole;
-    delta_w(s, &w, &hole);
-    hole = 1 / hole;
+    lane turn = s->twist * (1 - y2) / (1 - s->nu * y2), hole = 1 / KD_HOLE_DELTA_W(s->root, w);
     f[KD_PATH_CHI] = turn + s->a * (2 * s->energy * w - s->drag * w2) * hole;
     f[KD_PATH_T] =
         s->energy * (far + 2 * w * far + s->four + up) + (s->near * w - 4 * a2w2 * s->energy - s->nearer * w2) * hole;
@@ -110,8 +101,7 @@ INLINE void look(struct state *s)
     lane steep = s->n - s->a2 * s->binding * s->z * y * y, polar = s->z * (u * u - (1 - y) * (1 + y) * steep);
     lane sine2 = s->axis_gap + s->z * (1 - y) * (1 + y), u2 = s->z * y * y;
     lane energy = radial / (by_energy * s->energy), carter = polar / s->total;
-    lane delta;
-    delta_w(s, &w, &delta);
+    lane delta = KD_HOLE_DELTA_W(s->root, w);
     lane mass = (radial / (w * w * delta) + polar / sine2) / (1 / (w * w) + s->a2 * u2);
     mask all = { -1, -1, -1, -1, -1, -1, -1, -1 }, regular = (w * s->horizon < 0.99) & (sine2 > 0.01);
     keep_greater(&s->worst_energy, &energy, &all);
