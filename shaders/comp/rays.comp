@@ -81,10 +81,8 @@ kd_rates rates(kd_geodesic m, kd_full p, float b, float way)
     if (way != 0.0)
         o.delay += (1.0 + a2w2) * m.k / kd_one_way(m, y, 1.0, a, way);
     else
-        o.delay +=
-            (4.0 + a * a * (1.0 - 2.0 * w + a2w2) - a * m.momentum * (1.0 + a2w2) - cam.charge2 * (1.0 + 2.0 * w)) /
-                kd_horizons(w, cam.root) +
-            w * (m.k - m.d * w) * (1.0 + 2.0 * w / energy_and_fall(m, w, dw));
+        o.delay += kd_time_over(w, a, cam.charge2, m.momentum) / kd_horizons(w, cam.root) +
+                   w * (m.k - m.d * w) * (1.0 + 2.0 * w / energy_and_fall(m, w, dw));
     return o;
 }
 
@@ -95,8 +93,8 @@ float delay_edge(kd_geodesic m, kd_state y, float way)
     if (!(y.w > 0.0))
         return 0.0;
     if (way != 0.0)
-        return way * ((2.0 - cam.charge2) * kd_fall(y.w, cam.root) - 1.0 / y.w +
-                      kd_log(y.w * y.w / kd_horizons(y.w, cam.root)));
+        return way *
+               (kd_late_of(y.w, cam.root, cam.charge2) - 1.0 / y.w + kd_log(y.w * y.w / kd_horizons(y.w, cam.root)));
     return -y.dw / y.w - 2.0 * kd_log(0.5 * energy_and_fall(m, y.w, y.dw) / y.w);
 }
 

@@ -16,16 +16,9 @@
 /* g r^(-3/4) at r = 1/w: the factor for the temperature of a disk whose table holds T r^(3/4). */
 float kd_orbit_cooled(float w, float energy, float momentum, uint traits)
 {
-    /* With x = sqrt(r), 1 - 3/r + 2a r^-3/2 = ((x - 1)^2 (x + 2) - 2 (1 - a)) / x^3. Near the ISCO of a fast hole the
-     * left-hand side loses all digits. The x^3 of the right-hand side and r^(-3/4) cancel. */
-    float r = 1.0 / w, x = sqrt(r), x3 = r * x, d = (1.0 - w) / (w * (x + 1.0)), all = x3 + cam.spin;
-    precise float rest = d * d * (x + 2.0) - 2.0 * emission.frame.one_minus_a;
-    if (CHARGED) { /* `rest` is P^2 r^(1/2) / s^2 */
-        float n = cam.root * cam.root, y = (1.0 - w) / w, s = sqrt(r - cam.charge2),
-              sigma = cam.spin > 0.0 ? (y + n) / (s + cam.spin) : s - cam.spin, v = sigma * w;
-        all = r * r / s + cam.spin;
-        rest = (kd_delta(w, cam.root) - v * v) * r * r * x / (s * s);
-    }
+    /* The x^3 under P^2 (kd_circle_at) and r^(-3/4) cancel. */
+    kd_circle at = kd_circle_at(w, emission.frame.one_minus_a);
+    float r = 1.0 / w, x = sqrt(r), x3 = r * x, all = at.all, rest = at.rest;
     bool doppler = (traits & KD_TRAIT_DOPPLER) != 0u, redshift = (traits & KD_TRAIT_REDSHIFT) != 0u;
     float under = doppler ? all * energy - momentum : FINITE ? all * energy : all;
     return redshift ? sqrt(max(rest, 0.0)) / under : inversesqrt(x3) * all / under;

@@ -116,10 +116,8 @@ kd_flow kd_flow_plunge(kd_metric g, kd_midst p)
     kd_metric there = kd_metric_at(1.0 / edge, p.u);
     kd_flow v = kd_flow_round(there, edge);
     float l = v.round_, e = there.lapse2 * v.time + there.omega * l, l2 = l * l / s2;
-    float c3 = 2.0, c4 = e * e - 1.0, c2 = a2 * (1.0 + u2) * c4 - l2,
+    float c3 = 2.0, c4 = e * e - 1.0, c2 = kd_body_quadratic(a2 * (1.0 + u2) * c4 - l2),
           c1 = 2.0 * (a2 * (s2 * e * e + u2) + l2 - 2.0 * cam.spin * e * l);
-    if (CHARGED)
-        c2 -= cam.charge2;
     float b2 = c3 + edge * c4, b1 = c2 + edge * b2, b0 = c1 + edge * b1;
     float out2 = (r - edge) * (b0 + r * (b1 + r * (b2 + r * c4))) * p.w * p.w * p.w * p.w / (g.sigma * g.sigma);
     float seen = e - g.omega * l,

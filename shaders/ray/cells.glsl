@@ -12,7 +12,7 @@
 
 #include "shared/math.glsl"
 #include "ray/planes.glsl"
-#include "ray/fall.glsl"
+#include "ray/hole.glsl"
 
 #define F(name) float name;
 #define U(name) uint name;

@@ -10,7 +10,7 @@
 #ifndef KD_KERR_RAY_GLSL
 #define KD_KERR_RAY_GLSL
 
-#include "ray/fall.glsl"
+#include "ray/hole.glsl"
 
 struct kd_ray {
     float e, l, p; /* E, L / sin(theta_o), p_theta of the arriving photon         */
@@ -54,8 +54,8 @@ kd_geodesic kd_geodesic_of(kd_ray ray, float a, float q2, float u, float s)
     m.a2 = m.energy2 * (1.0 + u * u) - ray.l * ray.l - ray.p * ray.p;
     precise float j = m.momentum - ae, k = m.q + j * j; /* a product of small factors, which must not be expanded */
     m.k = k;
-    m.d = a * a * m.q + q2 * m.k;
-    m.drag = a * m.momentum + q2 * ray.e;
+    m.d = kd_quartic_of(a, q2, m.q, m.k);
+    m.drag = kd_drag_of(a, q2, m.momentum, ray.e);
     return m;
 }
 

@@ -2,7 +2,7 @@
 #ifndef KD_METRIC_GLSL
 #define KD_METRIC_GLSL
 
-#include "ray/fall.glsl"
+#include "ray/hole.glsl"
 
 /* a^2 w^2; Delta/r^2, at least 1e-30; A/r^4; Sigma/r^2; and the angular velocity of an observer of zero angular
  * momentum (Bardeen, Press & Teukolsky 1972, with 2r - q^2 for 2r). The square of that observer's lapse is sigma delta
@@ -41,6 +41,34 @@ float kd_late(float w)
     if (CHARGED)
         part -= cam.charge2;
     return part * kd_fall(w, cam.root);
+}
+
+/* Coefficient of r^2 in (Sigma u^r)^2 of a body of unit mass, from that of its motion, a^2 (E^2 - 1) - L^2 - Q. */
+float kd_body_quadratic(float moving)
+{
+    float c2 = moving;
+    if (CHARGED)
+        c2 -= cam.charge2;
+    return c2;
+}
+
+/* The circular orbit at w = 1/r: all, its 1/Omega; and rest = P^2 r^(1/2)/s^2, whose root over r^(3/4) and `all` gives
+ * 1/u^t (orbit.glsl). one_minus_a: 1 - a in full precision.
+ *
+ * With x = sqrt(r), 1 - 3/r + 2a r^-3/2 = ((x - 1)^2 (x + 2) - 2 (1 - a)) / x^3. Near the ISCO of a fast hole the
+ * left-hand side loses all digits. */
+struct kd_circle { float all, rest; };
+kd_circle kd_circle_at(float w, float one_minus_a)
+{
+    float r = 1.0 / w, x = sqrt(r), x3 = r * x, d = (1.0 - w) / (w * (x + 1.0)), all = x3 + cam.spin;
+    precise float rest = d * d * (x + 2.0) - 2.0 * one_minus_a;
+    if (CHARGED) {
+        float n = cam.root * cam.root, y = (1.0 - w) / w, s = sqrt(r - cam.charge2),
+              sigma = cam.spin > 0.0 ? (y + n) / (s + cam.spin) : s - cam.spin, v = sigma * w;
+        all = r * r / s + cam.spin;
+        rest = (kd_delta(w, cam.root) - v * v) * r * r * x / (s * s);
+    }
+    return kd_circle(all, rest);
 }
 
 /* sqrt(r - q^2), on which the velocities of circular orbits depend (src/physics/spacetime/kerr.h). */

@@ -3,7 +3,7 @@
 #ifndef KD_NODE_GLSL
 #define KD_NODE_GLSL
 
-#include "ray/fall.glsl"
+#include "ray/hole.glsl"
 
 /* A node holds quantities that are smooth from ray to ray. For a captured ray these are azimuths without the logarithm
  * that diverges at the horizon. The angles in the sky and the fate are replaced by a unit vector: x, y and z in the

@@ -4,7 +4,7 @@
 
 #include "shared/math.glsl"
 #include "ray/nystroem.glsl"
-#include "ray/fall.glsl"
+#include "ray/hole.glsl"
 
 struct kd_state { float w, dw; };
 

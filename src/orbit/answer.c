@@ -4,6 +4,7 @@
 #include "base/pause.h"
 #include "image/npy.h"
 #include "physics/math/constants.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -150,10 +151,10 @@ static double periastron_advance(const struct kd_orbit_run *run)
 /* Advance per radial period. An orbit in the equatorial plane has no node. */
 static void advances(struct text *t, const struct kd_orbit_run *run, double p)
 {
-    double advance = periastron_advance(run), q2 = run->orbit.hole.q * run->orbit.hole.q;
+    double advance = periastron_advance(run);
     open(t, "advance");
     member(t, "periastron", advance);
-    member(t, "weak_field", run->orbit.circular ? NAN : (6 - q2) * M_PI / p);
+    member(t, "weak_field", run->orbit.circular ? NAN : kd_kerr_weak_advance(&run->orbit.hole, p));
     member(t, "node", run->orbit.z > 0 ? kd_orbit_nodal_advance(&run->bound) : NAN);
     if (!isnan(run->mass_msun)) {
         double period_s = 2 * M_PI / run->frequencies.r * KD_M_SUN_S * run->mass_msun;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Delta stands once in C and once in GLSL: hole.h and fall.glsl, in forms that keep their digits at the horizon.
+"""Delta stands once in C and once in GLSL: hole.h and hole.glsl, in forms that keep their digits at the horizon.
 
 delta.py ROOT     exit 1 naming each line of src/ and shaders/ that writes Delta in another place, after proving that it
                   finds such lines
@@ -9,14 +9,10 @@ import pathlib
 import re
 import sys
 
-HOMES = {"src/physics/spacetime/hole.h", "shaders/ray/fall.glsl"}
+HOMES = {"src/physics/spacetime/hole.h", "shaders/ray/hole.glsl"}
 # Files with lines that look like Delta and may stand there: the number of these lines, and the reason.
 OTHERS = {
-    "src/physics/orbit/orbit_lanes.c": (1, "the form of hole.h for several orbits at once, in vectors"),
-    "src/physics/orbit/orbit_shape.c": (3, "polynomials of Schmidt's conditions on bound orbits, outside the horizon"),
-    "src/physics/null/deflection.c": (1, "rays that leave again, outside the photon orbits"),
     "src/physics/waves/qnm.c": (1, "Leaver's coefficients: w is a frequency"),
-    "shaders/comp/rays.comp": (1, "a term of the time without its pole: Delta is divided out"),
 }
 # r^2 - 2r + a^2 and 1 - 2w + a^2 w^2 as they are usually written, and their factors.
 R, W = r"(?:\w+(?:->|\.))?r", r"(?:\w+(?:->|\.))?w"

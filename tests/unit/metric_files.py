@@ -17,7 +17,8 @@ FORMULA = re.compile(
     r"|if \(kd_hole_is_charged\("
     r"|\bCHARGED [?&|]|\(CHARGED\b"  # GLSL
     r"|\bcharge2 [*/+-]|[-+*/] ?(?:cam\.)?charge2\b(?!,)|-= (?:cam\.)?charge2\b"
-    r"|[-+] q2 \*"
+    r"|[-+] q2 \*|\ba2 \+ q2\b"
+    r"|\bq2? = [\w.>-]*hole(?:->|\.)q\b"  # a name of its own for it
 )
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.S)
 PAGE = "docs/adding-a-metric.md"
@@ -38,6 +39,8 @@ def self_test():
         "drag -= a * cam.charge2 * w;",
         "falls -= cam.charge2;",
         "m.d = a * a * m.q + q2 * m.k;",
+        "return (a2 + q2) / outer;",
+        "const double a = ray.hole.a, q = ray.hole.q, rest = 4 - q * q;",
     ]
     wrong = ["/* hole->q * hole->q */", "f(ray, cam.spin, cam.charge2, cam.u)", "key(hole->a, hole->q);", "F(charge2)"]
     missed = [line for line in right if not knows(line)] + [line for line in wrong if knows(line)]

@@ -389,7 +389,8 @@ static double time_of(const struct kd_corona_source *source, const double m[3])
     if (!course.n || course.end != KD_COURSE_ESCAPED)
         return NAN;
     const struct kd_null_place *last = &places[course.n - 1];
-    const double a = ray.hole.a, q = ray.hole.q, rest = 4 - q * q + a * a * last->u * last->u - 0.5 * motion.quadratic;
+    const double a = ray.hole.a, four = kd_hole_rates_of(&ray.hole, 1, 0).four,
+                 rest = four + a * a * last->u * last->u - 0.5 * motion.quadratic;
     return last->delay - last->r - 2 * log(last->r) + rest / last->r;
 }
 

@@ -30,15 +30,12 @@ static struct place label(const struct kd_critical *c, double at)
     return p;
 }
 
-/* Direction in which the photon arrives, by R(r_o) of a double root: (r_o - r)^2 (r_o^2 + 2 r r_o + R(0)/r^2), with
- * R(0) = -a^2 eta - q^2 K and K = 4 r^2 Delta/y^2. Its p_theta may be the root of a negative number
- * here and is left out: in a level frame it affects only `up`. */
+/* Direction in which the photon arrives, by R(r_o) of a double root (kd_shell_inside). Its p_theta may be the root of a
+ * negative number here and is left out: in a level frame it affects only `up`. */
 static void look(const struct kd_critical *c, struct place *p)
 {
     const struct kd_shell_orbit *o = &p->orbit;
-    const double charge2 = c->observer.hole.q * c->observer.hole.q;
-    double r = c->observer.radius, q = o->a / o->r,
-           less = q * q * o->eta + 4 * charge2 * (o->y * o->y - o->n) / (o->y * o->y),
+    double r = c->observer.radius, less = kd_shell_inside(&c->observer.hole, o),
            root = sqrt(fmax(r * r + 2 * o->r * r - less, 0));
     const struct kd_covector photon = { .energy = 1, .momentum = -p->alpha, .radial = (r - o->r) * root };
     const struct kd_look seen = c->tetrad.falls && photon.radial <= 0

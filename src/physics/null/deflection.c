@@ -3,36 +3,35 @@
 #include "physics/math/quadrature.h"
 #include "physics/null/null_radial.h"
 #include "physics/spacetime/kerr.h"
-#include "physics/spacetime/potential.h"
 
 #include <math.h>
 
-/* Bardeen, Press & Teukolsky 1972: L/E at r = 4 cos^2(x), x = acos(-a)/3, equals 6 cos x - a. */
 double kd_deflection_critical(const struct kd_hole *hole)
 {
-    const double a = hole->a;
-    if (kd_hole_is_charged(hole))
-        return kd_potential_critical_impact(hole);
-    return fabs(a) < 1 ? 6 * cos(acos(-a) / 3) - a : NAN;
+    return fabs(hole->a) < 1 ? kd_kerr_critical_impact(hole) : NAN;
 }
 
 /* The orbit in w = 1/r and Mino time, E = 1, L = b (docs/physics/geodesics.md at Q = 0):
  *   w'^2 = 1 - (b^2 - a^2) w^2 + 2 (b - a)^2 w^3 - q^2 (b - a)^2 w^4,   phi' = b + chi',
  *   chi' = a (2w - (a b + q^2) w^2)/(1 - 2w + (a^2 + q^2) w^2). */
-struct light { double a, b, q2; };
+struct light {
+    const struct kd_hole *hole;
+    double a, b, drag; /* a b + q^2 */
+};
 
 static struct light light_of(const struct kd_hole *hole, double b)
 {
-    return (struct light) { hole->a, b, hole->q * hole->q };
+    return (struct light) { hole, hole->a, b, kd_hole_rates_of(hole, 1, b).drag };
 }
 
-static double slow(const struct light *o, double w) { return 1 - w * (2 - (o->a * o->a + o->q2) * w); }
-
-static double drag(const struct light *o, double w) { return o->a * w * (2 - (o->a * o->b + o->q2) * w) / slow(o, w); }
+static double drag(const struct light *o, double w)
+{
+    return o->a * w * (2 - o->drag * w) / kd_hole_delta_w(o->hole, w);
+}
 
 static double quadratic(const struct light *o) { return o->b * o->b - o->a * o->a; }
 static double cubic(const struct light *o) { return 2 * (o->b - o->a) * (o->b - o->a); }
-static double quartic(const struct light *o) { return o->q2 * (o->b - o->a) * (o->b - o->a); }
+static double quartic(const struct light *o) { return kd_hole_quartic(o->hole, 0, (o->b - o->a) * (o->b - o->a)); }
 
 struct far {
     struct light light;
@@ -99,7 +98,7 @@ double kd_deflection_closest(const struct kd_hole *hole, double b)
 double kd_deflection_farthest(const struct kd_hole *hole, double b)
 {
     const double a = hole->a;
-    if (!(b >= kd_deflection_critical(hole)) || a * b > 2 * hole->outer - hole->q * hole->q)
+    if (!(b >= kd_deflection_critical(hole)) || a * b > kd_hole_mass(hole, hole->outer))
         return NAN;
     struct kd_null_radial q = radial_of(hole, b);
     return q.turns ? q.roots.r3 : kd_kerr_photon_orbit(hole);
@@ -107,10 +106,7 @@ double kd_deflection_farthest(const struct kd_hole *hole, double b)
 
 double kd_deflection_weak(double b) { return 4 / b; }
 
-double kd_deflection_weak_second(const struct kd_hole *hole, double b)
-{
-    return (4 + (15 * M_PI / 4 - 4 * hole->a - 3 * M_PI / 4 * hole->q * hole->q) / b) / b;
-}
+double kd_deflection_weak_second(const struct kd_hole *hole, double b) { return kd_kerr_weak_bending(hole, b); }
 
 /* On the critical ray w'^2 = (w_c - w)^2 (linear (w - w_1) - quartic w^2), linear = cubic - 2 quartic w_c, w_1 =
  * (quadratic - quartic w_c^2)/linear - 2 w_c < 0. */
@@ -129,10 +125,10 @@ static double regular(double x, double y, const void *context)
     (void)y;
     const struct critical *c = context;
     const struct light *o = &c->light;
-    double a = o->a, wc = c->w, w = wc * x, product = w * wc;
+    double wc = c->w, w = wc * x, product = w * wc;
     double root = sqrt(rest_of(c, w)), root_c = sqrt(rest_of(c, wc));
-    double chi = -wc * a * (2 - 2 * (a * a + o->q2) * product - (a * o->b + o->q2) * (w + wc - 2 * product)) /
-                 (slow(o, w) * slow(o, wc));
+    double chi = -wc * o->a * (2 - 2 * kd_hole_horizons(o->hole) * product - o->drag * (w + wc - 2 * product)) /
+                 (kd_hole_delta_w(o->hole, w) * kd_hole_delta_w(o->hole, wc));
     return chi / root + c->rate * (c->linear - c->quartic * (w + wc)) * wc / (root * (root + root_c));
 }
 
@@ -148,7 +144,7 @@ struct kd_deflection_strong kd_deflection_strong(const struct kd_hole *hole)
     c.linear = cubic(&o) - 2 * c.quartic * c.w;
     c.w1 = (quadratic(&o) - c.quartic * c.w * c.w) / c.linear - 2 * c.w;
     c.rate = (b + drag(&o, c.w)) / sqrt(rest_of(&c, c.w));
-    double by_b = 2 * c.w * c.w * (b - (2 - o.q2 * c.w) * (b - o.a) * c.w); /* -d w'^2/db at w_c */
+    double by_b = 2 * c.w * c.w * (b - kd_hole_mass_w(hole, c.w) * (b - o.a) * c.w); /* -d w'^2/db at w_c */
     double e2 = b * by_b / rest_of(&c, c.w);
     double rest = kd_quadrature(regular, &c);
     return (struct kd_deflection_strong) { .rate = c.rate,

@@ -102,6 +102,12 @@ struct kd_shell_orbit kd_shell_orbit_of_radius(const struct kd_hole *hole, doubl
 
 double kd_shell_bend(const struct kd_shell_orbit *o) { return 4 * o->r * (o->y * o->y * o->y + o->n) / (o->y * o->y); }
 
+double kd_shell_inside(const struct kd_hole *hole, const struct kd_shell_orbit *o)
+{
+    const double q = o->a / o->r;
+    return q * q * o->eta + 4 * (hole->q * hole->q) * (o->y * o->y - o->n) / (o->y * o->y);
+}
+
 /* The polar integrals with u = sqrt(z) cos x, as in null_polar.h: du/dtau^2 = (z - u^2)(n + a^2 u^2), disc = n + a^2
  * z. The radial rates with (r^2 + a^2 - a lambda)/Delta = 2r/y, which holds on these orbits. */
 struct kd_shell_exponents kd_shell_exponents(const struct kd_shell_orbit *o)

@@ -53,6 +53,10 @@ struct kd_shell_orbit kd_shell_orbit_of_radius(const struct kd_hole *hole, doubl
 /* (1/2) d^2R/dr^2 at the orbit, 4 r (y^3 + N)/y^2: nearby rays depart as exp(tau sqrt(bend)) in Mino time tau. */
 double kd_shell_bend(const struct kd_shell_orbit *orbit);
 
+/* -R(0)/r^2, with R(r_o) = (r_o - r)^2 (r_o^2 + 2 r r_o + R(0)/r^2) of the orbit's photon at a radius r_o: (a^2 eta +
+ * q^2 K)/r^2 with K = 4 r^2 Delta/y^2. */
+double kd_shell_inside(const struct kd_hole *hole, const struct kd_shell_orbit *orbit);
+
 /* From one crossing of the equatorial plane to the next:
  *   mino   Mino time;
  *   gamma  how far a ray at a small distance d from the orbit departs: to d e^gamma. Pi at a = 0. Each order of

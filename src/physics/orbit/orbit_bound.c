@@ -237,11 +237,13 @@ static double advance_in_a_plane(const struct kd_orbit_bound *b)
 {
     const struct kd_orbit *o = &b->orbit;
     double less = 2 * o->w_high + 4 * o->w_low, apart = 2;
-    if (kd_hole_is_charged(&o->hole)) {
-        double g[3], q2 = o->hole.q * o->hole.q;
-        kd_orbit_factor(o, g);
+    double g[3];
+    kd_orbit_factor(o, g);
+    if (g[2] != 0) { /* r4 > 0 */
         double third = g[0] * b->r[2], fourth = g[0] * b->r[3];
-        less = (third * (2 * o->w_low + o->w_high) + fourth * (o->w_low + 2 * o->w_high) - q2) / o->total;
+        less = (third * (2 * o->w_low + o->w_high) + fourth * (o->w_low + 2 * o->w_high) +
+                kd_hole_own_quadratic(&o->hole)) /
+               o->total;
         apart = (third - fourth) / o->total;
     }
     double pace = expm1(-0.5 * log1p(-less)), excess = complete_excess(apart * (o->w_high - o->w_low) / (1 - less));

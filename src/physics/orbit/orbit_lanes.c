@@ -28,7 +28,7 @@ struct spring { lane strength, centre, kick[4], drift[4]; };
 
 struct state {
     lane a, a2, root, energy, momentum, binding, z, n, axis_gap, total, w_low, w_high, g[3], c[5], horizon;
-    lane drag, four, near, nearer, twist, nu, stiff, q2, h;
+    lane drag, four, near, nearer, twist, nu, stiff, mass[2], h; /* mass: kd_hole_mass_line */
     struct spring spring[KD_PATH_PLACES];
     struct exact place[KD_PATH_PLACES], rate[KD_PATH_RATES], mino;
     mask half_turns;
@@ -58,13 +58,6 @@ INLINE void radial_force(const struct state *s, const lane *w, const lane *rest,
     *force = 0.5 * ((right - left) * g + left * right * slope);
 }
 
-/* As kd_hole_delta_w. */
-INLINE void delta_w(const struct state *s, const lane *w, lane *delta)
-{
-    lane d = 1 - *w, h = s->root * *w;
-    *delta = (d - h) * (d + h);
-}
-
 INLINE void kick(struct state *s, double weight)
 {
     lane w = s->place[KD_PATH_W].value, y = s->place[KD_PATH_Y].value, rest = s->place[KD_PATH_W].rest,
@@ -75,9 +68,7 @@ INLINE void kick(struct state *s, double weight)
     f[KD_PATH_W] += s->spring[KD_PATH_W].strength * ((w - s->spring[KD_PATH_W].centre) + rest);
     f[KD_PATH_Y] = y * (2 * flat * s->z * y2 + s->stiff);
     f[KD_PATH_PROPER] = far + up;
-    lane turn = s->twist * (1 - y2) / (1 - s->nu * y2), hole;
-    delta_w(s, &w, &hole);
-    hole = 1 / hole;
+    lane turn = s->twist * (1 - y2) / (1 - s->nu * y2), hole = 1 / KD_HOLE_DELTA_W(s->root, w);
     f[KD_PATH_CHI] = turn + s->a * (2 * s->energy * w - s->drag * w2) * hole;
     f[KD_PATH_T] =
         s->energy * (far + 2 * w * far + s->four + up) + (s->near * w - 4 * a2w2 * s->energy - s->nearer * w2) * hole;
@@ -105,14 +96,12 @@ INLINE void look(struct state *s)
     lane w = s->place[KD_PATH_W].value, v = s->rate[KD_PATH_W].value, y = s->place[KD_PATH_Y].value,
          u = s->rate[KD_PATH_Y].value;
     lane radial = v * v - (s->c[0] + w * (s->c[1] + w * (s->c[2] + w * (s->c[3] + w * s->c[4]))));
-    lane q2w = s->q2 * w;
-    lane by_energy =
-        2 * s->energy * (1 + s->a2 * w * w) - (4 - 2 * q2w) * s->a * (s->momentum - s->a * s->energy) * w * w * w;
+    lane by_energy = 2 * s->energy * (1 + s->a2 * w * w) -
+                     2 * (s->mass[0] + s->mass[1] * w) * s->a * (s->momentum - s->a * s->energy) * w * w * w;
     lane steep = s->n - s->a2 * s->binding * s->z * y * y, polar = s->z * (u * u - (1 - y) * (1 + y) * steep);
     lane sine2 = s->axis_gap + s->z * (1 - y) * (1 + y), u2 = s->z * y * y;
     lane energy = radial / (by_energy * s->energy), carter = polar / s->total;
-    lane delta;
-    delta_w(s, &w, &delta);
+    lane delta = KD_HOLE_DELTA_W(s->root, w);
     lane mass = (radial / (w * w * delta) + polar / sine2) / (1 / (w * w) + s->a2 * u2);
     mask all = { -1, -1, -1, -1, -1, -1, -1, -1 }, regular = (w * s->horizon < 0.99) & (sine2 > 0.01);
     keep_greater(&s->worst_energy, &energy, &all);
@@ -166,10 +155,14 @@ static void load(struct state *s, int i, const struct kd_orbit_path *p, double h
 {
     const struct kd_orbit *o = &p->orbit;
     s->a[i] = o->hole.a, s->a2[i] = o->hole.a * o->hole.a, s->root[i] = o->hole.root, s->energy[i] = o->energy,
-    s->momentum[i] = o->momentum, s->binding[i] = o->binding, s->q2[i] = o->hole.q * o->hole.q;
+    s->momentum[i] = o->momentum, s->binding[i] = o->binding;
     s->drag[i] = o->drag, s->four[i] = o->four, s->near[i] = o->near, s->nearer[i] = o->nearer;
     s->z[i] = o->z, s->n[i] = o->n, s->axis_gap[i] = o->axis_gap, s->total[i] = o->total;
     s->w_low[i] = o->w_low, s->w_high[i] = o->w_high, s->horizon[i] = o->hole.outer;
+    double mass[2];
+    kd_hole_mass_line(&o->hole, mass);
+    for (int k = 0; k < 2; k++)
+        s->mass[k][i] = mass[k];
     for (int k = 0; k < 3; k++)
         s->g[k][i] = p->g[k];
     for (int k = 0; k < 5; k++)

@@ -8,26 +8,26 @@
  * gr-qc/0202090, B.16 to B.21), regrouped. With L = x l, R(r) = 0 reads, in l instead of L,
  *
  *   f E^2 - 2 g a x E l - h l^2 - d = 0        Q = z (a^2 b + l^2)
- *   d = (r^2 + a^2 z) Delta    f = r^4 + a^2 (r (r + 2) - q^2 + z Delta)    g = 2r - q^2    h = r (r - 2) + q^2 + a^2 z
+ *   d = (r^2 + a^2 z) Delta    f = r^4 + a^2 (r (r + 2) - q^2 + z Delta)    g = 2r - q^2    h = Delta - a^2 + a^2 z
  *
  * which is regular at the pole, x = 0, where his h is not. His determinants of the two turning points vanish as e
  * does; here they are divided by r2 - r1, by divided differences, so that e = 0 is no special case. His sign of the
  * root becomes that of ax. */
 struct column { double f, g, h, d; };
 
-static struct column values(double a2, double q2, double z, double r)
+static struct column values(const struct kd_hole *hole, const double mass[2], double z, double r)
 {
-    double delta = r * (r - 2) + a2 + q2;
-    return (struct column) { r * r * r * r + a2 * (r * (r + 2) - q2 + z * delta), 2 * r - q2, r * (r - 2) + q2 + a2 * z,
-                             (r * r + a2 * z) * delta };
+    double a2 = hole->a * hole->a, part = kd_hole_delta_sum(hole, r), delta = part + a2;
+    return (struct column) { r * r * r * r + a2 * (r * (r + mass[0]) + mass[1] + z * delta), mass[0] * r + mass[1],
+                             part + a2 * z, (r * r + a2 * z) * delta };
 }
 
 /* (F(r2) - F(r1)) / (r2 - r1) */
-static struct column differences(double a2, double q2, double z, double r1, double r2)
+static struct column differences(const struct kd_hole *hole, const double mass[2], double z, double r1, double r2)
 {
-    double one = r1 + r2, two = r1 * r1 + r1 * r2 + r2 * r2, three = one * (r1 * r1 + r2 * r2);
-    return (struct column) { three + a2 * (one + 2 + z * (one - 2)), 2, one - 2,
-                             three - 2 * two + (a2 + q2) * one + a2 * z * (one - 2) };
+    double a2 = hole->a * hole->a, one = r1 + r2, two = r1 * r1 + r1 * r2 + r2 * r2, three = one * (r1 * r1 + r2 * r2);
+    return (struct column) { three + a2 * (one + mass[0] + z * (one - 2)), mass[0], one - 2,
+                             three - 2 * two + kd_hole_horizons(hole) * one + a2 * z * (one - 2) };
 }
 
 /* The positive root l of the quadratic at r, for given E and b = 1 - E^2. f - d = g (r^2 + a^2) and b replace d and
@@ -42,10 +42,11 @@ static double root_at(const struct column *v, double ax, double r, double a2, do
 /* b from W(w) = 0, with Q = z (a^2 b + l^2) and K = Q + (L - aE)^2. */
 static double binding_at(const struct kd_orbit *o, double x, double l, double w)
 {
-    double a2 = o->hole.a * o->hole.a, q2 = o->hole.q * o->hole.q, z = (1 - x) * (1 + x), l2 = x * l * x * l,
-           q0 = z * l * l, rest = x * l - o->hole.a * o->energy, k0 = q0 + rest * rest;
-    double fixed = w * (2 + w * (-(l2 + q0 + q2) + w * (2 * k0 - w * a2 * q0 - w * q2 * k0)));
-    return fixed / (1 + a2 * w * w * (1 + z * (1 - 2 * w + (a2 + q2) * w * w)));
+    double a2 = o->hole.a * o->hole.a, z = (1 - x) * (1 + x), l2 = x * l * x * l, q0 = z * l * l,
+           rest = x * l - o->hole.a * o->energy, c[5];
+    kd_hole_radial(&o->hole, 0, -(l2 + q0), q0, q0 + rest * rest, c);
+    double fixed = w * (c[1] + w * (c[2] + w * (c[3] + w * c[4])));
+    return fixed / (1 + a2 * w * w * (1 + z * kd_hole_delta_sum_w(&o->hole, w)));
 }
 
 /* His formula for E loses the digits of b in wide orbits, and l those of b. With E^2 = 1 - b, eliminating l^2 from
@@ -54,8 +55,9 @@ static double binding_at(const struct kd_orbit *o, double x, double l, double w)
  * b = 2w. */
 static void energy_and_momentum(struct kd_orbit *o, double x, double r1, double r2, double *l)
 {
-    double a2 = o->hole.a * o->hole.a, q2 = o->hole.q * o->hole.q, z = (1 - x) * (1 + x), ax = o->hole.a * x;
-    struct column v = values(a2, q2, z, r2), s = differences(a2, q2, z, r1, r2);
+    double a2 = o->hole.a * o->hole.a, z = (1 - x) * (1 + x), ax = o->hole.a * x, mass[2];
+    kd_hole_mass_line(&o->hole, mass);
+    struct column v = values(&o->hole, mass, z, r2), s = differences(&o->hole, mass, z, r1, r2);
     double kappa = v.d * s.h - v.h * s.d, epsilon = v.d * s.g - v.g * s.d, rho = v.f * s.h - v.h * s.f;
     double eta = v.f * s.g - v.g * s.f, sigma = v.g * s.h - v.h * s.g;
     /* Next to a parabola the last two terms are equal within rounding; below E l is not needed more accurately than
@@ -63,7 +65,7 @@ static void energy_and_momentum(struct kd_orbit *o, double x, double r1, double 
     double inner = ax * ax * sigma * epsilon * epsilon + rho * epsilon * kappa - eta * kappa * kappa;
     double root = sqrt(fmax(sigma * inner, 0));
     double e2 = (kappa * rho + 2 * ax * ax * epsilon * sigma - 2 * ax * root) / (rho * rho + 4 * ax * ax * eta * sigma);
-    double less = v.g * (r2 * r2 + a2), less_slope = 2 * (r1 * r1 + r1 * r2 + r2 * r2 + a2) - q2 * (r1 + r2);
+    double less = v.g * (r2 * r2 + a2), less_slope = mass[0] * (r1 * r1 + r1 * r2 + r2 * r2 + a2) + mass[1] * (r1 + r2);
     double chi = less * s.h - v.h * less_slope;
     o->energy = sqrt(e2);
     *l = root_at(&v, ax, r2, a2, o->energy, 1 - e2);

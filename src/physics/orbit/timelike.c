@@ -50,15 +50,11 @@ static void set_polar(struct kd_orbit *o)
 
 void kd_orbit_set_constants(struct kd_orbit *o)
 {
-    double a2 = o->hole.a * o->hole.a, q2 = o->hole.q * o->hole.q, rest = o->momentum - o->hole.a * o->energy;
+    double a2 = o->hole.a * o->hole.a, rest = o->momentum - o->hole.a * o->energy;
     const struct kd_hole_rates rates = kd_hole_rates_of(&o->hole, o->energy, o->momentum);
     o->k = o->carter + rest * rest;
     o->total = o->momentum * o->momentum + o->carter;
-    o->w[0] = -o->binding;
-    o->w[1] = 2;
-    o->w[2] = -(a2 * o->binding + o->total + q2);
-    o->w[3] = 2 * o->k;
-    o->w[4] = -kd_hole_quartic(&o->hole, o->carter, o->k);
+    kd_hole_radial(&o->hole, -o->binding, -(a2 * o->binding + o->total), o->carter, o->k, o->w);
     o->drag = rates.drag, o->four = rates.four, o->near = rates.near, o->nearer = rates.nearer;
     set_polar(o);
 }

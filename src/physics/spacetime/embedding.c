@@ -14,7 +14,7 @@ static double rapidity(const struct kd_hole *hole, double r)
 
 double kd_embedding_radius(const struct kd_hole *hole, double r)
 {
-    return sqrt(r * r + hole->a * hole->a * (1 + (2 - hole->q * hole->q / r) / r));
+    return sqrt(r * r + hole->a * hole->a * (1 + kd_hole_mass_w(hole, 1 / r) / r));
 }
 
 double kd_embedding_distance(const struct kd_hole *hole, double r)
@@ -26,13 +26,8 @@ double kd_embedding_distance(const struct kd_hole *hole, double r)
 /* dz/du */
 static double slope(const struct kd_hole *hole, double r)
 {
-    const double a = hole->a;
-    double a2 = a * a, q = a2 / r;
-    double n = 2 * r * r * r + 4 * a2 * (r - 1) + q * (2 * a2 - q) + q * q * (2 - q) / r;
-    if (kd_hole_is_charged(hole)) {
-        const double q2 = hole->q * hole->q, t = q * (r - q2) / (r * r);
-        n = (2 * r - q2) * (r * r + a2) + t * kd_hole_delta(hole, r) * (2 * r - t);
-    }
+    double a2 = hole->a * hole->a, t = a2 / r * kd_hole_pull_w(hole, 1 / r) / r;
+    double n = kd_hole_mass(hole, r) * (r * r + a2) + t * kd_hole_delta(hole, r) * (2 * r - t);
     return sqrt(n) / kd_embedding_radius(hole, r);
 }
 

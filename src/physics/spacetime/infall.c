@@ -26,7 +26,7 @@ static struct fall fall_of(const struct kd_observer_motion *m, const struct kd_v
     double ls = l == 0 ? 0 : l / at->s, q = at->u * at->u * (ls * ls - a * a * bound), rest = l - a * e;
     const double k = q + rest * rest;
     double c[5];
-    kd_hole_radial(&at->hole, bound, l, q, k, c);
+    kd_hole_radial(&at->hole, bound, a * a * bound - l * l - q, q, k, c);
     struct fall f = {
         .c = { c[4], c[3], c[2], c[1], c[0] },
         .hole = at->hole,

@@ -88,6 +88,13 @@ double kd_kerr_photon_orbit(const struct kd_hole *hole)
     return 4 * c * c;
 }
 
+double kd_kerr_critical_impact(const struct kd_hole *hole)
+{
+    if (kd_hole_is_charged(hole))
+        return 1 / kd_kerr_omega(hole, kd_kerr_photon_orbit(hole));
+    return 6 * cos(acos(-hole->a) / 3) - hole->a;
+}
+
 double kd_kerr_outermost_photon_orbit(const struct kd_hole *hole)
 {
     return kd_kerr_photon_orbit(kd_hole_turned(hole, hole->a > 0 ? -1 : 1));
@@ -164,6 +171,39 @@ double kd_kerr_ut(const struct kd_hole *hole, double r)
     struct circle o = circle_of(a, r);
     return (r * o.x + a) / o.norm;
 }
+
+/* Without charge x^4 - 6x^2 + 8ax - 3a^2 with x = sqrt(r), the quartic whose root is the ISCO. For a = 1 the root is
+ * triple, at x = 1. Written in d = x - 1 and e = 1 - a, it has no avoidable cancellation there. */
+double kd_kerr_stiffness_radial(const struct kd_hole *hole, double r)
+{
+    if (r == kd_kerr_isco(hole)) /* exactly 0 instead of a rounding error */
+        return 0;
+    if (kd_hole_is_charged(hole)) {
+        const struct kd_kerr_ring o = ring_of(hole, r);
+        return kd_kerr_ring_excess(hole, &o) / (o.s * o.s);
+    }
+    double x = sqrt(r), d = (r - 1) / (x + 1), e = 1 - hole->a;
+    return d * d * d * (d + 4) - e * (2 + 8 * d + 3 * e);
+}
+
+/* x^4 - 4ax + 3a^2, whose root at a = x = 1 is double. */
+double kd_kerr_stiffness_vertical(const struct kd_hole *hole, double r)
+{
+    if (kd_hole_is_charged(hole)) {
+        const struct kd_kerr_ring o = ring_of(hole, r);
+        const double a = hole->a;
+        return ((r * r + a * a) * o.sigma * o.sigma + a * (2 * o.sigma + a) * o.delta) / (o.s * o.s);
+    }
+    double x = sqrt(r), d = (r - 1) / (x + 1), e = 1 - hole->a;
+    return d * d * (r + 2 * x + 3) + e * (4 * d - 2 + 3 * e);
+}
+
+double kd_kerr_weak_bending(const struct kd_hole *hole, double b)
+{
+    return (4 + (15 * M_PI / 4 - 4 * hole->a - 3 * M_PI / 4 * hole->q * hole->q) / b) / b;
+}
+
+double kd_kerr_weak_advance(const struct kd_hole *hole, double p) { return (6 - hole->q * hole->q) * M_PI / p; }
 
 /* At the ISCO E^2 = 1 - 2/(3 r) [BPT 2.12 with 2.21], so that 1 - E needs no subtraction. */
 double kd_kerr_efficiency(const struct kd_hole *hole)

@@ -21,6 +21,10 @@ double kd_kerr_isco(const struct kd_hole *hole);
 double kd_kerr_photon_orbit(const struct kd_hole *hole);
 double kd_kerr_marginally_bound(const struct kd_hole *hole);
 
+/* Impact parameter L/E > 0 of the circular photon orbit towards +phi: b_c = 6 cos(acos(-a)/3) - a, S. Chandrasekhar
+ * 1983, The Mathematical Theory of Black Holes, ch. 7 eq. 84. With charge 1/Omega there. */
+double kd_kerr_critical_impact(const struct kd_hole *hole);
+
 /* Radius of the outermost photon orbit, which counter-rotates. */
 double kd_kerr_outermost_photon_orbit(const struct kd_hole *hole);
 
@@ -45,6 +49,16 @@ double kd_kerr_omega(const struct kd_hole *hole, double r);
 double kd_kerr_energy(const struct kd_hole *hole, double r);
 double kd_kerr_momentum(const struct kd_hole *hole, double r);
 double kd_kerr_ut(const struct kd_hole *hole, double r);
+
+/* Squares of the epicyclic frequencies of the circular orbit at r, in units of (Omega/r)^2: see epicyclic.h. */
+double kd_kerr_stiffness_radial(const struct kd_hole *hole, double r);
+double kd_kerr_stiffness_vertical(const struct kd_hole *hole, double r);
+
+/* Weak fields: the bending of light in the plane that passes at the impact parameter b, to the second order of 1/b
+ * (deflection.h); the advance of the periastron of an orbit of semi-latus rectum p, to the first order of 1/p, at a = 0
+ * (6 pi/p: Einstein 1915; with charge (6 - q^2) pi/p, the limit p -> infinity of kd_orbit_periastron_advance). */
+double kd_kerr_weak_bending(const struct kd_hole *hole, double b);
+double kd_kerr_weak_advance(const struct kd_hole *hole, double p);
 
 /* Efficiency of a thin disk, 1 - E(ISCO). */
 double kd_kerr_efficiency(const struct kd_hole *hole);

@@ -58,7 +58,7 @@ static struct kd_tetrad frame_static(const struct kd_observer_motion *motion, co
 static double circling(const struct kd_hole *hole, double r, double u, double s, int sense)
 {
     double a = hole->a;
-    double g = sqrt((r - a * u) * (r + a * u) / r - hole->q * hole->q) / (r * r + a * a * u * u);
+    double g = sqrt(kd_hole_pull(hole, r, u)) / (r * r + a * a * u * u);
     return sense * g / (1 + sense * a * s * g) - s * kd_kerr_dragging(hole, r, u);
 }
 
@@ -207,7 +207,7 @@ static bool turns_on_its_way(const struct kd_observer_motion *m, const struct kd
     double a = at->hole.a, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
     double ls = l == 0 ? 0 : l / at->s, q = at->u * at->u * (ls * ls - a * a * bound), rest = l - a * e, roots[4];
     double c[5];
-    kd_hole_radial(&at->hole, bound, l, q, q + rest * rest, c);
+    kd_hole_radial(&at->hole, bound, a * a * bound - l * l - q, q, q + rest * rest, c);
     double last = fmin(1 / at->r, 1 / at->hole.outer);
     return last > 1 / m->fall_from * (1 + 1e-9) &&
            kd_polynomial_roots(c, 4, 1 / m->fall_from * (1 + 1e-9) + 1e-12, last, roots) > 0;

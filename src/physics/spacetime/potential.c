@@ -7,17 +7,8 @@
 double kd_potential(const struct kd_hole *hole, double l, double mu2, double r)
 {
     const double a = hole->a;
-    double delta = kd_hole_delta(hole, r);
-    const double q2 = hole->q * hole->q;
-    double big = r * (r * (r * r + a * a) + 2 * a * a) - a * a * q2;
-    return (a * l * (2 * r - q2) + r * sqrt(fmax(0, delta) * (r * r * l * l + mu2 * big))) / big;
-}
-
-double kd_potential_critical_impact(const struct kd_hole *hole)
-{
-    if (kd_hole_is_charged(hole))
-        return 1 / kd_kerr_omega(hole, kd_kerr_photon_orbit(hole));
-    return 6 * cos(acos(-hole->a) / 3) - hole->a;
+    double delta = kd_hole_delta(hole, r), big = kd_hole_area_in_plane(hole, r);
+    return (a * l * kd_hole_mass(hole, r) + r * sqrt(fmax(0, delta) * (r * r * l * l + mu2 * big))) / big;
 }
 
 static const struct kd_potential_extrema none = { NAN, NAN, NAN, NAN };
@@ -30,7 +21,7 @@ struct kd_potential_extrema kd_potential_of_light(const struct kd_hole *hole, do
         return e;
     double s = copysign(1, l);
     e.r_max = kd_kerr_photon_orbit(kd_hole_turned(hole, s));
-    e.v_max = s * l / kd_potential_critical_impact(kd_hole_turned(hole, s));
+    e.v_max = s * l / kd_kerr_critical_impact(kd_hole_turned(hole, s));
     return e;
 }
 

@@ -23,8 +23,4 @@ struct kd_potential_extrema { double r_max, v_max, r_min, v_min; };
 struct kd_potential_extrema kd_potential_of_light(const struct kd_hole *hole, double l);
 struct kd_potential_extrema kd_potential_of_matter(const struct kd_hole *hole, double l);
 
-/* Impact parameter L/E > 0 of the circular photon orbit towards +phi: b_c = 6 cos(acos(-a)/3) - a, S. Chandrasekhar
- * 1983, The Mathematical Theory of Black Holes, ch. 7 eq. 84. With charge 1/Omega there. */
-double kd_potential_critical_impact(const struct kd_hole *hole);
-
 #endif

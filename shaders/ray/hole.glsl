@@ -1,6 +1,8 @@
-/* The terms of azimuth and time that grow without bound at the horizon for a ray that falls in. */
-#ifndef KD_FALL_GLSL
-#define KD_FALL_GLSL
+/* The hole, as src/physics/spacetime/hole.h: Delta, the mass term, the numbers in the equations of light, and the terms
+ * of azimuth and time that grow without bound at the horizon for a ray that falls in. q2: the square of the charge. For
+ * kernels that have `cam` see ray/metric.glsl. */
+#ifndef KD_HOLE_GLSL
+#define KD_HOLE_GLSL
 
 #include "shared/math.glsl"
 
@@ -15,6 +17,17 @@ float kd_delta(float w, float root)
 
 /* Delta/r^2, with a positive lower bound so that it can be divided by. */
 float kd_horizons(float w, float root) { return max(kd_delta(w, root), 1e-30); }
+
+/* The part of the rate of the time that is divided by D (rays.comp), for E = 1. */
+float kd_time_over(float w, float a, float q2, float momentum)
+{
+    float a2w2 = a * a * w * w;
+    return 4.0 + a * a * (1.0 - 2.0 * w + a2w2) - a * momentum * (1.0 + a2w2) - q2 * (1.0 + 2.0 * w);
+}
+
+/* D of the radial quartic, a^2 Q + q^2 K, and aL + q^2 E of the rate of azimuth (kerr_ray.glsl). */
+float kd_quartic_of(float a, float q2, float carter, float k) { return a * a * carter + q2 * k; }
+float kd_drag_of(float a, float q2, float momentum, float energy) { return a * momentum + q2 * energy; }
 
 /* Integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w). A series is used where x is small,
  * as for a nearly extremal hole. */
@@ -31,5 +44,8 @@ float kd_fall(float w, float root)
 #endif
     return first * (x < 0.25 ? 2.0 * series / (2.0 + x) : kd_log(1.0 + x) / x);
 }
+
+/* Integral from 0 to w of (2 - q^2) dw/D: the term of the time that grows without bound at the horizon. */
+float kd_late_of(float w, float root, float q2) { return (2.0 - q2) * kd_fall(w, root); }
 
 #endif
