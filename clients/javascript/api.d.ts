@@ -1851,7 +1851,10 @@ export interface CompareRequest {
     | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1'
     | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
   scene?: Scene;
-  /** SHA-256 of an asset of the server: uvfits, or the EHT's CSV. */
+  /**
+   * SHA-256 of an asset of the server: uvfits, or the EHT's CSV; or the name of an observation that the server
+   * has: m87-2017-04-05-lo.
+   */
   observation: string;
   /**
    * parameter sets, each compared for its own chi^2: fields of the scene by their paths, such as spacetime.spin,
@@ -2144,7 +2147,10 @@ export interface ObserveRequest {
     | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1'
     | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
   scene?: Scene;
-  /** SHA-256 of an asset of the server: uvfits, or the EHT's CSV. */
+  /**
+   * SHA-256 of an asset of the server: uvfits, or the EHT's CSV; or the name of an observation that the server
+   * has: m87-2017-04-05-lo.
+   */
   observation: string;
   /** shape of a pixel's light. */
   pulse?: 'triangle' | 'rectangle' | 'point';

@@ -7,6 +7,7 @@
 #include "cli/row_options.h"
 #include "cli/scene_options.h"
 #include "integral/run.h"
+#include "observe/embedded.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -114,6 +115,9 @@ done:
 static enum kd_status read_observation(const char *path, struct kd_integral_request *request, struct kd_error *error)
 {
     struct kd_buffer file = { 0 };
+    const struct kd_embedded_observation *own = kd_embedded_observation_find(path);
+    if (own)
+        return kd_integral_set_observation(request, own->data, own->size, error);
     enum kd_status status = kd_file_read(path, KD_OBSERVATION_BYTES, &file, error);
     if (!status &&
         (status = kd_integral_set_observation(request, file.data ? file.data : (const uint8_t *)"", file.size, error)))
@@ -241,9 +245,10 @@ static void set_options(enum kd_integral what, struct argp_option *options, stru
                                    "FILE",
                                    0,
                                    what == KD_INTEGRAL_COMPARE
-                                       ? "observation to compare with: uvfits, or the EHT's CSV"
-                                       : "observation whose times, baselines and errors are used: uvfits, or the EHT's "
-                                         "CSV",
+                                       ? "observation to compare with: uvfits, the EHT's CSV, or the "
+                                         "name of one in kerrd: " KD_EMBEDDED_OBSERVATIONS
+                                       : "observation whose times, baselines and errors are used: uvfits, the EHT's "
+                                         "CSV, or the name of one in kerrd: " KD_EMBEDDED_OBSERVATIONS,
                                    1 };
     kd_row_options_add(rows, options, &n, &document, &request, "", true, 1);
     kd_integral_request_finish(&request);

@@ -5,6 +5,7 @@
 #include "integral/pictures.h"
 #include "integral/sets.h"
 #include "document/members.h"
+#include "observe/embedded.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -58,6 +59,9 @@ enum kd_status kd_integral_read_observation(struct kd_integral_request *r, const
     struct kd_asset_bytes bytes;
     if (!cJSON_IsString(given))
         return kd_member_refuse(given, "/observation", "the name of an asset", error);
+    const struct kd_embedded_observation *own = kd_embedded_observation_find(given->valuestring);
+    if (own)
+        return kd_integral_set_observation(r, own->data, own->size, error);
     if (!r->assets)
         return kd_error_field(
             error, "/observation",
@@ -65,7 +69,8 @@ enum kd_status kd_integral_read_observation(struct kd_integral_request *r, const
     if (!r->assets->find(r->assets->user, given->valuestring, &found) ||
         !r->assets->take(r->assets->user, found.hash, &bytes))
         return kd_error_field(error, "/observation",
-                              "observation is not an asset of this server; it must be the SHA-256 of one");
+                              "observation is not an asset of this server; it must be the SHA-256 of one, or %s",
+                              KD_EMBEDDED_OBSERVATIONS);
     enum kd_status status = kd_integral_set_observation(r, bytes.data, bytes.size, error);
     r->assets->give_back(r->assets->user, &bytes);
     return status;

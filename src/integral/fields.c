@@ -3,6 +3,7 @@
 #include "integral/apart.h"
 #include "integral/request.h"
 #include "integral/sets.h"
+#include "observe/embedded.h"
 #include "physics/disk/disk_image.h"
 
 #include <math.h>
@@ -349,7 +350,8 @@ void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_
     if (of & (COMPARE | OBSERVE))
         kd_schema_text(json, "observation",
                        "{\"type\":\"string\",\"minLength\":1,\"maxLength\":64,\"description\":\"SHA-256 of an asset "
-                       "of the server: uvfits, or the EHT's CSV\"}");
+                       "of the server: uvfits, or the EHT's CSV; or the name of an observation that the server "
+                       "has: " KD_EMBEDDED_OBSERVATIONS "\"}");
     if (what == KD_INTEGRAL_COMPARE)
         kd_schema_text(json, "sets", SETS_SCHEMA);
     struct kd_document document = kd_integral_document(what);

@@ -29,6 +29,8 @@ class Compare(Case):
         """chi^2 follows from the columns; CSV and NPY have the same rows."""
         options = ["--observation", compared.UVFITS, *compared.THIN, "--pixels", "64", "--average-s", "300"]
         told = self.told(*options, "--systematic-amplitude", "0.05")
+        options[1] = "m87-2017-04-05-lo"
+        self.assertEqual(self.told(*options, "--systematic-amplitude", "0.05"), told)  # the same file in the program
         columns, seen = told["columns"], told["observation"]
         self.assertEqual((seen["source"], seen["mjd"], seen["visibilities"]), ("M87", 57848, 1507))
         self.assertEqual(seen["averaged"] - seen["too_short"], told["n"]["amplitude"])

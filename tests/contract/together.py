@@ -308,7 +308,7 @@ TOGETHER = [
     (
         "POST /v1/compare",
         (
-            "observation is not an asset of this server; it must be the SHA-256 of one",
+            "observation is not an asset of this server; it must be the SHA-256 of one, or %s",
             "solve has flux; products must have amplitude or visibility, because closures do not depend on the flux",
             "check is finer; with sets it must be none",
             "set %zu: %.400s",
@@ -323,7 +323,7 @@ TOGETHER = [
     (
         "POST /v1/observe",
         (
-            "observation is not an asset of this server; it must be the SHA-256 of one",
+            "observation is not an asset of this server; it must be the SHA-256 of one, or %s",
             "flux_jy is auto; it must be a number, because the scene's light has no frequency and thus no flux in Jy",
             "observation is a CSV, which has no places of stations; for uvfits it must be a uvfits file",
             "the observation has %zu visibilities; it must have at most %u to be simulated",

@@ -866,12 +866,14 @@ class Integrals(daemon.Case):
         size = found["values"]["size"]
         self.assertEqual(found["solved"][0], {"name": "size", "value": size, "converged": 0.5 < size < 2})
         self.assertNotEqual(found["chi2"]["amplitude"], told["chi2"]["amplitude"])
+        own = self.post("compare", {**document, "observation": "m87-2017-04-05-lo"}).json()
+        self.assertEqual(own["chi2"], sent["uvfits"]["chi2"])
         table = self.post("compare", document, Accept="text/csv")
         self.assertEqual(table.header("Content-Disposition"), 'attachment; filename="compare.csv"')
         rows = list(csv.DictReader(io.StringIO(table.body.decode())))
         self.assertEqual([row["product"] for row in rows], told["columns"]["product"])
         for change, pointer, words in (
-            ({"observation": "0" * 64}, "/observation", "is not an asset of this server"),
+            ({"observation": "0" * 64}, "/observation", "or m87-2017-04-05-lo"),
             ({"observation": 3}, "/observation", "name of an asset"),
             ({"observation": None}, "/observation", "name of an asset"),
             ({"products": []}, "/products", "must have at least one"),

@@ -255,7 +255,8 @@ class Blocking(Case):
         self.assertIn("gargantua", [preset["name"] for preset in self.hole.presets()])
 
     def test_a_scene_beside_an_observation(self):
-        """The observation is given as a file, as its bytes, and by its hash at the server."""
+        """The observation is given as a file, as its bytes, by its hash at the server, and by the name of one that the
+        server has."""
         file = pathlib.Path(__file__).resolve().parents[2] / "data/eht/m87-2017-04-05-lo.uvfits"
         options = {"preset": "m87", "pixels": 32, "average_s": 600, "check": "none", "flux_jy": 0.6}
         told = self.hole.compare(file, **options)
@@ -265,6 +266,7 @@ class Blocking(Case):
         self.assertEqual(at.sum(), told["n"]["amplitude"])
         self.assertAlmostEqual((columns["residual"][at] ** 2).mean() / told["chi2"]["amplitude"], 1, delta=1e-9)
         self.assertEqual(self.hole.compare(file.read_bytes(), **options)["chi2"], told["chi2"])
+        self.assertEqual(self.hole.compare(file.stem, **options)["chi2"], told["chi2"])
         name = self.hole.put_asset(file.read_bytes(), "application/x-uvfits")
         other = self.hole.compare(name, {"camera": {"roll_deg": 90}}, **options)
         self.assertNotEqual(other["chi2"]["closure_phase"], told["chi2"]["closure_phase"])

@@ -62,7 +62,7 @@ class Lensing(Browser):
             page.wait_for_timeout(500)  # a few answers may still follow
         sizes = {}
         for request in self.requests:
-            goes_on = any(part in request.url for part in ("/frame", "/v1/render?", "/v1/playground/", "/eht/"))
+            goes_on = any(part in request.url for part in ("/frame", "/v1/render?", "/v1/playground/"))
             if request.url.startswith(self.base) and not goes_on and request.response():
                 sizes[request.url] = request.sizes()["responseBodySize"] + request.sizes()["responseHeadersSize"]
         own = sum(n for url, n in sizes.items() if "/v1/" not in url)

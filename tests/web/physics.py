@@ -396,8 +396,7 @@ class Physics(Browser):
         self.assertTrue(daemon.eventually(lambda: table(amplitudes) != before))
         after = table(amplitudes)
         self.assertEqual([row[:2] for row in after], [row[:2] for row in before], "the data stay")
-        uploads = [r for r in self.requests if r.url.endswith("/v1/assets")]
-        self.assertEqual([r.method for r in uploads], ["PUT"], "the file is sent once")
+        self.assertEqual([r.url for r in self.requests if "/v1/assets" in r.url], [], "the server has the data")
         page.select_option("#in-scale-hole", "none")
         page.wait_for_selector("#scale-data", state="hidden")
 

@@ -327,8 +327,8 @@ class AsyncClient:
         self, observation: str | bytes | os.PathLike[str], scene: SceneLike = None, **settings: Any
     ) -> answers.Comparison:
         """Compares a scene with an observation: chi^2, and `columns` as arrays. The observation is a file (uvfits, or
-        the EHT's CSV), its bytes, or the hash of an asset on the server: compare("m87.uvfits", preset="m87",
-        average_s=600)."""
+        the EHT's CSV), its bytes, the hash of an asset on the server, or the name of an observation that the server
+        has: compare("m87-2017-04-05-lo", preset="m87", average_s=600)."""
         document = await self._observed(observation, scene, settings)
         told: answers.Comparison = await self._run(calls.compare(document))
         return told
@@ -375,8 +375,8 @@ class AsyncClient:
     async def _observed(
         self, observation: str | bytes | os.PathLike[str], scene: SceneLike, settings: dict[str, Any]
     ) -> dict[str, Any]:
-        """The request of a comparison or a simulation. Uploads the observation unless it is the hash of an asset."""
-        name = observation if isinstance(observation, str) and calls.is_hash(observation) else None
+        """The request of a comparison or a simulation. Uploads the observation unless the server knows it by name."""
+        name = observation if calls.is_observation_name(observation) else None
         if name is None:
             name = await self.put_asset(*calls.observed(observation))
         document = {**settings, "observation": name}

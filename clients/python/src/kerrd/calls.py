@@ -313,6 +313,12 @@ def is_hash(text: str) -> bool:
     return len(text) == 64 and set(text) <= set("0123456789abcdef")
 
 
+def is_observation_name(observation: object) -> bool:
+    """Whether a server knows the observation by this text: it is the hash of an asset, or a name as "m87-2017-04-05-lo"
+    of an observation that the server has. A file has an extension."""
+    return isinstance(observation, str) and not pathlib.Path(observation).suffix and "/" not in observation
+
+
 def observed(observation: str | bytes | os.PathLike[str]) -> tuple[bytes, str]:
     """The bytes of an observation, or of its file, and its media type."""
     data = observation if isinstance(observation, bytes) else pathlib.Path(observation).read_bytes()

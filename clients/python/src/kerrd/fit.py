@@ -178,8 +178,8 @@ class Fit:
             raise ValueError("parameters is empty; it must have at least one name with its bounds")
         free = {"amplitude", "visibility"} & set(products) and not {"flux_jy"} & (set(parameters) | set(settings))
         self.solve = _words("solve", solve) if solve is not None else (("flux",) if free else ())
-        if isinstance(observation, str) and calls.is_hash(observation):
-            self.observation = observation
+        if calls.is_observation_name(observation):
+            self.observation = str(observation)
         else:
             self.observation = client.put_asset(*calls.observed(observation))
         self.data = 0

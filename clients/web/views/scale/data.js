@@ -4,23 +4,11 @@ import { persistent } from '../../base/again.js';
 import { el } from '../../base/dom.js';
 import { number, t } from '../../words/i18n.js';
 import { plot } from '../../base/plot.js';
-import { ask, postJson } from '../../base/server.js';
+import { postJson } from '../../base/server.js';
 
-const file = new URL('../../eht/m87-2017-04-05-lo.csv', import.meta.url), // data/eht
+const observation = 'm87-2017-04-05-lo', // the server has it (data/eht)
   pixels = 64,
   average_s = 600;
-
-// The observation is an asset of the server, which names it by its hash.
-let uploaded = null;
-function observation() {
-  uploaded ??= (async () => {
-    const body = await (await ask(file)).blob(),
-      answer = await ask('v1/assets', { method: 'PUT', headers: { 'Content-Type': 'text/csv' }, body });
-    return (await answer.json()).sha256;
-  })();
-  uploaded.catch(() => (uploaded = null));
-  return uploaded;
-}
 
 const side = (hour, one, two) => [hour, ...[one, two].sort()].join(' ');
 
@@ -56,16 +44,13 @@ export function measurements(root) {
     both.hidden ||= !scene;
     if (!scene) return;
     const { columns, chi2 } = await postJson('v1/compare', {
-        observation: await observation(),
+        observation,
         scene,
         pixels,
         average_s,
         products: ['amplitude', 'closure_phase'],
         systematic: { amplitude: 0.01, closure_phase_deg: 2 },
         check: 'none',
-      }).catch(error => {
-        uploaded = null; // the server may have lost it
-        throw error;
       }),
       lengths = new Map(
         columns.product
