@@ -60,7 +60,7 @@ def source(spin, height, inclination, radius=None):
 
 def line_beside(o, folder, spin, inclination, ours, theirs):
     edges = [0.001 + 1.7 * k / 1000 for k in range(1001)]
-    told = kerrd(o.build / "src/kerrd", "line", *ours, "--edges", ",".join(map(str, edges)), "--tolerance", 0)
+    told = kerrd(o.kerrd, "line", *ours, "--edges", ",".join(map(str, edges)), "--tolerance", 0)
     light, path = folder / "light.fits", folder / "line.csv"
     inner = told["values"]["isco"]
     kerrz(o.kerrz, "emissivity", "--spin", spin, *theirs, "--thin-disc", f"rin:{inner},rout:{OUTER}", "-o", light)
@@ -86,7 +86,7 @@ def line_beside(o, folder, spin, inclination, ours, theirs):
 
 def lags_beside(o, folder, spin, inclination, ours, theirs):
     told = kerrd(
-        o.build / "src/kerrd",
+        o.kerrd,
         "lags",
         *ours,
         "--edges",
@@ -127,6 +127,7 @@ def main():
     p = measure.parser(__doc__)
     p.add_argument("--kerrz", required=True, help="the program kerrz")
     o = p.parse_args()
+    o.kerrd = o.build / "src/kerrd"
     load, lines, lags = os.getloadavg()[0], [], []
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)

@@ -124,18 +124,19 @@ struct lines {
     double line;
 };
 
-static double lag_at(const struct kd_integral_request *r, const struct lines *l, const double *part,
-                     const double direct[2], size_t k, double low, double high)
+static struct band light_of(const struct kd_integral_request *r, const struct lines *l, const double *part,
+                            const double direct[2], size_t k, double low, double high)
 {
-    const double frequency = r->frequencies_m.at[k];
-    const struct band here = band_of(l->edges, l->n, part + 2 * (k + 1), l->stride, r->photon_index, l->line, direct,
-                                     low, high),
-                      there =
-                          isnan(r->reference_min)
-                              ? (struct band) { direct[0], direct[1] }
-                              : band_of(l->edges, l->n, part + 2 * (k + 1), l->stride, r->photon_index, l->line, direct,
-                                        r->reference_min / r->rest_energy, r->reference_max / r->rest_energy);
-    return lag_of(here, there, frequency);
+    return band_of(l->edges, l->n, part + 2 * (k + 1), l->stride, r->photon_index, l->line, direct, low, high);
+}
+
+/* Without a reference band the reference is the source's direct light. */
+static struct band reference_of(const struct kd_integral_request *r, const struct lines *l, const double *part,
+                                const double direct[2], size_t k)
+{
+    if (isnan(r->reference_min))
+        return (struct band) { direct[0], direct[1] };
+    return light_of(r, l, part, direct, k, r->reference_min / r->rest_energy, r->reference_max / r->rest_energy);
 }
 
 static void fill_lags(const struct kd_integral_request *r, const struct lines *l, const struct kd_echo *echo,
@@ -143,20 +144,26 @@ static void fill_lags(const struct kd_integral_request *r, const struct lines *l
 {
     enum { FREQUENCY, HZ, LOW, HIGH, LAG, LAG_S, REFLECTED, LAG_ERROR };
     double *const *c = answer->columns;
-    for (size_t row = 0; row < answer->rows; row++) {
-        const size_t k = row / r->bins, bin = row % r->bins;
-        const double low = r->edges.at[bin] / r->rest_energy, high = r->edges.at[bin + 1] / r->rest_energy,
-                     frequency = r->frequencies_m.at[k], none[2] = { 0, 0 };
+    for (size_t k = 0; k < r->frequencies_m.n; k++) {
+        const double frequency = r->frequencies_m.at[k], none[2] = { 0, 0 };
         double direct[2];
         kd_echo_direct(&echo->direct, frequency, direct);
-        const double line = band_of(l->edges, l->n, l->part, l->stride, r->photon_index, l->line, none, low, high).re;
-        c[FREQUENCY][row] = frequency, c[HZ][row] = frequency / second_of(r);
-        c[LOW][row] = r->edges.at[bin], c[HIGH][row] = r->edges.at[bin + 1];
-        c[LAG][row] = lag_at(r, l, l->part, direct, k, low, high);
-        c[LAG_S][row] = c[LAG][row] * second_of(r);
-        c[REFLECTED][row] = line / (line + continuum(r->photon_index, low, high));
-        c[LAG_ERROR][row] = fabs(lag_at(r, l, l->coarse, direct, k, low, high) - c[LAG][row]);
-        answer->values[WORST] = fmax(answer->values[WORST], c[LAG_ERROR][row]);
+        const struct band reference = reference_of(r, l, l->part, direct, k),
+                          coarse = reference_of(r, l, l->coarse, direct, k);
+        for (size_t bin = 0; bin < r->bins; bin++) {
+            const size_t row = k * r->bins + bin;
+            const double low = r->edges.at[bin] / r->rest_energy, high = r->edges.at[bin + 1] / r->rest_energy,
+                         rough = lag_of(light_of(r, l, l->coarse, direct, k, low, high), coarse, frequency);
+            const double line =
+                band_of(l->edges, l->n, l->part, l->stride, r->photon_index, l->line, none, low, high).re;
+            c[FREQUENCY][row] = frequency, c[HZ][row] = frequency / second_of(r);
+            c[LOW][row] = r->edges.at[bin], c[HIGH][row] = r->edges.at[bin + 1];
+            c[LAG][row] = lag_of(light_of(r, l, l->part, direct, k, low, high), reference, frequency);
+            c[LAG_S][row] = c[LAG][row] * second_of(r);
+            c[REFLECTED][row] = line / (line + continuum(r->photon_index, low, high));
+            c[LAG_ERROR][row] = fabs(rough - c[LAG][row]);
+            answer->values[WORST] = fmax(answer->values[WORST], c[LAG_ERROR][row]);
+        }
     }
 }
 
