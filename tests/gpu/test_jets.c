@@ -138,9 +138,8 @@ static void test_ratio(void **state)
 }
 
 /* Emission in the matter's frame, by the metric. p_r follows from R(r) and the photon's constants, and the observer of
- * zero angular momentum gives -k.U = Gamma (e - v k_r). On the rays judged, light moves outwards above the plane and
- * inwards below. */
-static void jet(void *user, const struct ks_photon *p, double r, double u, double out[2])
+ * zero angular momentum gives -k.U = Gamma (e - v k_r). way: 1 where light moves outwards, -1 where inwards. */
+static void shine(void *user, const struct ks_photon *p, double r, double u, double way, double out[2])
 {
     const struct kd_scene *scene = user;
     const struct kd_jets *j = &scene->jets;
@@ -154,10 +153,15 @@ static void jet(void *user, const struct ks_photon *p, double r, double u, doubl
     const double g_tt = -(1 - term / sigma), g_tp = -a * term * s2 / sigma,
                  g_pp = (r * r + a * a + a * a * term * s2 / sigma) * s2, omega = -g_tp / g_pp;
     const double e = (p->energy - omega * p->momentum) / sqrt(-(g_tt + omega * (2 * g_tp + omega * g_pp)));
-    const double k = (u > 0 ? 1 : -1) * sqrt(fmax(radial, 0) / (sigma * delta)),
-                 v = sqrt(1 - 1 / (j->lorentz * j->lorentz));
+    const double k = way * sqrt(fmax(radial, 0) / (sigma * delta)), v = sqrt(1 - 1 / (j->lorentz * j->lorentz));
     out[0] = emitted(j, r, u) * pow(j->lorentz * (e - v * k), -(2 + j->spectral_index));
     out[1] = 0;
+}
+
+/* On the rays judged from afar, light moves outwards above the plane and inwards below. */
+static void jet(void *user, const struct ks_photon *p, double r, double u, double out[2])
+{
+    shine(user, p, r, u, u > 0 ? 1 : -1, out);
 }
 
 static void test_near_the_hole(void **state)
@@ -206,6 +210,54 @@ static void test_near_the_hole(void **state)
     }
     assert_true(lit > 15);
     printf("near the hole, %d rays: worst %.2g\n", lit, worst);
+}
+
+/* As `jet`, for a ray that falls in: its light moves outwards everywhere. */
+static void jet_below(void *user, const struct ks_photon *p, double r, double u, double out[2])
+{
+    shine(user, p, r, u, 1, out);
+}
+
+/* Jets from next to the horizon, by rays that fall in: no ray turns, at any latitude. There the term of the charge in
+ * -k.U across the jet, a^2 L^2 (Sigma + 2r - q^2)/A, is large enough to be seen. */
+static void test_beside_the_horizon(void **state)
+{
+    static const double views[][3] = { { 0.9, 0, 70 }, { 0.7, 0.7, 70 }, { -0.8, 0.59, 60 } }; /* spin, charge, i */
+    double worst = 0;
+    int lit = 0;
+    (void)state;
+    for (size_t n = 0; n < sizeof views / sizeof *views; n++) {
+        const double *v = views[n], outer = kd_hole_charged(v[0], v[1]).outer;
+        char json[400];
+        snprintf(json, sizeof json,
+                 "{\"spacetime\":{\"spin\":%g,\"charge\":%g},\"camera\":{\"inclination_deg\":%g,\"field_m\":8},"
+                 "\"jets\":{\"brightness\":0.1,\"inner\":%g,\"outer\":4,\"opening_deg\":60,\"lorentz\":5,"
+                 "\"spectral_index\":8,\"sheath\":0,\"falloff\":4}}",
+                 v[0], v[1], v[2], 1.1 * outer);
+        struct kd_scene scene = scene_of(json);
+        struct kd_frame frame = rendered(&scene);
+        for (int y = 0; y < HEIGHT; y++)
+            for (int x = 0; x < WIDTH; x++) {
+                const double step = 8.0 / WIDTH, alpha = step * (x - 0.5 * (WIDTH - 1)),
+                             beta = -step * (y - 0.5 * (HEIGHT - 1)), got = (double)intensity(&frame)[y * WIDTH + x];
+                const struct ks_photon photon =
+                    ks_from_infinity_charged(v[0], v[1], cos(v[2] * M_PI / 180), alpha, beta);
+                if (alpha == 0 || ks_trace(photon, 1).fate != KS_CAPTURED) /* L = 0 has no such term */
+                    continue;
+                const struct ks_light want = ks_along(photon, scene.jets.inner, 4, false, jet_below, &scene);
+                if (!(want.light > 1e-5))
+                    continue;
+                const double off = fabs(got / want.light - 1);
+                lit++;
+                worst = fmax(worst, off);
+                if (!(off < 4e-3))
+                    fail_msg("view %zu, alpha %g, beta %g: %g, not %g: off by %.2g", n, alpha, beta, got, want.light,
+                             off);
+            }
+        kd_frame_finish(&frame);
+    }
+    printf("beside the horizon, %d rays: worst %.2g\n", lit, worst);
+    assert_true(lit > 20);
 }
 
 /* Twice the brightness gives twice the light; switched off there is no ray marching. */
@@ -260,8 +312,8 @@ static void test_adversarial(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_far_away), cmocka_unit_test(test_ratio),       cmocka_unit_test(test_near_the_hole),
-        cmocka_unit_test(test_scaling),  cmocka_unit_test(test_adversarial),
+        cmocka_unit_test(test_far_away),           cmocka_unit_test(test_ratio),   cmocka_unit_test(test_near_the_hole),
+        cmocka_unit_test(test_beside_the_horizon), cmocka_unit_test(test_scaling), cmocka_unit_test(test_adversarial),
     };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests_name("jets", tests, NULL, NULL));

@@ -68,26 +68,27 @@ static void same_light(const struct kd_light *a, const struct kd_light *b, doubl
     off(a->y, b->y, 1 + hypot(b->x, b->y), bound, what);
 }
 
-/* The circular orbit and g from the metric in the plane, g_tt = -(1 - 2/r), g_tphi = -2a/r, g_phiphi = r^2 + a^2 +
- * 2a^2/r, with Omega where the radial force vanishes: g_tt' + 2 Omega g_tphi' + Omega^2 g_phiphi' = 0, by
+/* The circular orbit and g from the metric in the plane, g_tt = -(1 - f), g_tphi = -a f, g_phiphi = r^2 + a^2 + a^2 f,
+ * f = (2r - q^2)/r^2, with Omega where the radial force vanishes: g_tt' + 2 Omega g_tphi' + Omega^2 g_phiphi' = 0, by
  * differences. */
-static double line(double a, double r, double omega)
+static double line(const struct kd_spacetime *hole, double r, double omega)
 {
-    return -(1 - 2 / r) - 4 * a / r * omega + (r * r + a * a + 2 * a * a / r) * omega * omega;
+    const double a = hole->spin, f = (2 * r - hole->charge * hole->charge) / (r * r);
+    return f - 1 - 2 * a * f * omega + (r * r + a * a + a * a * f) * omega * omega;
 }
-static double force(double a, double r, double omega)
+static double force(const struct kd_spacetime *hole, double r, double omega)
 {
     double h = 1e-3 * r;
-    return (8 * (line(a, r + h, omega) - line(a, r - h, omega)) - line(a, r + 2 * h, omega) +
-            line(a, r - 2 * h, omega)) /
+    return (8 * (line(hole, r + h, omega) - line(hole, r - h, omega)) - line(hole, r + 2 * h, omega) +
+            line(hole, r - 2 * h, omega)) /
            (12 * h);
 }
-static double orbit_omega(double a, double r)
+static double orbit_omega(const struct kd_spacetime *hole, double r)
 {
     double low = 0, high = 1 / r;
     for (int i = 0; i < 60; i++) {
         double middle = 0.5 * (low + high);
-        *(force(a, r, middle) < 0 ? &low : &high) = middle;
+        *(force(hole, r, middle) < 0 ? &low : &high) = middle;
     }
     return 0.5 * (low + high);
 }
@@ -105,6 +106,7 @@ enum { ORDERS = 2 };
 /* The rays of the picture's pixels, from the documented conventions. */
 static struct oracle trace(const struct kd_scene *scene)
 {
+    const struct kd_spacetime *hole = &scene->spacetime;
     int width = scene->image.width, height = scene->image.height, n = width * height;
     struct oracle o = { .n = n };
     o.at = malloc((size_t)n * sizeof *o.at);
@@ -117,8 +119,8 @@ static struct oracle trace(const struct kd_scene *scene)
     for (int i = 0; i < n; i++) {
         double x = step * (i % width - 0.5 * (width - 1)), y = -step * (i / width - 0.5 * (height - 1));
         double length = sqrt(1 + x * x + y * y), k[3] = { -1 / length, -y / length, x / length };
-        o.photons[i] = far ? ks_from_infinity(scene->spacetime.spin, cos(theta), x, y)
-                           : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, false, k);
+        o.photons[i] = far ? ks_from_infinity_charged(hole->spin, hole->charge, cos(theta), x, y)
+                           : ks_from_camera_charged(hole->spin, hole->charge, scene->camera.r, theta, false, k);
         o.paths[i] = ks_trace(o.photons[i], ORDERS);
         o.at[i][0] = far ? 1 : 1 / (length * length * length);
         o.at[i][1] = far ? x : x / length;
@@ -139,13 +141,14 @@ static double crossing_light(const struct kd_scene *scene, const struct ks_photo
                              double isco)
 {
     const struct kd_spot *spot = &scene->spots.at[0];
-    double a = scene->spacetime.spin, r = path->r[k], phi = path->phi[k] + scene->camera.azimuth_deg * M_PI / 180;
+    const struct kd_spacetime *hole = &scene->spacetime;
+    double r = path->r[k], phi = path->phi[k] + scene->camera.azimuth_deg * M_PI / 180;
     if (r < isco)
         return 0;
     double t = scene->top.time - (scene->disk.slow_light ? path->delay[k] : 0);
-    double centre = spot->phase_deg * M_PI / 180 + orbit_omega(a, spot->r) * t, omega = orbit_omega(a, r);
+    double centre = spot->phase_deg * M_PI / 180 + orbit_omega(hole, spot->r) * t, omega = orbit_omega(hole, r);
     double dx = r * cos(phi) - spot->r * cos(centre), dy = r * sin(phi) - spot->r * sin(centre);
-    double g = sqrt(-line(a, r, omega)) / (p->energy - omega * p->momentum);
+    double g = sqrt(-line(hole, r, omega)) / (p->energy - omega * p->momentum);
     return spot->brightness * pow(g, 3 + spot->index) * exp(-(dx * dx + dy * dy) / (2 * spot->size * spot->size));
 }
 
@@ -179,17 +182,17 @@ static void test_oracle(void **state)
 {
     (void)state;
     static const struct {
-        double spin, isco, inclination, r;
+        double spin, charge, isco, inclination, r;
         int model;
     } views[] = {
-        { 0.7, 3.3931, 55, INFINITY, KD_DISK_NONE },
-        { -0.6, 7.8507, 100, INFINITY, KD_DISK_NONE },
-        { 0.9, 2.3209, 35, 30, KD_DISK_NONE },
-        { 0.5, 4.2330, 75, INFINITY, KD_DISK_NOVIKOV_THORNE },
+        { 0.7, 0, 3.3931, 55, INFINITY, KD_DISK_NONE },   { -0.6, 0, 7.8507, 100, INFINITY, KD_DISK_NONE },
+        { 0.9, 0, 2.3209, 35, 30, KD_DISK_NONE },         { 0.5, 0, 4.2330, 75, INFINITY, KD_DISK_NOVIKOV_THORNE },
+        { 0.5, 0.8, 2.5921, 60, INFINITY, KD_DISK_NONE },
     };
     double worst[2] = { 0 };
     for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
         struct kd_scene scene = spot_scene(views[v].spin, views[v].inclination);
+        scene.spacetime.charge = views[v].charge;
         scene.camera.r = views[v].r;
         scene.camera.fov_deg = 36;
         scene.camera.field_m = 22;

@@ -512,6 +512,17 @@ class Lensing(Browser):
         saved = pathlib.Path(download.value.path()).read_bytes()
         self.assertEqual((saved[:4], saved[16:24]), (b"\x89PNG", (1280).to_bytes(4, "big") + (720).to_bytes(4, "big")))
 
+    def ticks(self, page):
+        """The ends of the ticks of polarisation, from the middle of the picture, over its width."""
+        self.assertTrue(daemon.eventually(lambda: page.locator("#overlay .over-polarization path").count() == 1))
+        line = page.get_attribute("#overlay .over-polarization path", "d")
+        width, height = (float(x) for x in page.get_attribute("#overlay", "viewBox").split()[2:])
+        ends = [[float(x) for x in re.findall(r"[-\d.]+", part)] for part in line.split("M")[1:]]
+        return [
+            [(x0 - width / 2) / width, (y0 - height / 2) / width, (x1 - width / 2) / width, (y1 - height / 2) / width]
+            for x0, y0, x1, y1 in ends
+        ]
+
     def test_ticks_are_along_the_electric_field(self):
         """A toroidal field seen face-on, far from a hole without spin, polarises light along the radius."""
         view = "lang=en&spacetime.spin=0&camera.inclination_deg=0&camera.field_m=60&disk.outer=20&disk.taper=0&over=polarization"
@@ -521,18 +532,29 @@ class Lensing(Browser):
         page = self.open(view + "&polarization.model=synchrotron")
         self.open_groups(page)
         self.there(page, "of all light", "#over-polarization-words")
-        self.assertTrue(daemon.eventually(lambda: page.locator("#overlay .over-polarization path").count() == 1))
-        line = page.get_attribute("#overlay .over-polarization path", "d")
-        width, height = (float(x) for x in page.get_attribute("#overlay", "viewBox").split()[2:])
-        ticks = [[float(x) for x in re.findall(r"[-\d.]+", part)] for part in line.split("M")[1:]]
+        ticks = self.ticks(page)
         self.assertGreater(len(ticks), 100)
         for x0, y0, x1, y1 in ticks:
-            x, y = (x0 + x1) / 2 - width / 2, (y0 + y1) / 2 - height / 2
-            if math.hypot(x, y) > 8 * width / 60:
+            x, y = (x0 + x1) / 2, (y0 + y1) / 2
+            if math.hypot(x, y) > 8 / 60:
                 self.assertGreater(
                     abs((x1 - x0) * x + (y1 - y0) * y) / math.hypot(x1 - x0, y1 - y0) / math.hypot(x, y), 0.97
                 )
         self.shot(page, "ticks")
+
+    def test_ticks_follow_the_charge(self):
+        """The gas of a charged hole goes further in, to r = 4.006 M instead of 6 M, and ticks lie over it. Light from r,
+        seen face-on, is seen at about r + 1 (A. M. Beloborodov 2002, ApJ 566, L85). The second image is left out."""
+        view = "lang=en&spacetime.spin=0&camera.inclination_deg=0&camera.field_m=24&disk.outer=11&disk.taper=0&accuracy.orders=1"
+        for charge, isco in ("0", 6), ("0.999", 4.006):
+            page = self.open(f"{view}&spacetime.charge={charge}&polarization.model=synchrotron&over=polarization")
+            self.there(page, "of all light", "#over-polarization-words", text=True)
+            ticks = self.ticks(page)
+            nearest = min(math.hypot(x0 + x1, y0 + y1) / 2 * 24 for x0, y0, x1, y1 in ticks)
+            print(f"charge {charge}: {len(ticks)} ticks, from {nearest:.2f} M")
+            self.assertGreater(len(ticks), 200)
+            self.assertAlmostEqual(nearest, isco + 1, delta=0.75)  # a tick and the dark edge of the gas
+        self.shot(page, "charged-ticks")
 
     def test_overlays_are_the_numbers_of_the_server(self):
         page = self.open(
