@@ -10,17 +10,17 @@
 #include <stdio.h>
 #include <string.h>
 
-#define OFFERED KD_JSON_TYPE ", text/csv, " KD_NPY_TYPE ", application/x-npz"
+#define OFFERED KD_JSON_TYPE ", " KD_CSV_TYPE ", " KD_NPY_TYPE ", " KD_NPZ_TYPE
 /* estimated time of one product on one core; a product combines one pixel, or one image order of a pixel, with a
  * baseline */
 #define NS_A_PRODUCT 1.2
 #define BYTES_PER_ROW (KD_INTEGRAL_COLUMNS * (sizeof(double) + 26)) /* including the number's text */
 
 static const char *const types[] = { [KD_INTEGRAL_JSON] = KD_JSON_TYPE,
-                                     [KD_INTEGRAL_CSV] = "text/csv",
+                                     [KD_INTEGRAL_CSV] = KD_CSV_TYPE,
                                      [KD_INTEGRAL_NPY] = KD_NPY_TYPE,
-                                     [KD_INTEGRAL_NPZ] = "application/x-npz",
-                                     [KD_INTEGRAL_UVFITS] = KD_ASSET_UVFITS_TYPE };
+                                     [KD_INTEGRAL_NPZ] = KD_NPZ_TYPE,
+                                     [KD_INTEGRAL_UVFITS] = KD_UVFITS_TYPE };
 static const char *const endings[] = { "json", "csv", "npy", "npz", "uvfits" };
 
 struct job {
@@ -192,8 +192,7 @@ static enum MHD_Result refuse(struct kd_request *request, const struct job *job)
 /* The EHT's CSV has two lines before its rows. */
 static const char *csv_type(const struct job *job)
 {
-    return job->request.what == KD_INTEGRAL_OBSERVE ? "text/csv; charset=utf-8"
-                                                    : "text/csv; charset=utf-8; header=present";
+    return job->request.what == KD_INTEGRAL_OBSERVE ? KD_CSV_TYPE "; charset=utf-8" : KD_CSV_HEADED_TYPE;
 }
 
 static enum MHD_Result deliver(struct kd_request *request)
@@ -234,9 +233,9 @@ enum MHD_Result kd_handle_integral(struct kd_request *request)
     if (format >= formats)
         return kd_reply_problem(request,
                                 &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
-                                                       .offered = observe ? OFFERED ", " KD_ASSET_UVFITS_TYPE : OFFERED,
+                                                       .offered = observe ? OFFERED ", " KD_UVFITS_TYPE : OFFERED,
                                                        .detail = observe ? "observations are available as " OFFERED
-                                                                           ", " KD_ASSET_UVFITS_TYPE
+                                                                           ", " KD_UVFITS_TYPE
                                                                          : "integrals are available as " OFFERED });
     if (request->target.n_pairs)
         return kd_reply_problem(
