@@ -33,6 +33,12 @@ struct job {
     struct kd_render_job picture; /* it is in the render queue in the stage RENDERS */
     struct kd_buffer text;
     double planned_ms; /* of the pictures up to the present one */
+    /* the first pictures, one of each size, as begin() has planned them */
+    struct {
+        struct kd_scene scene;
+        struct kd_plan plan;
+    } first[2];
+    unsigned planned;
 };
 
 static void finish(struct kd_task *task)
@@ -55,18 +61,19 @@ static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_er
              (job->request.what == KD_INTEGRAL_SETS ? job->request.sets->n * sizeof *job->request.sets->at : 0);
     kd_render_queue_capacity(server->renders, &capacity);
     for (unsigned i = 0; i < sizes && n; i++) {
-        struct kd_scene scene = kd_integral_scene(&job->request, i);
-        struct kd_plan plan;
-        enum kd_status status = kd_integral_plan(&job->request, &scene, &capacity, &plan, error);
+        struct kd_plan *plan = &job->first[i].plan;
+        job->first[i].scene = kd_integral_scene(&job->request, i);
+        enum kd_status status = kd_integral_plan(&job->request, &job->first[i].scene, &capacity, plan, error);
         if (status) {
             kd_integral_name_set(&job->request, i, status, error);
             return status;
         }
-        ms += plan.cost.estimate_ms * n / sizes +
-              (double)plan.picture.n_layers * plan.picture.width * plan.picture.height * (double)job->request.u.n *
+        job->planned = i + 1;
+        ms += plan->cost.estimate_ms * n / sizes +
+              (double)plan->picture.n_layers * plan->picture.width * plan->picture.height * (double)job->request.u.n *
                   NS_A_PRODUCT * 1e-6 * (i ? 1 : kd_integral_evaluations(&job->request)) *
                   (job->request.what == KD_INTEGRAL_SETS ? (double)job->request.sets->n : 1);
-        *bytes += 4 * (1 + plan.picture.n_layers) * (size_t)plan.picture.width * plan.picture.height;
+        *bytes += 4 * (1 + plan->picture.n_layers) * (size_t)plan->picture.width * plan->picture.height;
     }
     if (ms > server->longest_s * 1e3)
         return kd_error_set(error, KD_ETOOBIG,
@@ -110,17 +117,17 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
 {
     struct kd_request *request = job->task.request;
     struct kd_render_queue *renders = request->server->renders;
+    const unsigned at = job->run.picture;
     struct kd_capacity capacity;
     /* Only the first picture needs admission. The later ones take its place, so that a request is not refused
      * halfway. */
-    enum kd_status status =
-        job->run.picture ? KD_OK : kd_render_queue_admit(renders, request->client, &job->task.quota, error);
+    enum kd_status status = at ? KD_OK : kd_render_queue_admit(renders, request->client, &job->task.quota, error);
     if (status)
         return status;
     kd_render_queue_capacity(renders, &capacity);
     job->picture = (struct kd_render_job) {
         .claim.class = KD_CLASS_PICTURE,
-        .scene = kd_integral_scene(&job->request, job->run.picture),
+        .scene = at < job->planned ? job->first[at].scene : kd_integral_scene(&job->request, at),
         .format = kd_integral_picture_format(job->request.what),
         .effort = KD_EFFORT_QUICK,
         .socket = kd_connection_socket(request->connection),
@@ -128,7 +135,10 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
         .user = job,
     };
     memcpy(job->picture.claim.client, request->client, sizeof job->picture.claim.client);
-    KD_TRY(kd_integral_plan(&job->request, &job->picture.scene, &capacity, &job->picture.plan, error));
+    if (at < job->planned)
+        job->picture.plan = job->first[at].plan;
+    else
+        KD_TRY(kd_integral_plan(&job->request, &job->picture.scene, &capacity, &job->picture.plan, error));
     job->planned_ms += job->picture.plan.cost.estimate_ms;
     /* begin() estimated all sets by their first picture, but a set may change what a picture costs. */
     if (job->request.what == KD_INTEGRAL_SETS && job->planned_ms > request->server->longest_s * 1e3)
@@ -139,7 +149,7 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
                          job->planned_ms * 1e-3, request->server->longest_s));
     kd_render_queue_push(renders, &job->picture);
 done:
-    kd_integral_name_set(&job->request, job->run.picture, status, error);
+    kd_integral_name_set(&job->request, at, status, error);
     return status;
 }
 
